@@ -22,6 +22,7 @@ import mechanisms
 import transcribe
 from growth import random_mechanism
 from icsolve.case import Case
+from icsolve.draw import draw
 from icsolve.explain import explain
 from icsolve.explain.document import ShownTable
 from icsolve.explain.sheet import exercise
@@ -356,6 +357,22 @@ def test_a_roller_follower_goes_by_lines_of_centres_and_a_spring_by_its_force() 
     assert "on which I24 and I34 lie (roller 4 turns freely)" in text and "loop equations" not in text
     assert "F_S = S x s_S = 50 x (-1) = -50 N" in text and "T = " in text
     assert "The mechanical" not in text and "For one unit of the known load: T / F_S" in text
+
+
+def test_two_slots_between_two_links_have_each_its_own_normal() -> None:
+    """x + y tan 20 = 1 and x + y tan 70 = 2 tan 70, in words and in the figure."""
+    text = """icsolve: 1
+points: {B: [1, 0], C: [0, 2], D: [3, 1]}
+joints: [{slot: [1, 2], at: B, along: 20}, {slot: [1, 2], at: C, along: 70}]
+loads:
+  P: {force: 10, link: 2, at: D, angle: -90}
+  Q: {force: unknown, link: 2, at: B, angle: 20}
+"""
+    case = icsolve.load(text)
+    assert "on the normal to the slot at B, and on the normal to the slot at C" in explain(case)
+    lines = re.findall(r'data-step="1".*?d="([^"]*)"', draw(case), re.DOTALL)
+    assert len(lines) == len(set(lines)) == 2
+
 
 
 def test_a_wrong_number_would_be_noticed() -> None:

@@ -11,7 +11,7 @@ import shapely
 
 from icsolve.answer import Centre
 from icsolve.case import Pair
-from icsolve.case.joints import Guided, Sliding
+from icsolve.case.joints import Contact, Guided, Sliding
 from icsolve.case.names import link_order, pair_name
 from icsolve.draw.links import guide_in_picture
 from icsolve.draw.marks import (
@@ -33,7 +33,7 @@ from icsolve.draw.marks import (
 from icsolve.draw.place import Label, Soft, clipped
 from icsolve.draw.scene import Part, Scene, around, with_labels
 from icsolve.draw.words import centre_runs, quantity
-from icsolve.report.derivation import Known, Step
+from icsolve.report.derivation import Known, Step, joint_of_normal
 from icsolve.tuples import NamedTuple
 
 BEYOND = 16.0
@@ -72,9 +72,13 @@ def _name(known: Known, pair: Pair) -> str:
 def _lines(scene: Scene, spots: dict[Pair, CentreSpot], step: Step) -> Iterable[Part]:
     """The lines on which a centre was found."""
     target = spots[step.centre.pair]
-    for number, ends in enumerate(step.centre.lines, 1):
+    lines, joints = step.centre.lines, scene.case.joints
+    for number, ends in enumerate(lines, 1):
         places = [spots[end] for end in ends if end in spots]
-        chain = _chain([*places, target], scene) if len(ends) == 2 else _normal(scene, ends[0], target)
+        if len(ends) == 2:
+            chain = _chain([*places, target], scene)
+        else:
+            chain = _normal(scene, joint_of_normal(joints, lines, number - 1), target)
         pieces = clipped(chain, scene.view.window) if chain else ()
         if not pieces:
             continue
@@ -108,22 +112,22 @@ def _chain(places: Sequence[CentreSpot], scene: Scene) -> tuple[Point, ...]:
     return (along(finite[0], u, max(first, -limit)), along(finite[0], u, min(last, limit)))
 
 
-def _normal(scene: Scene, pair: Pair, target: CentreSpot) -> tuple[Point, ...]:
+def _normal(scene: Scene, joint: Sliding | None, target: CentreSpot) -> tuple[Point, ...]:
     """The common normal of a slot or contact, from its point to the centre (or to the edge)."""
-    for joint in scene.joints():
-        if isinstance(joint, Sliding) and joint.freedom > 1 and set(joint.links) == set(pair):
-            p = scene.at[joint.at]
-            if isinstance(joint, Guided):
-                x, y = guide_in_picture(scene, joint)
-                u = (-y, x)
-            else:
-                u = direction(joint.normal.value)
-            reach = [0.0]
-            if target.at is not None:
-                reach.append((target.at[0] - p[0]) * u[0] + (target.at[1] - p[1]) * u[1])
-            more = 1e4 if target.at is None else BEYOND
-            return (along(p, u, min(reach) - more), along(p, u, max(reach) + more))
-    return ()
+    if joint is None or any(point not in scene.at for point in joint.points):
+        return ()
+    p = scene.at[joint.at]
+    if isinstance(joint, Guided):
+        x, y = guide_in_picture(scene, joint)
+        u = (-y, x)
+    else:
+        assert isinstance(joint, Contact)
+        u = direction(joint.normal.value)
+    reach = [0.0]
+    if target.at is not None:
+        reach.append((target.at[0] - p[0]) * u[0] + (target.at[1] - p[1]) * u[1])
+    more = 1e4 if target.at is None else BEYOND
+    return (along(p, u, min(reach) - more), along(p, u, max(reach) + more))
 
 
 def _near(scene: Scene, spots: Iterable[CentreSpot]) -> Iterable[Part]:

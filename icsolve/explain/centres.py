@@ -27,7 +27,7 @@ from icsolve.explain.formula import (
 from icsolve.explain.given import Figures, centre_name, place_words, rate_name
 from icsolve.explain.levers import difference, motion_name, place
 from icsolve.explain.ropes import rope_ratio, screw_ratio
-from icsolve.report.derivation import Known, Ratio, Ratios, Step
+from icsolve.report.derivation import Known, Ratio, Ratios, Step, joint_of_normal
 from icsolve.report.derivation.ratios import ratios_of
 from icsolve.wording.joints import centre_words, normal_words
 from icsolve.wording.sentences import link_words
@@ -90,8 +90,11 @@ def _constructed(known: Known, figures: Figures, centre: Centre) -> Iterable[Inl
     if not centre.lines:
         yield ", from the loop equations of the whole mechanism"
         return
-    for n, line in enumerate(ordered_lines(known, centre)):
+    lines = ordered_lines(known, centre)
+    for n, line in enumerate(lines):
         yield ": on " if n == 0 else ", and on "
+        if len(line) == 1:
+            yield f"the {_normal(joint_of_normal(known.case.joints, lines, n))}"
         yield from _line(known, centre, line)
 
 
@@ -103,7 +106,6 @@ def ordered_lines(known: Known, centre: Centre) -> list[tuple[Pair, ...]]:
 
 def _line(known: Known, centre: Centre, line: tuple[Pair, ...]) -> Iterable[Inline]:
     if len(line) == 1:
-        yield f"the {_normal(known, line[0])}"
         (roller,) = {*line[0]} - {*centre.pair} or {""}
         if roller:  # a passive one
             yield ", on which "
@@ -120,13 +122,12 @@ def _line(known: Known, centre: Centre, line: tuple[Pair, ...]) -> Iterable[Inli
     yield f" (links {', '.join(links)})"
 
 
-def _normal(known: Known, pair: Pair) -> str:
-    for joint in known.case.joints:
-        if set(pair) <= set(joint.links) and isinstance(joint, Sliding) and joint.freedom > 1:
-            what = normal_words(joint)
-            hidden = joint.at.startswith("@")
-            return f"{what} of links {' and '.join(joint.links)}" if hidden else f"{what} at {joint.at}"
-    return "common normal of the joint"
+def _normal(joint: Sliding | None) -> str:
+    if joint is None:
+        return "common normal of the joint"
+    what = normal_words(joint)
+    hidden = joint.at.startswith("@")
+    return f"{what} of links {' and '.join(joint.links)}" if hidden else f"{what} at {joint.at}"
 
 
 # --- ratios of speeds ------------------------------------------------------------------------------------

@@ -3,7 +3,7 @@ and how the speed of one link follows from another's. Explanations, drawings and
 
 from __future__ import annotations
 
-from icsolve.report.derivation.known import Acting, Known, acting_loads, known_at, known_of
+from icsolve.report.derivation.known import Acting, Known, acting_loads, joint_of_normal, known_at, known_of
 from icsolve.report.derivation.ratios import (
     Ratio,
     Ratios,
@@ -25,6 +25,7 @@ __all__ = [
     "acting_loads",
     "all_steps",
     "answer_ratios",
+    "joint_of_normal",
     "known_at",
     "known_of",
     "loaded_links",

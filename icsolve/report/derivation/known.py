@@ -3,12 +3,13 @@ links move, and what every load exerts."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.answer import Answer, Centre, by_load
 from icsolve.assembly import Frame, case_point, solve_figure
-from icsolve.case import Case, Coordinates, ForceVector, Like, Load, Pair, Pin
+from icsolve.case import Case, Coordinates, ForceVector, Joint, Like, Load, Pair, Pin
 from icsolve.case.figure import Unknown
+from icsolve.case.joints import Sliding
 from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS, turn_of
@@ -318,3 +319,21 @@ def _acting(known: Known, w: Wrench) -> Acting:
     direction = (0.0, 0.0) if torque else (float(w.unit[1]), -float(w.unit[0]))
     unit = unit_of(w.load, known.case)
     return Acting(w.load, w.load.link, w.against, at, direction, gain, value, unit, number is None, holds)
+
+
+def joint_of_normal(joints: Iterable[Joint], lines: Sequence[Sequence[Pair]], number: int) -> Sliding | None:
+    """The joint whose common normal is a line of a centre; of several between two links each has its own.
+
+    Parameters
+    ----------
+    joints : those of the case
+    lines, number : the lines of the centre, and which of them it is
+    """
+    pair = set(lines[number][0])
+    before = sum(len(line) == 1 and set(line[0]) == pair for line in lines[:number])
+    found = [
+        joint
+        for joint in joints
+        if isinstance(joint, Sliding) and joint.freedom > 1 and pair <= set(joint.links)
+    ]
+    return found[before] if before < len(found) else None
