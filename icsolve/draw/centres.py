@@ -10,8 +10,8 @@ from collections.abc import Iterable, Sequence
 import shapely
 
 from icsolve.answer import Centre
-from icsolve.case import Pair
-from icsolve.case.joints import Contact, Guided, Sliding
+from icsolve.case import Joint, Pair
+from icsolve.case.joints import Guided, Sliding
 from icsolve.case.names import link_order, pair_name
 from icsolve.draw.links import guide_in_picture
 from icsolve.draw.marks import (
@@ -112,16 +112,15 @@ def _chain(places: Sequence[CentreSpot], scene: Scene) -> tuple[Point, ...]:
     return (along(finite[0], u, max(first, -limit)), along(finite[0], u, min(last, limit)))
 
 
-def _normal(scene: Scene, joint: Sliding | None, target: CentreSpot) -> tuple[Point, ...]:
+def _normal(scene: Scene, joint: Joint | None, target: CentreSpot) -> tuple[Point, ...]:
     """The common normal of a slot or contact, from its point to the centre (or to the edge)."""
-    if joint is None or any(point not in scene.at for point in joint.points):
+    if not isinstance(joint, Sliding) or any(point not in scene.at for point in joint.points):
         return ()
     p = scene.at[joint.at]
     if isinstance(joint, Guided):
         x, y = guide_in_picture(scene, joint)
         u = (-y, x)
     else:
-        assert isinstance(joint, Contact)
         u = direction(joint.normal.value)
     reach = [0.0]
     if target.at is not None:

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.answer import Centre
-from icsolve.case import Pair
+from icsolve.case import Joint, Pair
 from icsolve.case.joints import Sliding
 from icsolve.case.names import pair_name
 from icsolve.explain.document import Block, Inline, Items, Section, formula, words
@@ -122,8 +122,8 @@ def _line(known: Known, centre: Centre, line: tuple[Pair, ...]) -> Iterable[Inli
     yield f" (links {', '.join(links)})"
 
 
-def _normal(joint: Sliding | None) -> str:
-    if joint is None:
+def _normal(joint: Joint | None) -> str:
+    if not isinstance(joint, Sliding):
         return "common normal of the joint"
     what = normal_words(joint)
     hidden = joint.at.startswith("@")

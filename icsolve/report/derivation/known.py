@@ -321,7 +321,7 @@ def _acting(known: Known, w: Wrench) -> Acting:
     return Acting(w.load, w.load.link, w.against, at, direction, gain, value, unit, number is None, holds)
 
 
-def joint_of_normal(joints: Iterable[Joint], lines: Sequence[Sequence[Pair]], number: int) -> Sliding | None:
+def joint_of_normal(joints: Iterable[Joint], lines: Sequence[Sequence[Pair]], number: int) -> Joint | None:
     """The joint whose common normal is a line of a centre; of several between two links each has its own.
 
     Parameters
