@@ -8,9 +8,8 @@ import numpy as np
 from mpmath import mp, mpf
 
 import icsolve
-from icsolve.assembly.driven.groups import NewtonGroup
 from icsolve.case import Case
-from icsolve.numbers.record import Op, Traced
+from icsolve.numbers.record import Implicit, Op, Traced
 from icsolve.sweep.numbers import numbers_of
 from icsolve.sweep.program import CompiledSweep
 
@@ -25,7 +24,7 @@ class InSixtyDigits:
         self.compiled, self.record = compiled, compiled.record
         self.constants = self._decimals(compiled.setting.case)
         self.values: dict[int, Any] = {k: mpf(v) for k, v in row.items()}
-        for group in compiled.motion.groups if compiled.motion else ():
+        for group in compiled.record.implicit:
             self._solve(group)
 
     def _decimals(self, case: Case) -> dict[int, Any]:
@@ -82,7 +81,7 @@ class InSixtyDigits:
                 return mp.nint(a)
         raise AssertionError(node)
 
-    def _solve(self, group: NewtonGroup) -> None:
+    def _solve(self, group: Implicit) -> None:
         """Newton's method to the last digit; the unknowns of a body are x, y and degrees."""
         guess = [self.values[k] for k in group.solved]
         for _ in range(8):

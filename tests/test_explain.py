@@ -374,7 +374,6 @@ loads:
     assert len(lines) == len(set(lines)) == 2
 
 
-
 def test_a_wrong_number_would_be_noticed() -> None:
     text = explain(icsolve.load(FILES["ch13/13_08_four_bar.yaml"]))
     assert check(text_equations(text), 3.0) >= 4

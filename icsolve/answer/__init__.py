@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from icsolve.answer.contacts import Touching
     from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
     from icsolve.answer.space import Spatial
-    from icsolve.scene.parts import AnswerBuilder
 
 
 class Found(NamedTuple):
@@ -223,8 +222,8 @@ class Answer:
     why_no_stiffness: str = ""
     spatial: Spatial | None = None
     """reactions and points of a case in space, which has no others"""
-    scene: AnswerBuilder | None = None
-    """the solved scene, from which pictures and explanations are laid out; it stays in its own process"""
+    scene: object = None
+    """the solved scene, which `scene_of` has for pictures and explanations; it stays in its own process"""
 
     def __repr__(self) -> str:
         """The unknown loads; the fields of a whole answer would fill a page."""

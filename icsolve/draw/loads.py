@@ -30,7 +30,7 @@ from icsolve.draw.place import Label, Soft, area, joined
 from icsolve.draw.scene import BLOCK, HALF, RAIL, Part, Scene
 from icsolve.draw.words import figure_number, name_runs, quantity, unit_word
 from icsolve.report.derivation import Acting, acting_loads
-from icsolve.wording.senses import sense_as
+from icsolve.wording.senses import sense_of
 
 ARROW = 56.0
 """Length of a load's arrow."""
@@ -79,7 +79,7 @@ def load_words(acting: Acting) -> tuple[TextRun, ...]:
     if ends := _intensities(acting.load):
         text = f" = {figure_number(min(ends))} to {quantity(max(ends), acting.unit)}"
     if acting.at is None and acting.value:
-        text += f" {sense_as(acting.load, acting.value, acting.gain, 0.0)}"
+        text += f" {sense_of(acting.load, acting.value, acting.gain, 0.0)}"
     if isinstance(acting.load, Spring | TorsionSpring):
         return (*name, TextRun(f": k = {quantity(abs(acting.value), acting.unit)}"))
     return (*name, TextRun(text))

@@ -24,6 +24,7 @@ from icsolve.grade.results import Marked
 from icsolve.grade.solved import SolvedCase, unknowns
 from icsolve.grade.tables.columns import StoredAnswer
 from icsolve.grade.tolerance import NoKeyError
+from icsolve.scene.parts import scene_of
 from icsolve.screws.plane import Triple
 from icsolve.tuples import NamedTuple
 
@@ -65,10 +66,10 @@ def coupled(answer: Answer, off: Mapping[str, float], last: str) -> Iterator[flo
     """How far an unknown is off that follows from others which are ``off``, in each sum of power that a
     student may write: for the motion that the case gives, and for those in which, of a mechanism of two or
     three freedoms, links move as one (one of them the frame, or a part that goes round as a whole)."""
-    freedoms = answer.mobility
-    if answer.scene is None or answer.friction is not None or freedoms not in (2, 3):
+    freedoms, scene = answer.mobility, scene_of(answer)
+    if scene is None or answer.friction is not None or freedoms not in (2, 3):
         return
-    outcome = answer.scene.outcome
+    outcome = scene.outcome
 
     def powers(unknown: str) -> list[float]:
         """The power of a unit of an unknown in each of the motions."""

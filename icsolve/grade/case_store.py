@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
 
 from icsolve.case import Case
 from icsolve.errors import CaseError, SceneError
@@ -13,10 +12,7 @@ from icsolve.grade.course import Course
 from icsolve.grade.keys import AnyKey
 from icsolve.grade.solved import SolvedCase, asked_of, canonical, unknowns
 from icsolve.grade.tolerance import NoKeyError
-from icsolve.grade.variants.varied import Varied
-
-if TYPE_CHECKING:
-    from icsolve.grade.variants.record import VariantRecord
+from icsolve.grade.variants.varied import VariantRecord, Varied
 
 
 class CaseStore:

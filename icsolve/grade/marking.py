@@ -16,10 +16,9 @@ from icsolve.grade.results import OVERRIDE, Marked, Overrides, Result
 from icsolve.grade.statistics import Counts, Tally
 from icsolve.grade.tables.columns import NEVER, StoredAnswer, attempt_number, readings
 from icsolve.grade.tolerance import NoKeyError
-from icsolve.grade.variants.record import Neighbours
+from icsolve.grade.variants.record import GivenValue, Neighbours
 from icsolve.grade.written.answer import MISSING, Combined, Reader, WrittenAnswer
 from icsolve.grade.written.two_numbers import WrittenPlace
-from icsolve.tuples import NamedTuple
 
 _MEMORY = 40_000
 """Different answers that are remembered with their verdicts; a class repeats itself."""
@@ -29,15 +28,6 @@ _SAMPLE = 300
 """Answers by which it is told whether another seed was meant."""
 _AT_ONCE = 5000
 """Answers of one student that are looked at together."""
-
-
-class GivenValue(NamedTuple):
-    """A value that a student gave to a question with variables, and whether it was right."""
-
-    student: str
-    question: str
-    value: float
-    right: bool
 
 
 class Marker:

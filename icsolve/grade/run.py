@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import IO, TYPE_CHECKING
+from typing import IO
 
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course, Roster, read_roster
 from icsolve.grade.importing import Import, Issue, Issues, Store, expand
 from icsolve.grade.keys import NumberKey
-from icsolve.grade.marking import GivenValue, Marker
-from icsolve.grade.results import HEADER, json_line, line
+from icsolve.grade.marking import Marker
+from icsolve.grade.results import HEADER, Override, Overrides, json_line, line
 from icsolve.grade.solved import unknowns
 from icsolve.grade.statistics import Counts
 from icsolve.grade.tables.columns import HeaderError, StoredAnswer
 from icsolve.grade.tolerance import NoKeyError
+from icsolve.grade.variants.record import GivenValue, Neighbours
 from icsolve.tuples import NamedTuple
-
-if TYPE_CHECKING:
-    from icsolve.grade.results import Override, Overrides
-    from icsolve.grade.variants.record import Neighbours
 
 _STEP = 5000
 """Results between two reports of progress."""
@@ -196,8 +193,6 @@ def _neighbours(case_store: CaseStore, students: Iterable[str]) -> Neighbours | 
     """The right answers of all students, where a case gives each other numbers."""
     if not case_store.varied:
         return None
-    from icsolve.grade.variants.record import Neighbours
-
     return Neighbours(case_store, students)
 
 

@@ -9,7 +9,6 @@ their own errors; a group that Newton's method solved brings those of its equati
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,9 +16,6 @@ from icsolve.numbers.adjoint import still_noise
 from icsolve.numbers.passing import Pass, Passed, Scratch
 from icsolve.numbers.record import Op, Record, Traced, operands
 from icsolve.numbers.replay import Array, Code
-
-if TYPE_CHECKING:
-    from icsolve.assembly.driven.groups import NewtonGroup
 
 SLICE = 1024
 """Rows of one pass; fewer where there are very many values."""
@@ -33,7 +29,6 @@ class Backward:
     ----------
     record : the record
     targets : nodes whose errors are asked for
-    groups : groups that Newton's method solved; their errors follow by implicit differentiation
     exact : inputs that carry no rounding: signs, guesses, counts of turns
     leaves : nodes that are given like inputs, and exact
 
@@ -44,17 +39,19 @@ class Backward:
         self,
         record: Record,
         targets: Sequence[int],
-        groups: Sequence[NewtonGroup],
         exact: Iterable[int],
         leaves: Iterable[int] = (),
     ) -> None:
         self.record, self.targets, self.exact = record, targets, frozenset(exact)
         self.leaves = frozenset(leaves)
-        self.groups = {min(group.solved): group for group in groups}
-        self.member = {k: group for group in groups for k in group.solved}
+        self.groups = {min(group.solved): group for group in record.implicit}
+        self.member = {k: group for group in record.implicit for k in group.solved}
         nodes = self.reached(targets)
         self.guesses = {
-            g: s for group in groups for g, s in zip(group.guesses, group.solved, strict=True) if g in nodes
+            g: s
+            for group in record.implicit
+            for g, s in zip(group.guesses, group.solved, strict=True)
+            if g in nodes
         }
         self.code = Code(record, sorted(nodes), self.leaves & nodes, keep=True)
         self.rows = SLICE if len(nodes) < MANY else SLICE // 4
@@ -83,8 +80,7 @@ class Backward:
         if k not in self.member:
             return operands(self.record, k)
         group = self.member[k]
-        parts = (*group.residuals, *(v for row in group.derivatives for v in row))
-        return [*(v.index for v in parts if isinstance(v, Traced)), *group.solved, *group.guesses]
+        return [*(v.index for v in group.parts if isinstance(v, Traced)), *group.solved, *group.guesses]
 
     def noise(self, k: int) -> float:
         """Bound of the error of a value that is the same in every row [its units]."""

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
 from icsolve.numbers.adjoint import ANGLE_NOISE, ROUNDINGS, shares
 from icsolve.numbers.arithmetic import RADIAN
-from icsolve.numbers.record import Op, Record, Traced, operands
+from icsolve.numbers.record import Implicit, Op, Record, Traced, operands
 from icsolve.numbers.replay import Array, Code, Step
 from icsolve.numbers.tape import UNIT
 from icsolve.tuples import NamedTuple
-
-if TYPE_CHECKING:
-    from icsolve.assembly.driven.groups import NewtonGroup
 
 FACTORED = (Op.MUL, Op.DIV, Op.SQRT, Op.NEG)
 """Operations whose operands' relative errors are those of the result."""
@@ -32,8 +29,8 @@ class Source(Protocol):
     code: Code
     exact: frozenset[int]
     leaves: frozenset[int]
-    groups: dict[int, NewtonGroup]
-    member: dict[int, NewtonGroup]
+    groups: dict[int, Implicit]
+    member: dict[int, Implicit]
 
     def reached(self, targets: Iterable[int]) -> set[int]:
         """The nodes that lead to the targets."""
@@ -223,7 +220,7 @@ class Pass:
             self._do(np.multiply, out, abs(factor), out)
         return (out, w[1] * math.copysign(1.0, factor))
 
-    def _group(self, group: NewtonGroup) -> None:
+    def _group(self, group: Implicit) -> None:
         """Through a solved group: the weights of its equations (implicit differentiation)."""
         mine = [self.weights.get(k) for k in group.solved]
         if not any(mine):

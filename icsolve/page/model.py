@@ -26,7 +26,7 @@ from icsolve.page.figure import PageFigure
 from icsolve.page.live import Live
 from icsolve.page.motion import FINE, Array, PageMotion, compact, exact, moved, moves
 from icsolve.report.derivation import Acting, Known, Step, acting_loads
-from icsolve.wording.senses import holding, sense_as, spelt, unit_of
+from icsolve.wording.senses import holding, sense_of, spelt, unit_of
 
 # --- loads through a motion ------------------------------------------------------------------------------
 
@@ -91,7 +91,7 @@ def senses(known: Known, motion: PageMotion, acting: Acting, values: Array) -> l
         heading_rows(known, motion, acting).tolist(),
         strict=True,
     )
-    return [spelt(sense_as(acting.load, *row), figure_number) for row in rows]
+    return [spelt(sense_of(acting.load, *row), figure_number) for row in rows]
 
 
 def gain_rows(known: Known, motion: PageMotion, acting: Acting) -> Array:

@@ -269,6 +269,11 @@ class AnswerBuilder:
         return tuple(power_terms(found, self._values(found), speed_of(found)))
 
 
+def scene_of(answer: Answer) -> AnswerBuilder | None:
+    """The solved scene of an answer; None of one in space, and of one that another process found."""
+    return answer.scene if isinstance(answer.scene, AnswerBuilder) else None
+
+
 def speed_of(found: Evaluation) -> speeds.Speed:
     """Which motion is meant, and how fast."""
     twists, points = found.outcome.motions.twists, found.outcome.points
@@ -332,7 +337,9 @@ def _found(case: Case, balance: power.Balance, unknowns: Mapping[str, Value]) ->
     for w in balance.wrenches:
         if w.load.name in unknowns:
             value, error, why = unknowns[w.load.name]
-            found[w.load.name] = Found(value, unit_of(w.load, case), sense_of(w, value), error, why)
+            degrees = math.degrees(math.atan2(-w.unit[0], w.unit[1]))
+            sense = sense_of(w.load, value, float(w.gain), degrees)
+            found[w.load.name] = Found(value, unit_of(w.load, case), sense, error, why)
     return found
 
 

@@ -12,7 +12,7 @@ from icsolve.answer import Answer
 from icsolve.case import Case, Coordinates, Number
 from icsolve.errors import SceneError, Status
 from icsolve.scene import judged, solve_scene, wanted, without_inertia
-from icsolve.scene.parts import AnswerBuilder
+from icsolve.scene.parts import AnswerBuilder, scene_of
 from icsolve.scene.program import EvaluatedScene, Want, prepare
 from icsolve.statics.power import is_unknown
 from icsolve.tuples import NamedTuple
@@ -128,7 +128,7 @@ def _tried(case: Case, reactions: bool) -> Attempt:
         answer = solve(case, reactions=reactions)
     except SceneError as refusal:
         return Attempt(None, refusal, None)
-    return Attempt(answer, None, answer.scene)
+    return Attempt(answer, None, scene_of(answer))
 
 
 def _touching(case: Case, reactions: bool) -> Attempt:
@@ -140,4 +140,4 @@ def _touching(case: Case, reactions: bool) -> Attempt:
     except SceneError as refusal:
         own = placed(case)
         return Attempt(None, refusal, None if own is case else attempt(own).scene)
-    return Attempt(answer, None, answer.scene)
+    return Attempt(answer, None, scene_of(answer))

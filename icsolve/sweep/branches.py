@@ -13,7 +13,6 @@ from functools import cached_property
 
 import numpy as np
 
-from icsolve.assembly.driven.groups import NewtonGroup
 from icsolve.numbers.record import Record, Root, Traced
 from icsolve.numbers.replay import BLOCK, Array, code_of, live
 from icsolve.sweep.continuation import ChangePoints, InputLine, State
@@ -309,22 +308,21 @@ def signs_of(compiled: CompiledSweep, more: Iterable[str] = ()) -> Signs:
 
 def live_roots(compiled: CompiledSweep) -> list[Root]:
     """The branches that bear on what is asked, in order."""
-    record, groups = compiled.record, compiled.motion.groups if compiled.motion else ()
+    record = compiled.record
     stack = [
         v.index for values in compiled.outputs.values() for v in values if isinstance(v, Traced) and v.row
     ]
     key = ("live roots", tuple(stack))
     if key not in record.kept:
-        record.kept[key] = _live_roots(record, groups, stack)
+        record.kept[key] = _live_roots(record, stack)
     found: list[Root] = record.kept[key]
     return found
 
 
-def _live_roots(record: Record, groups: Iterable[NewtonGroup], stack: list[int]) -> list[Root]:
+def _live_roots(record: Record, stack: list[int]) -> list[Root]:
     alive: set[int] = set()
     while stack:
         alive.update(live(record, stack, ()))
-        used = [group for group in groups if alive.intersection(group.solved)]
-        parts = [v for g in used for v in (*g.residuals, *(v for row in g.derivatives for v in row))]
+        parts = [v for group in record.implicit if alive.intersection(group.solved) for v in group.parts]
         stack = [v.index for v in parts if isinstance(v, Traced) and v.row and v.index not in alive]
     return [record.roots[k] for k in sorted(alive) if k in record.roots]

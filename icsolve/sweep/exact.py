@@ -12,11 +12,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from decimal import Context, Decimal, DivisionByZero, localcontext
 from functools import lru_cache
 
-from icsolve.assembly.driven.groups import NewtonGroup
 from icsolve.case import Case, Centroid, Coordinates, Number, TorsionSpring
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.record import Node, Op, Record, Root, Traced, operands, terms_of
+from icsolve.numbers.record import Implicit, Node, Op, Record, Root, Traced, operands, terms_of
 from icsolve.numbers.replay import BINARY, live
 from icsolve.statics.power import Points, spring_angle
 from icsolve.sweep.branches import live_roots
@@ -162,7 +161,7 @@ class ExactRecord:
     def _solved(self, given: Mapping[int, Decimal]) -> Values:
         """The inputs with the groups' unknowns solved, from what they are in floats."""
         values = dict(given)
-        groups = self.compiled.motion.groups if self.compiled.motion else ()
+        groups = self.compiled.record.implicit
         if not groups:
             return values
         if self.last is None or self.last[0] != given:
@@ -171,13 +170,13 @@ class ExactRecord:
             self.last = (dict(given), values)
         return self.last[1]
 
-    def _newton(self, group: NewtonGroup, given: Values) -> list[Decimal]:
+    def _newton(self, group: Implicit, given: Values) -> list[Decimal]:
         """Newton's method to the last digit. Where two solutions have become one its steps halve the error,
         and half of the digits are all that there is."""
         q = [given[k] for k in group.solved]
         units = [Decimal(1), Decimal(1), pi() / 180] * (len(q) // 3)
         least, last = Decimal(10) ** (12 - DIGITS), Decimal(0)
-        wanted = [*group.residuals, *(v for row in group.derivatives for v in row)]
+        wanted = group.parts
         indices = [v.index for v in wanted if isinstance(v, Traced)]
         for _ in range(ROUNDS):
             found = self._found(indices, {**given, **dict(zip(group.guesses, q, strict=True))})

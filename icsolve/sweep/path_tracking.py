@@ -67,7 +67,7 @@ class PathTracker:
         self.compiled, self.line, self.start, self.change_points = compiled, line, start, change_points
         record, motion = compiled.record, compiled.motion
         assert motion is not None
-        self.groups = [(group, Solver(record, group)) for group in motion.groups]
+        self.groups = [(group, Solver(record, group.equations)) for group in motion.groups]
         self.counted = list(record.counted.values())
         self.turning = Code(record, [record.lifted(value).index for _, value in self.counted])
         self.breaks: list[tuple[float, float]] = []
@@ -145,7 +145,7 @@ class PathTracker:
         return given
 
     def _state(self, q: Array, turns: Array) -> dict[int, Array]:
-        columns = [k for group, _ in self.groups for k in group.solved]
+        columns = [k for group, _ in self.groups for k in group.equations.solved]
         given = {k: q[:, n] for n, k in enumerate(columns)}
         return {**given, **{guess.index: turns[:, n] for n, (guess, _) in enumerate(self.counted)}}
 
@@ -173,7 +173,7 @@ class PathTracker:
         good, found = np.ones(rows, dtype=bool), q.copy()
         first = 0
         for group, solver in self.groups:
-            last = first + len(group.solved)
+            last = first + len(group.equations.solved)
             env = {**given, **self._state(found, turns)}
             found[:, first:last], right = solver.solve(env, q[:, first:last], rounds)
             good &= right
@@ -289,21 +289,21 @@ class PathTracker:
             return small
         given, _ = self.given(s)
         for group, solver in self.groups:
-            q = np.stack([np.broadcast_to(given[k], len(s)) for k in group.solved], axis=1)
+            q = np.stack([np.broadcast_to(given[k], len(s)) for k in group.equations.solved], axis=1)
             small |= ~(solver.determinant(given, q) > BENT * self._typical(group, solver))
         return small
 
     def _typical(self, group: NewtonGroup, solver: Solver) -> float:
         nodes = self.compiled.record.nodes
         env = {k: np.array([node.value]) for k, node in enumerate(nodes) if node.op == Op.INPUT}
-        q = np.array([[nodes[k].value for k in group.solved]])
+        q = np.array([[nodes[k].value for k in group.equations.solved]])
         return float(solver.determinant(env, q)[0])
 
     def _senses(self, given: Mapping[int, Array], q: Array, turns: Array) -> Array:
         """Signs of the determinants of the groups at one place."""
         signs, first = [], 0
         for group, solver in self.groups:
-            last = first + len(group.solved)
+            last = first + len(group.equations.solved)
             _, j = solver.system({**given, **self._state(q, turns)}, q[:, first:last])
             if j.shape[1] == j.shape[2]:
                 signs.append(np.linalg.slogdet(j[0])[0])

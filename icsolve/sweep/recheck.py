@@ -108,7 +108,7 @@ class Recheck:
         if s in self.unreached:
             raise Unreached
         guess = self._states(row, float(s))
-        columns = [k for group, _ in self.tracker.groups for k in group.solved]
+        columns = [k for group, _ in self.tracker.groups for k in group.equations.solved]
         try:
             states = self.scenes.exact.states(self._along(s, row) | guess, columns)
         except Unreached:
@@ -161,7 +161,7 @@ class Recheck:
         tracker = self.tracker
         if tracker is None or not tracker.groups or not tracker.bent(np.array([s]))[0]:
             return {}
-        columns = [k for group, _ in tracker.groups for k in group.solved]
+        columns = [k for group, _ in tracker.groups for k in group.equations.solved]
         at, step = as_written(s), Decimal(AROUND * tracker.line.widest)
         weights, total = (1, -6, 15, 15, -6, 1), Decimal(20)
         places = [at + k * step for k in (-3, -2, -1, 1, 2, 3)]

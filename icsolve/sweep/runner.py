@@ -156,11 +156,10 @@ class Runner:
         exact.
         """
         compiled = self.compiled
-        groups = compiled.motion.groups if compiled.motion else ()
         exact = [k for name, k in compiled.inputs.items() if name.startswith(("branch ", "swing "))]
         exact += [guess.index for guess, _ in compiled.record.counted.values()]
-        exact += [k for group in groups for k in (*group.guesses, *group.solved)]
-        return Backward(compiled.record, targets, groups, exact, leaves)
+        exact += [k for group in compiled.record.implicit for k in (*group.guesses, *group.solved)]
+        return Backward(compiled.record, targets, exact, leaves)
 
     def blank(self, rows: int) -> dict[Key, Array]:
         """Arrays for the outputs, (rows,) or (rows, parts), of which nothing is filled."""

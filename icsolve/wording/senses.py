@@ -4,25 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
+from icsolve.answer import Found
 from icsolve.case import Area, Case, Force, Load, Spring, Stretch, Torque, TorsionSpring, Toward, Weight
-
-if TYPE_CHECKING:
-    from icsolve.answer import Found
-    from icsolve.statics.power import Wrench
-
 
 SPELT = {"ccw": "counterclockwise", "cw": "clockwise"}
 
 
-def sense_of(w: Wrench, value: float) -> str:
-    """Sense of a load with this value: ``ccw``, ``at 210 deg``, ``toward A``, ``pull``; '' for zero."""
-    return sense_as(w.load, value, float(w.gain), math.degrees(math.atan2(-w.unit[0], w.unit[1])))
-
-
-def sense_as(load: Load, value: float, gain: float, degrees: float) -> str:
-    """The same of a load whose unit exerts ``gain``, in the direction ``degrees`` where that is positive."""
+def sense_of(load: Load, value: float, gain: float, degrees: float) -> str:
+    """Sense of a load with this value, whose unit exerts ``gain`` in the direction ``degrees``: ``ccw``,
+    ``at 210 deg``, ``toward A``, ``pull``; '' for zero.
+    """
     if value == 0.0:
         return ""
     match load:

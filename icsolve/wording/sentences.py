@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 from icsolve.case import Case
-
-if TYPE_CHECKING:
-    from icsolve.structure.topology import Topology
+from icsolve.structure.topology import Topology
 
 
 def listed(names: Iterable[str]) -> str:

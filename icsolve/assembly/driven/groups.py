@@ -20,7 +20,7 @@ from icsolve.assembly.driven.poses import Moved, Places, Rotation, Spot, plus, r
 from icsolve.assembly.workspace import Workspace
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, RADIAN, Scalar
-from icsolve.numbers.record import Op, Record, Traced
+from icsolve.numbers.record import Implicit, Op, Record, Traced
 from icsolve.numbers.replay import BLOCK, Array, Code
 from icsolve.numbers.sparse import Row, eliminate
 from icsolve.screws.plane import Point
@@ -183,18 +183,13 @@ class NewtonGroup(NamedTuple):
     Attributes
     ----------
     bodies : n of them
-    guesses, solved : (3 n,), nodes of the inputs at which the equations stand, and of those that solve them
-    residuals : (equations,), nodes or floats
-    derivatives : (equations, 3 n), the same, by x and y and by the angle in radians
+    equations : of 3 n numbers, their derivatives by x and y and by the angle in radians
     bases : by body, the spot whose place is told
     rotations, places : by body, expressions of ``solved``
     """
 
     bodies: tuple[int, ...]
-    guesses: tuple[int, ...]
-    solved: tuple[int, ...]
-    residuals: tuple[Scalar, ...]
-    derivatives: tuple[tuple[Scalar, ...], ...]
+    equations: Implicit
     bases: dict[int, Spot]
     rotations: dict[int, Rotation]
     places: dict[int, Point]
@@ -210,23 +205,23 @@ def settled(mechanism: Mechanism, moved: Moved, step: AssurGroup, number: int) -
     workspace = Workspace(mechanism.case, mechanism.frame, record)
     rows = list(_equations(mechanism, moved, step, Guess(moved, bases, q), workspace))
     columns = [(body, part) for body in step.bodies for part in range(3)]
-    group = NewtonGroup(
-        step.bodies,
+    equations = Implicit(
         tuple(g.index for g in guessed),
         (),
         tuple(row.value for row in rows),
         tuple(tuple(row.by.get(column, 0.0) for column in columns) for row in rows),
-        bases,
-        {},
-        {},
     )
-    values = _at_record(record, group)
+    values = _at_record(record, equations)
     solved = [record.input(f"state {number} {k}", float(v)) for k, v in enumerate(values)]
     states = {body: solved[3 * n : 3 * n + 3] for n, body in enumerate(step.bodies)}
-    return group._replace(
-        solved=tuple(s.index for s in solved),
-        rotations={b: rotated(mechanism.shape, s[2]) for b, s in states.items()},
-        places={b: (s[0], s[1]) for b, s in states.items()},
+    equations = equations._replace(solved=tuple(s.index for s in solved))
+    record.implicit.append(equations)
+    return NewtonGroup(
+        step.bodies,
+        equations,
+        bases,
+        {b: rotated(mechanism.shape, s[2]) for b, s in states.items()},
+        {b: (s[0], s[1]) for b, s in states.items()},
     )
 
 
@@ -238,11 +233,11 @@ def _equations(
     return equations(mechanism, rows, step.constraints, moved)
 
 
-def _at_record(record: Record, group: NewtonGroup) -> Array:
+def _at_record(record: Record, equations: Implicit) -> Array:
     """The solution at the values that the record was made with."""
-    solver = Solver(record, group)
+    solver = Solver(record, equations)
     env = {k: np.array([node.value]) for k, node in enumerate(record.nodes) if node.op == Op.INPUT}
-    start = np.array([[record.nodes[k].value for k in group.guesses]])
+    start = np.array([[record.nodes[k].value for k in equations.guesses]])
     q, good = solver.solve(env, start)
     found: Array = q[0] if good[0] else start[0]
     return found
@@ -251,12 +246,12 @@ def _at_record(record: Record, group: NewtonGroup) -> Array:
 class Solver:
     """Newton's method on rows of a group; n is the number of unknowns, three a body."""
 
-    def __init__(self, record: Record, group: NewtonGroup) -> None:
-        self.record, self.group = record, group
-        flat = [value for row in group.derivatives for value in row]
+    def __init__(self, record: Record, system: Implicit) -> None:
+        self.record, self.implicit = record, system
+        flat = [value for row in system.derivatives for value in row]
         self.traced = [n for n, value in enumerate(flat) if isinstance(value, Traced)]
         self.still = np.array([0.0 if isinstance(v, Traced) else float(v) for v in flat])
-        wanted = [record.lifted(value).index for value in group.residuals]
+        wanted = [record.lifted(value).index for value in system.residuals]
         self.equations = len(wanted)
         self.code = Code(record, [*wanted, *(flat[n].index for n in self.traced)])
         self.misses = Code(record, wanted)
@@ -276,7 +271,7 @@ class Solver:
             (rows, equations) and (rows, equations, n), by angles in radians; of no size where not asked for.
         """
         rows, unknowns = q.shape
-        given = {**env, **{k: q[:, n] for n, k in enumerate(self.group.guesses)}}
+        given = {**env, **{k: q[:, n] for n, k in enumerate(self.implicit.guesses)}}
         found = (self.code if derivatives else self.misses).run(given, rows)
         f = np.empty((rows, self.equations))
         for n in range(self.equations):
@@ -310,8 +305,8 @@ class Solver:
 
         The pivots are those of the position in which the record was made.
         """
-        count = len(self.group.guesses)
-        given = zip(self.group.derivatives, self.group.residuals, strict=True)
+        count = len(self.implicit.guesses)
+        given = zip(self.implicit.derivatives, self.implicit.residuals, strict=True)
         rows = [{**dict(enumerate(row)), count: 0.0 - f} for row, f in given]
         general = eliminate(rows, count)
         if general.left or general.free or len(general.pivots) != count:
@@ -335,7 +330,7 @@ class Solver:
             return np.asarray(np.abs(np.linalg.det(j)))
         parts = []
         for here, some in _blocks(env, q):
-            given = {**here, **dict(zip(self.group.guesses, some.T, strict=True))}
+            given = {**here, **dict(zip(self.implicit.guesses, some.T, strict=True))}
             parts.append(np.abs(np.broadcast_to(self.direct[1].run(given, len(some))[0], len(some))))
         return np.concatenate(parts)
 
@@ -384,7 +379,7 @@ class Solver:
         if direct is None:
             move = self.step(*self.system(env, q))
         else:
-            given = {**env, **dict(zip(self.group.guesses, q.T, strict=True))}
+            given = {**env, **dict(zip(self.implicit.guesses, q.T, strict=True))}
             move = np.stack([np.broadcast_to(v, len(q)) for v in direct.run(given, len(q))], axis=1)
         size = np.abs(move).max(axis=1)
         with np.errstate(all="ignore"):

@@ -11,9 +11,9 @@ import os
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator
 from html import escape
-from typing import TYPE_CHECKING
 
 from icsolve.files import is_plain, reading
+from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Person, Roster
 from icsolve.grade.keys import NumberKey, numbers_of
 from icsolve.grade.platforms.given import given
@@ -24,36 +24,15 @@ from icsolve.grade.solved import unknowns
 from icsolve.grade.tables.columns import TableColumns, identifier
 from icsolve.grade.tables.text import AnswerTable
 from icsolve.grade.tolerance import NoKeyError
-from icsolve.grade.variants.varied import Draw, Varied
+from icsolve.grade.variants.varied import Draw, Handed, VariantRecord, Varied
 from icsolve.grade.written.numerals import figures
 from icsolve.tuples import NamedTuple
-
-if TYPE_CHECKING:
-    from icsolve.grade.case_store import CaseStore
-    from icsolve.grade.marking import GivenValue
-    from icsolve.grade.variants.varied import Varied
 
 VALUES, KEYS = "values.csv", "key.csv"
 _SAME = 1e-9
 """Relative difference of two keys that is none: the file has twelve digits."""
 _ASKED = 40
 """Students by whom it is told whether the numbers were drawn with this seed, and would be drawn again."""
-Texts = dict[str, str]
-
-
-class Handed(NamedTuple):
-    """What one student was given: the label of the variant, and its values as text."""
-
-    label: str
-    values: Texts
-
-
-class VariantRecord(NamedTuple):
-    """The numbers of one case by student, and the keys of that time by question and student."""
-
-    path: str
-    handed: dict[str, Handed]
-    keys: dict[tuple[str, str], tuple[float, str]]
 
 
 def read_records(paths: Iterable[str], store: CaseStore, roster: Roster | None) -> dict[str, VariantRecord]:
@@ -225,6 +204,15 @@ _FEW = 500
 """Figures that are solved to know the answers of others; more would take too long."""
 _ANSWERS = 3
 """Answers by which a wrong seed is told."""
+
+
+class GivenValue(NamedTuple):
+    """A value that a student gave to a question with variables, and whether it was right."""
+
+    student: str
+    question: str
+    value: float
+    right: bool
 
 
 class Neighbours:

@@ -9,7 +9,7 @@ from collections import OrderedDict
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from icsolve.answer import Answer
 from icsolve.case import Case
@@ -28,9 +28,6 @@ from icsolve.read.names import Problems
 from icsolve.read.variables import count, first_values, value_at
 from icsolve.sweep.numbers import numbers_of
 from icsolve.tuples import NamedTuple
-
-if TYPE_CHECKING:
-    from icsolve.grade.variants.record import Handed, VariantRecord
 
 TRIALS = 60
 """Draws of one student, until one suits."""
@@ -125,6 +122,21 @@ class Draw(NamedTuple):
 
     label: str
     values: Texts
+
+
+class Handed(NamedTuple):
+    """What one student was given: the label of the variant, and its values as text."""
+
+    label: str
+    values: Texts
+
+
+class VariantRecord(NamedTuple):
+    """The numbers of one case by student, and the keys of that time by question and student."""
+
+    path: str
+    handed: dict[str, Handed]
+    keys: dict[tuple[str, str], tuple[float, str]]
 
 
 class Varied:

@@ -13,7 +13,7 @@ from icsolve.case.joints import Sliding
 from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS, turn_of
-from icsolve.scene.parts import AnswerBuilder
+from icsolve.scene.parts import AnswerBuilder, scene_of
 from icsolve.screws.plane import Point, Triple
 from icsolve.solve import attempt
 from icsolve.statics.inertia import as_given
@@ -46,13 +46,13 @@ class Known(NamedTuple):
     @property
     def scene(self) -> AnswerBuilder | None:
         """The solved scene; None where nothing is known to move."""
-        return None if self.whole is None else self.whole.scene
+        return None if self.whole is None else scene_of(self.whole)
 
     @property
     def structure(self) -> bool:
         """Whether nothing can move, so that statics alone gives what there is to find."""
-        moving = self.whole is not None and self.whole.scene is not None
-        return self.answer is not None and self.answer.reactions is not None and not moving
+        reactions = None if self.answer is None else self.answer.reactions
+        return reactions is not None and self.scene is None
 
     @property
     def title(self) -> str:
@@ -127,7 +127,8 @@ def known_of(case: Case, *, reactions: bool = False) -> Known:
     whole, twists = found.answer, {}
     try:  # where nothing moves, or given motions contradict one another, there is no motion to tell
         whole = whole if scene is None else scene.moving()
-        twists = {} if whole is None or whole.scene is None else whole.scene.twists
+        scene = None if whole is None else scene_of(whole)
+        twists = {} if scene is None else scene.twists
     except SceneError:
         pass
     return Known(own, found.answer, found.refusal, whole, points, twists, _size(points))
@@ -204,7 +205,7 @@ def _searched(unknown: Unknown, rests: Sequence[float]) -> Point:
 
 def known_at(known: Known, answer: Answer) -> Known:
     """The same of a position that was found, from the answer in it."""
-    points = _points(answer.case, answer, answer.scene)
+    points = _points(answer.case, answer, scene_of(answer))
     return known._replace(case=answer.case, answer=answer, whole=answer, points=points, twists={})
 
 
