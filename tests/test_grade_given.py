@@ -10,30 +10,46 @@ import pytest
 import icsolve
 from cams import sliding, table
 from grade_shell import CASES
-from icsolve.grade.platforms.given import given
+from icsolve.case import Coordinates
+from icsolve.explain.document import AsText, Document
+from icsolve.explain.given import Figures, asked_section, given_section
+from icsolve.report.derivation import Known
 from icsolve.sweep.numbers import numbers_of
+from icsolve.wording.statement import Statement
 
 
 def rows(name: str) -> dict[str, str]:
     (path,) = CASES.glob(f"**/{name}.yaml")
-    return dict(given(icsolve.load(path)))
+    return dict(Statement(icsolve.load(path)).rows())
 
 
 @pytest.mark.parametrize(
     ("case", "name", "value"),
     [
-        ("epicyclic_train", "gears 3-1", "18 and 60 teeth, one of them internal"),
-        ("belt_crossed", "belt 2-3", "crossed, on radii 60 and 150 mm"),
-        ("13_18_slider_crank_friction_everywhere", "friction 2-3 at B", "mu = 0.15, pin radius 0.9 in"),
-        ("13_18_slider_crank_friction_everywhere", "friction 4-1 at C", "mu = 0.15"),
-        ("13_18_slider_crank_friction_everywhere", "link 2 turns", "counterclockwise"),
-        ("flat_follower", "contact 2-3 at K", "normal at 90 deg"),
-        ("given_centres", "centre 1-3", "at infinity at 90 deg"),
-        ("given_centres", "centre 2-6", "(2, 3) m"),
-        ("rolling/rolling_disk", "links 2 and 1", "roll without slip at K, radii 300 and 0 mm"),
-        ("wedge", "block of link 3 at C", "slides in link 2 at 15 deg"),
-        ("geneva", "pin of link 2 at B", "slides in link 3 along D-B"),
-        ("13_23_spur_gears", "gears 2-3", "31 and 57 teeth, pressure angle 20 deg, diametral pitch 16 a in"),
+        ("epicyclic_train", "links 3 and 1 are gears", "18 and 60 teeth, one of them internal"),
+        ("belt_crossed", "a belt runs over links 2 and 3", "crossed, on radii 60 and 150 mm"),
+        (
+            "13_18_slider_crank_friction_everywhere",
+            "a pin joins links 2 and 3 at B",
+            "mu = 0.15, pin radius 0.9 in",
+        ),
+        (
+            "13_18_slider_crank_friction_everywhere",
+            "link 4 slides on link 1 at C",
+            "along 0 deg, through A, mu = 0.15",
+        ),
+        ("13_18_slider_crank_friction_everywhere", "Link 2 turns", "counterclockwise"),
+        ("flat_follower", "links 2 and 3 touch at K", "common normal at 90 deg"),
+        ("given_centres", "the centre of links 1 and 3 is known", "at infinity at 90 deg"),
+        ("given_centres", "the centre of links 2 and 6 is known", "at (2, 3) m"),
+        ("rolling/rolling_disk", "links 2 and 1 roll on each other without slip at K", "radii 300 and 0 mm"),
+        ("wedge", "link 3 slides on link 2 at C", "along 15 deg"),
+        ("geneva", "a pin of link 2 runs in a slot of link 3 at B", "along DB"),
+        (
+            "13_23_spur_gears",
+            "links 2 and 3 are gears",
+            "31 and 57 teeth, pressure angle 20 deg, diametral pitch 16 a in",
+        ),
     ],
 )
 def test_joints_and_motion_are_told(case: str, name: str, value: str) -> None:
@@ -55,26 +71,37 @@ def test_joints_and_motion_are_told(case: str, name: str, value: str) -> None:
     ],
 )  # fmt: skip
 def test_profiles_are_told(cam: str, follower: str, told: tuple[str, str]) -> None:
-    found = dict(given(sliding(cam, follower)))
+    found = dict(Statement(sliding(cam, follower)).rows())
     assert (found["profile of link 2"], found["profile of link 3"]) == told
 
 
 def test_an_unknown_spring_tells_its_free_length_and_ends() -> None:
     (told,) = [value for name, value in rows("balanced_arm").items() if "free length" in value]
-    assert told.startswith("stiffness to be found, free length")
+    assert told.startswith("spring of a stiffness to be found, on link")
 
 
 @pytest.mark.parametrize("path", sorted(CASES.rglob("*.yaml")), ids=lambda path: path.stem)
 def test_every_number_of_a_plane_case_is_told(path: Path) -> None:
-    """Each number that the file gives stands in some row, as written or in case units."""
+    """Each number that the file gives stands in some row, as written or in case units, under a question and
+    in the worked solution, there to its digits."""
     case = icsolve.load(path)
     if case.space is not None:
         pytest.skip("in space")
-    said = " ".join(f"{name} {value}" for name, value in given(case))
-    words = set(re.findall(r"[-+.\w]+", said))
-    for place, number in numbers_of(case).items():
-        if place == "gravity":
-            continue
-        forms = {number.digits, number.digits.lstrip("-+")}
-        forms |= {f"{number.value:.10g}", f"{abs(number.value):.10g}"}
-        assert forms & words, (place, number)
+    places = {
+        n: (p.x.value, p.y.value)
+        for n, p in case.points.items()
+        if isinstance(p, Coordinates) and p.x and p.y
+    }
+    known = Known(case, None, None, None, places, {}, 0.0)
+    figures = Figures(8, 0.0, case.units)
+    sections = (given_section(known, figures), asked_section(known, figures))
+    solution = AsText().whole(Document("", (), sections))
+    question = " ".join(f"{name} {value}" for name, value in Statement(case).rows())
+    for said in (question, solution):
+        words = set(re.findall(r"[-+.\w]+", said))
+        for place, number in numbers_of(case).items():
+            if place == "gravity":
+                continue
+            forms = {number.digits, number.digits.lstrip("-+"), figures.number(number.value).digits}
+            forms |= {f"{number.value:.10g}", f"{abs(number.value):.10g}"}
+            assert forms & words, (place, number)

@@ -13,7 +13,7 @@ import pytest
 
 import icsolve
 from grade_shell import CASES, Class
-from icsolve.grade.platforms.given import given
+from icsolve.wording.statement import Statement
 
 BAR = """\
 icsolve: 1
@@ -193,14 +193,18 @@ def test_variants_of_ranges_and_positions_have_keys_of_their_own(a_class: Class)
 @pytest.mark.parametrize(
     ("text", "name", "told"),
     [
-        (LOADED.format(load=LINE), "L", "50 N/m on link 2 from A to B, at 90 deg"),
-        (LOADED.format(load=TRIANGLE), "L", "50 N/m on link 2 from B to A, 0 N/m there, at 90 deg"),
+        (LOADED.format(load=LINE), "L", "force per length of 50 N/m on link 2 from A to B, at 90 deg"),
+        (
+            LOADED.format(load=TRIANGLE),
+            "L",
+            "force per length of 50 N/m on link 2 from B to A, 0 N/m there, at 90 deg",
+        ),
         (BAR, "direction AB", "unknown, between -110 and 80 deg from +x"),
         (ARM, "P", "to be found in size and direction, on link 3 at C"),
     ],
 )
 def test_what_a_question_of_these_kinds_gives(text: str, name: str, told: str) -> None:
-    assert dict(given(icsolve.load(text)))[name] == told
+    assert dict(Statement(icsolve.load(text)).rows())[name] == told
 
 
 MACHINES = {

@@ -9,9 +9,9 @@ from icsolve.grade.case_store import CaseStore, case_name
 from icsolve.grade.course import Course
 from icsolve.grade.judge import feedback, judge_answer
 from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey
-from icsolve.grade.platforms.given import given
 from icsolve.grade.platforms.questions import asked, figure, sensible
 from icsolve.grade.written.answer import Combined, Reader
+from icsolve.wording.statement import Statement
 
 
 class Task:
@@ -40,7 +40,7 @@ class Task:
         varied = self._case_store.variation(self._name)
         self.values: dict[str, str] = dict(varied.draw(student).values) if varied is not None else {}
         self._case = varied.read(self.values) if varied is not None else self._solved.case
-        self.given = given(self._case)
+        self.given = Statement(self._case).rows()
 
     def figure(self) -> str:
         """The figure without its answer, as SVG."""

@@ -2,64 +2,105 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from typing import assert_never
 
-from icsolve.case import Belt, Contact, Gears, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
+from icsolve.case import Belt, Contact, Gears, Joint, KnownCentre, Number, Pin, Roll, Slide, Slot, Weld
 from icsolve.case.joints import Guided, Sliding, Thread
 from icsolve.wording.sentences import listed
 
 
-def joint_words(joint: Joint, length: str) -> str:
-    """A joint in words; ``length`` is the unit of lengths."""
+def joint_words(joint: Joint) -> str:
+    """What a joint does."""
     links = listed(joint.links)
     where = f" at {joint.at}" if joint.at and not joint.at.startswith("@") else ""
     match joint:
         case Pin():
             return f"a pin joins links {links}{where}"
-        case Slide(thread=Thread() as thread):
+        case Slide(thread=Thread()):
             on, by = joint.links
-            sizes = thread_words(thread, length)
-            return f"a screw moves link {on} on link {by}{where}{_along(joint)} ({sizes})"
+            return f"a screw moves link {on} on link {by}{where}"
         case Slide():
-            return f"link {joint.links[0]} slides on link {joint.links[1]}{where}{_along(joint)}"
+            return f"link {joint.links[0]} slides on link {joint.links[1]}{where}"
         case Slot():
             pin, slot = joint.links
-            return f"a pin of link {pin} runs in a slot of link {slot}{where}{_along(joint)}"
+            return f"a pin of link {pin} runs in a slot of link {slot}{where}"
         case Roll():
             return f"links {links} roll on each other without slip{where}"
         case Gears():
-            teeth = " and ".join(n.digits.lstrip("-") for n in joint.teeth)
-            kind = ", internal" if any(n.value < 0 for n in joint.teeth) else ""
-            return f"links {links} are gears with {teeth} teeth{kind}"
+            return f"links {links} are gears"
         case Belt():
-            return f"a {'crossed ' if joint.crossed else ''}belt runs over links {links}"
+            return f"a belt runs over links {links}"
         case Contact():
-            if joint.at.startswith("@"):
-                normal = f"{joint.normal.value:.6g}"
-                return f"the profiles of links {links} touch, with the common normal at {normal} deg"
-            return f"links {links} touch{where}, with the common normal at {joint.normal.value:.6g} deg"
+            touch = "touch" if where else "touch by their profiles"
+            return f"links {links} {touch}{where}"
         case KnownCentre():
-            return f"the centre of links {links} is known"
+            return f"the centre of links {links} is known{where}"
         case Weld():
             return f"links {links} are welded together{where}"
         case _:
             assert_never(joint)
 
 
-def thread_words(thread: Thread, length: str) -> str:
-    """``lead 5 mm, mean radius 10 mm, mu = 0.1``."""
-    parts = [f"lead {thread.lead.value:.6g} {length}"]
-    parts += [f"mean radius {thread.radius.value:.6g} {length}"] if thread.radius else []
-    return ", ".join([*parts, *([f"mu = {thread.mu.value:.6g}"] if thread.mu else [])])
+def joint_data(joint: Joint, length: str, show: Callable[[Number], str]) -> Iterator[str]:
+    """The numbers of a joint; ``length`` is the unit of lengths."""
+    guide, friction = joint.guide, joint.friction
+    if guide is not None:
+        a, b = guide.ends or ("", "")
+        join = "" if len(a) == len(b) == 1 else "-"
+        yield f"along {a}{join}{b}" if guide.angle is None else f"along {show(guide.angle)} deg"
+        if guide.through and not guide.through.startswith("@"):
+            yield f"through {guide.through}"
+    yield from _sizes(joint, length, show)
+    if friction is not None:
+        yield f"mu = {show(friction.mu)}"
+        for name, number in (("pin radius", friction.radius), ("block length", friction.length)):
+            if number is not None:
+                yield f"{name} {show(number)} {length}"
 
 
-def _along(joint: Guided) -> str:
-    guide = joint.guide
-    if guide.angle is not None:
-        return f", along {guide.angle.value:.6g} deg"
-    assert guide.ends is not None
-    a, b = guide.ends
-    return f", along {a}{b}" if len(a) == len(b) == 1 else f", along {a}-{b}"
+def _sizes(joint: Joint, length: str, show: Callable[[Number], str]) -> Iterator[str]:
+    """What only joints of its kind have."""
+    match joint:
+        case Slide():
+            yield from thread_data(joint.thread, length, show) if joint.thread is not None else ()
+        case Roll():
+            yield from [f"radii {' and '.join(map(show, joint.radii))} {length}"] if joint.radii else []
+        case Belt():
+            kind = "crossed" if joint.crossed else "open"
+            yield f"{kind}, on radii {' and '.join(map(show, joint.radii))} {length}"
+        case Gears():
+            yield from _teeth(joint, length, show)
+        case Contact():
+            yield f"common normal at {show(joint.normal)} deg"
+        case KnownCentre():
+            yield from [f"at infinity at {show(joint.toward)} deg"] if joint.toward is not None else []
+        case Pin() | Slot() | Weld():
+            pass
+        case _:
+            assert_never(joint)
+
+
+def _teeth(gears: Gears, length: str, show: Callable[[Number], str]) -> Iterator[str]:
+    yield f"{' and '.join(show(number).lstrip('-') for number in gears.teeth)} teeth"
+    if any(number.value < 0.0 for number in gears.teeth):
+        yield "one of them internal"
+    if gears.pressure_angle is not None:
+        normal = "normal " if gears.helix is not None and gears.helix.normal else ""
+        yield f"{normal}pressure angle {show(gears.pressure_angle)} deg"
+    if gears.diametral_pitch is not None:
+        yield f"diametral pitch {show(gears.diametral_pitch)} a {length}"
+    if gears.module is not None:
+        yield f"module {show(gears.module)} {length}"
+
+
+def thread_data(thread: Thread, length: str, show: Callable[[Number], str]) -> Iterator[str]:
+    """``lead 5 mm``, ``mean radius 10 mm``, ``mu = 0.1``."""
+    yield f"lead {show(thread.lead)} {length}"
+    if thread.radius is not None:
+        yield f"mean radius {show(thread.radius)} {length}"
+    if thread.mu is not None:
+        yield f"mu = {show(thread.mu)}"
 
 
 def centre_words(joint: Joint) -> str:

@@ -16,12 +16,12 @@ from icsolve.files import reading_text, write_whole
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course, read_roster
 from icsolve.grade.keys import ChoiceKey, RangeKey, numbers_of
-from icsolve.grade.platforms.given import given
 from icsolve.grade.platforms.questions import SMALLEST, Question, asked, figure, gift, moodle_xml, qti_zip
 from icsolve.grade.solved import SolvedCase, unknowns
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import KEYS, VALUES, read_records
 from icsolve.tuples import NamedTuple
+from icsolve.wording.statement import Statement
 
 _SERVER = '''\
 """A question of icsolve: values by student, and marks with the cause of a mistake.
@@ -180,7 +180,7 @@ def _of_case(solved: SolvedCase, case: Case, name: str, order: ExportOrder, titl
         text = asked(key, solved.target(own))
         shown = name if len(names) == 1 else f"{name}:{what}"
         first = first._replace(accepted=key.accepted)
-        yield Question(shown, tuple(given(case)), text, first, picture, title, tuple(others))
+        yield Question(shown, tuple(Statement(case).rows()), text, first, picture, title, tuple(others))
 
 
 def export(kind: str, order: ExportOrder, complain: Complain) -> int:

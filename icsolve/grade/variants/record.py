@@ -16,7 +16,6 @@ from icsolve.files import is_plain, reading
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Person, Roster
 from icsolve.grade.keys import NumberKey, numbers_of
-from icsolve.grade.platforms.given import given
 from icsolve.grade.platforms.questions import asked
 from icsolve.grade.platforms.questions import figure as drawn
 from icsolve.grade.results import csv_text, safe
@@ -27,6 +26,7 @@ from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import Draw, Handed, VariantRecord, Varied
 from icsolve.grade.written.numerals import figures
 from icsolve.tuples import NamedTuple
+from icsolve.wording.statement import Statement
 
 VALUES, KEYS = "values.csv", "key.csv"
 _SAME = 1e-9
@@ -358,7 +358,7 @@ def sheet(varied: Varied, task: VariantTask, picture: str) -> str:
     case = varied.read(task.draw.values)
     solved = varied.solved(task.person.student_id)
     who = " ".join(part for part in (task.person.first_name, task.person.last_name) if part)
-    rows = "".join(f"<tr><td>{escape(n)}</td><td>{escape(v)}</td></tr>" for n, v in given(case))
+    rows = "".join(f"<tr><td>{escape(n)}</td><td>{escape(v)}</td></tr>" for n, v in Statement(case).rows())
     lines = "".join(
         f"<p>{escape(asked(solved.key(question), solved.target(question)))}</p>"
         for question in questions(varied)
