@@ -48,7 +48,7 @@ STEPHENSON = (1.0, 3.5, 2.5, 4.0, 2.0, 1.0, 4.0, 3.0, 5.5, -1.0, 10.0)
 
 
 def four_bar(angle: Array) -> Array:
-    """Torque on the crank for one on the rocker."""
+    """Torque on the crank for one on the rocker, (rows,)."""
     a, b, c, d, t = FOUR_BAR
     bx, by = a * np.cos(angle), a * np.sin(angle)
     cx, cy = _dyad(bx, by, d, 0.0, b, c)
@@ -57,7 +57,7 @@ def four_bar(angle: Array) -> Array:
 
 
 def slider_crank(angle: Array) -> Array:
-    """Torque on the crank for a force on the piston."""
+    """Torque on the crank for a force on the piston, (rows,)."""
     r, rod, offset, f = SLIDER_CRANK
     bx, by = r * np.cos(angle), r * np.sin(angle)
     rise = by - offset
@@ -65,7 +65,7 @@ def slider_crank(angle: Array) -> Array:
 
 
 def stephenson(angle: Array) -> Array:
-    """Torque on the crank for one on the last rocker."""
+    """Torque on the crank for one on the last rocker, (rows,)."""
     a, b, c, d, share, height, b2, c2, gx, gy, t = STEPHENSON
     bx, by = a * np.cos(angle), a * np.sin(angle)
     cx, cy = _dyad(bx, by, d, 0.0, b, c)

@@ -122,5 +122,5 @@ class Backward:
         return self._passes[target, room].run(rows)
 
     def value(self, k: int, rows: int) -> Array:
-        """A node's value in the last run."""
+        """A node's value in the last run, (rows,)."""
         return self.code.value(k, rows)

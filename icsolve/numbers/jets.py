@@ -50,12 +50,12 @@ class BallArray(NamedTuple):
         return BallArray(-self.mid, self.rad)
 
     def times(self, factor: float) -> BallArray:
-        """A multiple by an exact factor."""
+        """A multiple by an exact factor, (cells,)."""
         mid = self.mid * factor
         return BallArray(mid, self.rad * abs(factor) * (1.0 + ROUNDED) + ROUNDED * np.abs(mid))
 
     def inverse(self) -> BallArray:
-        """1 over the numbers; radius infinite where zero is among them."""
+        """1 over the numbers, (cells,); radius infinite where zero is among them."""
         size = np.abs(self.mid)
         low = size - self.rad
         mid = 1.0 / self.mid
@@ -65,14 +65,14 @@ class BallArray(NamedTuple):
         )
 
     def root(self) -> BallArray:
-        """Square root of those that are not negative; 0 where all are negative."""
+        """Square root of those that are not negative, (cells,); 0 where all are negative."""
         high = np.sqrt(np.maximum(self.mid + self.rad, 0.0))
         low = np.sqrt(np.maximum(self.mid - self.rad, 0.0))
         mid = 0.5 * (high + low)
         return BallArray(mid, 0.5 * (high - low) + 4.0 * ROUNDED * mid)
 
     def narrower(self, other: BallArray) -> BallArray:
-        """Of each two that hold the same number, the narrower."""
+        """Of each two that hold the same number, the narrower, (cells,)."""
         mine = ~(other.rad < self.rad)
         return BallArray(np.where(mine, self.mid, other.mid), np.where(mine, self.rad, other.rad))
 

@@ -32,7 +32,7 @@ from icsolve.wording.senses import holding, sense_of, spelt, unit_of
 
 
 def place_rows(known: Known, motion: PageMotion, link: str, p: Point) -> tuple[Array, Array]:
-    """Where a place of a link is in every row, case units."""
+    """Where a place of a link is in every row: x and y, (rows,) each [case lengths]."""
     pose = motion.poses.get(link)
     if pose is None:
         return np.full(len(motion.degrees), p[0]), np.full(len(motion.degrees), p[1])
@@ -40,7 +40,7 @@ def place_rows(known: Known, motion: PageMotion, link: str, p: Point) -> tuple[A
 
 
 def heading_rows(known: Known, motion: PageMotion, acting: Acting) -> Array:
-    """Direction of the positive force in every row, degrees."""
+    """Direction of the positive force in every row, (rows,) [degrees]."""
     load = acting.load
     written = math.degrees(math.atan2(acting.direction[1], acting.direction[0]))
     level = np.full(len(motion.degrees), written)
@@ -84,7 +84,7 @@ def _target(known: Known, motion: PageMotion, acting: Acting, name: str) -> tupl
 
 
 def senses(known: Known, motion: PageMotion, acting: Acting, values: Array) -> list[str]:
-    """The sense of the load's value in every row, in words; '' where it has none."""
+    """The sense of the load's ``values`` (rows,), in words; '' where it has none."""
     rows = zip(
         np.nan_to_num(values).tolist(),
         gain_rows(known, motion, acting).tolist(),
@@ -95,7 +95,7 @@ def senses(known: Known, motion: PageMotion, acting: Acting, values: Array) -> l
 
 
 def gain_rows(known: Known, motion: PageMotion, acting: Acting) -> Array:
-    """The force or torque that one unit of a load exerts in every row: a mass g, a spring its stretch."""
+    """The force or torque that one unit of a load exerts, (rows,): a mass g, a spring its stretch."""
     load = acting.load
     if isinstance(load, Spring) and acting.at is not None:
         x, y = place_rows(known, motion, acting.link, acting.at)

@@ -86,7 +86,7 @@ class LoadFunction(NamedTuple):
     """values of the free number, in order, and there the angles about which turns are counted, by node"""
 
     def given(self, values: Array) -> dict[int, Array]:
-        """The inputs for some values of the free datum; turns go on continuously from the record's own."""
+        """The inputs, by node, for values (n,) of the free datum; turns go on from the record's own."""
         at, turns = self.turns
         return {
             **{guess: np.interp(values, at, angles) for guess, angles in turns.items()},

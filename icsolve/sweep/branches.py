@@ -71,8 +71,8 @@ class Radicands:
 
     @cached_property
     def table(self) -> tuple[list[Array], list[Array]]:
-        """Radicands on the grid, and the smaller margin of each over its size; not a number where a branch
-        before it has no place to meet."""
+        """Radicands on the grid, (places,) a root, and the smaller margin of each over its size; not a number
+        where a branch before it has no place to meet."""
         nodes = [n for root in self.roots for n in (root.radicand, *root.margins[0], *root.margins[1])]
         found = self.values(nodes, self.grid) if nodes else []
         radicands, margins = [], []

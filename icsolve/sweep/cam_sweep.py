@@ -60,7 +60,9 @@ class _Seen:
             self.take_all(one.links, *here)
 
     def take_all(self, links: tuple[str, ...], rows: Which, at: Array, angles: Array, lost: Mask) -> None:
-        """Note a contact in some rows: its places, pressure angles (not a number: none), where it is lost."""
+        """Note a contact in some rows: its places (rows, 2), pressure angles (rows,) [degrees; nan: none],
+        where it is lost (rows,).
+        """
         self.at.setdefault(links, []).append((rows, at))
         if np.isfinite(angles).any():
             k = int(np.nanargmax(angles))
@@ -70,7 +72,7 @@ class _Seen:
             self.lost.setdefault(links, []).extend(rows[lost].tolist())
 
     def places(self, count: int) -> dict[str, Array]:
-        """Where the contacts are in all rows."""
+        """Where the contacts are in all rows, (count, 2) each [case lengths]; nan where one is lost."""
         found = {"-".join(links): np.full((count, 2), np.nan) for links in self.at}
         for links, parts in self.at.items():
             for rows, at in parts:

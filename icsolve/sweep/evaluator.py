@@ -334,7 +334,9 @@ class _Compiled:
         return found
 
     def single(self, columns: Sequence[npt.ArrayLike]) -> Evaluated | None:
-        """One row of plain numbers; None where there are several, or the row has to be looked at."""
+        """One row of plain numbers, every output (1,) or (1, parts); None where there are several rows,
+        or the row has to be looked at.
+        """
         if any(getattr(column, "shape", ()) or isinstance(column, list | tuple) for column in columns):
             return None
         try:
@@ -355,7 +357,7 @@ class _Compiled:
         return Evaluated(FINE.copy(), gradients=gradients, **kinds)
 
     def run(self, given: list[Array], rows: int, out: _Rows) -> npt.NDArray[np.int64]:
-        """Fill all rows; those that have to be solved as scenes."""
+        """Fill all rows from the inputs, (rows,) or () each; the indices of those to be solved as scenes."""
         out.gradients = {name: {} for name, _ in self.slopes}
         targets = [a if a.ndim == 1 else a[:, part] for a, part in ((out.arrays[k], p) for k, p in self.keys)]
         for name, path in self.slopes:
@@ -396,7 +398,9 @@ class _Compiled:
         return np.concatenate(again) if again else np.empty(0, dtype=np.int64)
 
     def on_its_branch(self, case: Case, given: list[Array], row: int) -> Case:
-        """The case of a row with `near` where its branch has the points that assemble in two places."""
+        """The case of a row with `near` where its branch has the points that assemble in two places; `given`
+        is as in `run`.
+        """
         if not case.near:
             return case
         scene = self.compiled.scene

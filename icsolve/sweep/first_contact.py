@@ -272,7 +272,7 @@ class _Line:
             self.good = ~shapely.contains_xy(inside, self.x, self.y) & (apart > radius - CLOSE * self.size)
 
     def at(self, pieces: Which, u: Array) -> tuple[Array, Array, Array, Array]:
-        """Places and normals on the pieces."""
+        """Places and normals on the pieces at their parameters ``u``: x, y, nx, ny, (rows,) each [frame]."""
         found = np.empty((4, len(u)))
         for k in np.unique(pieces).tolist():
             some = pieces == k
@@ -282,7 +282,9 @@ class _Line:
     def closed(
         self, chord: Which, miss: Callable[[Which, Array, Array], Array]
     ) -> tuple[Array, Array, Array, Array, Mask]:
-        """Where a function of the place vanishes on a chord of each row, with the normal; where it does."""
+        """Where a function of the place vanishes on a chord of each row: x, y, nx, ny, and where it does,
+        (rows,) each [frame].
+        """
         first = self.first[chord]
         pieces, every = self.piece[first], np.arange(len(chord))
 
@@ -294,7 +296,9 @@ class _Line:
         return (*self.at(pieces, u), there)
 
     def farthest(self, wx: Array, wy: Array) -> tuple[Array, Array, Mask]:
-        """Where the profile reaches farthest in a direction, and in which rows at one place only."""
+        """Where the profile reaches farthest in a direction, x and y [frame], and in which rows at one place
+        only, (rows,) each.
+        """
         reach = _outer(wx, self.x) + _outer(wy, self.y)
         best = reach.argmax(axis=1)
         u, there = self._turned(best, wx, wy)

@@ -282,8 +282,9 @@ class PathTracker:
         self.senses[there] = now
 
     def bent(self, s: Array) -> Mask:
-        """Places at which a group is near a singular position: its determinant is small beside what it is
-        where the record was made."""
+        """Which of the places, (places,), are near a singular position of a group: its determinant is small
+        beside what it is where the record was made.
+        """
         small = np.zeros(len(s), dtype=bool)
         if not self.groups or not self.segments:
             return small

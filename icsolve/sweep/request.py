@@ -48,7 +48,7 @@ class Columns(NamedTuple):
 
     @property
     def arrays(self) -> dict[str, Array]:
-        """All of them by path or link."""
+        """All of them by path or link, (rows,) each."""
         return {**self.links, **self.paths}
 
     @property

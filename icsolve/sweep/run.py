@@ -43,7 +43,7 @@ class SweepRun:
 
     @property
     def values(self) -> dict[Key, Array]:
-        """The values of the rows."""
+        """The values of the rows, (rows,) or (rows, parts) by what they are."""
         return self.table.values
 
     def run(self) -> None:
