@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from icsolve.assembly.conditions import agrees, compare, notes_of, size_of
+from icsolve.assembly.conditions import agrees, size_of
+from icsolve.assembly.refusals import compare, notes_of
 from icsolve.assembly.steps import Figure, Given, Placement, Step, place
 from icsolve.assembly.workspace import (
     GUIDE,

@@ -9,13 +9,10 @@ a value.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 from icsolve.assembly.loci import length_of
-from icsolve.assembly.refusals import Miss, clash, datum_words, joined, measure
-from icsolve.assembly.steps import leading_to
 from icsolve.assembly.workspace import (
     CORNER,
     GUIDE,
@@ -28,23 +25,16 @@ from icsolve.assembly.workspace import (
     Workspace,
     X,
     Y,
-    number_of,
 )
 from icsolve.case import Case
 from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.given import numbers_in
 from icsolve.screws.joints import Points
 from icsolve.screws.plane import Point
 from icsolve.screws.ropes import rope_parts
 from icsolve.structure.topology import Bond, Topology
 from icsolve.tuples import NamedTuple
-from icsolve.wording.sentences import listed
-
-if TYPE_CHECKING:
-    from icsolve.assembly.steps import Step
-
 
 Unknown = tuple[str, int]
 """A coordinate: the point and 0 for x, 1 for y."""
@@ -136,6 +126,11 @@ CONDITIONS: dict[str, Callable[[Workspace, Datum, int], Condition]] = {
 }  # fmt: skip
 
 
+def parts_of(datum: Datum) -> tuple[int, ...]:
+    """The coordinates in which it is a condition of its own: of a centroid both."""
+    return (0, 1) if datum.kind == MEAN else (0,)
+
+
 class JacobianRow(NamedTuple):
     """An equation at the points on a workspace: its value as of `Condition`, and its derivatives by the
     coordinates that bear on it."""
@@ -205,17 +200,20 @@ def residual(workspace: Workspace, datum: Datum) -> Residual:
     """How far the points on a workspace are from a datum: a signed distance [frame], of an angle its error on
     the longer arm; and False where a ray points the other way, or has no direction.
     """
-    if datum.kind == MEAN:
-        offs = (CONDITIONS[MEAN](workspace, datum, part).value for part in (0, 1))
-        return max(offs, key=abs) / float(len(datum.points) - 1), True
-    size, ahead = DISTANCES.get(datum.kind, _as_it_is)(workspace, datum)
+    size, ahead = scale_of(workspace, datum)
     if ahead is None:
         return size, False
-    return float(CONDITIONS[datum.kind](workspace, datum, 0).value) / (size or 1.0), ahead
+    offs = (CONDITIONS[datum.kind](workspace, datum, part).value for part in parts_of(datum))
+    return float(max(offs, key=abs)) / (size or 1.0), ahead
 
 
-def _as_it_is(workspace: Workspace, datum: Datum) -> Scale:
-    return 1.0, True
+def scale_of(workspace: Workspace, datum: Datum) -> Scale:
+    """What the condition of a datum is divided by where the points are."""
+    return DISTANCES[datum.kind](workspace, datum) if datum.kind in DISTANCES else (1.0, True)
+
+
+def _scale_of_mean(workspace: Workspace, datum: Datum) -> Scale:
+    return float(len(datum.points) - 1), True
 
 
 def _scale_of_length(workspace: Workspace, datum: Datum) -> Scale:
@@ -255,85 +253,9 @@ def _scale_of_line(workspace: Workspace, datum: Datum) -> Scale:
 
 
 DISTANCES: dict[str, Callable[[Workspace, Datum], Scale]] = {
-    LENGTH: _scale_of_length, RAY: _scale_of_ray, CORNER: _scale_of_corner, LINE: _scale_of_line,
+    MEAN: _scale_of_mean, LENGTH: _scale_of_length, RAY: _scale_of_ray,
+    CORNER: _scale_of_corner, LINE: _scale_of_line,
 }  # fmt: skip
-
-
-# --- data that the construction did not need: compared with the figure, and said so ---
-
-
-OF_SIZE = 0.002
-"""Data that are off by more of the figure's size contradict it, whatever their last decimals are."""
-
-
-def compare(
-    workspace: Workspace, steps: tuple[Step, ...], data: list[Datum], size: float
-) -> tuple[Miss | None, dict[Datum, float]]:
-    """The first datum that the points contradict, and how far off each of the others is."""
-    offs: dict[Datum, float] = {}
-    for datum in data:
-        off, ahead = residual(workspace, datum)
-        if not ahead:
-            return clash(workspace, datum, off, ahead), offs
-        offs[datum] = abs(off)
-        if abs(off) <= ROUNDING * size:
-            continue
-        if abs(off) > OF_SIZE * size or abs(off) > _allowance(workspace, steps, datum):
-            return clash(workspace, datum, off, ahead), offs
-    return None, offs
-
-
-def _allowance(workspace: Workspace, steps: tuple[Step, ...], datum: Datum) -> float:
-    """What half a unit of every number involved does to a residual, to first order: the sum of all."""
-    from icsolve.numbers.tape import Tape
-
-    case, tape = workspace.case, Tape()
-    exact = Workspace(case, workspace.frame, tape)
-    mean = datum.kind == MEAN
-    size = float(len(datum.points) - 1) if mean else DISTANCES.get(datum.kind, _as_it_is)(workspace, datum)[0]
-    try:
-        for step in leading_to(datum.points, steps):
-            step.place(exact)
-        values = [CONDITIONS[datum.kind](exact, datum, part).value for part in ((0, 1) if mean else (0,))]
-        slopes = [tape.back(value).by_path for value in values]
-    except ZeroDivisionError:
-        return math.inf
-    numbers = numbers_in(case.points, case.lengths, case.angles, case.joints, case.ropes)
-    halves = {number.path: number.half for number in numbers}
-    return max(sum(abs(slope) * halves[path] for path, slope in by.items()) for by in slopes) / (size or 1.0)
-
-
-def notes_of(
-    workspace: Workspace, offs: Mapping[Datum, float], used: frozenset[Datum], given: bool, size: float
-) -> tuple[str, ...]:
-    """Which data set the points and which were only compared, where there were more than needed."""
-    spare = {
-        datum: off
-        for datum, off in offs.items()
-        if datum not in used and (off > ROUNDING * size or datum.kind not in (GUIDE, LINE))
-    }
-    if not spare:
-        return ()
-    setters = ["the coordinates"] if given else []
-    for kinds, one, many in (((LENGTH,), "length", "lengths"), ((RAY, CORNER), "angle", "angles")):
-        names = sorted(joined(*d.points) for d in used if d.kind in kinds)
-        if names:
-            setters.append(f"{one if len(names) == 1 else many} {', '.join(names)}")
-    only = "; ".join(
-        f"{_said(workspace, datum)} {_off(workspace, off, size)}" for datum, off in spare.items()
-    )
-    by = f"set by {listed(setters)}" if setters else "set by the other data"
-    return (f"more data than the figure needs: the points are {by}; only compared: {only}",)
-
-
-def _said(workspace: Workspace, datum: Datum) -> str:
-    if datum.kind in (MEAN, LINE, GUIDE):
-        return datum_words(datum)
-    return f"{datum_words(datum)} = {number_of(workspace.case, datum).value:.6g}"
-
-
-def _off(workspace: Workspace, off: float, size: float) -> str:
-    return "(agrees)" if off <= ROUNDING * size else f"(off by {measure(workspace, off)})"
 
 
 # --- whether teeth of a given pitch or module fit the pivots of their wheels ---

@@ -19,8 +19,8 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.assembly.conditions import Unknown
-from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import Axis, PlacedLine, intersection, sine_between
+from icsolve.assembly.steps import Group
 from icsolve.assembly.workspace import GUIDE, LENGTH, RAY, Point, Workspace, X, Y, data_in
 from icsolve.tuples import NamedTuple
 

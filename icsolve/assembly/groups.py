@@ -3,25 +3,19 @@ and the smallest group that only all its data together place."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence, Set
+from collections.abc import Collection, Iterable, Iterator, Set
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
-from icsolve.assembly.conditions import FigureEquation, Unknown
+from icsolve.assembly.clusters import LooseFigure
+from icsolve.assembly.conditions import FigureEquation, Unknown, parts_of
 from icsolve.assembly.refusals import plain
-from icsolve.assembly.workspace import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, Workspace, X, Y, data_in
-from icsolve.case import Case
+from icsolve.assembly.steps import Group
+from icsolve.assembly.workspace import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y, data_in
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Scalar, magnitude
-from icsolve.numbers.sparse import Row, eliminate
 from icsolve.structure.plan import matched, strongly_connected
 from icsolve.structure.topology import reached
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
-
-if TYPE_CHECKING:
-    from icsolve.assembly.order import LooseFigure
-
 
 # --- which conditions determine which coordinates: a matching, and what it leaves free ---
 
@@ -46,7 +40,7 @@ def system_of(data: Iterable[Datum], placed: Iterable[str], wanted: Iterable[str
     equations = [
         FigureEquation(datum, part)
         for datum in data
-        for part in ((0, 1) if datum.kind == MEAN else (0,))
+        for part in parts_of(datum)
         if not known.issuperset(datum.points)
     ]
     reach = [[u for u in equation.unknowns() if u[0] not in known] for equation in equations]
@@ -93,7 +87,7 @@ def groups_of(system: System, goal: list[str]) -> list[tuple[str, ...]]:
 COUNT = {1: "one more length, angle or coordinate", 2: "two more (lengths, angles or coordinates)"}
 
 
-def underdetermined(case: Case, system: System, placed: Iterable[str], goal: list[str]) -> SceneError:
+def underdetermined(system: System, placed: Iterable[str], goal: list[str]) -> SceneError:
     """The refusal that lists every free part of the figure that the goal leans on."""
     known = set(placed)
     parts = [part for part in _parts(system) if any(p in part for p in goal)]
@@ -142,86 +136,6 @@ def _said(system: System, part: list[str], known: set[str]) -> str:
     return f"{subject} {names}: {COUNT.get(missing, f'{missing} more data')} {verb} needed{hint}"
 
 
-# --- points that have no order of construction: the smallest group that its data determine together ---
-
-
-class NewtonStep(NamedTuple):
-    """A step of Newton's method.
-
-    Attributes
-    ----------
-    move : (n,), what is to be subtracted from the coordinates; 0 of those that the equations leave open
-    flatness : the smallest pivot over the largest; 0.0 where the equations are dependent
-    """
-
-    move: list[Scalar]
-    flatness: float
-
-
-def newton_step(values: Sequence[Scalar], rows: Sequence[Row]) -> NewtonStep:
-    """The step of Newton's method for n equations with these values, and derivatives by column."""
-    n = len(rows)
-    found = eliminate([{**row, n: 0.0 - f} for row, f in zip(rows, values, strict=True)], n)
-    sizes = [magnitude(pivot) for pivot in found.pivots]
-    flatness = 0.0 if found.free else min(sizes) / max(sizes)
-    return NewtonStep([found.of(k).get(n, 0.0) for k in range(n)], flatness)
-
-
-class Group(NamedTuple):
-    """Points placed by Newton's method, as many equations as coordinates.
-
-    ``start`` has the places (x, y) of the targets [frame] in the solution that was settled on. ``place``
-    takes ``workspace.rounds`` steps from there: at the solution, one carries the derivatives by all data.
-    """
-
-    targets: tuple[str, ...]
-    equations: tuple[FigureEquation, ...]
-    start: tuple[tuple[float, float], ...] = ()
-
-    def place(self, workspace: Workspace) -> None:
-        """Put the points, and improve them; in balls the one solution there is enclosed."""
-        if getattr(workspace.arithmetic, "certain", False):
-            self._enclose(workspace)
-            return
-        for target, at in zip(self.targets, self.start, strict=True):
-            workspace.points[target] = workspace.starts.get(target, at)
-        for _ in range(workspace.rounds):
-            move = newton_step(*self.system(workspace)).move
-            x = (part for target in self.targets for part in workspace.points[target])
-            self.put(workspace, [a - b for a, b in zip(x, move, strict=True)])
-
-    def _enclose(self, workspace: Workspace) -> None:
-        """Balls that hold the one solution near the start."""
-        from icsolve.numbers.balls import Balls
-        from icsolve.numbers.krawczyk import enclosed_root
-
-        assert isinstance(workspace.arithmetic, Balls)
-
-        def system(x: Sequence[Scalar]) -> tuple[list[Scalar], list[Row]]:
-            self.put(workspace, x)
-            return self.system(workspace)
-
-        start = [float(part) for at in self.start for part in at]
-        self.put(workspace, enclosed_root(system, start, workspace.arithmetic))
-
-    def put(self, workspace: Workspace, x: Sequence[Scalar]) -> None:
-        """Put the points at coordinates, (n,), those of a point together."""
-        for k, target in enumerate(self.targets):
-            workspace.points[target] = (x[2 * k], x[2 * k + 1])
-
-    def system(self, workspace: Workspace) -> tuple[list[Scalar], list[Row]]:
-        """Values of the equations where the points are, and derivatives by the place of a coordinate."""
-        place = {unknown: k for k, unknown in enumerate(self.unknowns())}
-        rows = [equation.row(workspace) for equation in self.equations]
-        return [row.value for row in rows], [
-            {place[u]: v for u, v in row.by.items() if u in place} for row in rows
-        ]
-
-    def unknowns(self) -> list[Unknown]:
-        """The coordinates that it solves for."""
-        return [(target, part) for target in self.targets for part in (0, 1)]
-
-
 def _counting(drawing: LooseFigure) -> list[Datum]:
     """The data without those that only repeat the shape of a loose cluster or the direction of a line: they
     hold nothing more.
@@ -262,7 +176,7 @@ def _directing_once(data: Iterable[Datum], placed: Collection[str]) -> Iterator[
         yield datum
 
 
-def next_group(drawing: LooseFigure, case: Case, wanted: Iterable[str]) -> tuple[Group, tuple[str, ...]]:
+def next_group(drawing: LooseFigure, wanted: Iterable[str]) -> Group:
     """The smallest group that leads to the wanted points.
 
     Raises
@@ -275,8 +189,8 @@ def next_group(drawing: LooseFigure, case: Case, wanted: Iterable[str]) -> tuple
     system = system_of(_counting(drawing), placed, goal)
     goal = list(reached(goal, lambda p: leans(system, p)))
     if any((p, part) in system.free for p in goal for part in (0, 1)):
-        raise underdetermined(case, system, placed, goal)
+        raise underdetermined(system, placed, goal)
     points = min(groups_of(system, goal), key=len)
     own = {(p, part) for p in points for part in (0, 1)}
     equations = tuple(system.equations[i] for i in sorted(system.matched[u] for u in own))
-    return Group(points, equations), points
+    return Group(points, equations)

@@ -10,9 +10,9 @@ import math
 from collections.abc import Callable, Mapping
 from typing import TypeVar
 
-from icsolve.assembly.conditions import notes_of, size_of
+from icsolve.assembly.conditions import size_of
 from icsolve.assembly.order import Order, order_of
-from icsolve.assembly.refusals import Miss, measure, mirrored, plain
+from icsolve.assembly.refusals import Miss, measure, mirrored, notes_of, plain
 from icsolve.assembly.steps import CLOSED_FORMS, Figure, Given, Meet, Step, leading_to, points_of
 from icsolve.assembly.walk import EVEN, DeadEnd, Mode, Path, Walk, squared_distance
 from icsolve.assembly.workspace import Frame, Point, Workspace, case_point, frame_of, names_of
@@ -367,7 +367,7 @@ def ways_of(case: Case) -> Ways:
 
     def attempt(order: Order) -> Ways | Miss:
         walk = every_mode(case, order, frame)
-        return _ways(case, walk, order, loose) if walk.modes else refusal(walk)
+        return _ways(walk, order, loose) if walk.modes else refusal(walk)
 
     return by_other_data(case, goal, attempt)
 
@@ -421,7 +421,7 @@ def _can_be_placed(case: Case, name: str) -> bool:
     return True
 
 
-def _ways(case: Case, walk: Walk, order: Order, loose: list[str]) -> Ways:
+def _ways(walk: Walk, order: Order, loose: list[str]) -> Ways:
     modes = distinct(walk.modes, order.points)
     notes = []
     if walk.gave_up:

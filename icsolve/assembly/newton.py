@@ -11,10 +11,10 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice, product
 
-from icsolve.assembly.groups import Group, newton_step
-from icsolve.assembly.order import LooseFigure, grow
+from icsolve.assembly.clusters import LooseFigure
+from icsolve.assembly.order import grow
 from icsolve.assembly.refusals import Miss, datum_words, measure, plain
-from icsolve.assembly.steps import Given, Meet, Step, needs
+from icsolve.assembly.steps import Given, Group, Meet, Step, needs, newton_step
 from icsolve.assembly.workspace import CORNER, LENGTH, LINE, ROPE, Workspace, data_in, facts_of
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.linear import inverse, solve_square

@@ -1,15 +1,25 @@
 """How points, data, loci and steps of a construction are named to a reader, and what a figure can be refused
-for: the facts of a step that failed, and of data that clash.
+for: the facts of a step that failed, and of redundant data, which are compared with the figure.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from icsolve.assembly.loci import ArcLocus, Axis, CircleLocus, PlacedCircle, Shifted, Tether, is_round
-from icsolve.assembly.steps import Meet, Polar, Step, Turned
+from icsolve.assembly.conditions import CONDITIONS, ROUNDING, parts_of, residual, scale_of
+from icsolve.assembly.loci import (
+    ArcLocus,
+    Axis,
+    CircleLocus,
+    Locus,
+    PlacedCircle,
+    Shifted,
+    Tether,
+    is_round,
+)
+from icsolve.assembly.steps import Base, Group, Mean, Meet, Polar, Step, Turned, leading_to
 from icsolve.assembly.workspace import (
     CORNER,
     GUIDE,
@@ -20,6 +30,9 @@ from icsolve.assembly.workspace import (
     ROPE,
     Apart,
     Datum,
+    Key,
+    LineDirection,
+    Span,
     Workspace,
     X,
     Y,
@@ -30,13 +43,9 @@ from icsolve.assembly.workspace import (
 from icsolve.case import Coordinates, Number
 from icsolve.errors import Status
 from icsolve.numbers.arithmetic import Floats, turn_of
+from icsolve.numbers.given import numbers_in
 from icsolve.tuples import NamedTuple
-
-if TYPE_CHECKING:
-    from icsolve.assembly.groups import Group
-    from icsolve.assembly.loci import Locus
-    from icsolve.assembly.steps import Base, Mean, Meet, Polar, Step, Turned
-    from icsolve.assembly.workspace import Key, LineDirection, Span
+from icsolve.wording.sentences import listed
 
 
 def plain(key: Key) -> str:
@@ -372,3 +381,79 @@ def _angle(workspace: Workspace, datum: Datum) -> str:
     degrees = math.degrees(angle)
     negative = number_of(workspace.case, datum).value < 0.0
     return f"{math.remainder(degrees, 360.0) if negative else degrees % 360.0:.6g}"
+
+
+# --- data that the construction did not need: compared with the figure, and said so ---
+
+
+OF_SIZE = 0.002
+"""Data that are off by more of the figure's size contradict it, whatever their last decimals are."""
+
+
+def compare(
+    workspace: Workspace, steps: tuple[Step, ...], data: list[Datum], size: float
+) -> tuple[Miss | None, dict[Datum, float]]:
+    """The first datum that the points contradict, and how far off each of the others is."""
+    offs: dict[Datum, float] = {}
+    for datum in data:
+        off, ahead = residual(workspace, datum)
+        if not ahead:
+            return clash(workspace, datum, off, ahead), offs
+        offs[datum] = abs(off)
+        if abs(off) <= ROUNDING * size:
+            continue
+        if abs(off) > OF_SIZE * size or abs(off) > _allowance(workspace, steps, datum):
+            return clash(workspace, datum, off, ahead), offs
+    return None, offs
+
+
+def _allowance(workspace: Workspace, steps: tuple[Step, ...], datum: Datum) -> float:
+    """What half a unit of every number involved does to a residual, to first order: the sum of all."""
+    from icsolve.numbers.tape import Tape
+
+    case, tape = workspace.case, Tape()
+    exact = Workspace(case, workspace.frame, tape)
+    size, _ = scale_of(workspace, datum)
+    try:
+        for step in leading_to(datum.points, steps):
+            step.place(exact)
+        values = [CONDITIONS[datum.kind](exact, datum, part).value for part in parts_of(datum)]
+        slopes = [tape.back(value).by_path for value in values]
+    except ZeroDivisionError:
+        return math.inf
+    numbers = numbers_in(case.points, case.lengths, case.angles, case.joints, case.ropes)
+    halves = {number.path: number.half for number in numbers}
+    return max(sum(abs(slope) * halves[path] for path, slope in by.items()) for by in slopes) / (size or 1.0)
+
+
+def notes_of(
+    workspace: Workspace, offs: Mapping[Datum, float], used: frozenset[Datum], given: bool, size: float
+) -> tuple[str, ...]:
+    """Which data set the points and which were only compared, where there were more than needed."""
+    spare = {
+        datum: off
+        for datum, off in offs.items()
+        if datum not in used and (off > ROUNDING * size or datum.kind not in (GUIDE, LINE))
+    }
+    if not spare:
+        return ()
+    setters = ["the coordinates"] if given else []
+    for kinds, one, many in (((LENGTH,), "length", "lengths"), ((RAY, CORNER), "angle", "angles")):
+        names = sorted(joined(*d.points) for d in used if d.kind in kinds)
+        if names:
+            setters.append(f"{one if len(names) == 1 else many} {', '.join(names)}")
+    only = "; ".join(
+        f"{_said(workspace, datum)} {_off(workspace, off, size)}" for datum, off in spare.items()
+    )
+    by = f"set by {listed(setters)}" if setters else "set by the other data"
+    return (f"more data than the figure needs: the points are {by}; only compared: {only}",)
+
+
+def _said(workspace: Workspace, datum: Datum) -> str:
+    if datum.kind in (MEAN, LINE, GUIDE):
+        return datum_words(datum)
+    return f"{datum_words(datum)} = {number_of(workspace.case, datum).value:.6g}"
+
+
+def _off(workspace: Workspace, off: float, size: float) -> str:
+    return "(agrees)" if off <= ROUNDING * size else f"(off by {measure(workspace, off)})"

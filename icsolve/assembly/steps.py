@@ -6,8 +6,8 @@ Each puts points on a workspace (``place``), its ``targets``, and is made of oth
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, Union
 
+from icsolve.assembly.conditions import FigureEquation, Unknown
 from icsolve.assembly.loci import (
     LineLocus,
     Locus,
@@ -31,11 +31,9 @@ from icsolve.assembly.workspace import (
     keys_in,
 )
 from icsolve.case import Case
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, magnitude
+from icsolve.numbers.sparse import Row, eliminate
 from icsolve.tuples import NamedTuple
-
-if TYPE_CHECKING:
-    from icsolve.assembly.groups import Group
 
 
 class Given(NamedTuple):
@@ -203,10 +201,90 @@ class Turned(NamedTuple):
         workspace.points[self.target] = (px + c * dx - s * dy, py + s * dx + c * dy)
 
 
+# --- points that only all their data together determine ---
+
+
+class NewtonStep(NamedTuple):
+    """A step of Newton's method.
+
+    Attributes
+    ----------
+    move : (n,), what is to be subtracted from the coordinates; 0 of those that the equations leave open
+    flatness : the smallest pivot over the largest; 0.0 where the equations are dependent
+    """
+
+    move: list[Scalar]
+    flatness: float
+
+
+def newton_step(values: Sequence[Scalar], rows: Sequence[Row]) -> NewtonStep:
+    """The step of Newton's method for n equations with these values, and derivatives by column."""
+    n = len(rows)
+    found = eliminate([{**row, n: 0.0 - f} for row, f in zip(rows, values, strict=True)], n)
+    sizes = [magnitude(pivot) for pivot in found.pivots]
+    flatness = 0.0 if found.free else min(sizes) / max(sizes)
+    return NewtonStep([found.of(k).get(n, 0.0) for k in range(n)], flatness)
+
+
+class Group(NamedTuple):
+    """Points placed by Newton's method, as many equations as coordinates.
+
+    ``start`` has the places (x, y) of the targets [frame] in the solution that was settled on. ``place``
+    takes ``workspace.rounds`` steps from there: at the solution, one carries the derivatives by all data.
+    """
+
+    targets: tuple[str, ...]
+    equations: tuple[FigureEquation, ...]
+    start: tuple[tuple[float, float], ...] = ()
+
+    def place(self, workspace: Workspace) -> None:
+        """Put the points, and improve them; in balls the one solution there is enclosed."""
+        if getattr(workspace.arithmetic, "certain", False):
+            self._enclose(workspace)
+            return
+        for target, at in zip(self.targets, self.start, strict=True):
+            workspace.points[target] = workspace.starts.get(target, at)
+        for _ in range(workspace.rounds):
+            move = newton_step(*self.system(workspace)).move
+            x = (part for target in self.targets for part in workspace.points[target])
+            self.put(workspace, [a - b for a, b in zip(x, move, strict=True)])
+
+    def _enclose(self, workspace: Workspace) -> None:
+        """Balls that hold the one solution near the start."""
+        from icsolve.numbers.balls import Balls
+        from icsolve.numbers.krawczyk import enclosed_root
+
+        assert isinstance(workspace.arithmetic, Balls)
+
+        def system(x: Sequence[Scalar]) -> tuple[list[Scalar], list[Row]]:
+            self.put(workspace, x)
+            return self.system(workspace)
+
+        start = [float(part) for at in self.start for part in at]
+        self.put(workspace, enclosed_root(system, start, workspace.arithmetic))
+
+    def put(self, workspace: Workspace, x: Sequence[Scalar]) -> None:
+        """Put the points at coordinates, (n,), those of a point together."""
+        for k, target in enumerate(self.targets):
+            workspace.points[target] = (x[2 * k], x[2 * k + 1])
+
+    def system(self, workspace: Workspace) -> tuple[list[Scalar], list[Row]]:
+        """Values of the equations where the points are, and derivatives by the place of a coordinate."""
+        place = {unknown: k for k, unknown in enumerate(self.unknowns())}
+        rows = [equation.row(workspace) for equation in self.equations]
+        return [row.value for row in rows], [
+            {place[u]: v for u, v in row.by.items() if u in place} for row in rows
+        ]
+
+    def unknowns(self) -> list[Unknown]:
+        """The coordinates that it solves for."""
+        return [(target, part) for target in self.targets for part in (0, 1)]
+
+
 # --- every kind of step of a construction ---
 
 
-Step = Union[Given, Mean, Polar, Meet, Base, Turned, "Group"]
+Step = Given | Mean | Polar | Meet | Base | Turned | Group
 CLOSED_FORMS = (Given, Mean, Polar, Base, Turned)
 """Steps that have one way only."""
 

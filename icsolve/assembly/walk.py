@@ -15,13 +15,14 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TypeVar
 
-from icsolve.assembly.conditions import TOO_CLOSE, agrees, compare, residual, size_of
+from icsolve.assembly.conditions import TOO_CLOSE, agrees, residual, size_of
 from icsolve.assembly.loci import PlacedCircle, gaps_of, is_ray, is_round, side
 from icsolve.assembly.order import Order
 from icsolve.assembly.refusals import (
     Miss,
     behind,
     clash,
+    compare,
     concentric,
     degenerate,
     merged,
@@ -336,7 +337,7 @@ class Walk:
         """The step as it can be settled here."""
         try:
             for option in self._settled(depth, path, step):
-                miss = self._ahead(path, option) or self._clash(depth)
+                miss = self._ahead(option) or self._clash(depth)
                 longer = self._longer(path, option)
                 if miss is None:
                     yield longer
@@ -353,7 +354,7 @@ class Walk:
 
     def _settled(self, depth: int, path: Path, step: Step) -> Iterator[Step]:
         """The step with each of the branches that it has here, one after another put on the workspace."""
-        close = self._close(path, step)
+        close = self._close(step)
         if close is None:
             yield from self._put(self._branches(depth, path, step), in_doubt=False)
         elif not close:
@@ -375,7 +376,7 @@ class Walk:
                 self.workspace.points.update(places)
             yield branch
 
-    def _close(self, path: Path, step: Step) -> list[tuple[Key, Key]] | None:
+    def _close(self, step: Step) -> list[tuple[Key, Key]] | None:
         """The pairs of points that a step aims by and that are one place; None where none is in doubt."""
         points = self.workspace.points
         apart = {(a, b): math.dist(points[a], points[b]) for a, b in aims(step)}
@@ -390,9 +391,7 @@ class Walk:
         if isinstance(step, CLOSED_FORMS):
             return [step]
         from icsolve.assembly import newton
-        from icsolve.assembly.groups import Group
 
-        assert isinstance(step, Group)
         search = newton.every if self.every else partial(newton.solutions, near=self.near)
         found = search(step, self.workspace)
         if found.miss is not None:
@@ -430,7 +429,7 @@ class Walk:
         sign = 1 if near is None else int(side(*step.loci(self.workspace), near))
         return [step._replace(sign=sign), step._replace(sign=-sign)]
 
-    def _ahead(self, path: Path, step: Step) -> Miss | None:
+    def _ahead(self, step: Step) -> Miss | None:
         if not isinstance(step, Meet) or not (is_ray(step.first) or is_ray(step.second)):
             return None
         gaps = gaps_ahead(step, self.workspace)

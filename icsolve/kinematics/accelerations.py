@@ -146,7 +146,7 @@ def _rates(
     for bond in top.bonds:
         relative = subtract(twists[bond.links[1]], twists[bond.links[0]])
         basis = freedoms(bond, points, arithmetic)
-        change = _changes(_Place(case, points, twists, arithmetic, frame), bond, basis)
+        change = _changes(_Place(case, points, twists, arithmetic, frame), bond)
         for w, dw in zip(transmitted(basis), _transmitted_changes(basis, change), strict=True):
             rows.append(_between(top, bond, w, pairing(dw, relative), known))
             sizes.append(sum(abs(a * b) for a, b in zip(dw, relative, strict=True)))
@@ -252,7 +252,7 @@ class _Place(NamedTuple):
         return velocity(self.twists[link], self.points[point])
 
 
-def _changes(place: _Place, bond: Bond, basis: tuple[Triple, ...]) -> tuple[Triple, ...]:
+def _changes(place: _Place, bond: Bond) -> tuple[Triple, ...]:
     """Rates of a bond's basis twists."""
     joint, (by, on) = bond.joint, bond.links
     if isinstance(joint, Mesh):

@@ -77,7 +77,7 @@ def eliminate(
             continue
         work.clear(column, row)
         pivots.append((column, row))
-    solved = _back_substituted(pivots, columns)
+    solved = _back_substituted(pivots)
     free = tuple(c for c in range(columns) if c not in solved)
     return General(solved, free, tuple(left), tuple(row[column] for column, row in pivots))
 
@@ -169,7 +169,7 @@ def _is_there(value: Scalar) -> bool:
     return value != 0.0 if type(value) is float else hasattr(value, "shape") or bool(value)
 
 
-def _back_substituted(pivots: list[tuple[int, Row]], columns: int) -> dict[int, Row]:
+def _back_substituted(pivots: list[tuple[int, Row]]) -> dict[int, Row]:
     solved: dict[int, Row] = {}
     for column, row in reversed(pivots):
         total: Row = {}

@@ -11,9 +11,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
-from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import gaps_of, intersection, is_round
-from icsolve.assembly.steps import Given, Mean, Meet, Step, aims, leading_to
+from icsolve.assembly.steps import Given, Group, Mean, Meet, Step, aims, leading_to
 from icsolve.assembly.workspace import (
     CORNER,
     LENGTH,

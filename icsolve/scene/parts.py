@@ -201,7 +201,7 @@ class AnswerBuilder:
         notes = [sentences.EXPLAINED] if self.scene.explained else []
         notes += _notes(self.program, self.first.outcome)
         if self.scene.certain and self.given is None and self.case.profiles is None:
-            notes += unsettled(self.case, answers, self._change(answers))
+            notes += unsettled(self.case, answers, self._change())
         return notes
 
     @cached_property
@@ -232,7 +232,7 @@ class AnswerBuilder:
         values = outcome.solution.values
         return {w.load.name: w.ratio * values[w.root] for w in outcome.balance.wrenches if w.root in values}
 
-    def _change(self, answers: Mapping[str, Found]) -> Callable[[Number], Mapping[str, float]]:
+    def _change(self) -> Callable[[Number], Mapping[str, float]]:
         """By how much half a unit of a number moves each answer: by the derivatives of the tape, and so near
         a singular position that a tape says nothing, by what the number so moved gives."""
         with suppress(SceneError, ZeroDivisionError):

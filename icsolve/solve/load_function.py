@@ -15,12 +15,12 @@ from contextlib import suppress
 import numpy as np
 
 from icsolve.assembly import Figure, Placement, place, solve_figure
-from icsolve.assembly.conditions import ahead, compare, size_of
-from icsolve.assembly.groups import Group
+from icsolve.assembly.conditions import ahead, size_of
 from icsolve.assembly.loci import is_round
 from icsolve.assembly.modes import order_that_assembles
 from icsolve.assembly.order import Order, order_of
-from icsolve.assembly.steps import Meet, Step
+from icsolve.assembly.refusals import compare
+from icsolve.assembly.steps import Group, Meet, Step
 from icsolve.assembly.workspace import Workspace, frame_of
 from icsolve.case import Case, Coordinates, Number, TorsionSpring
 from icsolve.errors import SceneError, Status

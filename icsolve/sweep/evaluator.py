@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.answer import by_load
-from icsolve.assembly.groups import Group
+from icsolve.assembly.steps import Group
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import behind, gradient

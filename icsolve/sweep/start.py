@@ -7,9 +7,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import is_round
-from icsolve.assembly.steps import Meet
+from icsolve.assembly.steps import Group, Meet
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.sweep.numbers import with_numbers

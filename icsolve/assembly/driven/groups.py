@@ -6,7 +6,7 @@ inputs of their own, on which all that follows hangs.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import combinations
 
@@ -118,12 +118,12 @@ def _group(mechanism: Mechanism, order: AssemblyOrder, bodies: Sequence[int]) ->
     constraints = tuple(
         c for c in order.constraints if order.ties[id(c)] <= reach and order.ties[id(c)] & set(bodies)
     )
-    rows = equations(mechanism, as_written(mechanism, bodies), constraints, _held(mechanism, order, bodies))
+    rows = equations(mechanism, as_written(mechanism, bodies), constraints, _held(mechanism, order))
     found = eliminate([derivatives(bodies, row) for row in rows], 3 * len(bodies), DEPENDENT)
     return AssurGroup(tuple(bodies), constraints) if not found.free else None
 
 
-def _held(mechanism: Mechanism, order: AssemblyOrder, bodies: Collection[int]) -> Moved:
+def _held(mechanism: Mechanism, order: AssemblyOrder) -> Moved:
     """The spots that are located, as written."""
     moved = Moved(mechanism.shape)
     for one in order.located:

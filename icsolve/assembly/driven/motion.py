@@ -171,7 +171,7 @@ class _Placing:
 
     def _meet(self, step: PlaceAtIntersection) -> None:
         one, two = (locus(self.shape, self.moved, by) for by in step.loci)
-        first, second = (reference(self.shape, by, step.spot) for by in step.loci)
+        first, second = (reference(self.shape, by) for by in step.loci)
         written = side(first, second, self._written(step.spot[1], first, second))
         name = f"branch {step.spot[0]} {step.spot[1]}"
         found = intersection(one, two)

@@ -140,7 +140,7 @@ def _off(shape: Shape, places: Places, own: Spot, spot: Spot) -> Point:
     return places.vector(spot[0], shape.between((spot[0], own[1]), spot))
 
 
-def reference(shape: Shape, by: By, spot: Spot) -> PlacedLocus:
+def reference(shape: Shape, by: By) -> PlacedLocus:
     """The locus in the position as written, in floats."""
     found = locus(shape, Places(shape), by)
     if isinstance(found, PlacedCircle):
@@ -430,7 +430,7 @@ class AssemblyOrder:
             self.nearest = best[1].spot[1]
 
     def _crossing(self, spot: Spot, first: By, second: By) -> float:
-        still, at = reference(self.shape, first, spot), reference(self.shape, second, spot)
+        still, at = reference(self.shape, first), reference(self.shape, second)
         place = tuple(map(float, self.shape.ref[spot[1]]))
         return crossing_sine(still, at, (place[0], place[1]))
 

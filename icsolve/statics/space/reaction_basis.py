@@ -235,7 +235,7 @@ def ties_of(case: Case, figure: SpatialFigure) -> tuple[SpatialTie, ...]:
     """
     lines = (case.marks.get(f"joints[{n}]", (0, 0))[0] for n, _ in enumerate(in_case(case).joints))
     ties = tuple(_tie(joint, figure, line) for joint, line in zip(in_case(case).joints, lines, strict=True))
-    _refuse_out_of_line(ties, figure)
+    _refuse_out_of_line(ties)
     return ties
 
 
@@ -303,7 +303,7 @@ ALIGNED = 2e-3
 EXACT = 1e-12
 
 
-def _refuse_out_of_line(ties: Iterable[SpatialTie], figure: SpatialFigure) -> None:
+def _refuse_out_of_line(ties: Iterable[SpatialTie]) -> None:
     """Refuse hinges of one pair of links that nearly share an axis: they would bind in the model alone."""
     hinges = [tie for tie in ties if isinstance(tie.joint, Hinge)]
     for n, a in enumerate(hinges):
