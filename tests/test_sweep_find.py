@@ -10,7 +10,10 @@ import pytest
 from mpmath import mp, mpf
 
 import icsolve
+from icsolve.sweep import find_by_scenes
+from icsolve.sweep.continuation import PathSegment
 from icsolve.sweep.find_on_record import Query, find
+from icsolve.sweep.path_tracking import PathTracker
 from test_sweep_status import FOUR_BAR, PARALLELOGRAM, SLIDER_CRANK
 
 mp.dps = 60
@@ -229,6 +232,45 @@ motion: {point: A, link: 2, speed: 1, angle: 0}
         assert 40.0 / (np.cos(a) + 0.4 * np.sin(a)) == pytest.approx(38.0, rel=1e-9)
     assert len(spots) == 2
     assert "scene of its own" in spots.notes[0]
+
+
+BRAKE = """
+icsolve: 1
+points: {O: [0, 0], A: [-150, -250], C: [150, -250], L: [600, 1e-6]}
+joints:
+  - {pin: [1, 2], at: O}
+  - {pin: [2, 3], at: A}
+  - {rope: [A, O, C], on: [1, 2, 3], radii: {O: 150}, wraps: {O: cw}, mu: {O: 0.3}}
+loads:
+  M: {torque: 90, link: 2}
+  P: {force: unknown, link: 3, at: L, angle: -90}
+motion: {link: 2, turns: ccw}
+"""
+
+
+def test_places_are_closed_in_on_together_and_the_figure_is_followed_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Each sweep would follow it anew, by hundreds of steps to each place: the last one is kept."""
+    sweeps: list[int] = []
+    lines: list[tuple[float, float]] = []
+    swept, followed = find_by_scenes.sweep, PathTracker._followed
+
+    def sweep(case, vary, drive):  # type: ignore[no-untyped-def]
+        sweeps.append(1)
+        return swept(case, vary, drive=drive)
+
+    def follow(self: PathTracker, reach: tuple[float, float]) -> list[PathSegment]:
+        lines.append(reach)
+        return followed(self, reach)
+
+    monkeypatch.setattr(find_by_scenes, "sweep", sweep)
+    monkeypatch.setattr(find_by_scenes, "PLACES", 24)
+    monkeypatch.setattr(PathTracker, "_followed", follow)
+    places = find(icsolve.load(BRAKE), None, Query("dead"), drive={"2": [-180.0, 180.0]})
+    assert [place.kind for place in places] == ["limit", "limit"]
+    assert len(sweeps) <= 30
+    assert len(lines) <= 4
 
 
 def test_what_cannot_be_looked_for() -> None:

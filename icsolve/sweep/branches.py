@@ -36,6 +36,8 @@ CELLS = 4
 MOST_CELLS = 1_000_000
 """Branches are looked for at so many places in a longest step, and at most at so many at all."""
 
+LAST = ("followed", ())
+"""What a record keeps the line under that was followed last: rows on it are looked for again and again."""
 Remake = Callable[[Signs], CompiledSweep]
 
 
@@ -241,6 +243,18 @@ def follow(remake: Remake, compiled: CompiledSweep, line: InputLine, start: Stat
     """
     ends = [float(rows.min()), float(rows.max())]
     _refuse_long(compiled, line, ends, len(rows))
+    key, kept = (line, *(part.tobytes() for part in start[:2]), start.signs), compiled.record.kept
+    followed: Followed
+    known, reach, followed = kept.get(LAST, (None, (0.0, 0.0), None))
+    if known != key or not (reach[0] <= ends[0] and ends[1] <= reach[1]):
+        followed = _followed(remake, compiled, line, start, ends)
+        kept[LAST] = (key, tuple(ends), followed)
+    return followed
+
+
+def _followed(
+    remake: Remake, compiled: CompiledSweep, line: InputLine, start: State, ends: list[float]
+) -> Followed:
     grid = grid_of(ends, line)
     tracker = PathTracker(compiled, line, start, ChangePoints({}), _reach(ends, line))
     if _has_limits(compiled, tracker, grid):

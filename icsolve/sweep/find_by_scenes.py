@@ -7,9 +7,10 @@ them is closed in scene by scene, and a note says so.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 
 import numpy as np
+import numpy.typing as npt
 
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
@@ -26,7 +27,11 @@ CLOSED = 1e-12
 """Places are closed in to this part of the range."""
 FLAT = 1e-7
 """A peak, to which an answer is flat, to this."""
-GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
+SECTIONS = 4
+"""A search closes in by this factor in one sweep, and"""
+TOGETHER = 8
+"""so many searches share their sweeps: each sweep follows the figure from the case's own position anew, which
+may take as long as many scenes."""
 MOST_SCENES = 1200
 """Scenes that are solved before a search ends with what it has."""
 MANY = "so much changes in this range that not all of it was closed in on: take a shorter one."
@@ -86,6 +91,13 @@ class _EnoughError(Exception):
     """A search has solved so many scenes that it ends."""
 
 
+Mask = npt.NDArray[np.bool_]
+Seen = tuple[Array, Codes]
+"""Answers and statuses (their codes) at places."""
+Search = Generator[Array, Seen, FoundPosition | None]
+"""Yields places, is sent what is seen there, and returns what it found."""
+
+
 class Scenes:
     """Positions along one number, scene by scene."""
 
@@ -95,7 +107,7 @@ class Scenes:
         values = columns.arrays[name]
         self.places = np.linspace(values.min(), values.max(), PLACES + 1)
         self.scenes = 0
-        self.width = CLOSED * float(np.ptp(values))
+        self.width = max(CLOSED * float(np.ptp(values)), 4.0 * float(np.spacing(np.abs(values).max())))
 
     def spots(self) -> FoundPositions:
         """All positions that are found, in order."""
@@ -103,18 +115,18 @@ class Scenes:
         if (codes == CODE["holds"]).any():
             raise SceneError(Status.UNSUPPORTED, HOLDS.format(load=self.load))
         finder = {"value": self._values, "max": self._peaks, "dead": self._dead}[self.query.kind]
+        searches = list(finder(found, codes))
         spots = FoundPositions()
         spots.notes = (SAID.format(count=PLACES),)
         try:
-            for spot in finder(found, codes):
-                spots.append(spot)
+            for first in range(0, len(searches), TOGETHER):
+                spots += self._together(searches[first : first + TOGETHER])
         except _EnoughError:
             spots.notes += (MANY,)
         spots.sort(key=lambda spot: spot.at)
         return spots
 
-    def _swept(self, at: Array) -> tuple[Array, Codes]:
-        """The answer and the status (its code) at places."""
+    def _swept(self, at: Array) -> Seen:
         self.scenes += len(at)
         if self.scenes > MOST_SCENES:
             raise _EnoughError
@@ -124,90 +136,97 @@ class Scenes:
         found = sweep(self.case, vary, drive={own: rows[own] for own in self.columns.links})
         return found.answers.get(self.load, np.full(len(at), np.nan)), found.codes
 
-    def _answer(self, at: float) -> float:
-        return float(self._swept(np.array([at]))[0][0])
+    def _together(self, searches: list[Search]) -> Iterator[FoundPosition]:
+        """What searches find that go on side by side, each step of all by one sweep."""
+        sent: dict[Search, Seen | None] = dict.fromkeys(searches)
+        while sent:
+            asked: dict[Search, Array] = {}
+            for search, seen in sent.items():
+                try:
+                    asked[search] = next(search) if seen is None else search.send(seen)
+                except StopIteration as ended:
+                    if ended.value is not None:
+                        yield ended.value
+            if not asked:
+                return
+            answers, codes = self._swept(np.concatenate(list(asked.values())))
+            cuts = np.cumsum([len(at) for at in asked.values()])[:-1]
+            sent = dict(
+                zip(asked, zip(np.split(answers, cuts), np.split(codes, cuts), strict=True), strict=True)
+            )
 
     # --- kinds ------------------------------------------------------------------------------------
 
-    def _values(self, found: Array, codes: Codes) -> Iterator[FoundPosition]:
+    def _values(self, found: Array, codes: Codes) -> Iterator[Search]:
         """Where the answer has the value, and its changes of sign less the value but through infinity."""
         miss = found - self.query.value
-        for k in np.flatnonzero(miss == 0.0).tolist():
-            yield FoundPosition(float(self.places[k]), "value", float(found[k]), self.width)
-        for k in np.flatnonzero(miss[:-1] * miss[1:] < 0.0).tolist():
-            at, wide = self._closed(lambda s: self._answer(s) - self.query.value, k)
-            answer = self._answer(at)
-            if abs(answer - self.query.value) <= min(abs(miss[k]), abs(miss[k + 1])) + abs(self.width):
-                yield FoundPosition(at, "value", answer, wide)
+        for k in np.flatnonzero((miss == 0.0) | np.append(miss[:-1] * miss[1:] < 0.0, False)).tolist():
+            yield self._value(k, miss)
 
-    def _dead(self, found: Array, codes: Codes) -> Iterator[FoundPosition]:
+    def _value(self, k: int, miss: Array) -> Search:
+        if miss[k] == 0.0:
+            return FoundPosition(
+                float(self.places[k]), "value", float(miss[k] + self.query.value), self.width
+            )
+        low, high = yield from self._closed(lambda seen: seen[0] > self.query.value, k)
+        at = (low + high) / 2.0
+        answer = float((yield np.array([at]))[0][0])
+        if abs(answer - self.query.value) > min(abs(miss[k]), abs(miss[k + 1])) + abs(self.width):
+            return None
+        return FoundPosition(at, "value", answer, high - low)
+
+    def _dead(self, found: Array, codes: Codes) -> Iterator[Search]:
         """Changes of sign through infinity, and where the mechanism begins to lock or reaches its limit."""
         for k in np.flatnonzero(found[:-1] * found[1:] < 0.0).tolist():
-            at, wide = self._closed(self._answer, k)
-            if self._runs_off(at, float(self.places[k + 1] - self.places[k])):
-                yield FoundPosition(at, "dead", None, wide)
-        locked, apart = np.isin(codes, LOCKED), codes == CODE[Status.CANNOT_ASSEMBLE]
-        for kind, state in (("dead", locked), ("limit", apart)):
-            wanted = LOCKED if kind == "dead" else [CODE[Status.CANNOT_ASSEMBLE]]
-            for k in np.flatnonzero(state[:-1] != state[1:]).tolist():
-                at, wide = self._ends(wanted, bool(state[k]), k)
-                answer = self._answer(at) if kind == "limit" else math.nan
-                yield FoundPosition(at, kind, None if math.isnan(answer) else answer, wide)
+            yield self._pole(k)
+        for kind, wanted in (("dead", LOCKED), ("limit", [CODE[Status.CANNOT_ASSEMBLE]])):
+            there = np.isin(codes, wanted)
+            for k in np.flatnonzero(there[:-1] != there[1:]).tolist():
+                yield self._end(kind, wanted, k, bool(there[k]))
 
-    def _runs_off(self, at: float, step: float) -> bool:
-        """Whether the answer grows to infinity at a change of sign: a jump stays as it is, also where
-        friction jams so near to it that there is no answer."""
-        away = BESIDE * self.width
-        near = self._size(at, away)
-        while True:
+    def _pole(self, k: int) -> Search:
+        """Where the answer grows to infinity at a change of sign: a jump stays as it is, also where friction
+        jams so near to it that there is no answer."""
+        low, high = yield from self._closed(lambda seen: seen[0] > 0.0, k)
+        at, away, near, far = (low + high) / 2.0, BESIDE * self.width, math.nan, math.nan
+        while math.isnan(near) and away <= self.places[k + 1] - self.places[k]:
+            size = np.abs((yield at + away * np.array([-1.0, 1.0, -10.0, 10.0]))[0])
+            near, far = size[:2].max(), size[2:].max()
             away *= 10.0
-            far = self._size(at, away)
-            if not math.isnan(near) or away > step:
-                return not near <= GROWN * far
-            near = far
+        return None if near <= GROWN * far else FoundPosition(at, "dead", None, high - low)
 
-    def _size(self, at: float, away: float) -> float:
-        """The larger answer of both sides of a place; nan where one has none."""
-        return float(np.abs(self._swept(np.array([at - away, at + away]))[0]).max())
-
-    def _peaks(self, found: Array, codes: Codes) -> Iterator[FoundPosition]:
-        """Where the size of the answer is larger than on both sides, by golden sections."""
-        size = np.abs(found)
-        for k in range(len(size)):
-            around = size[max(k - 1, 0) : k + 2]
-            inside = 0 < k < len(size) - 1 and np.isfinite(around).all()
-            if inside and size[k] > around[0] and size[k] >= around[-1]:
-                low, high = float(self.places[k - 1]), float(self.places[k + 1])
-                while high - low > FLAT * self.width / CLOSED:
-                    one, two = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-                    if abs(self._answer(one)) < abs(self._answer(two)):
-                        low = one
-                    else:
-                        high = two
-                at = (low + high) / 2.0
-                answer = self._answer(at)
-                if abs(answer) <= 10.0 * size[k] and answer * found[k] > 0.0:
-                    yield FoundPosition(at, "max", answer, high - low)
-
-    # --- closing in -------------------------------------------------------------------------------
-
-    def _closed(self, function: Callable[[float], float], k: int) -> tuple[float, float]:
-        """A change of sign between two places, halved in, and how wide it is open still."""
-        low, high = float(self.places[k]), float(self.places[k + 1])
-        first = function(low)
-        while high - low > self.width:
-            middle = (low + high) / 2.0
-            here = function(middle)
-            if here == 0.0:
-                return middle, self.width
-            low, high = (middle, high) if (here > 0.0) == (first > 0.0) else (low, middle)
-        return (low + high) / 2.0, high - low
-
-    def _ends(self, wanted: list[int], before: bool, k: int) -> tuple[float, float]:
+    def _end(self, kind: str, wanted: list[int], k: int, before: bool) -> Search:
         """Where a status begins or ends between two places: the last that has none of it."""
+        low, high = yield from self._closed(lambda seen: np.isin(seen[1], wanted), k)
+        at = high if before else low
+        answer = float((yield np.array([at]))[0][0]) if kind == "limit" else math.nan
+        return FoundPosition(at, kind, None if math.isnan(answer) else answer, high - low)
+
+    def _peaks(self, found: Array, codes: Codes) -> Iterator[Search]:
+        """Where the size of the answer is larger than on both sides."""
+        size = np.abs(found)
+        for k in range(1, len(size) - 1):
+            if np.isfinite(size[k - 1 : k + 2]).all() and size[k - 1] < size[k] >= size[k + 1]:
+                yield self._peak(k, float(found[k]))
+
+    def _peak(self, k: int, beside: float) -> Search:
+        low, high = float(self.places[k - 1]), float(self.places[k + 1])
+        while high - low > FLAT * self.width / CLOSED:
+            at = np.linspace(low, high, 2 * SECTIONS + 1)
+            most = int(np.nan_to_num(np.abs((yield at[1:-1])[0])).argmax()) + 1
+            low, high = float(at[most - 1]), float(at[most + 1])
+        at = np.array([(low + high) / 2.0])
+        answer = float((yield at)[0][0])
+        grown = abs(answer) > 10.0 * abs(beside) or answer * beside <= 0.0
+        return None if grown else FoundPosition(float(at[0]), "max", answer, high - low)
+
+    def _closed(self, state: Callable[[Seen], Mask], k: int) -> Generator[Array, Seen, tuple[float, float]]:
+        """The two places, as near as is asked, between which a state changes after place ``k``."""
         low, high = float(self.places[k]), float(self.places[k + 1])
+        first = state((yield np.array([low])))[0]
         while high - low > self.width:
-            middle = (low + high) / 2.0
-            there = bool(np.isin(self._swept(np.array([middle]))[1], wanted)[0])
-            low, high = (middle, high) if there == before else (low, middle)
-        return (high if before else low), high - low
+            at = np.linspace(low, high, SECTIONS + 1)
+            changed = state((yield at[1:-1])) != first
+            j = int(np.append(changed, True).argmax())
+            low, high = float(at[j]), float(at[j + 1])
+        return low, high

@@ -29,7 +29,7 @@ from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.exact import APART, CONTEXT, STEP, Unreached, as_written
-from icsolve.sweep.find_by_scenes import FoundPosition, FoundPositions, Query, Scenes
+from icsolve.sweep.find_by_scenes import FoundPosition, FoundPositions, Mask, Query, Scenes
 from icsolve.sweep.parts import SweepPart, SweepParts
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recheck import Recheck
@@ -441,8 +441,6 @@ SEARCHED = (
     "a group of links has to be placed by Newton's method, or turns to be counted: the range was searched at "
     "{count} places, and two positions between two of them may be missed."
 )
-
-Mask = npt.NDArray[np.bool_]
 
 
 def _may_touch(f: Array, slope: Array, step: Array) -> Mask:

@@ -166,11 +166,12 @@ class SweepRun:
             return
         line = part.followed.tracker.line
         change_points = [*part.followed.tracker.passages()]
+        first, last = min(line.start, *part.places), max(line.start, *part.places)
         for passing in part.followed.passed.values():
             change_points += [*passing.change_points, *passing.grazes]
             for gap in passing.gaps:
-                self._gap(line, gap)
-        first, last = min(line.start, *part.places), max(line.start, *part.places)
+                if first <= gap <= last:
+                    self._gap(line, gap)
         said: list[float] = []
         for at in sorted(change_points):
             if first <= at <= last and all(abs(at - other) > SAME * line.widest for other in said):
