@@ -96,6 +96,11 @@ class ForceVector(NamedTuple):
     against: str | None = None
     turns_with: str | None = None
 
+    @property
+    def parts(self) -> tuple[Number, Number]:
+        """Its components."""
+        return self.x, self.y
+
 
 class Torque(NamedTuple):
     """A torque, positive ccw unless ``turns`` is ``cw``."""

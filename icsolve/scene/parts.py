@@ -9,14 +9,14 @@ from decimal import Decimal
 from functools import cached_property
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
-from icsolve.case import Case, ForceVector, Number, Pair
+from icsolve.case import Case, Number, Pair
 from icsolve.case.names import link_order
 from icsolve.errors import SceneError
 from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
 from icsolve.kinematics.motion import Motions
 from icsolve.kinematics.speeds import Speed
-from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.balls import PRECISIONS, BelowZero, MoreDigits, MovedBalls
 from icsolve.scene.program import (
     EvaluatedScene,
@@ -34,20 +34,11 @@ from icsolve.scene.program import (
 from icsolve.scene.sensitivity import numbers_of, unsettled
 from icsolve.screws.plane import Triple
 from icsolve.statics import power
-from icsolve.statics.power import Bounded, Outcome, Value, Wrench, known_value, vector_size
+from icsolve.statics.power import Bounded, Outcome, Value, Wrench, known_value, load_value
 from icsolve.tuples import replace
 from icsolve.wording import sentences
 from icsolve.wording.senses import sense_of, unit_of
 from icsolve.wording.sentences import link_words
-
-
-def load_value(w: Wrench, values: Mapping[str, Scalar], a: Arithmetic) -> Scalar:
-    """The number of a load, known or found (``values``, by the load that has it), in its own unit."""
-    if w.root in values:
-        return w.ratio * values[w.root]
-    if isinstance(w.source, ForceVector):
-        return w.ratio * vector_size(w.source)
-    return w.ratio * (a.given(w.source.value) if isinstance(w.source.value, Number) else 0.0)
 
 
 def power_terms(found: Evaluation, values: Mapping[str, Scalar], speed: Speed) -> Iterable[Term]:
@@ -70,18 +61,6 @@ def _where(case: Case, w: Wrench) -> str:
     at = getattr(w.load, "at", "@")
     where = f"{w.load.name} on {link_words(w.load.link)}" + ("" if at.startswith("@") else f" at {at}")
     return where if w.against == case.ground else f"{where} against link {w.against}"
-
-
-def advantage(found: Evaluation, values: Mapping[str, Scalar]) -> float | None:
-    """unknown / known where there is one of each and the known one is not zero."""
-    wrenches = found.outcome.balance.wrenches
-    ours = [w for w in wrenches if w.root in values]
-    known = [w for w in wrenches if w.root not in values]
-    if len(ours) != 1 or len(known) != 1:
-        return None
-    a = found.arithmetic
-    above, below = (load_value(w, values, a) for w in (*ours, *known))
-    return None if below == 0.0 else a.rounded(above / below)[0]
 
 
 Velocities = dict[tuple[str, str], tuple[float, float] | str]
@@ -147,7 +126,7 @@ class AnswerBuilder:
             velocities=velocities,
             points=Deferred(lambda: self.scene.ask(points_shown)),
             terms=Later(lambda: self.scene.ask(self._terms)),
-            advantage=self.scene.ask(lambda found: advantage(found, self._values(found))),
+            advantage=self.scene.ask(self._advantage),
             mobility=motions.mobility,
             notes=Later(lambda: (*self.figure.notes, *motions.notes, *self._notes(answers))),
             skipped=Later(lambda: _skipped(self.program, self.first.outcome)),
@@ -264,6 +243,9 @@ class AnswerBuilder:
                     near = min(float(change), size)
                     reach[load] = max(reach.get(load, 0.0), far if change > own else near)
         return reach
+
+    def _advantage(self, found: Evaluation) -> float | None:
+        return power.advantage(found.outcome.balance.wrenches, self._values(found), found.arithmetic)
 
     def _terms(self, found: Evaluation) -> tuple[Term, ...]:
         return tuple(power_terms(found, self._values(found), speed_of(found)))

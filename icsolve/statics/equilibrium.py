@@ -8,12 +8,23 @@ to its distance from the origin.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import accumulate
 from typing import Generic, Protocol, TypeVar
 
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
 from icsolve.numbers.sparse import General, Row, eliminate
 from icsolve.screws import space
-from icsolve.statics.power import Balance, Wrench, force_scale, is_unknown, number_of, place_of
+from icsolve.statics.power import (
+    Balance,
+    L,
+    PowerFactors,
+    UnitWrench,
+    Wrench,
+    force_scale,
+    number_of,
+    place_of,
+    unknowns_of,
+)
 from icsolve.statics.reaction_basis import Force, Position, RopeTie, Tie
 from icsolve.tuples import NamedTuple
 
@@ -209,34 +220,25 @@ def equilibrium(
     Statics
         Nothing is refused: forces that equilibrium does not determine hang on free columns.
     """
-    first, count = columns_of(ties)
-    roots = tuple(w.load.name for w in balance.wrenches if is_unknown(w.load))
-    bare = Statics(
-        tuple(ties),
-        position.ropes,
-        first,
-        count + len(position.ropes),
-        roots,
-        tuple(rubs),
-        force_scale(balance),
-        {},
-        NOTHING_SOLVED,
-        position.arithmetic,
-    )
+    bare = columns_of(tuple(ties), balance, position.arithmetic, position.ropes, tuple(rubs))
     ground = position.case.ground
     return solve_statics(bare, actions_of(bare, position, balance.wrenches), ground, position.mobility)
 
 
-NOTHING_SOLVED = General({}, (), ())
-
-
-def columns_of(ties: Sequence[Transmits]) -> tuple[tuple[int, ...], int]:
-    """The first column of each tie, and the number of all."""
-    first, column = [], 0
-    for tie in ties:
-        first.append(column)
-        column += len(tie.units)
-    return tuple(first), column
+def columns_of(
+    ties: tuple[T, ...],
+    balance: PowerFactors[L],
+    arithmetic: Arithmetic,
+    ropes: tuple[RopeTie, ...] = (),
+    rubs: tuple[Rub, ...] = (),
+) -> Equilibrium[T]:
+    """The columns of what is to be solved: statics without equations."""
+    *first, count = accumulate((len(tie.units) for tie in ties), initial=0)
+    roots, known = tuple(w.root for w in unknowns_of(balance)), count + len(ropes)
+    nothing = General({}, (), ())
+    return Equilibrium(
+        ties, ropes, tuple(first), known, roots, rubs, force_scale(balance), {}, nothing, arithmetic
+    )
 
 
 def solve_statics(
@@ -330,14 +332,17 @@ def actions_of(statics: Statics, position: Position, wrenches: Sequence[Wrench])
 
 
 def _load_action(w: Wrench, statics: Statics, position: Position) -> Action:
-    """A load on its link, the opposite on the link against which it acts."""
-    arithmetic = position.arithmetic
+    """A load where its resultant acts."""
+    place = place_of(w.load, position.points, position.arithmetic)
+    at, force = (place, (w.unit[1], 0.0 - w.unit[0], 0.0)) if place else ((0.0, 0.0), (0.0, 0.0, w.unit[2]))
+    return load_action(w, statics, at, force)
+
+
+def load_action(w: UnitWrench[L], statics: Equilibrium[T], at: Components, unit: Components) -> Action:
+    """A load on its link, the opposite on the link against which it acts: so many times a unit at a point."""
     if w.root in statics.roots:
         column, factor = statics.root(statics.roots.index(w.root)), w.ratio
     else:
-        column, factor = statics.known, number_of(w, arithmetic) * statics.scale * w.ratio
+        column, factor = statics.known, number_of(w, statics.arithmetic) * statics.scale * w.ratio
     gain = w.gain * w.measure * factor
-    x, y, couple = (gain * u for u in (w.unit[1], 0.0 - w.unit[0], w.unit[2]))
-    place = place_of(w.load, position.points, arithmetic)
-    at, force = (place, (x, y, 0.0)) if place else ((0.0, 0.0), (0.0, 0.0, couple))
-    return Action(column, w.load.link, w.against, at, force)
+    return Action(column, w.load.link, w.against, at, tuple([gain * part for part in unit]))

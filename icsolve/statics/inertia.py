@@ -63,7 +63,7 @@ def exactly(
         if load.name == FORCE.format(load.link) and isinstance(load, ForceVector):
             _, force, _ = forces[load.link]
             assert force is not None
-            size = vector_size(load) or 1.0
+            size = vector_size(load.parts) or 1.0
             found.append(w._replace(unit=force_wrench((force[0] / size, force[1] / size), points[load.at])))
         elif load.name == COUPLE.format(load.link) and isinstance(load, Torque):
             couple = forces[load.link][2]

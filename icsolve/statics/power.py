@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 from icsolve.assembly.workspace import Frame
 from icsolve.case import (
@@ -33,10 +33,19 @@ from icsolve.case import (
 )
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import Motions
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, all_vanish, decider, magnitude, zero_of
+from icsolve.numbers.arithmetic import (
+    FLOATS,
+    Arithmetic,
+    Scalar,
+    Showing,
+    all_vanish,
+    decider,
+    magnitude,
+    zero_of,
+)
 from icsolve.numbers.null_space import null_space
 from icsolve.numbers.tape import Tape
-from icsolve.screws.plane import Point, Triple, force_wrench, pairing
+from icsolve.screws.plane import Point, Triple, force_wrench
 from icsolve.screws.ropes import rope_parts
 from icsolve.tuples import NamedTuple
 
@@ -44,17 +53,19 @@ if TYPE_CHECKING:
     from icsolve.case.space import Load as SpatialLoad
 
 Points = Mapping[str, Point]
+L = TypeVar("L", bound="Load | SpatialLoad")
 
 
-class Wrench(NamedTuple):
-    """A load per unit of its number: ``gain * measure * unit`` acts on the load's link, the opposite on
-    ``against``.
+class UnitWrench(NamedTuple, Generic[L]):
+    """A load per unit of its number, in the plane or in space: ``gain * measure * unit`` acts on the load's
+    link, the opposite on ``against``.
 
     Attributes
     ----------
     load : the load
     against : link that takes the opposite
-    unit : wrench (-Fy, Fx, M) of a force of 1, or a couple of 1 [frame lengths]
+    unit : (3,) or (6,), wrench of a force of 1, or a couple of 1, about the origin [frame lengths]: in the
+        plane (-Fy, Fx, M)
     gain : what brings the load's own unit to force units (a couple: force times case length); of a spring its
         stretch [case length], of a pressure its area
     root, source, ratio : the load whose number it takes, ``ratio`` times as large
@@ -63,15 +74,19 @@ class Wrench(NamedTuple):
     reach : size of the terms of the gain, which for a spring are its length and its free length
     """
 
-    load: Load
+    load: L
     against: str
-    unit: Triple
+    unit: tuple[Scalar, ...]
     gain: Scalar
     root: str
     ratio: Scalar
     measure: float
-    source: Load
+    source: L
     reach: float
+
+
+Wrench = UnitWrench[Load]
+"""Of a load in the plane."""
 
 
 def wrenches(
@@ -103,7 +118,7 @@ def wrenches(
         measure = frame.scale if isinstance(load, Torque | TorsionSpring) else 1.0
         reach = magnitude(gain) + _beside(load, case)
         on = reacting(case, load)
-        result.append(Wrench(load, on, unit, gain, source.name, ratio, measure, source, reach))
+        result.append(UnitWrench(load, on, unit, gain, source.name, ratio, measure, source, reach))
     return tuple(result)
 
 
@@ -114,7 +129,7 @@ def _beside(load: Load, case: Case) -> float:
     return 2.0 * load.free.value if isinstance(load, Spring) else 0.0
 
 
-def reacting(case: Case, load: Load) -> str:
+def reacting(case: Case, load: L) -> str:
     """The link that takes the opposite of a load: the one it is against, or the frame."""
     return getattr(load, "against", None) or case.ground
 
@@ -151,9 +166,6 @@ def line_of(load: Load) -> tuple[str, str] | None:
     return None
 
 
-L = TypeVar("L")
-
-
 def source_of(load: L, by_name: Mapping[str, L], arithmetic: Arithmetic) -> tuple[L, Scalar]:
     """The load whose number another takes (itself, where it has its own), and how many times."""
     ratio: Scalar = 1.0
@@ -184,7 +196,7 @@ def _unit_wrench(
             stretch = length / frame.scale - arithmetic.given(load.free)
             return force_wrench(toward, points[load.at]), stretch
         case ForceVector():
-            size = vector_size(load) or 1.0
+            size = vector_size(load.parts) or 1.0
             x, y = arithmetic.given(load.x) / size, arithmetic.given(load.y) / size
             return force_wrench((x, y), points[load.at]), 1.0
         case TorsionSpring():
@@ -305,8 +317,8 @@ def _between(a: Point, b: Point, arithmetic: Arithmetic) -> tuple[Point, Scalar]
     return (dx / length, dy / length), length
 
 
-class Balance(NamedTuple):
-    """Factors of every load for every motion.
+class PowerFactors(NamedTuple, Generic[L]):
+    """Factors of every load for every motion, in the plane or in space.
 
     Attributes
     ----------
@@ -316,18 +328,24 @@ class Balance(NamedTuple):
         which a zero is judged
     """
 
-    wrenches: tuple[Wrench, ...]
+    wrenches: tuple[UnitWrench[L], ...]
     factors: tuple[tuple[Scalar, ...], ...]
     sizes: tuple[tuple[float, ...], ...]
 
 
-def balance(all_wrenches: Sequence[Wrench], twists: Mapping[str, Sequence[Triple]], motions: int) -> Balance:
+Balance = PowerFactors[Load]
+"""Of a case in the plane."""
+
+
+def balance(
+    all_wrenches: Sequence[UnitWrench[L]], twists: Mapping[str, Sequence[tuple[Scalar, ...]]], motions: int
+) -> PowerFactors[L]:
     """Factors of the loads on the twists of their links.
 
     Parameters
     ----------
     all_wrenches : as of `wrenches`
-    twists : by link, ``motions`` twists relative to the frame [frame length/s, frame length/s, rad/s]
+    twists : by link, ``motions`` twists (3,) or (6,) relative to the frame [frame length/s, rad/s]
     motions : number of freedoms
     """
     factors, sizes = [], []
@@ -336,12 +354,17 @@ def balance(all_wrenches: Sequence[Wrench], twists: Mapping[str, Sequence[Triple
         fastest = max([magnitude(x) for ts in twists.values() for x in ts[m]], default=0.0)
         for w in all_wrenches:
             on, off = twists[w.load.link][m], twists[w.against][m]
-            relative = (on[0] - off[0], on[1] - off[1], on[2] - off[2])
-            row.append(w.gain * pairing(w.unit, relative))
+            relative = tuple([a - b for a, b in zip(on, off, strict=True)])
+            row.append(w.gain * power_of(w.unit, relative))
             scale.append(w.reach * sum(map(magnitude, w.unit)) * fastest)
         factors.append(tuple(row))
         sizes.append(tuple(scale))
-    return Balance(tuple(all_wrenches), tuple(factors), tuple(sizes))
+    return PowerFactors(tuple(all_wrenches), tuple(factors), tuple(sizes))
+
+
+def power_of(wrench: tuple[Scalar, ...], twist: tuple[Scalar, ...]) -> Scalar:
+    """Power of a wrench on a twist, of three components or six (`icsolve.screws.plane.pairing`)."""
+    return sum([a * b for a, b in zip(wrench, twist, strict=True)], 0.0)
 
 
 class Solution(NamedTuple):
@@ -362,9 +385,19 @@ class Solution(NamedTuple):
     culprit: str = ""
 
 
-PowerRow = tuple[list[Scalar], set[int]]
-"""The equation of power of a motion: the factor of each unknown, then the power of the known loads; and which
-of these are zero."""
+class PowerRow(NamedTuple):
+    """The equation of power of a motion: of each unknown, then of the known loads together.
+
+    Attributes
+    ----------
+    values : the factor of each unknown, and the power of the known loads [scaled]
+    sizes : what these are summed from
+    zero : the places of those that are zero
+    """
+
+    values: list[Scalar]
+    sizes: list[float]
+    zero: set[int]
 
 
 def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
@@ -384,18 +417,26 @@ def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
     MoreDigits
         Of balls, where a zero is open.
     """
-    unknown = [w for w in b.wrenches if is_unknown(w.load)]
-    place = {w.root: k for k, w in enumerate(unknown)}
-    scale = force_scale(b)
-    shares = [_share(w, unknown, place, scale, arithmetic) for w in b.wrenches]
-    columns = len(unknown) + 1
-    rows = [
-        _row(shares, factors, sizes, columns, arithmetic)
-        for factors, sizes in zip(b.factors, b.sizes, strict=True)
-    ]
-    idle = tuple([m for m, (_, zero) in enumerate(rows) if len(zero) == columns])
+    unknown, rows, scale = unknowns_of(b), power_rows(b, arithmetic), force_scale(b)
+    idle = tuple([m for m, row in enumerate(rows) if len(row.zero) > len(unknown)])
     working = [row for m, row in enumerate(rows) if m not in idle]
-    return _solved(working, list(place), idle, [(scale, w.measure) for w in unknown], arithmetic)
+    scales = [(scale, w.measure) for w in unknown]
+    return _solved(working, [w.root for w in unknown], idle, scales, arithmetic)
+
+
+def unknowns_of(b: PowerFactors[L]) -> list[UnitWrench[L]]:
+    """The loads whose own number is to find."""
+    return [w for w in b.wrenches if is_unknown(w.load)]
+
+
+def power_rows(b: PowerFactors[L], arithmetic: Arithmetic) -> list[PowerRow]:
+    """The equation of power of every motion, in the unknown loads over their ``measure``, all times
+    `force_scale`."""
+    unknown, scale = unknowns_of(b), force_scale(b)
+    place = {w.root: k for k, w in enumerate(unknown)}
+    shares = [_share(w, unknown, place, scale, arithmetic) for w in b.wrenches]
+    both = zip(b.factors, b.sizes, strict=True)
+    return [_row(shares, factors, sizes, len(unknown) + 1, arithmetic) for factors, sizes in both]
 
 
 def is_unknown(load: Load | SpatialLoad) -> bool:
@@ -406,7 +447,7 @@ def is_unknown(load: Load | SpatialLoad) -> bool:
 def has_number(load: Load) -> bool:
     """Whether a load's own number is known, and not zero."""
     if isinstance(load, ForceVector):
-        return vector_size(load) > 0.0
+        return vector_size(load.parts) > 0.0
     return load.value is not None and not isinstance(load.value, Like) and load.value.value != 0.0
 
 
@@ -422,7 +463,7 @@ def has_friction(case: Case) -> bool:
     return ropes or any(friction_of(joint) is not None for joint in case.joints)
 
 
-def force_scale(b: Balance) -> float:
+def force_scale(b: PowerFactors[L]) -> float:
     """A power of two that brings the largest known load near 1, so that nothing overflows."""
     largest = 0.0
     for w in b.wrenches:
@@ -432,21 +473,25 @@ def force_scale(b: Balance) -> float:
     return math.ldexp(1.0, -math.frexp(largest)[1]) if 0.0 < largest < math.inf else 1.0
 
 
-def vector_size(load: ForceVector) -> float:
-    """Magnitude of a force that is given by its components."""
-    return math.hypot(load.x.value, load.y.value)
+def vector_size(parts: Sequence[Number]) -> float:
+    """Magnitude of a force or torque that is given by its components."""
+    return math.hypot(*(part.value for part in parts))
 
 
-def known_value(w: Wrench) -> float | None:
+def known_value(w: UnitWrench[L]) -> float | None:
     """The number of a load in its own case unit; None where it hangs on an unknown."""
-    if isinstance(w.source, ForceVector):
-        return vector_size(w.source)
-    number = w.source.value
-    return None if number is None or isinstance(number, Like) else number.value
+    if parts := getattr(w.source, "parts", None):
+        return vector_size(parts)
+    number = getattr(w.source, "value", None)
+    return number.value if isinstance(number, Number) else None
 
 
 def _share(
-    w: Wrench, unknown: Sequence[Wrench], place: Mapping[str, int], scale: float, arithmetic: Arithmetic
+    w: UnitWrench[L],
+    unknown: Sequence[UnitWrench[L]],
+    place: Mapping[str, int],
+    scale: float,
+    arithmetic: Arithmetic,
 ) -> tuple[int, Scalar]:
     """The unknown that a load belongs to and how many times; a known load, to the last by its number."""
     k = place.get(w.root)
@@ -455,12 +500,27 @@ def _share(
     return len(unknown), number_of(w, arithmetic) * scale * w.measure * w.ratio
 
 
-def number_of(w: Wrench, arithmetic: Arithmetic) -> Scalar:
-    """The number of a known load in its own unit."""
-    if isinstance(w.source, ForceVector):
-        return vector_size(w.source)
-    assert isinstance(w.source.value, Number)
-    return arithmetic.given(w.source.value)
+def number_of(w: UnitWrench[L], arithmetic: Arithmetic) -> Scalar:
+    """The number of a known load in its own unit; 0 of one that hangs on an unknown."""
+    if parts := getattr(w.source, "parts", None):
+        return vector_size(parts)
+    number = getattr(w.source, "value", None)
+    return arithmetic.given(number) if isinstance(number, Number) else 0.0
+
+
+def load_value(w: UnitWrench[L], values: Mapping[str, Scalar], a: Arithmetic) -> Scalar:
+    """The number of a load, known or found (``values``, by the load that has it), in its own unit."""
+    return w.ratio * (values[w.root] if w.root in values else number_of(w, a))
+
+
+def advantage(wrenches: Sequence[UnitWrench[L]], values: Mapping[str, Scalar], a: Showing) -> float | None:
+    """unknown / known where there is one of each and the known one is not zero."""
+    ours = [w for w in wrenches if w.root in values]
+    known = [w for w in wrenches if w.root not in values]
+    if len(ours) != 1 or len(known) != 1:
+        return None
+    above, below = (load_value(w, values, a) for w in (*ours, *known))
+    return None if below == 0.0 else a.rounded(above / below)[0]
 
 
 def _row(
@@ -477,7 +537,7 @@ def _row(
         sums[k] = sums[k] + amount * factor
         terms[k] += abs(amount) * size
     zero = {k for k, size in enumerate(terms) if arithmetic.vanishes(sums[k], size)}
-    return [zero_of(value) if k in zero else value for k, value in enumerate(sums)], zero
+    return PowerRow([zero_of(value) if k in zero else value for k, value in enumerate(sums)], terms, zero)
 
 
 def _solved(
@@ -488,8 +548,8 @@ def _solved(
     arithmetic: Arithmetic,
 ) -> Solution:
     if len(rows) == 1 and len(roots) == 1:
-        ((factor, known), zero) = rows[0]
-        if 0 in zero:
+        factor, known = rows[0].values
+        if 0 in rows[0].zero:
             return Solution("no value", {}, idle, roots[0])
         return Solution("balanced", {roots[0]: -known / factor / scales[0][0] / scales[0][1]}, idle)
     return _solved_many(rows, roots, idle, scales, arithmetic)
@@ -508,7 +568,7 @@ def _solved_many(
     scales: list[tuple[float, float]],
     arithmetic: Arithmetic,
 ) -> Solution:
-    count, rows = len(roots), _equilibrated([row for row, _ in powers])
+    count, rows = len(roots), _equilibrated([row.values for row in powers])
     free = null_space([row[:count] for row in rows], count, 1e-13, vanishes=decider(arithmetic))
     whole = null_space(rows, count + 1, 1e-13, vanishes=decider(arithmetic))
     if whole.rank > free.rank:
@@ -533,12 +593,10 @@ def _solved_many(
     return Solution("balanced", values, idle)
 
 
-def _workless(rows: list[PowerRow], roots: list[str]) -> str:
-    """The first unknown that does no work in any motion."""
-    for k, root in enumerate(roots):
-        if all(k in zero for _, zero in rows):
-            return root
-    return roots[0] if roots else ""
+def _workless(rows: Sequence[PowerRow], roots: Sequence[str]) -> str:
+    """The first unknown that does no work in any motion, if there is one; else the first."""
+    idle = (root for k, root in enumerate(roots) if all(k in row.zero for row in rows))
+    return next(idle, roots[0] if roots else "")
 
 
 def known_power(b: Balance, m: int, arithmetic: Arithmetic) -> Scalar:

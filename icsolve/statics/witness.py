@@ -15,7 +15,7 @@ from icsolve.numbers.sparse import Row
 from icsolve.screws import space
 from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Components, Equilibrium, T
-from icsolve.statics.power import Balance
+from icsolve.statics.power import L, PowerFactors
 from icsolve.wording.sentences import plural
 
 Terms = dict[str, tuple[Components, tuple[tuple[float, float], ...]]]
@@ -142,7 +142,7 @@ def bounds_of(
     return dict(zip(statics.roots, sums, strict=True))
 
 
-def powers_of(statics: Equilibrium[T], balance: Balance) -> list[list[float]]:
+def powers_of(statics: Equilibrium[T], balance: PowerFactors[L]) -> list[list[float]]:
     """The power of a unit of each unknown load, (motions, unknowns)."""
     columns = [[n for n, w in enumerate(balance.wrenches) if w.root == root] for root in statics.roots]
     rows = []

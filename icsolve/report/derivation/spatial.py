@@ -8,8 +8,9 @@ from icsolve.case import Case
 from icsolve.case.space import SpatialTorque, TorqueVector
 from icsolve.errors import SceneError
 from icsolve.report.derivation.known import Known
-from icsolve.screws.space import Vec, times
-from icsolve.statics.space.power import wrenched
+from icsolve.screws.space import ZERO, Vec, times
+from icsolve.statics.power import known_value
+from icsolve.statics.space.power import wrenches
 from icsolve.statics.space.reaction_basis import SpatialFigure, SpatialTie, figure_of, in_case, ties_of
 from icsolve.statics.space.reactions import unit_of
 from icsolve.tuples import NamedTuple
@@ -78,36 +79,23 @@ def in_space(known: Known) -> InSpace:
 
 def _loads(known: Known, figure: SpatialFigure) -> tuple[Push, ...]:
     try:
-        loads = wrenched(known.case, figure)
+        loads = wrenches(known.case, figure)
     except SceneError:
         return ()
     answers = {} if known.answer is None else known.answer.answers
     found = []
     for w in loads:
         load = w.load
-        value = w.ratio * w.known if w.known is not None else None
+        number = known_value(w)
+        value = None if number is None else w.ratio * number
         if value is None and load.name in answers:
             value = answers[load.name].value
-        turned = isinstance(load, SpatialTorque | TorqueVector)
-        gain = w.gain / figure.frame.scale if turned else w.gain
-        force, couple = (times((value or 0.0) * gain, part) for part in w.unit)
-        at = None if isinstance(load, SpatialTorque | TorqueVector) else figure.places[load.at]
         where = "" if isinstance(load, SpatialTorque | TorqueVector) else load.at
-        direction = w.unit[1] if turned else w.unit[0]
+        at = figure.places[where] if where else None
+        direction: Vec = w.unit[:3] if where else w.unit[3:]
+        push = times((value or 0.0) * w.gain, direction)
+        force, couple = (push, ZERO) if where else (ZERO, push)
         unit = unit_of(load, known.case)
-        found.append(
-            Push(
-                load.name,
-                load.link,
-                w.against,
-                at,
-                where,
-                direction,
-                force,
-                couple,
-                value,
-                unit,
-                w.known is None,
-            )
-        )
+        acts = (load.name, load.link, w.against, at, where, direction, force, couple)
+        found.append(Push(*acts, value, unit, number is None))
     return tuple(found)

@@ -11,14 +11,23 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from icsolve.case import Case, Like, Spring, Weight
+from icsolve.case import Case, Spring, Weight
 from icsolve.case.space import Load, SpatialForce, SpatialForceVector, SpatialTorque, TorqueVector
-from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
-from icsolve.numbers.null_space import Vanishes
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider, magnitude
 from icsolve.numbers.sparse import Row, eliminate
-from icsolve.screws.space import ZERO, Components, Vec, dot, moved, size, times, unit, velocity_of
-from icsolve.statics.equilibrium import NOTHING_SOLVED, Action, Equilibrium, columns_of, solve_statics
-from icsolve.statics.power import is_unknown, source_of
+from icsolve.screws.space import AXES, ZERO, Components, Vec, moved
+from icsolve.statics.equilibrium import Action, Equilibrium, columns_of, load_action, solve_statics
+from icsolve.statics.power import (
+    PowerFactors,
+    PowerRow,
+    UnitWrench,
+    force_scale,
+    power_rows,
+    reacting,
+    source_of,
+    unknowns_of,
+    vector_size,
+)
 from icsolve.statics.space.reaction_basis import (
     SpatialFigure,
     SpatialTie,
@@ -32,80 +41,51 @@ from icsolve.statics.space.reaction_basis import (
 from icsolve.tuples import NamedTuple
 
 SpatialStatics = Equilibrium[SpatialTie]
+SpatialFactors = PowerFactors[Load]
+SpatialWrench = UnitWrench[Load]
 
 
-class Wrenched(NamedTuple):
-    """A load: number times ``gain`` times ``unit`` acts on its link at ``at``, the opposite on ``against``.
-
-    Attributes
-    ----------
-    load : the load
-    against : link that takes the opposite
-    at : [frame]
-    unit : a force of length 1 and no couple, or a couple of 1
-    gain : what brings the load's own unit to force units, of a couple to force units times frame length
-    root, ratio : the load whose number it takes, ``ratio`` times
-    known : the number of a given load, None of an unknown one
-    """
-
-    load: Load
-    against: str
-    at: Vec
-    unit: tuple[Vec, Vec]
-    gain: Scalar
-    root: str
-    ratio: Scalar
-    known: Scalar | None
-
-    @property
-    def size(self) -> float:
-        """What a unit of the root's number exerts, in force units (and frame lengths)."""
-        return abs(float(self.gain * self.ratio))
-
-    @property
-    def wrench(self) -> Components:
-        """What a unit of the root's number exerts about ``at``, (6,)."""
-        force, couple = (times(self.gain * self.ratio, part) for part in self.unit)
-        return (*force, *couple)
-
-
-def wrenched(case: Case, figure: SpatialFigure) -> tuple[Wrenched, ...]:
-    """All loads of a case in space.
+def wrenches(case: Case, figure: SpatialFigure) -> tuple[SpatialWrench, ...]:
+    """The unit wrenches of all loads of a case in space, in its order.
 
     Raises SceneError where a load has no direction.
     """
     loads = in_case(case).loads
     by_name = {load.name: load for load in loads}
-    return tuple(_wrenched(case, figure, load, by_name) for load in loads)
+    return tuple(_wrench(case, figure, load, by_name) for load in loads)
 
 
-def _wrenched(case: Case, figure: SpatialFigure, load: Load, by_name: Mapping[str, Load]) -> Wrenched:
-    root, ratio = source_of(load, by_name, figure.arithmetic)
-    unit_wrench, gain = _unit(case, figure, load)
-    at = figure.points[load.at] if not isinstance(load, SpatialTorque | TorqueVector) else ZERO
-    against = getattr(load, "against", None) or case.ground
-    known = _number(root, figure.arithmetic)
-    return Wrenched(load, against, at, unit_wrench, gain, root.name, ratio, known)
+def _wrench(case: Case, figure: SpatialFigure, load: Load, by_name: Mapping[str, Load]) -> SpatialWrench:
+    source, ratio = source_of(load, by_name, figure.arithmetic)
+    (force, couple), gain = _unit(case, figure, load)
+    about = moved((*force, *couple), place_of(load, figure) or ZERO, ZERO)
+    measure = figure.frame.scale if is_couple(load) else 1.0
+    reach = magnitude(gain) + (2.0 * load.free.value if isinstance(load, Spring) else 0.0)
+    return UnitWrench(load, reacting(case, load), about, gain, source.name, ratio, measure, source, reach)
 
 
-def _number(load: Load, arithmetic: Arithmetic) -> Scalar | None:
-    if isinstance(load, SpatialForceVector | TorqueVector):
-        return size(vector_of(load.parts, arithmetic), arithmetic)
-    assert not isinstance(load.value, Like)
-    return None if load.value is None else arithmetic.given(load.value)
+def is_couple(load: Load) -> bool:
+    """Whether a load has no force."""
+    return isinstance(load, SpatialTorque | TorqueVector)
+
+
+def place_of(load: Load, figure: SpatialFigure) -> Vec | None:
+    """Where a load acts [frame]; None of a couple."""
+    return None if isinstance(load, SpatialTorque | TorqueVector) else figure.points[load.at]
 
 
 def _unit(case: Case, figure: SpatialFigure, load: Load) -> tuple[tuple[Vec, Vec], Scalar]:
+    """A force of length 1 or a couple of 1, and what brings the load's own unit to force units (of a couple
+    times case length)."""
     name, a = f"load {load.name}", figure.arithmetic
     num, den, pi = case.units.exact_torque
-    per_torque = a.ratio((den, num, -pi)) * figure.frame.scale
     match load:
         case SpatialTorque():
-            return (ZERO, direction(load.heading, figure, name)), per_torque
+            return (ZERO, direction(load.heading, figure, name)), a.ratio((den, num, -pi))
         case TorqueVector():
-            return (ZERO, _along(vector_of(load.parts, a), a)), per_torque
+            return (ZERO, _along(load, figure)), a.ratio((den, num, -pi))
         case SpatialForceVector():
-            return (_along(vector_of(load.parts, a), a), ZERO), 1.0
+            return (_along(load, figure), ZERO), 1.0
         case SpatialForce():
             return (heading(load.heading, load.at, figure, name), ZERO), 1.0
         case Weight():
@@ -117,15 +97,11 @@ def _unit(case: Case, figure: SpatialFigure, load: Load) -> tuple[tuple[Vec, Vec
     raise TypeError(type(load).__name__)
 
 
-def _along(vector: Vec, arithmetic: Arithmetic) -> Vec:
-    """Unit vector of a load by components; of a load of nothing, x."""
-    return unit(vector, arithmetic) if any(map(float, vector)) else (1.0, 0.0, 0.0)
-
-
-def scale_of(loads: Sequence[Wrenched]) -> float:
-    """A power of two that brings the largest known load near 1."""
-    largest = max((w.size * abs(float(w.known)) for w in loads if w.known is not None), default=0.0)
-    return math.ldexp(1.0, -math.frexp(largest)[1]) if largest else 1.0
+def _along(load: SpatialForceVector | TorqueVector, figure: SpatialFigure) -> Vec:
+    """The components of a load over its size, which its number is; of a load of nothing, x."""
+    size = vector_size(load.parts)
+    x, y, z = vector_of(load.parts, figure.arithmetic)
+    return (x / size, y / size, z / size) if size else AXES[0]
 
 
 Twists = Mapping[str, Sequence[Components]]
@@ -175,47 +151,16 @@ def count_of(twists: Twists) -> int:
     return len(next(iter(twists.values())))
 
 
-class Power(NamedTuple):
-    """Power of a load, per unit of its root's number, on a motion; and what it could be at most."""
-
-    value: Scalar
-    most: float
-
-
-def powers_of(loads: Sequence[Wrenched], twists: Twists, arithmetic: Arithmetic) -> list[list[Power]]:
-    """The power of every load on every motion, (motions, loads); zero where it is rounding."""
-    vanishes = decider(arithmetic)
-    found: list[list[Power]] = []
-    for m in range(count_of(twists)):
-        speeds = [(float(size(t[m][:3])), float(size(t[m][3:]))) for t in twists.values()]
-        found.append([_power(w, twists, m, speeds, vanishes) for w in loads])
-    return found
-
-
-def _power(
-    w: Wrenched, twists: Twists, m: int, speeds: Sequence[tuple[float, float]], vanishes: Vanishes | None
-) -> Power:
-    """On the m-th motion, in which the links have these speeds (of the origin; angular)."""
-    wrench = w.wrench
-    on, off = twists[w.load.link][m], twists[w.against][m]
-    twist = tuple(a - b for a, b in zip(on, off, strict=True))
-    value = dot(wrench[:3], velocity_of(twist, w.at)) + dot(wrench[3:], twist[3:])
-    reach = 1.0 + float(size(w.at))
-    most = (float(size(wrench[:3])) + float(size(wrench[3:]))) * max(v + o * reach for v, o in speeds)
-    none = vanishes(value, most) if vanishes else abs(value) <= NOTHING * most
-    return Power(0.0 if none else value, most)
-
-
 class SpatialBalance(NamedTuple):
     """The unknown loads by power, in case units; ``free`` are those that it leaves open.
 
-    ``powers`` are those of every load, (motions, loads); ``left`` is, for each motion, the power that is not
-    balanced, and what it is summed from.
+    ``rows`` are the equations of power; ``left`` is, for each motion, the power that is not balanced, and
+    what it is summed from.
     """
 
     unknowns: dict[str, Scalar]
     free: tuple[str, ...]
-    powers: Sequence[Sequence[Power]]
+    rows: Sequence[PowerRow]
     left: tuple[tuple[float, float], ...]
 
     @property
@@ -230,70 +175,45 @@ class SpatialBalance(NamedTuple):
         return max((abs(rest) / most for rest, (_, most) in rests if rest), default=0.0)
 
 
-def balance_of(
-    powers: Sequence[Sequence[Power]],
-    loads: Sequence[Wrenched],
-    roots: Sequence[str],
-    arithmetic: Arithmetic,
-) -> SpatialBalance:
+def balance_of(powers: SpatialFactors, arithmetic: Arithmetic) -> SpatialBalance:
     """The unknown loads that make the power of all loads zero on every motion."""
-    rows = [_equation(row, loads, roots) for row in powers]
-    general = eliminate(rows, len(roots), vanishes=decider(arithmetic))
-    values = {root: general.of(n).get(len(roots), 0.0) for n, root in enumerate(roots)}
-    free = tuple(roots[n] for n in general.free)
-    return SpatialBalance(values, free, powers, tuple(_left(row, loads, values) for row in powers))
+    unknown, rows, scale = unknowns_of(powers), power_rows(powers, arithmetic), force_scale(powers)
+    count = len(unknown)
+    equations = [dict(enumerate(row.values)) for row in rows]
+    general = eliminate(equations, count, vanishes=decider(arithmetic))
+    scaled = [general.of(n).get(count, 0.0) for n in range(count)]
+    values = {w.root: x / (scale * w.measure) for w, x in zip(unknown, scaled, strict=True)}
+    free = tuple(unknown[n].root for n in general.free)
+    return SpatialBalance(values, free, rows, tuple(_left(row, [*scaled, 1.0]) for row in rows))
 
 
-def _equation(powers: Sequence[Power], loads: Sequence[Wrenched], roots: Sequence[str]) -> Row:
-    row: Row = {}
-    for power, w in zip(powers, loads, strict=True):
-        column = len(roots) if w.known is not None else roots.index(w.root)
-        amount = power.value * (1.0 if w.known is None else w.known)
-        row[column] = row.get(column, 0.0) + amount
-    return row
-
-
-def _left(
-    powers: Sequence[Power], loads: Sequence[Wrenched], values: Mapping[str, Scalar]
-) -> tuple[float, float]:
-    numbers = [values[w.root] if w.known is None else w.known for w in loads]
-    terms = [(float(p.value * n), p.most * abs(float(n))) for p, n in zip(powers, numbers, strict=True)]
-    return math.fsum(value for value, _ in terms), math.fsum(most for _, most in terms)
-
-
-def unit_powers(
-    powers: Sequence[Sequence[Power]], loads: Sequence[Wrenched], roots: Sequence[str]
-) -> list[list[float]]:
-    """The power of a unit of each unknown load, (motions, unknowns)."""
-    both = [list(zip(row, loads, strict=True)) for row in powers]
-    return [
-        [sum(float(p.value) for p, w in row if w.known is None and w.root == q) for q in roots]
-        for row in both
-    ]
+def _left(row: PowerRow, numbers: Sequence[Scalar]) -> tuple[float, float]:
+    rest = math.fsum(float(value * n) for value, n in zip(row.values, numbers, strict=True))
+    return rest, math.fsum(size * abs(float(n)) for size, n in zip(row.sizes, numbers, strict=True))
 
 
 def spatial_statics(
-    case: Case, ties: tuple[SpatialTie, ...], loads: Sequence[Wrenched], mobility: int, arithmetic: Arithmetic
+    case: Case,
+    figure: SpatialFigure,
+    ties: tuple[SpatialTie, ...],
+    powers: SpatialFactors,
+    mobility: int,
 ) -> SpatialStatics:
     """Solve the equilibrium of every link in space but the frame: six equations a link.
 
     Parameters and result as of `icsolve.statics.equilibrium.equilibrium`.
     """
-    first, known = columns_of(ties)
-    roots = tuple(w.root for w in loads if is_unknown(w.load))
-    bare = SpatialStatics(ties, (), first, known, roots, (), scale_of(loads), {}, NOTHING_SOLVED, arithmetic)
-    return solve_statics(bare, _actions(bare, loads), case.ground, mobility)
+    bare = columns_of(ties, powers, figure.arithmetic)
+    return solve_statics(bare, _actions(bare, figure, powers.wrenches), case.ground, mobility)
 
 
-def _actions(statics: SpatialStatics, loads: Sequence[Wrenched]) -> Iterator[Action]:
+def _actions(
+    statics: SpatialStatics, figure: SpatialFigure, loads: Sequence[SpatialWrench]
+) -> Iterator[Action]:
     """What the units of the ties, and the loads, do."""
     for tie, column in zip(statics.ties, statics.first, strict=True):
         for n, force in enumerate(tie.units):
             yield Action(column + n, tie.on, tie.by, tie.at, force)
     for w in loads:
-        column, share = statics.known, 1.0
-        if w.known is None:
-            column = statics.root(statics.roots.index(w.root))
-        else:
-            share = w.known * statics.scale
-        yield Action(column, w.load.link, w.against, w.at, tuple(share * part for part in w.wrench))
+        at = place_of(w.load, figure)
+        yield load_action(w, statics, at or ZERO, (*w.unit[:3], *ZERO) if at else w.unit)

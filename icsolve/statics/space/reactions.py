@@ -25,13 +25,22 @@ from icsolve.case.space import (
     Vector,
 )
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Scalar, Showing, decider, zero_of
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, Showing, decider, zero_of
 from icsolve.numbers.sparse import Row
 from icsolve.screws.space import AXES, Vec, cross, dot, size, square_to, sub, times, unit
 from icsolve.statics.equilibrium import value_of
-from icsolve.statics.power import is_unknown
+from icsolve.statics.power import unknowns_of
 from icsolve.statics.reactions import SHARED, names_by_tie
-from icsolve.statics.space.power import NEARLY, SpatialBalance, SpatialStatics, Twists, Wrenched, count_of
+from icsolve.statics.space.power import (
+    NEARLY,
+    SpatialBalance,
+    SpatialFactors,
+    SpatialStatics,
+    SpatialWrench,
+    Twists,
+    count_of,
+    is_couple,
+)
 from icsolve.statics.space.reaction_basis import SpatialFigure, SpatialFrame, SpatialTie
 from icsolve.structure.topology import reached
 from icsolve.wording.sentences import listed, plural, wrong_count
@@ -49,7 +58,7 @@ def unit_of(load: Load, case: Case) -> str:
     return case.units.force
 
 
-def sense_of(w: Wrenched, value: float) -> str:
+def sense_of(w: SpatialWrench, value: float) -> str:
     """Sense of an unknown load: ``along -z``, ``about x``, ``toward A``, ``pull``; '' for zero."""
     if value == 0.0:
         return ""
@@ -84,39 +93,32 @@ def _heading_words(heading: Along | Vector | FromTo, forth: bool) -> str:
 
 
 def terms_of_power(
-    case: Case, loads: Sequence[Wrenched], balance: SpatialBalance, values: Mapping[str, float]
+    case: Case, powers: SpatialFactors, values: Mapping[str, float], a: Arithmetic
 ) -> tuple[Term, ...]:
     """The sum of power, for the motion in which the one unknown load moves at 1 (length or rad a second)."""
-    unknown = [w for w in loads if w.known is None]
-    if len({w.root for w in unknown}) != 1:
+    unknowns = unknowns_of(powers)
+    if len(unknowns) != 1:
         return ()
-    powers = [[float(power.value) for power in row] for row in balance.powers]
-    ones = [sum(p for p, w in zip(row, loads, strict=True) if w.known is None) for row in powers]
-    most = max(range(len(ones)), key=lambda m: abs(ones[m]))
-    turns = isinstance(next(w for w in unknown if w.load.name == w.root).load, SpatialTorque)
-    whole = ones[most] * (case.units.torque_per_force_length if turns else 1.0)
+    (one,), loads = unknowns, powers.wrenches
+    rows = []
+    for row, sizes in zip(powers.factors, powers.sizes, strict=True):
+        each = zip(loads, row, sizes, strict=True)
+        rows.append([0.0 if a.vanishes(f, size) else float(f) * w.measure for w, f, size in each])
+    asked = [float(w.ratio) if w.root == one.root else 0.0 for w in loads]
+    shares = [sum(p * times for p, times in zip(row, asked, strict=True)) for row in rows]
+    most = max(range(len(shares)), key=lambda m: abs(shares[m]))
+    whole = shares[most] * (case.units.torque_per_force_length if is_couple(one.load) else 1.0)
     terms = []
-    for w, power in zip(loads, powers[most], strict=True):
-        factor = power / float(w.ratio) / whole if w.ratio else 0.0
-        name, value = w.load.name, values[w.load.name]
-        words = f"{name} on link {w.load.link}" + _at(w.load)
-        unit_name, is_asked = unit_of(w.load, case), w.known is None
-        terms.append(Term(name, w.load.link, value, unit_name, factor, value * factor, is_asked, words))
+    for w, power in zip(loads, rows[most], strict=True):
+        name, link, value, factor = w.load.name, w.load.link, values[w.load.name], power / whole
+        numbers = value, unit_of(w.load, case), factor, value * factor
+        terms.append(Term(name, link, *numbers, w.root == one.root, f"{name} on link {link}{_at(w.load)}"))
     return tuple(terms)
 
 
 def _at(load: Load) -> str:
     at = getattr(load, "at", "@")
     return "" if at.startswith("@") else f" at {at}"
-
-
-def advantage_of(loads: Sequence[Wrenched], values: Mapping[str, float]) -> float | None:
-    """unknown / known where there is one of each and the known one is not zero."""
-    found = [w.load.name for w in loads if w.known is None]
-    known = [w.load.name for w in loads if w.known is not None]
-    if len(found) != 1 or len(known) != 1 or values[known[0]] == 0.0:
-        return None
-    return values[found[0]] / values[known[0]]
 
 
 SMALL = 1e-9
@@ -342,10 +344,10 @@ def refuse_loose(case: Case, ties: Sequence[SpatialTie]) -> None:
 
 
 def refuse_unbalanced(
-    figure: SpatialFigure, twists: Twists, loads: Sequence[Wrenched], balance: SpatialBalance
+    figure: SpatialFigure, twists: Twists, powers: SpatialFactors, balance: SpatialBalance
 ) -> None:
     """Refuse unknown loads that have no value, or any, and known loads that nothing balances."""
-    unknowns = [w for w in loads if is_unknown(w.load)]
+    unknowns = unknowns_of(powers)
     if unknowns and not count_of(twists):
         raise SceneError(
             Status.STRUCTURE,
@@ -354,16 +356,15 @@ def refuse_unbalanced(
         )
     unbalanced = balance.off > NEARLY
     if balance.free:
-        raise _undetermined(loads, balance, unbalanced)
+        raise _undetermined(unknowns, balance, unbalanced)
     if unbalanced:
-        raise SceneError(Status.MOBILITY, _driven(figure, twists, loads, balance))
+        raise SceneError(Status.MOBILITY, _driven(figure, twists, powers, balance))
 
 
-def _undetermined(loads: Sequence[Wrenched], balance: SpatialBalance, unbalanced: bool) -> SceneError:
+def _undetermined(unknowns: Sequence[SpatialWrench], balance: SpatialBalance, unbalanced: bool) -> SceneError:
     """An unknown that does no work, or more of them than motions that they work on."""
-    unknowns = [n for n, w in enumerate(loads) if is_unknown(w.load)]
-    lazy = (loads[n] for n in unknowns if not any(row[n].value for row in balance.powers))
-    idle, mobility = next(lazy, None), len(balance.powers)
+    lazy = (w for n, w in enumerate(unknowns) if all(n in row.zero for row in balance.rows))
+    idle, mobility = next(lazy, None), len(balance.rows)
     if idle is None:
         working = len(unknowns) - len(balance.free)
         return SceneError(Status.MOBILITY, wrong_count(mobility, len(unknowns), mobility - working))
@@ -376,8 +377,8 @@ def _undetermined(loads: Sequence[Wrenched], balance: SpatialBalance, unbalanced
     return SceneError(Status.ANY_VALUE, f"{said} The joints carry it; ask for another load.")
 
 
-def _driven(figure: SpatialFigure, twists: Twists, loads: Sequence[Wrenched], balance: SpatialBalance) -> str:
-    words = driven_motion(figure, twists, loads, balance)
+def _driven(figure: SpatialFigure, twists: Twists, powers: SpatialFactors, balance: SpatialBalance) -> str:
+    words = driven_motion(figure, twists, powers, balance)
     return (
         f"the joints leave {plural(count_of(twists), 'degree')} of freedom and the loads do not balance: "
         f"they drive a motion in which {words}. Add an unknown load that does work on it, or a joint that "
@@ -386,7 +387,7 @@ def _driven(figure: SpatialFigure, twists: Twists, loads: Sequence[Wrenched], ba
 
 
 def driven_motion(
-    figure: SpatialFigure, twists: Twists, loads: Sequence[Wrenched], balance: SpatialBalance
+    figure: SpatialFigure, twists: Twists, powers: SpatialFactors, balance: SpatialBalance
 ) -> str:
     """The motion that the loads drive most, by that of the first loaded link that takes part."""
     rests = zip(balance.unbalanced, balance.left, strict=True)
@@ -394,7 +395,7 @@ def driven_motion(
     most = max(range(len(shares)), key=lambda m: abs(shares[m]))
     sense = math.copysign(1.0, shares[most])
     motion = {link: [sense * float(part) for part in each[most]] for link, each in twists.items()}
-    link = moving(motion, [w.load.link for w in loads])
+    link = moving(motion, [w.load.link for w in powers.wrenches])
     return motion_words(link, motion, figure)
 
 
@@ -417,7 +418,7 @@ HUGE = 1e6
 def notes_of(
     figure: SpatialFigure,
     twists: Twists,
-    loads: Sequence[Wrenched],
+    powers: SpatialFactors,
     balance: SpatialBalance,
     statics: SpatialStatics,
     reactions: SpatialReactions,
@@ -430,7 +431,7 @@ def notes_of(
         idle = plural(mobility - working, "degree")
         notes.append(f"the joints leave {idle} of freedom in which the loads are in balance.")
     if balance.off:
-        words = driven_motion(figure, twists, loads, balance)
+        words = driven_motion(figure, twists, powers, balance)
         notes.append(
             f"the loads balance to a fraction of {balance.off:.1g} only (a motion in which {words}): taken "
             "as balanced, the rest being rounding of the data."

@@ -20,18 +20,18 @@ from icsolve.numbers.arithmetic import FLOATS, Scalar, Showing
 from icsolve.numbers.balls import PRECISIONS, Balls, HalfUnits, MoreDigits, is_long
 from icsolve.numbers.given import numbers_in
 from icsolve.statics.free_bodies import carrying, on_flanks
+from icsolve.statics.power import advantage, balance, load_value
 from icsolve.statics.space.power import (
     SpatialBalance,
+    SpatialFactors,
     SpatialStatics,
+    SpatialWrench,
     Twists,
-    Wrenched,
     balance_of,
     count_of,
     motions_of,
-    powers_of,
     spatial_statics,
-    unit_powers,
-    wrenched,
+    wrenches,
 )
 from icsolve.statics.space.reaction_basis import (
     SpatialFigure,
@@ -42,7 +42,6 @@ from icsolve.statics.space.reaction_basis import (
     ties_of,
 )
 from icsolve.statics.space.reactions import (
-    advantage_of,
     notes_of,
     reactions_of,
     refuse_huge,
@@ -54,6 +53,7 @@ from icsolve.statics.space.reactions import (
 )
 from icsolve.statics.witness import (
     bounds_of,
+    powers_of,
     refuse_apart,
     refuse_doubt,
     residual,
@@ -71,6 +71,7 @@ class SpatialSolution(NamedTuple):
     twists: Twists
     balance: SpatialBalance
     statics: SpatialStatics
+    powers: SpatialFactors
 
     @property
     def parameters(self) -> Mapping[int, Scalar]:
@@ -127,33 +128,30 @@ def _solve(case: Case, a: Showing) -> Answer:
     figure = figure_of(in_case(case), a)
     ties = ties_of(case, figure)
     refuse_loose(case, ties)
-    loads = wrenched(case, figure)
-    solved = _on_carrying_flanks(case, ties, loads, a)
-    statics, balance = solved.statics, solved.balance
-    refuse_unbalanced(figure, solved.twists, loads, balance)
+    solved = _on_carrying_flanks(case, figure, ties)
+    statics = solved.statics
+    refuse_unbalanced(figure, solved.twists, solved.powers, solved.balance)
     terms = terms_of(statics, solved.parameters)
-    powers = unit_powers(balance.powers, loads, statics.roots)
-    bounds = bounds_of(statics, powers, solved.twists, terms)
+    bounds = bounds_of(statics, powers_of(statics, solved.powers), solved.twists, terms)
     refuse_huge(statics, solved.parameters)
     unknowns = unknowns_of(statics)
     if unknowns is None:
         refuse_doubt(0, solved.mobility)
-    by_power = {q: (float(x), 0.0) for q, x in balance.unknowns.items()}
+    by_power = {q: (float(x), 0.0) for q, x in solved.balance.unknowns.items()}
     found = witnesses(by_power, {q: float(x) for q, x in (unknowns or {}).items()}, bounds)
     refuse_apart(found, 0.0)
     reactions = reactions_of(case, figure.frame, statics, solved.parameters, a)
     spatial = Spatial(_named(figure), reactions, found, residual(terms))
-    notes = notes_of(figure, solved.twists, loads, balance, statics, reactions)
-    return _answer(case, solved, loads, bounds, spatial, notes, a)
+    notes = notes_of(figure, solved.twists, solved.powers, solved.balance, statics, reactions)
+    return _answer(case, solved, bounds, spatial, notes, a)
 
 
-def _on_carrying_flanks(
-    case: Case, ties: tuple[SpatialTie, ...], loads: Sequence[Wrenched], a: Showing
-) -> SpatialSolution:
+def _on_carrying_flanks(case: Case, figure: SpatialFigure, ties: tuple[SpatialTie, ...]) -> SpatialSolution:
     """The tangential forces alone show which flanks of the teeth carry; the other parts go with them."""
+    loads = wrenches(case, figure)
 
     def solve(flanks: Mapping[int, float]) -> SpatialSolution:
-        return _solved(case, flanked(ties, flanks), loads, a)
+        return _solved(case, figure, flanked(ties, flanks), loads)
 
     meshes = [t for t, tie in enumerate(ties) if tie.mesh]
     found = solve({})
@@ -161,13 +159,13 @@ def _on_carrying_flanks(
 
 
 def _solved(
-    case: Case, ties: tuple[SpatialTie, ...], loads: Sequence[Wrenched], a: Showing
+    case: Case, figure: SpatialFigure, ties: tuple[SpatialTie, ...], loads: tuple[SpatialWrench, ...]
 ) -> SpatialSolution:
-    twists = motions_of(case, ties, a)
-    statics = spatial_statics(case, ties, loads, count_of(twists), a)
+    twists = motions_of(case, ties, figure.arithmetic)
+    powers = balance(loads, twists, count_of(twists))
+    statics = spatial_statics(case, figure, ties, powers, count_of(twists))
     refuse_doubt(len(statics.general.left), count_of(twists))
-    balance = balance_of(powers_of(loads, twists, a), loads, statics.roots, a)
-    return SpatialSolution(twists, balance, statics)
+    return SpatialSolution(twists, balance_of(powers, figure.arithmetic), statics, powers)
 
 
 def _named(figure: SpatialFigure) -> dict[str, tuple[float, float, float]]:
@@ -178,27 +176,25 @@ def _named(figure: SpatialFigure) -> dict[str, tuple[float, float, float]]:
 def _answer(
     case: Case,
     solved: SpatialSolution,
-    loads: Sequence[Wrenched],
     bounds: Mapping[str, float],
     spatial: Spatial,
     notes: tuple[str, ...],
     a: Showing,
 ) -> Answer:
-    values, found = {}, {}
-    for w in loads:
-        number = w.known if w.known is not None else solved.balance.unknowns[w.root]
-        value, error = a.rounded(w.ratio * number)
-        if w.known is None and not error < math.inf:  # in doubles
-            error = abs(float(w.ratio)) * bounds[w.root]
-            value = 0.0 if abs(value) <= error else value
-        values[w.load.name] = value
-        if w.known is None:
+    exact, values, found = solved.balance.unknowns, {}, {}
+    for w in solved.powers.wrenches:
+        value, error = a.rounded(load_value(w, exact, a))
+        if w.root in exact:
+            if not error < math.inf:  # in doubles
+                error = abs(float(w.ratio)) * bounds[w.root]
+                value = 0.0 if abs(value) <= error else value
             found[w.load.name] = Found(value, unit_of(w.load, case), sense_of(w, value), error)
+        values[w.load.name] = value
     return Answer(
         case=case,
         answers=found,
-        terms=terms_of_power(case, loads, solved.balance, values),
-        advantage=advantage_of(loads, values),
+        terms=terms_of_power(case, solved.powers, values, a),
+        advantage=advantage(solved.powers.wrenches, exact, a),
         mobility=solved.mobility,
         notes=notes,
         sensitivities=Deferred(_no_sensitivities),
