@@ -90,15 +90,15 @@ class RecordedAdjoints:
 
     def times(self, w: Scalar, n: int, factor: float = 1.0) -> Scalar:
         """w v, times a factor"""
-        return w * self.record.at(n) * factor
+        return w * self.record.nodes[n] * factor
 
     def over(self, w: Scalar, n: int, factor: float = 1.0) -> Scalar:
         """w / v, times a factor"""
-        return w * factor / self.record.at(n)
+        return w * factor / self.record.nodes[n]
 
     def over_square(self, w: Scalar, x: int, y: int) -> Scalar:
         """w / (x^2 + y^2)"""
-        u, v = self.record.at(x), self.record.at(y)
+        u, v = self.record.nodes[x], self.record.nodes[y]
         return w / ((u * u + v * v) * RADIAN)
 
 

@@ -12,7 +12,7 @@ from functools import partial
 
 import numpy as np
 
-from icsolve.numbers.record import Node, Op, Record
+from icsolve.numbers.record import Op, Record, Traced
 from icsolve.numbers.replay import Array, live
 from icsolve.tuples import NamedTuple
 
@@ -240,7 +240,7 @@ class Cells:
             return [of(whole, k) for k in self.wanted], [of(middle, k) for k in self.wanted]
 
 
-def _result(node: Node, of: Callable[[int], Jet]) -> Jet:
+def _result(node: Traced, of: Callable[[int], Jet]) -> Jet:
     """The jet of a node from those of what it is made of."""
     match node.op:
         case Op.ADD:

@@ -38,33 +38,28 @@ class Op(IntEnum):
     """the nearest whole number"""
 
 
-class Node(NamedTuple):
-    """One recorded value.
+class Traced:
+    """One recorded value: a number of a record.
 
     Attributes
     ----------
+    record : that of all its operands; ``index`` its place there
     op : the operation
-    a, b : nodes of its operands, 0 where there is none
+    a, b : places of its operands, 0 where there is none
     value : in the position in which the record was made
     row : whether it varies from row to row
     noise : bounds the rounding of a constant
     """
 
-    op: Op
-    a: int
-    b: int
-    value: float
-    row: bool
-    noise: float = 0.0
+    __slots__ = ("a", "b", "index", "noise", "op", "record", "row", "value")
 
-
-class Traced:
-    """A number of a record; ``value`` is its value in the position in which the record was made."""
-
-    __slots__ = ("index", "record", "row", "value")
-
-    def __init__(self, record: Record, index: int, value: float, row: bool) -> None:
-        self.record, self.index, self.value, self.row = record, index, value, row
+    def __init__(
+        self, record: Record, op: Op, a: int, b: int, value: float, row: bool, noise: float = 0.0
+    ) -> None:
+        self.record, self.index = record, len(record.nodes)
+        self.op, self.a, self.b = op, a, b
+        self.value, self.row, self.noise = value, row, noise
+        record.nodes.append(self)
 
     def __add__(self, other: Scalar) -> Scalar:
         return self.record.add(self, other)
@@ -158,20 +153,11 @@ def varies(value: Scalar) -> bool:
     return isinstance(value, Traced) and value.row
 
 
-def is_plainly(value: Any, constant: float) -> bool:
-    """Whether a value is this number itself, without noise."""
-    return isinstance(value, float) and value == constant
-
-
-TWO = frozenset((Op.ADD, Op.SUB, Op.MUL, Op.DIV, Op.ANGLE))
-"""The operations on two nodes."""
-
-
 class Record:
     """The nodes in order; an `icsolve.numbers.arithmetic.Arithmetic` whose numbers are `Traced` or floats."""
 
     def __init__(self) -> None:
-        self.nodes: list[Node] = []
+        self.nodes: list[Traced] = []
         self.inputs: dict[str, Traced] = {}
         self.roots: dict[int, Root] = {}
         self.implicit: list[Implicit] = []
@@ -228,9 +214,7 @@ class Record:
 
     def input(self, name: str, value: float) -> Traced:
         """A number that varies from row to row."""
-        found = Traced(self, len(self.nodes), value, True)
-        self.nodes.append(Node(Op.INPUT, 0, 0, value, True))
-        self.inputs[name] = found
+        found = self.inputs[name] = Traced(self, Op.INPUT, 0, 0, value, True)
         return found
 
     def about(self, value: float, noise: float) -> Traced:
@@ -240,9 +224,7 @@ class Record:
     def _constant(self, value: float, noise: float, name: str) -> Traced:
         found = self._constants.get((value, name))
         if found is None:
-            found = Traced(self, len(self.nodes), value, False)
-            self.nodes.append(Node(Op.CONST, 0, 0, value, False, noise))
-            self._constants[value, name] = found
+            found = self._constants[value, name] = Traced(self, Op.CONST, 0, 0, value, False, noise)
         return found
 
     # --- operations -------------------------------------------------------------------------------
@@ -301,74 +283,81 @@ class Record:
 
     def add(self, a: Scalar, b: Scalar) -> Scalar:
         """a + b"""
-        if is_plainly(b, 0.0):
-            return a
-        if is_plainly(a, 0.0):
-            return b
-        one, two = self.lifted(a), self.lifted(b)
-        if self.nodes[two.index].op == Op.NEG:
-            return self.subtract(one, self.at(self.nodes[two.index].a))
-        if self.nodes[one.index].op == Op.NEG:
-            return self.subtract(two, self.at(self.nodes[one.index].a))
-        first, second = sorted((one.index, two.index))
-        return self._put(Op.ADD, first, second, one.value + two.value, one.row or two.row)
+        if not isinstance(b, Traced):
+            a, b = b, a
+        if not isinstance(a, Traced):
+            if a == 0.0:
+                return b
+            a = self.lifted(a)
+            b = self.lifted(b)
+        if b.op == Op.NEG:
+            return self.subtract(a, self.nodes[b.a])
+        if a.op == Op.NEG:
+            return self.subtract(b, self.nodes[a.a])
+        if a.index > b.index:
+            a, b = b, a
+        return self._put(Op.ADD, a.index, b.index, a.value + b.value, a.row or b.row)
 
     def subtract(self, a: Scalar, b: Scalar) -> Scalar:
         """a - b"""
-        if is_plainly(b, 0.0):
-            return a
-        if is_plainly(a, 0.0):
-            return self.negate(b)
-        one, two = self.lifted(a), self.lifted(b)
-        if one.index == two.index:
+        if not isinstance(b, Traced):
+            if b == 0.0:
+                return a
+            b = self.lifted(b)
+        if not isinstance(a, Traced):
+            if a == 0.0:
+                return self.negate(b)
+            a = self.lifted(a)
+        if a is b:
             return 0.0
-        if self.nodes[two.index].op == Op.NEG:
-            return self.add(one, self.at(self.nodes[two.index].a))
-        return self._put(Op.SUB, one.index, two.index, one.value - two.value, one.row or two.row)
+        if b.op == Op.NEG:
+            return self.add(a, self.nodes[b.a])
+        return self._put(Op.SUB, a.index, b.index, a.value - b.value, a.row or b.row)
 
     def multiply(self, a: Scalar, b: Scalar) -> Scalar:
         """a b"""
-        if is_plainly(a, 0.0) or is_plainly(b, 0.0):
-            return 0.0
-        for one, other in ((a, b), (b, a)):
-            if is_plainly(one, 1.0):
-                return other
-            if is_plainly(one, -1.0):
-                return self.negate(other)
-        one, two = self.lifted(a), self.lifted(b)
-        first, second = sorted((one.index, two.index))
-        return self._put(Op.MUL, first, second, one.value * two.value, one.row or two.row)
+        if not isinstance(b, Traced):
+            a, b = b, a
+        if not isinstance(a, Traced):
+            if a == 0.0:
+                return 0.0
+            if a == 1.0:
+                return b
+            if a == -1.0:
+                return self.negate(b)
+            a = self.lifted(a)
+        if a.index > b.index:
+            a, b = b, a
+        return self._put(Op.MUL, a.index, b.index, a.value * b.value, a.row or b.row)
 
     def divide(self, a: Scalar, b: Scalar) -> Scalar:
         """a / b"""
-        if is_plainly(a, 0.0):
-            return 0.0
-        if is_plainly(b, 1.0):
-            return a
-        if is_plainly(b, -1.0):
-            return self.negate(a)
-        one, two = self.lifted(a), self.lifted(b)
-        value = one.value / two.value if two.value else math.copysign(math.inf, one.value)
-        return self._put(Op.DIV, one.index, two.index, value, one.row or two.row)
+        if not isinstance(a, Traced):
+            if a == 0.0:
+                return 0.0
+            a = self.lifted(a)
+        if not isinstance(b, Traced):
+            if b == 1.0:
+                return a
+            if b == -1.0:
+                return self.negate(a)
+            b = self.lifted(b)
+        value = a.value / b.value if b.value else math.copysign(math.inf, a.value)
+        return self._put(Op.DIV, a.index, b.index, value, a.row or b.row)
 
     def negate(self, a: Scalar) -> Scalar:
         """-a"""
         if not isinstance(a, Traced):
             return -a
-        node = self.nodes[a.index]
-        if node.op == Op.NEG:
-            return self.at(node.a)
-        if node.op == Op.SUB:
-            return self._put(Op.SUB, node.b, node.a, -a.value, a.row)
+        if a.op == Op.NEG:
+            return self.nodes[a.a]
+        if a.op == Op.SUB:
+            return self._put(Op.SUB, a.b, a.a, -a.value, a.row)
         return self._put(Op.NEG, a.index, 0, -a.value, a.row)
 
     def lifted(self, value: Scalar) -> Traced:
         """A number as a node of this record."""
         return value if isinstance(value, Traced) else self._constant(float(value), 0.0, "exact")
-
-    def at(self, index: int) -> Traced:
-        """The number at a node."""
-        return Traced(self, index, self.nodes[index].value, self.nodes[index].row)
 
     def _put(self, op: Op, a: int, b: int, value: float, row: bool) -> Scalar:
         """A new value; two exact numbers that cancel leave nothing."""
@@ -376,9 +365,7 @@ class Record:
             return 0.0
         found = self._known.get((op, a, b))
         if found is None:
-            found = Traced(self, len(self.nodes), value, row)
-            self.nodes.append(Node(op, a, b, value, row))
-            self._known[op, a, b] = found
+            found = self._known[op, a, b] = Traced(self, op, a, b, value, row)
         return found
 
     def _is_exact(self, value: Scalar) -> bool:
@@ -404,10 +391,10 @@ def operands(record: Record, k: int) -> tuple[int, ...]:
     return (node.a, node.b) if node.op in TWO else (node.a,)
 
 
-__all__ = ["Node", "Op", "Record", "Root", "Traced", "operands", "varies"]
+__all__ = ["Op", "Record", "Root", "Traced", "operands", "varies"]
 
 
-def terms_of(nodes: Sequence[Node], k: int) -> float:
+def terms_of(nodes: Sequence[Traced], k: int) -> float:
     """The size of the terms that a value is summed from, where the record was made."""
     node = nodes[k]
     if node.op in (Op.ADD, Op.SUB):

@@ -17,7 +17,7 @@ from icsolve.numbers.record import Op, Record, operands
 Array = npt.NDArray[np.float64]
 BLOCK = 4096
 """Rows that run at once: some thirty buffers of them fit the second-level cache."""
-FEW = 512
+FEW = 256
 LEAST = 8
 MOST_SIZES = 24
 

@@ -183,7 +183,7 @@ def _moving(case: Case, paths: Sequence[str]) -> Surface:
         raise SceneError(Status.UNSUPPORTED, TOGETHER)
     record = compiled.record
     return _surface(
-        compiled, paths, [record.at(n) for root in record.roots.values() for n, _ in root.margins]
+        compiled, paths, [record.nodes[n] for root in record.roots.values() for n, _ in root.margins]
     )
 
 

@@ -112,15 +112,6 @@ class Radicands:
             parts.append(found)
         return [np.concatenate(column) for column in zip(*parts, strict=True)]
 
-    @property
-    def touching(self) -> bool:
-        """Whether a branch may come to change points, or have no place to meet, somewhere on the grid."""
-        for radicand in self.table[0]:
-            step = np.abs(np.diff(radicand, append=radicand[-1]))
-            if not (radicand > STEEP * np.maximum(step, np.roll(step, 1))).all():
-                return True
-        return False
-
     def passing(self, n: int) -> Passing:
         """Touches and gaps of a branch on the grid."""
         root, grid, radicand = self.roots[n], self.grid, self.table[0][n]

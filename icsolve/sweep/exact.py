@@ -15,7 +15,7 @@ from functools import lru_cache
 from icsolve.case import Case, Centroid, Coordinates, Number, TorsionSpring
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.record import Implicit, Node, Op, Record, Root, Traced, operands, terms_of
+from icsolve.numbers.record import Implicit, Op, Record, Root, Traced, operands, terms_of
 from icsolve.numbers.replay import BINARY, live
 from icsolve.statics.power import Points, spring_angle
 from icsolve.sweep.branches import live_roots
@@ -97,7 +97,7 @@ class ExactRecord:
     def margins(self, roots: Sequence[Root], given: Mapping[int, Decimal]) -> list[Decimal]:
         """The smaller margin of each branch over the size of its terms; what is zero is 0, and not a number
         where nothing says where its place is."""
-        nodes = [self.record.at(n) for root in roots for margin in root.margins for n in margin]
+        nodes = [self.record.nodes[n] for root in roots for margin in root.margins for n in margin]
         flat = iter(self.values(nodes, given))
         with localcontext(CONTEXT):
             pairs = [[_over(next(flat), next(flat)) for _ in range(2)] for _ in roots]
@@ -220,7 +220,7 @@ def _result(op: Op, a: Decimal, b: Decimal) -> Decimal:
     return cos_sin(a)[0 if op == Op.COS else 1]
 
 
-def _pair(node: Node) -> tuple[int, int]:
+def _pair(node: Traced) -> tuple[int, int]:
     """What a node is made of; twice, where that is one."""
     return (node.a, node.b) if node.op in BINARY or node.op == Op.ANGLE else (node.a, node.a)
 
@@ -261,8 +261,8 @@ class RowScenes:
         compiled, exact = self.compiled, self.exact
         try:
             margins = exact.margins(self.roots, given)
-            margins += exact.values([compiled.record.at(k) for k in compiled.margins], given)
-            checks = [compiled.record.at(k) for k in compiled.motion.checks] if compiled.motion else []
+            margins += exact.values([compiled.record.nodes[k] for k in compiled.margins], given)
+            checks = [compiled.record.nodes[k] for k in compiled.motion.checks] if compiled.motion else []
             off = exact.values(checks, given)
         except Unreached:
             raise SceneError(Status.CANNOT_ASSEMBLE, APART) from None

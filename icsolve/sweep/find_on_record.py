@@ -201,7 +201,7 @@ class RangeSearch:
             yield from ((s, error) for s, error in self._ends_of_groups())
         for root in self.roots:
             for node, _ in root.margins:
-                for s in self._zeros(self.record.at(node)):
+                for s in self._zeros(self.record.nodes[node]):
                     if self._assembles(s - NEAR) != self._assembles(s + NEAR):
                         yield s, None
 
@@ -485,7 +485,7 @@ def fraction(record: Record, value: Scalar) -> tuple[Scalar, Scalar]:
     if not isinstance(value, Traced) or not value.row:
         return value, 1.0
     node = record.nodes[value.index]
-    a, b = record.at(node.a), record.at(node.b)
+    a, b = record.nodes[node.a], record.nodes[node.b]
     if node.op == Op.NEG:
         top, bottom = fraction(record, a)
         return -top, bottom

@@ -11,10 +11,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from icsolve.numbers.replay import BLOCK, Array, code_of
-from icsolve.sweep.branches import STEEP, Followed, Radicands, follow, grid_of, live_roots, signs_of
-from icsolve.sweep.continuation import ChangePoints, InputLine, State, written_state
+from icsolve.sweep.branches import STEEP, Followed, follow, grid_of, live_roots, signs_of
+from icsolve.sweep.continuation import InputLine, State, written_state
 from icsolve.sweep.numbers import numbers_of
-from icsolve.sweep.path_tracking import Mask, PathTracker
+from icsolve.sweep.path_tracking import Mask
 from icsolve.sweep.program import CompiledSweep, Signs
 from icsolve.sweep.request import Columns
 from icsolve.sweep.runner import Rows, Runner
@@ -123,12 +123,16 @@ class SweepParts:
     def _meets_nothing(self, compiled: CompiledSweep, main: str) -> bool:
         """Whether no branch comes near a change point or a limit between the position as written and the
         rows, all of which can then be run at once."""
-        at, line = self.arrays[main], self._way(compiled, main, {})
-        grid = grid_of([float(at.min()), float(at.max())], line)
-        tracker = PathTracker(
-            compiled, line, written_state(compiled), ChangePoints({}), (line.start, line.start)
-        )
-        return not Radicands(compiled, tracker, grid).touching
+        at = self.arrays[main]
+        code = code_of(compiled.record, [r.radicand for r in live_roots(compiled)])
+        grid = grid_of([float(at.min()), float(at.max())], self._way(compiled, main, {}))
+        for start in range(0, len(grid) - 1, BLOCK):
+            here = grid[start : start + BLOCK + 1]
+            for radicand in code.run({compiled.inputs[main]: here}, len(here)):
+                step = np.abs(radicand[1:] - radicand[:-1])
+                if not (np.minimum(radicand[1:], radicand[:-1]) > STEEP * step).all():
+                    return False
+        return True
 
     def _clear(self, compiled: CompiledSweep, main: str, others: list[str]) -> Mask:
         """Rows on whose line from the position as written no branch comes near a change point.

@@ -208,7 +208,7 @@ class Recheck:
         return self.change_points[name, near]
 
     def _lowest(self, root: Root, near: float) -> Decimal:
-        at, radicand = as_written(near), self.compiled.record.at(root.radicand)
+        at, radicand = as_written(near), self.compiled.record.nodes[root.radicand]
         with localcontext(CONTEXT):
             for _ in range(12):
                 try:

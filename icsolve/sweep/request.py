@@ -54,7 +54,7 @@ class Columns(NamedTuple):
     @property
     def rows(self) -> int:
         """Number of rows."""
-        return len(next(iter(self.arrays.values())))
+        return len(next(iter((self.paths or self.links).values())))
 
 
 def columns_of(
@@ -73,25 +73,24 @@ def columns_of(
     CaseError
         For paths that the case does not have.
     """
-    asked = {**{("vary", path): v for path, v in (vary or {}).items()}}
-    asked |= {("drive", str(link)): v for link, v in (drive or {}).items()}
+    asked = [(path, _column(path, values), False) for path, values in (vary or {}).items()]
+    asked += [(str(link), _column(str(link), values), True) for link, values in (drive or {}).items()]
     if not asked:
         raise RequestError("nothing is varied: give vary={'angles.AB': values} or drive={'2': degrees}")
-    arrays = {key: _column(key[1], value) for key, value in asked.items()}
-    rows = max(len(a) if a.ndim else 1 for a in arrays.values())
-    paths: dict[str, Array] = {}
-    links: dict[str, Array] = {}
-    names: dict[str, str] = {}
-    for (kind, name), array in arrays.items():
+    rows = max(array.size for _, array, _ in asked)
+    found = Columns({}, {}, {})
+    for name, array, turned in asked:
         if array.ndim and len(array) != rows:
             raise RequestError(f"{shown(name)} has {len(array)} values where another has {rows}")
-        own = _path(case, name) if kind == "vary" else _link(case, name)
-        if own in names:
-            raise RequestError(f"{shown(name)} and {shown(names[own])} are the same number")
-        names[own] = name
-        _refuse_values(name, own, array, kind == "drive" or own.startswith("angles."))
-        (paths if kind == "vary" else links)[own] = np.ascontiguousarray(np.broadcast_to(array, rows))
-    return Columns(paths, links, names)
+        own = _link(case, name) if turned else _path(case, name)
+        if own in found.names:
+            raise RequestError(f"{shown(name)} and {shown(found.names[own])} are the same number")
+        found.names[own] = name
+        _refuse_values(name, own, array, turned or own.startswith("angles."))
+        column = np.ascontiguousarray(array).view() if array.ndim else np.full(rows, array)
+        column.flags.writeable = False
+        (found.links if turned else found.paths)[own] = column
+    return found
 
 
 def along_of(columns: Columns) -> str:

@@ -199,6 +199,8 @@ class SweepRun:
 
     def _silence(self) -> None:
         """What a row without a status of its own may not have."""
+        if not self.codes.any():
+            return
         apart, none = self.codes == CODE[Status.CANNOT_ASSEMBLE], self.codes != 0
         for tables in (self.table.values, self.table.errors):
             for (kind, _), array in tables.items():

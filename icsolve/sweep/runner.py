@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from icsolve.numbers.adjoint import noise_of
 from icsolve.numbers.backward import Backward
-from icsolve.numbers.record import Node, Op, Record, terms_of, varies
+from icsolve.numbers.record import Op, Record, Root, Traced, terms_of, varies
 from icsolve.numbers.replay import BLOCK, Array, Code, live
 from icsolve.sweep.branches import live_roots
 from icsolve.sweep.exact import RowScenes
@@ -75,19 +75,21 @@ class Runner:
         self.moving = [(key, part, v.index) for key, part, v in flat if varies(v)]
         wanted = [index for _, _, index in self.moving]
         self.rubs = compiled.rubbing.nodes if compiled.rubbing is not None else []
-        alive = Code(record, [*wanted, *self.rubs]).order
-        self.roots = [record.roots[k] for k in alive if k in record.roots]
-        self.divisors = _divisors(record.nodes, alive)
+        nodes = record.nodes
+        alive = [k for k in live(record, [*wanted, *self.rubs], ()) if nodes[k].op != Op.INPUT]
         answers = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
-        self.loose = answers if not compiled.rests else []
-        self.resting = answers if compiled.rests else []
-        self.margins = compiled.margins
-        self.checks = _living(compiled, alive)
-        watched = [*(root.radicand for root in self.roots), *self.divisors, *self.margins, *self.checks]
-        self.code = Code(record, [*wanted, *watched, *self.rubs])
-        self.typical = [terms_of(record.nodes, k) for k in self.divisors]
-        self.deep = [math.prod(record.nodes[size].value for _, size in root.margins) for root in self.roots]
-        self.usual = [_usual(record, index) for _, _, index in self.moving]
+        self.resting = [(n, DWELL * _usual(record, wanted[n])) for n in answers if compiled.rests]
+        self.roots = [record.roots[k] for k in alive if k in record.roots]
+        self.watched = [
+            *(Watched(root.radicand, SHALLOW * _size_of(record, root)) for root in self.roots),
+            *(Watched(k, SMALL * terms_of(nodes, k), sized=True) for k in _divisors(nodes, alive)),
+            *(Watched(k, CLOSE) for k in compiled.margins),
+            *(Watched(k, -math.inf, AGREED, True) for k in _living(compiled, alive)),
+        ]
+        for k in (wanted[n] for n in answers if not compiled.rests):
+            usual = _usual(record, k)
+            self.watched += [Watched(k, SMALL * usual, usual / SMALL, True)] if usual else []
+        self.code = Code(record, [*wanted, *(one.node for one in self.watched), *self.rubs])
 
     @cached_property
     def sequential(self) -> bool:
@@ -201,11 +203,11 @@ class Runner:
             stop = min(start + BLOCK, rows)
             here = {k: v[start:stop] if v.ndim else v for k, v in given.items()}
             found = self.code.run(here, stop - start)
-            for n in self.resting:
-                np.copyto(found[n], 0.0, where=np.abs(found[n]) <= DWELL * self.usual[n])
+            for n, least in self.resting:
+                np.copyto(found[n], 0.0, where=np.abs(found[n]) <= least)
             for (key, part, _), array in zip(self.moving, found, strict=False):
                 column(values[key], part)[start:stop] = array
-            again = self._watch(found)
+            again = self._watch(found[len(self.moving) :], stop - start)
             if self.compiled.rubbing is not None:
                 again = self._rub(self.compiled.rubbing, found, slice(start, stop), values, again)
             if again.size:
@@ -229,34 +231,32 @@ class Runner:
             array[rows][again] = np.nan
         return again
 
-    def _watch(self, found: list[Array]) -> Rows:
-        """Rows of a block to look at again."""
-        ends = (len(self.moving), len(self.roots), len(self.divisors), len(self.margins), len(self.checks))
-        cuts = np.cumsum(ends)
-        radicands, divisors = found[cuts[0] : cuts[1]], found[cuts[1] : cuts[2]]
-        rows = max((array.size for array in found), default=1)
+    def _watch(self, found: list[Array], rows: int) -> Rows:
+        """Rows of a block to look at again, from what is watched."""
         scratch = self.code.bound(rows)[1][-1][:rows]
         bad: list[Rows] = []
         with np.errstate(all="ignore"):
-            for n, radicand in enumerate(radicands):
-                self._below(radicand, SHALLOW * self.deep[n], bad)
-            for n, divisor in enumerate(divisors):
-                self._below(np.abs(divisor, scratch), SMALL * self.typical[n], bad)
-            for margin in found[cuts[2] : cuts[3]]:
-                self._below(margin, CLOSE, bad)
-            for check in found[cuts[3] : cuts[4]]:
-                self._below(np.negative(np.abs(check, scratch), scratch), -AGREED, bad)
-            for n in self.loose:
-                if self.usual[n]:
-                    size = np.abs(found[n], scratch)
-                    self._below(size, SMALL * self.usual[n], bad)
-                    self._below(np.negative(size, scratch), -self.usual[n] / SMALL, bad)
+            for (_, low, high, sized), values in zip(self.watched, found, strict=False):
+                size = np.abs(values, scratch) if sized else values
+                if not np.minimum.reduce(size) > low:
+                    bad.append(np.flatnonzero(~(size > low)))
+                if high < math.inf and not np.maximum.reduce(size) < high:
+                    bad.append(np.flatnonzero(~(size < high)))
         return np.unique(np.concatenate(bad)) if bad else np.empty(0, np.int64)
 
-    def _below(self, values: Array, limit: float, bad: list[Rows]) -> None:
-        """Note the rows that are not above a limit."""
-        if not float(np.minimum.reduce(values)) > limit:
-            bad.append(np.flatnonzero(~(values > limit)))
+
+class Watched(NamedTuple):
+    """A node that makes a row doubtful where its value (``sized``: the size of it) is not between two."""
+
+    node: int
+    low: float
+    high: float = math.inf
+    sized: bool = False
+
+
+def _size_of(record: Record, root: Root) -> float:
+    """The size of the terms of a root's radicand, where the record was made."""
+    return math.prod(record.nodes[size].value for _, size in root.margins)
 
 
 def _living(compiled: CompiledSweep, alive: Sequence[int]) -> list[int]:
@@ -279,7 +279,7 @@ def _usual(record: Record, k: int) -> float:
     return abs(nodes[k].value) if abs(nodes[top].value) > NOTHING * terms_of(nodes, top) else 0.0
 
 
-def _divisors(nodes: Sequence[Node], alive: Sequence[int]) -> list[int]:
+def _divisors(nodes: Sequence[Traced], alive: Sequence[int]) -> list[int]:
     """What is divided by and varies."""
     found = {nodes[k].b for k in alive if nodes[k].op == Op.DIV and nodes[nodes[k].b].row}
     return sorted(found)

@@ -96,7 +96,9 @@ def _together(start: Start, columns: Columns, wanted: SweepRequest, progress: Pr
     work = SweepRun(start, columns, wanted.error, progress)
     work.run()
     found = work.table.sweep(start.case, _shown(columns), wanted.error, tuple(work.notes), work.case_of)
-    return found if wanted.asked.rates else replace(found, rates={}, errors={**found.errors, "rates": {}})
+    if wanted.asked.rates or not found.rates:
+        return found
+    return replace(found, rates={}, errors={**found.errors, "rates": {}})
 
 
 @lru_cache(maxsize=64)
