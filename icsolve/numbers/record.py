@@ -8,7 +8,7 @@ are carried out at once, those on 0 and 1 not at all, equal ones once.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from enum import IntEnum
 from typing import Any
 
@@ -151,6 +151,10 @@ class Implicit(NamedTuple):
 def varies(value: Scalar) -> bool:
     """Whether a value differs from row to row."""
     return isinstance(value, Traced) and value.row
+
+
+TWO = frozenset((Op.ADD, Op.SUB, Op.MUL, Op.DIV, Op.ANGLE))
+"""The operations on two nodes."""
 
 
 class Record:
@@ -326,6 +330,8 @@ class Record:
             if a == -1.0:
                 return self.negate(b)
             a = self.lifted(a)
+        if a.op == Op.NEG or b.op == Op.NEG:
+            return self._outside(self.multiply, a, b)
         if a.index > b.index:
             a, b = b, a
         return self._put(Op.MUL, a.index, b.index, a.value * b.value, a.row or b.row)
@@ -342,8 +348,16 @@ class Record:
             if b == -1.0:
                 return self.negate(a)
             b = self.lifted(b)
+        if a.op == Op.NEG or b.op == Op.NEG:
+            return self._outside(self.divide, a, b)
         value = a.value / b.value if b.value else math.copysign(math.inf, a.value)
         return self._put(Op.DIV, a.index, b.index, value, a.row or b.row)
+
+    def _outside(self, operation: Callable[[Scalar, Scalar], Scalar], a: Traced, b: Traced) -> Scalar:
+        """A product or quotient with the minus signs of its operands before it."""
+        one, two = (self.nodes[v.a] if v.op == Op.NEG else v for v in (a, b))
+        found = operation(one, two)
+        return found if (a.op == Op.NEG) == (b.op == Op.NEG) else self.negate(found)
 
     def negate(self, a: Scalar) -> Scalar:
         """-a"""
