@@ -6,13 +6,17 @@ import errno
 import gc
 import io
 import os
-import signal
 import sys
 from contextlib import suppress
 from types import FrameType
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 from icsolve.files import clear_away, one_call
+
+if TYPE_CHECKING:
+    import signal
+else:  # what is written in C of it: the rest makes enumerations that nothing here needs, at every start
+    import _signal as signal
 
 INTERRUPTED = 130
 CLOSED_PIPE = 141

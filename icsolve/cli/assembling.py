@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from icsolve.cli.options import CASES, DIGITS, JSON, SET
+from icsolve.cli.options import CASES, DIGITS, JSON, SET, Verb
 from icsolve.cli.run import DONE, for_each, on_stderr
 from icsolve.cli.solving import print_json
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from icsolve.errors import SceneError
 
 
-@click.command("ways")
+@click.command("ways", cls=Verb)
 @CASES
 @JSON
 @SET

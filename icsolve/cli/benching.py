@@ -6,6 +6,7 @@ import os
 
 import click
 
+from icsolve.cli.options import Verb
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
 from icsolve.files import whole_file
 
@@ -13,7 +14,7 @@ ONE_CORE = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
 """Told to numpy before it is imported: the small matrices of a scene gain nothing from threads."""
 
 
-@click.command("bench")
+@click.command("bench", cls=Verb)
 @click.option(
     "--stress", is_flag=True, help="The stress catalogue: scenes that break solvers, with their verdicts."
 )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from icsolve.cli.options import CASES, JOBS, JSON, SET
+from icsolve.cli.options import CASES, JOBS, JSON, SET, Verb
 from icsolve.cli.run import DONE, NO_ANSWER, complain, for_each, on_stderr
 from icsolve.report.check import (
     AGREES,
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from icsolve.errors import SceneError
 
 
-@click.command("check")
+@click.command("check", cls=Verb)
 @CASES
 @JSON
 @click.option("--table", "as_table", is_flag=True, help="A Markdown table, a row a case.")
@@ -48,7 +48,7 @@ def check_command(
     return check_cases(cases, show, settings, jobs)
 
 
-@click.command("validate")
+@click.command("validate", cls=Verb)
 @CASES
 @SET
 def validate_command(cases: tuple[str, ...], settings: dict[str, str]) -> int:

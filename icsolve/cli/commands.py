@@ -8,6 +8,7 @@ from importlib import import_module
 import click
 
 from icsolve import __version__
+from icsolve.cli.options import Verb, showing
 
 VERBS = {
     "solve": "solving",
@@ -31,7 +32,7 @@ VERBS = {
 """Each verb, and the room beside this one that has its click command (``solve_command``)."""
 
 
-class Verbs(click.Group):
+class Verbs(Verb, click.Group):
     """`icsolve case.yaml` means `icsolve solve case.yaml`."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -84,7 +85,6 @@ class Verbs(click.Group):
     invoke_without_command=True,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
 )
-@click.version_option(__version__, message="%(prog)s %(version)s")
 @click.pass_context
 def icsolve(ctx: click.Context) -> int:
     """Find the force or torque that holds a planar mechanism in equilibrium, from a YAML case.
@@ -96,3 +96,7 @@ def icsolve(ctx: click.Context) -> int:
     if ctx.invoked_subcommand is None:
         click.echo(ctx.get_help())
     return 0
+
+
+VERSION = showing(lambda _: f"icsolve {__version__}", ["--version"], "Show the version and exit.")
+icsolve.params.append(VERSION)

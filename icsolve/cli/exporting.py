@@ -6,10 +6,11 @@ from typing import Any
 
 import click
 
+from icsolve.cli.options import Verb
 from icsolve.cli.run import DONE, NO_ANSWER, complain, refusing
 
 
-@click.command("export")
+@click.command("export", cls=Verb)
 @click.argument("kind", type=click.Choice(["moodle-xml", "gift", "qti", "prairielearn", "gradescope-zip"]))
 @click.argument("cases", metavar="CASES")
 @click.option("-o", "--output", metavar="FILE", required=True, help="The file; for prairielearn a folder.")

@@ -11,6 +11,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 import click
 
+from icsolve.cli.options import Verb
 from icsolve.cli.run import DONE, NO_ANSWER, complain, refusing
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ COURSE = "course.yaml"
 """The course that is taken where none is named and the folder of cases has it."""
 
 
-@click.command("grade")
+@click.command("grade", cls=Verb)
 @click.argument("submissions", metavar="SUBMISSIONS...", nargs=-1, required=True)
 @click.option("--cases", metavar="DIR", required=True, help="The folder of cases.")
 @click.option("-o", "--output", metavar="FILE", help="Results as CSV; - for standard output.")

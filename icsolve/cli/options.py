@@ -2,7 +2,35 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import click
+
+
+def showing(show: Callable[[click.Context], str], names: list[str], text: str) -> click.Option:
+    """An option that shows something and ends. Its text is plain: to look for a translation, as click's own
+    ones do, costs as much as to read a case."""
+
+    def shown(context: click.Context, _option: click.Parameter, asked: bool) -> None:
+        if asked and not context.resilient_parsing:
+            click.echo(show(context))
+            context.exit()
+
+    return click.Option(names, is_flag=True, expose_value=False, is_eager=True, callback=shown, help=text)
+
+
+class Verb(click.Command):
+    """A command with such an option for its help."""
+
+    def __init__(self, *given: Any, **named: Any) -> None:
+        super().__init__(*given, **named)
+        self.helping = showing(click.Context.get_help, ["-h", "--help"], "Show this message and exit.")
+
+    def get_help_option(self, ctx: click.Context) -> click.Option:
+        """The option itself."""
+        return self.helping
+
 
 CASES = click.argument("cases", metavar="CASE...", nargs=-1, required=True)
 SET = click.option(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from icsolve.cli.options import DIGITS, SET
+from icsolve.cli.options import DIGITS, SET, Verb
 from icsolve.cli.output import OUTPUT, one_source, write_output
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, for_each, on_stderr
 
@@ -31,7 +31,7 @@ SHEETS = {".tex": "tex"}
 PAGED = {".html": "html", ".htm": "html"}
 
 
-@click.command("draw")
+@click.command("draw", cls=Verb)
 @click.argument("case", metavar="CASE")
 @OUTPUT
 @click.option(
@@ -68,7 +68,7 @@ def draw_command(case: str, output: str | None, settings: dict[str, str], **aske
     return laid_out("draw", case, output, settings, made, reactions=asked["bodies"]) if form else UNREADABLE
 
 
-@click.command("explain")
+@click.command("explain", cls=Verb)
 @click.argument("case", metavar="CASE")
 @OUTPUT
 @click.option(
@@ -104,7 +104,7 @@ def explain_command(
     return laid_out("explain", case, output, settings, made) if form else UNREADABLE
 
 
-@click.command("page")
+@click.command("page", cls=Verb)
 @click.argument("case", metavar="CASE")
 @OUTPUT
 @SET
@@ -129,7 +129,7 @@ def page_command(case: str, output: str | None, settings: dict[str, str]) -> int
     return laid_out("page", case, output, settings, made) if known_ending else UNREADABLE
 
 
-@click.command("sheet")
+@click.command("sheet", cls=Verb)
 @click.argument("cases", metavar="CASE...", nargs=-1, required=True)
 @OUTPUT
 @click.option("--variants", metavar="FILE", help="values.csv of `icsolve variants`: a sheet a student.")

@@ -11,6 +11,7 @@ import click
 from icsolve.cli import BUG
 from icsolve.cli.faults import bug_report
 from icsolve.cli.inputs import STDIN, InputSource, sources
+from icsolve.cli.options import Verb
 from icsolve.cli.output import write_output
 from icsolve.cli.progress import watched
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
@@ -30,7 +31,7 @@ class Item(NamedTuple):
     name: str
 
 
-@click.command("gallery")
+@click.command("gallery", cls=Verb)
 @click.argument("cases", metavar="CASE...", nargs=-1, required=True)
 @click.option("-o", "--output", metavar="DIR", required=True, help="The folder to write into.")
 @click.option("--exercises", is_flag=True, help="Cards and figures without answers, and no pages.")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from icsolve.cli.options import CASES, DIGITS, JOBS, JSON, SET
+from icsolve.cli.options import CASES, DIGITS, JOBS, JSON, SET, Verb
 from icsolve.cli.run import DONE, Work, for_each
 from icsolve.tuples import NamedTuple, replace
 
@@ -49,7 +49,7 @@ class Options(NamedTuple):
     digits: int
 
 
-@click.command("solve")
+@click.command("solve", cls=Verb)
 @CASES
 @JSON
 @click.option("--all-centres", is_flag=True, help="All n(n-1)/2 instant centres, not only those needed.")

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import click
 
+from icsolve.cli.options import Verb
 from icsolve.cli.run import DONE, UNREADABLE, complain
 from icsolve.files import KeptError, whole_file
 from icsolve.manual import TOPICS, kinds, nearest, template, told_of
 
 
-@click.command("new")
+@click.command("new", cls=Verb)
 @click.argument("kind", required=False)
 @click.option("-o", "--output", metavar="FILE", help="Write here instead of standard output.")
 def new_command(kind: str | None, output: str | None) -> int:
@@ -22,7 +23,7 @@ def new_command(kind: str | None, output: str | None) -> int:
     return list_kinds() if kind is None else write_template(kind, output)
 
 
-@click.command("schema")
+@click.command("schema", cls=Verb)
 def schema_command() -> int:
     """Print the JSON Schema (draft-07) of a case, for editors."""
     import json
@@ -33,7 +34,7 @@ def schema_command() -> int:
     return DONE
 
 
-@click.command("manual")
+@click.command("manual", cls=Verb)
 @click.argument("topic", required=False)
 def manual_command(topic: str | None) -> int:
     """Print a page of the manual, or what it tells of a word; without TOPIC, list the pages.

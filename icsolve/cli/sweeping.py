@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from icsolve.cli.options import DIGITS, SET
+from icsolve.cli.options import DIGITS, SET, Verb
 from icsolve.cli.output import OUTPUT, one_source, write_output
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, for_each, on_stderr
 from icsolve.cli.spans import MOST_ROWS, SweepSpan
@@ -50,7 +50,7 @@ class SweepOptions(NamedTuple):
         return Path(self.output).suffix.lower() if self.output not in (None, "-") else ".csv"
 
 
-@click.command("sweep")
+@click.command("sweep", cls=Verb)
 @click.argument("case", metavar="CASE")
 @click.option(
     "--vary", type=SweepSpan(), multiple=True, help="A number and its values; several are a product."

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 import click
 
+from icsolve.cli.options import Verb
 from icsolve.cli.progress import watched
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, refusing
 from icsolve.files import reading_text
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 
-@click.command("variants")
+@click.command("variants", cls=Verb)
 @click.argument("cases", metavar="CASES")
 @click.option("--roster", metavar="FILE", required=True, help="The students: a CSV with a column student_id.")
 @click.option("-o", "--output", metavar="DIR", required=True, help="The folder to write into.")

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import heapq
 import math
-from bisect import insort
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache
 from operator import attrgetter
@@ -191,7 +190,8 @@ class Kennedy:
                 self._offer(
                     pair, LocatedCentre(point, ROUNDING + error / sine, "construction", (other, line))
                 )
-        insort(lines, line, key=_error)
+        lines.append(line)
+        lines.sort(key=_error)
 
     def _offer(self, pair: BodyPair, known: LocatedCentre) -> None:
         if pair not in self.known:

@@ -330,7 +330,7 @@ class Record:
             if a == -1.0:
                 return self.negate(b)
             a = self.lifted(a)
-        if a.op == Op.NEG or b.op == Op.NEG:
+        if Op.NEG in (a.op, b.op):
             return self._outside(self.multiply, a, b)
         if a.index > b.index:
             a, b = b, a
@@ -348,7 +348,7 @@ class Record:
             if b == -1.0:
                 return self.negate(a)
             b = self.lifted(b)
-        if a.op == Op.NEG or b.op == Op.NEG:
+        if Op.NEG in (a.op, b.op):
             return self._outside(self.divide, a, b)
         value = a.value / b.value if b.value else math.copysign(math.inf, a.value)
         return self._put(Op.DIV, a.index, b.index, value, a.row or b.row)

@@ -173,7 +173,7 @@ def splits(key: str, parts: int, known: Callable[[str], bool]) -> Iterator[Names
                 yield (key[:at], *rest)
 
 
-_ALIKE = re.compile("[АВЕКМНОРСТХаеорсхΑΒΕΖΗΙΚΜΝΟΡΤΧ]")
+_ALIKE = frozenset("АВЕКМНОРСТХаеорсхΑΒΕΖΗΙΚΜΝΟΡΤΧ")
 """Cyrillic and Greek letters that look as Latin ones."""
 LONGEST_KEY = 120
 """Characters of a key of names; bounds the number of ways to cut it."""
@@ -185,7 +185,7 @@ def point_key(key: str, sizes: tuple[int, ...], known: Collection[str]) -> Names
     ``sizes`` are the numbers of points allowed: (2,) or (2, 3).
     """
     wanted = "two points" if sizes == (2,) else "two or three points"
-    if _ALIKE.search(key) and re.search("[A-Za-z]", key):
+    if not _ALIKE.isdisjoint(key) and re.search("[A-Za-z]", key):
         return f"'{key}' has letters of two alphabets that look alike; type it anew"
     if len(key) > LONGEST_KEY:
         return f"a key names {wanted}; this one is too long"
