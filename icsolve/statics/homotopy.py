@@ -16,7 +16,6 @@ Real solutions of quadrics l(z)^2 = |v(z)|^2, as many as unknowns: in closed for
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
@@ -418,8 +417,8 @@ class _Paths:
     def __init__(self, quadrics: Sequence[Quadric]) -> None:
         self.matrices = [_matrix(quadric) for quadric in quadrics]
         self.n = len(quadrics)
-        self.gamma = cmath.exp(0.9137j)
-        self.patch = [cmath.exp(1j * (0.7 + 1.9 * k)) for k in range(self.n + 1)]
+        self.gamma = _unit(0.9137)
+        self.patch = [_unit(0.7 + 1.9 * k) for k in range(self.n + 1)]
 
     def follow(self, signs: Sequence[float]) -> Projective:
         """From a start (z_k = +-1) to t = 1, or to a singular point just before it."""
@@ -490,3 +489,8 @@ def _matrix(quadric: Quadric) -> list[list[float]]:
     length, forms = quadric
     count = range(len(length))
     return [[length[i] * length[j] - sum(form[i] * form[j] for form in forms) for j in count] for i in count]
+
+
+def _unit(angle: float) -> complex:
+    """A complex number of size 1 at an angle [rad]."""
+    return complex(math.cos(angle), math.sin(angle))
