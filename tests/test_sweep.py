@@ -7,6 +7,7 @@ random mechanisms, `ICSOLVE_FULL=1` twenty times as many.
 
 from __future__ import annotations
 
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -27,6 +28,7 @@ from turned import Array, Turned, traced
 SHAPE = 1e-12
 """Of a link's points and guides, in figures of size ten: rounding, with room for links that are far off."""
 FAR = 1e3
+CASES = Path(__file__).parent.parent / "cases"
 ALL = ("answers", "status", "error", "points", "centres", "rates")
 
 
@@ -200,3 +202,18 @@ def test_random_mechanisms_of_all_kinds_of_joints() -> None:
         scene = plain(random_mechanism(Random(seed)), seed)
         done += scene is not None and check_short_sweep(scene, seed)
     assert done >= 9 * MORE
+
+
+@pytest.mark.parametrize(
+    "name", ["ch13/13_07_slider_crank", "cams/offset_roller_follower", "tools/bolt_cutter"]
+)
+def test_the_power_of_all_loads_is_nothing_in_every_row(name: str) -> None:
+    """The terms times the numbers of their loads, by record and by scenes; to 1e-12 of the largest."""
+    case = icsolve.load(CASES / f"{name}.yaml")
+    link = next(load.link for load in case.loads if load.name in icsolve.solve(case).answers)
+    found = icsolve.sweep(case, want=("answers", "terms"), drive={link: np.arange(-6.0, 7.0, 2.0)})
+    numbers = {load.name: getattr(getattr(load, "value", None), "value", None) for load in case.loads}
+    power = [term * found.answers.get(name, numbers[name]) for name, term in found.terms.items()]
+    assert len(power) > 1
+    assert np.isfinite(power).any()
+    assert np.nanmax(abs(np.sum(power, axis=0))) <= 1e-12 * np.nanmax(np.abs(power))

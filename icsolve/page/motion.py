@@ -15,7 +15,7 @@ from icsolve.case import (
     Case,
     Centroid,
     Coordinates,
-    ForceVector,
+    Like,
     Load,
     Number,
     Pair,
@@ -345,7 +345,7 @@ def motion_of(known: Known, pairs: Sequence[Pair]) -> PageMotion | None:
     if known.answer is None or known.case.space is not None:
         return None
     case = as_given(known.answer.case)
-    want = ["answers", "status", "points", "rates"]
+    want = ["answers", "status", "points", "rates", "terms"]
     want += ["velocities", "accelerations"] if case.dynamic else []
     want += [f"centres.{pair_name(case, pair)}" for pair in pairs]
     slides = sliding(known)
@@ -368,7 +368,7 @@ def motion_of(known: Known, pairs: Sequence[Pair]) -> PageMotion | None:
     if first == last:
         return None
     dead = _dead(case, by, degrees, (float(degrees[first]), float(degrees[last])), found)
-    return PageMotion(by, degrees, zero, first, last, found, poses, _shares(case, by, degrees, found), dead)
+    return PageMotion(by, degrees, zero, first, last, found, poses, _shares(case, found), dead)
 
 
 DEAD = (Status.DEAD_CENTRE, Status.NO_VALUE)
@@ -521,60 +521,18 @@ def inputs(known: Known) -> list[str]:
     return sorted(quick, key=lambda link: link not in pinned)
 
 
-def _shares(case: Case, by: PageInput, degrees: Array, found: Sweep) -> dict[str, Array]:
-    """The power of each known load per unit, while the unknown one does 1: by that load alone (the equation
-    of power is linear), for one unknown and no friction."""
-    if len(found.answers) != 1 or rubs(case) or case.dynamic or not any(map(is_unknown, case.loads)):
-        return {}
-    known = [load for load in case.loads if not is_unknown(load)]
-    if any(_like(load) for load in case.loads):
+def _shares(case: Case, found: Sweep) -> dict[str, Array]:
+    """The power of each known load per unit, while the one unknown does 1; without friction."""
+    alone = len(found.answers) == 1 and found.terms.keys() >= found.answers.keys()
+    if not alone or rubs(case) or case.dynamic or any(map(_like, case.loads)):
         return {}
     (name,) = found.answers
-    if len(known) > 1 and not any(isinstance(load, ForceVector) for load in known):
-        return _each_alone(case, by, degrees, name, [load.name for load in known])
-    shares = {}
-    for load in known:
-        alone = found if len(known) == 1 else _swept(_only(case, load), by, degrees, ("answers",))
-        value = _number(load)
-        if alone is None or value == 0.0 or name not in alone.answers:
-            return {}
-        shares[load.name] = -alone.answers[name] / value
-    return shares
-
-
-def _each_alone(
-    case: Case, by: PageInput, degrees: Array, name: str, known: Sequence[str]
-) -> dict[str, Array]:
-    """All positions once for each known load, which alone is there and is 1, in one sweep."""
-    ones = np.eye(len(known)).repeat(len(degrees), axis=1)
-    vary = {f"loads.{load}": row for load, row in zip(known, ones, strict=True)}
-    rows = np.tile(degrees, len(known))
-    found = sweep(case, {**vary, **by.varied(rows)}, ("answers",), drive=by.driven(rows))
-    shares = -found.answers[name].reshape(len(known), len(degrees))
-    return dict(zip(known, shares, strict=True))
+    with np.errstate(all="ignore"):
+        return {load: own / found.terms[name] for load, own in found.terms.items() if load != name}
 
 
 def _like(load: Load) -> bool:
-    value = None if isinstance(load, ForceVector) else load.value
-    return value is not None and not isinstance(value, Number)
-
-
-def _number(load: Load) -> float:
-    if isinstance(load, ForceVector):
-        return math.hypot(load.x.value, load.y.value)
-    return load.value.value if isinstance(load.value, Number) else 0.0
-
-
-def _only(case: Case, kept: Load) -> Case:
-    """The case with all other known loads zero."""
-    return replace(case, loads=tuple(load if load is kept else _zero(load) for load in case.loads))
-
-
-def _zero(load: Load) -> Load:
-    nothing: Any = Number(0.0, 0.0, "", "0")
-    if isinstance(load, ForceVector):
-        return load._replace(x=nothing, y=nothing)
-    return load if is_unknown(load) else load._replace(value=nothing)
+    return isinstance(getattr(load, "value", None), Like)
 
 
 # --- columns of numbers -----------------------------------------------------------------------------------

@@ -6,6 +6,7 @@ The pressure angles of a cam for `solve --report`: now, and over a turn.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -187,9 +188,9 @@ def _together(table: Table, part: CamRows, error: bool, seen: _Seen) -> Mask:
     rows = part.rows[done]
     own = by_kind({key: array[done] for key, array in values.items() if key[0] in KINDS})
     none = {kind: {n: np.full_like(a, np.nan) for n, a in arrays.items()} for kind, arrays in own.items()}
-    answers, points, centres, rates = (own[kind] for kind in ("answers", "points", "centres", "rates"))
     codes = np.zeros(len(rows), dtype=np.int8)
-    found = Sweep(case, {}, answers, points, centres, rates, none if error else {}, codes=codes)
+    arrays: dict[str, Any] = {**own, "errors": none if error else {}}
+    found = Sweep(case, {}, **arrays, codes=codes)
     table.take(rows, found)
     for follow, rested in zip(run.course.follows, run.rested, strict=True):
         force = values.get(("contact", follow.seeking.hidden))

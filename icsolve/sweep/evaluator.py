@@ -41,6 +41,7 @@ is solved as a scene: that decides nothing, it only looks closer."""
 FINE = np.array((str(Status.OK),), dtype="<U24")
 
 Key = tuple[str, str]
+EVALUATED = ("answers", "points", "centres", "rates", "terms")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -54,6 +55,7 @@ class Evaluated:
     points : places by name, (n, 2) [case length]
     centres : relative centres by pair, homogeneous (x, y, w), (n, 3)
     rates : angular velocities by link, (n,) [rad/s, or scaled as in one scene]
+    terms : by load, the power of a unit of it, (n,); only their ratios in a row tell something
     gradients : by answer, then by input as it was asked for: derivative [case units; per degree by an angle],
         (n,); not a number in rows that were solved as scenes of their own
     """
@@ -63,6 +65,7 @@ class Evaluated:
     points: dict[str, Array] = field(default_factory=dict)
     centres: dict[str, Array] = field(default_factory=dict)
     rates: dict[str, Array] = field(default_factory=dict)
+    terms: dict[str, Array] = field(default_factory=dict)
     gradients: dict[str, dict[str, Array]] = field(default_factory=dict)
 
     def __len__(self) -> int:
@@ -235,6 +238,8 @@ class Evaluator:
                 array[row] = answer.points[name]
             elif kind == "rates" and answer.rates is not None and isinstance(answer.rates[name], float):
                 array[row] = answer.rates[name]
+            elif kind == "terms":
+                array[row] = next((term.factor for term in answer.terms if term.load == name), np.nan)
             elif kind == "centres":
                 pair = next(p for p in answer.centres if f"{p[0]}-{p[1]}" == name)
                 array[row] = _homogeneous(answer.centres[pair])
@@ -281,7 +286,7 @@ class _Rows:
 
     def result(self) -> Evaluated:
         """As frozen arrays by kind."""
-        kinds: dict[str, dict[str, Array]] = {"answers": {}, "points": {}, "centres": {}, "rates": {}}
+        kinds: dict[str, dict[str, Array]] = {kind: {} for kind in EVALUATED}
         for (kind, name), array in self.arrays.items():
             kinds[kind][name] = array
         return Evaluated(self.status, gradients=self.gradients, **kinds)
@@ -345,7 +350,7 @@ class _Compiled:
             return None
         if found is None:
             return None
-        kinds: dict[str, dict[str, Array]] = {"answers": {}, "points": {}, "centres": {}, "rates": {}}
+        kinds: dict[str, dict[str, Array]] = {kind: {} for kind in EVALUATED}
         start = 0
         for (kind, name), count in self.parts.items():
             part = found[start : start + count]

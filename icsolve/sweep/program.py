@@ -55,7 +55,7 @@ class RowRequest(NamedTuple):
     dynamic: bool = False
     contacts: tuple[RestingContact, ...] = ()
     terms: bool = False
-    """the power of a unit of every load, where the mechanism has one freedom"""
+    """the power of a unit of every load, where the mechanism has one freedom or the case one unknown"""
 
     @property
     def in_motion(self) -> bool:
@@ -280,8 +280,9 @@ def _outputs(
     for name, value in found.answers.items():
         if asked.answers and not rubs:
             out["answers", name] = (value,)
-    if asked.terms and len(found.balance.factors) == 1:
-        (row,) = found.balance.factors
+    if asked.terms and 1 in (len(found.balance.factors), len(found.answers)):
+        unknown = [n for n, w in enumerate(found.balance.wrenches) if w.load.name in found.answers]
+        row = max(found.balance.factors, key=lambda row: sum(abs(float(row[n])) for n in unknown))
         pairs = zip(found.balance.wrenches, row, strict=True)
         out |= {("terms", w.load.name): (factor * w.measure,) for w, factor in pairs}
     if asked.rates:

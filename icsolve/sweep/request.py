@@ -17,7 +17,10 @@ from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recorded_scene import pairs as all_pairs
 from icsolve.tuples import NamedTuple
 
-WORDS = ("answers", "status", "error", "points", "centres", "rates", "velocities", "accelerations")
+WORDS = (
+    *("answers", "status", "error", "points", "centres", "rates", "velocities", "accelerations"),
+    "terms",
+)
 
 
 class RequestError(ValueError):
@@ -174,9 +177,9 @@ def request_of(case: Case, want: tuple[str, ...], dynamic: bool = False) -> Swee
         raise RequestError(
             "accelerations are those of a motion with its inertia forces: ask for `dynamic` too"
         )
-    answers = bool(kinds & {"answers", "error", "status"})
+    answers = bool(kinds & {"answers", "error", "status", "terms"})
     moving = ("rates" in kinds, "velocities" in kinds, "accelerations" in kinds, dynamic)
-    asked = RowRequest(answers, tuple(points), tuple(centres), *moving)
+    asked = RowRequest(answers, tuple(points), tuple(centres), *moving, terms="terms" in kinds)
     return SweepRequest(asked, "error" in kinds, want)
 
 

@@ -51,7 +51,7 @@ def sweep(
     vary : by path (``angles.AB``, ``loads.P``), values, (n,) or one number for all rows; zipped; case
         units, degrees
     want : ``answers``, ``status``, ``error``, ``points``, ``centres``, ``rates``, ``velocities``,
-        ``accelerations`` (with inertia forces); or single ones, ``points.C``, ``centres.2-4``
+        ``accelerations`` (with inertia forces), ``terms``; or single ones, ``points.C``, ``centres.2-4``
     drive : by link, degrees by which it is turned from the position as written, (n,) or one number
     dynamic : with the inertia forces of the given motion, as in `icsolve.solve`
     progress : called with the number of rows that were done, time and again

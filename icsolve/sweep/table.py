@@ -77,6 +77,8 @@ class Sweep:
     velocities : of points on links, by ``C on 3``, (n, 2) [case length/s]; where wanted
     accelerations : the same, (n, 2) [case length/s^2], with inertia forces
     angular_accelerations : of links, (n,) [rad/s^2], with inertia forces
+    terms : by load, the power of a unit of it, (n,), where there is one freedom or one unknown; the speed is
+        another in each row, so that ratios tell something
     holds : with friction and no motion, the ranges in which unknown loads hold, (n, 2)
     notes : sentences about the sweep
     """
@@ -93,6 +95,7 @@ class Sweep:
     velocities: dict[str, Array] = field(default_factory=dict)
     accelerations: dict[str, Array] = field(default_factory=dict)
     angular_accelerations: dict[str, Array] = field(default_factory=dict)
+    terms: dict[str, Array] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     codes: Codes = field(default_factory=lambda: np.empty(0, np.int8))
     _case_of: Callable[[int], Case] | None = None
@@ -147,7 +150,8 @@ class Sweep:
 
 
 VECTORS = ("velocities", "accelerations")
-KINDS = ("answers", "points", "centres", "rates", *VECTORS, "angular_accelerations")
+KINDS = ("answers", "points", "centres", "rates", *VECTORS, "angular_accelerations", "terms")
+LETTERS = {"rates": "w", "angular_accelerations": "a", "terms": "power "}
 
 
 def by_kind(arrays: Mapping[tuple[str, str], Array]) -> dict[str, dict[str, Array]]:
@@ -240,6 +244,8 @@ class Table:
                 error = (abs(x) * UNIT, abs(y) * UNIT) if given else None
                 self.put("points", name, row, (x, y), error)
         self._fill_motion(row, answer)
+        for term in answer.terms if asked.terms and 1 in (answer.mobility, len(answer.answers)) else ():
+            self.put("terms", term.load, row, term.factor)
         for pair in asked.centres if not missing else ():
             triple = _triple(answer, pair)
             if triple is not None:
@@ -346,7 +352,7 @@ def _parted(kind: str, name: str, array: Array) -> dict[str, Array]:
         return {f"{kind[0]} {name}.{axis}": array[:, k] for k, axis in enumerate("xy")}
     if kind == "centres":
         return {f"I{name}.{axis}": array[:, k] for k, axis in enumerate("xyw")}
-    return {name if kind == "answers" else f"{'w' if kind == 'rates' else 'a'}{name}": array}
+    return {f"{LETTERS.get(kind, '')}{name}": array}
 
 
 def as_csv(sweep: Sweep) -> Iterator[bytes]:

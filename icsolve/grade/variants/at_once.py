@@ -178,7 +178,8 @@ def _rows(case: Case, template: Answer, columns: Columns, bare: bool) -> Answers
     """The answers of rows of one way to assemble."""
     asked = RowRequest()
     if not bare:
-        asked = RowRequest(True, tuple(template.points), tuple(pairs(case)), rates=True, terms=True)
+        terms = template.mobility == 1
+        asked = RowRequest(True, tuple(template.points), tuple(pairs(case)), rates=True, terms=terms)
     found = _recorded(case, columns, asked, not bare)
     if found is None:
         return [None] * _count(columns)
