@@ -151,6 +151,17 @@ def answer_sentences(known: Known) -> list[str]:
     return found
 
 
+def datum_name(path: str) -> str:
+    """A datum of the figure in words: ``angle AB``, ``x of B``."""
+    section, name, *axis = path.split(".")
+    return f"{axis[0]} of {name}" if axis else f"{section.removesuffix('s')} {name}"
+
+
+def datum_unit(known: Known, path: str) -> str:
+    """Its unit as a figure has it."""
+    return "\N{DEGREE SIGN}" if path.startswith("angles.") else unit_word(known.case.units.length)
+
+
 def position_sentences(known: Known) -> list[str]:
     """Where the mechanism rests, of a case that asks for it."""
     said = [] if known.answer is None else positions_text(known.answer, DIGITS)

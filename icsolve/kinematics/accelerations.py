@@ -100,7 +100,7 @@ def moving(
         size = LOOSE * max((abs(part) for t in motions[link] for part in t), default=0.0)
         if not all_vanish(arithmetic, ((part, size) for t in open_ for part in t)):
             idle.add(link)
-    drives = [_drive(given, motions, frame, points, arithmetic) for given in case.motion]
+    drives = drives_of(case, motions, frame, points, arithmetic)
     rates, loose = _rates(case, top, points, twists, drives, arithmetic, frame, slack)
     return Moving(twists, {link: rates[top.body_of[link]] for link in twists}, frozenset(idle | loose))
 
@@ -109,24 +109,28 @@ Drive = tuple[Motion, Point | None, Scalar]
 """A given motion, the direction of its point, the acceleration."""
 
 
-def _drive(
-    given: Motion,
+def drives_of(
+    case: Case,
     motions: Mapping[str, Sequence[Triple]],
     frame: Frame,
     points: Points,
     arithmetic: Arithmetic,
-) -> Drive:
-    """What a given motion accelerates: as its speed goes, faster where that is positive."""
-    assert given.speed is not None
-    more: Scalar = arithmetic.given(given.acceleration) if given.acceleration is not None else 0.0
-    more = -more if given.speed.value < 0.0 else more
-    if given.point is None:
-        return given, None, -more if given.turns == "cw" else more
-    along = path_of(given, motions[given.link], fastest(motions), points[given.point], arithmetic)
-    return given, along, more * frame.scale
+) -> list[Drive]:
+    """What each given motion accelerates: as its speed goes, faster where that is positive."""
+    found: list[Drive] = []
+    for given in case.motion:
+        assert given.speed is not None
+        more: Scalar = arithmetic.given(given.acceleration) if given.acceleration is not None else 0.0
+        more = -more if given.speed.value < 0.0 else more
+        if given.point is None:
+            found.append((given, None, -more if given.turns == "cw" else more))
+        else:
+            along = path_of(given, motions[given.link], fastest(motions), points[given.point], arithmetic)
+            found.append((given, along, more * frame.scale))
+    return found
 
 
-def _rates(
+def rate_rows(
     case: Case,
     top: Topology,
     points: Points,
@@ -134,12 +138,9 @@ def _rates(
     drives: Sequence[Drive],
     arithmetic: Arithmetic,
     frame: Frame,
-    slack: float,
-) -> tuple[list[Triple], set[str]]:
-    """The rate of each body's twist, and the links whose rate a freedom leaves open.
-
-    Where written numbers all but fit the motion, so they do what follows from it.
-    """
+) -> tuple[list[Row], list[float]]:
+    """What the rates of the bodies' twists fulfil, three columns a body and the known part behind them, and
+    the sizes of the known parts' terms."""
     known = 3 * len(top.members)
     rows: list[Row] = []
     sizes: list[float] = []
@@ -157,6 +158,25 @@ def _rates(
     for given, along, more in drives:
         rows.append(_driven(top, given, along, more, twists, points, known))
         sizes.append(abs(more))
+    return rows, sizes
+
+
+def _rates(
+    case: Case,
+    top: Topology,
+    points: Points,
+    twists: Mapping[str, Triple],
+    drives: Sequence[Drive],
+    arithmetic: Arithmetic,
+    frame: Frame,
+    slack: float,
+) -> tuple[list[Triple], set[str]]:
+    """The rate of each body's twist, and the links whose rate a freedom leaves open.
+
+    Where written numbers all but fit the motion, so they do what follows from it.
+    """
+    known = 3 * len(top.members)
+    rows, sizes = rate_rows(case, top, points, twists, drives, arithmetic, frame)
     near = min(NEAR, GROWN * slack)
     general = eliminate(rows, known, near or SPENT, None if slack else decider(arithmetic))
     rest = [left.get(known, 0.0) for left in general.left]

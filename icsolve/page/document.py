@@ -15,17 +15,26 @@ from typing import Any
 import numpy as np
 
 from icsolve.case import Spring, Torque, Weight
-from icsolve.draw.words import answer_sentences, name_runs, step_sentence, unit_word
+from icsolve.draw.words import (
+    answer_sentences,
+    datum_name,
+    datum_unit,
+    figure_number,
+    name_runs,
+    position_sentences,
+    step_sentence,
+    unit_word,
+)
 from icsolve.explain.document import Document, Formula, formula
 from icsolve.explain.formula import MATHML, Expr, Name, Num, Quotient, Sum, product
 from icsolve.explain.given import load_name
 from icsolve.explain.typeset import AsHtml
 from icsolve.page.fields import section
 from icsolve.page.live import Live, why_presolved
-from icsolve.page.model import gain_rows
+from icsolve.page.model import forces_in_joints, gain_rows
 from icsolve.page.motion import Array, PageMotion, exact, script_json
 from icsolve.page.pictures import track_svg
-from icsolve.report.derivation import Acting, Known, Step, acting_loads
+from icsolve.report.derivation import Acting, Known, Step, acting_loads, resting
 from icsolve.tuples import NamedTuple
 
 
@@ -140,7 +149,9 @@ def ratio_unit(known: Known, root: Acting, of: Acting) -> str:
 
 
 HERE = Path(__file__).parent
-PARTS = tuple("data scene live moving centres labels words position construction turn fields see".split())
+
+NAMES = "data scene rest live moving centres labels words position construction turn fields see"
+PARTS = NAMES.split()
 """The parts of the script, in the order in which they run: each uses those before it."""
 
 
@@ -247,7 +258,7 @@ def _body(parts: PageParts) -> Iterable[str]:
     yield '</header>\n<div class="panels">'
     construction, power = _construction(parts), _power(parts)
     short = bool(construction) and _count(parts) <= FEW
-    beside = (section(case) if parts.live is not None else "") + construction
+    beside = (section(known) if parts.live is not None else "") + construction
     yield '<div class="column">' if beside else '<div class="column wide">'
     yield _stage(parts)
     yield _see(parts)
@@ -280,6 +291,7 @@ def _stage(parts: PageParts) -> str:
 def _see(parts: PageParts) -> str:
     """What can be shown in the figure besides, each by a box to tick."""
     case, live = parts.known.case, parts.live is not None
+    seen = live and not parts.known.structure
     links = [link for link in case.links if link != case.ground and not link.startswith("@")]
     moving = [
         name for name in parts.model.get("motion", {"points": ()})["points"] if not name.startswith("@")
@@ -291,8 +303,8 @@ def _see(parts: PageParts) -> str:
         return f'<span class="what">{what}</span> {" ".join(some)}'
 
     rows = [
-        '<label><input type="checkbox" id="see-velocities">velocities of the points</label>' if live else "",
-        boxes("rotation about its centre of link", "rotation", links) if live else "",
+        '<label><input type="checkbox" id="see-velocities">velocities of the points</label>' if seen else "",
+        boxes("rotation about its centre of link", "rotation", links) if seen else "",
         boxes("path of point", "curve", moving) if live and moving else "",
         boxes("centrodes of link", "centrode", links) if live and moving else "",
         '<label for="see-body" class="what">forces on link</label> <select id="see-body"><option value="">'
@@ -316,22 +328,29 @@ def _answers(parts: PageParts) -> str:
     """Each unknown load with its value, kept up to date by the script."""
     if parts.known.answer is None:
         return ""
-    sentences = answer_sentences(parts.known)
-    names = list(parts.known.answer.answers)
+    known, answer = parts.known, parts.known.answer
+    told: list[tuple[str, str, str, float | None]] = [
+        (name, _name(name), sentence.removeprefix(name), answer.answers[name].value)
+        for name, sentence in zip(answer.answers, answer_sentences(known), strict=True)
+    ]
+    here = resting(known)
+    for path, value in {} if here is None else here.at.items():
+        ends = (value,) if isinstance(value, float) else value
+        said = " to ".join(f"{figure_number(end)}{datum_unit(known, path)}" for end in ends)
+        said += f", {here.stability}" if here is not None and here.stability else ""
+        told.append((path, datum_name(path), f" = {said}", ends[0] if len(ends) == 1 else None))
+    for name, _, size, way in forces_in_joints(known):
+        said = f" = {figure_number(size)} {unit_word(known.case.units.force)}" + (f", {way}" if way else "")
+        told.append((name, _name(name), said, size))
     items = "".join(
-        f'<li id="answer-{_text(name)}" data-answer="{_text(name)}" data-value="{_value(parts, name)}" '
-        f'data-status="{parts.known.answer.status}"><span>{_name(name)}</span>'
-        f"<span>{_text(sentence.removeprefix(name))}</span></li>"
-        for name, sentence in zip(names, sentences, strict=True)
+        f'<li id="answer-{_text(name)}" data-answer="{_text(name)}" '
+        f'data-value="{"" if value is None else repr(value)}" '
+        f'data-status="{answer.status}"><span>{shown}</span><span>{_text(sentence)}</span></li>'
+        for name, shown, sentence, value in told
     )
-    return f'<ul class="answers" id="answers" aria-live="polite">{items}</ul>'
-
-
-def _value(parts: PageParts, name: str) -> str:
-    """An answer in full precision; '' where it is a range."""
-    assert parts.known.answer is not None
-    value = parts.known.answer.answers[name].value
-    return "" if value is None else repr(value)
+    every = position_sentences(known)
+    more = f'<p class="hint">As written it rests where {_text("; ".join(every))}.</p>' if every[1:] else ""
+    return f'<ul class="answers" id="answers" aria-live="polite">{items}</ul>{more}'
 
 
 def _name(name: str) -> str:

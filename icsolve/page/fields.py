@@ -3,7 +3,7 @@ place; and where in the text of the case they stand, so that the page can write 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from contextlib import suppress
 from html import escape
 from pathlib import Path
@@ -12,7 +12,7 @@ from typing import Any
 from icsolve.assembly.loci import Axis, CircleLocus, Locus
 from icsolve.assembly.steps import Given, Meet, Polar, Step
 from icsolve.assembly.workspace import LENGTH, RAY, Datum, X, number_of
-from icsolve.case import Case, Load, Number, Pin, TorsionSpring
+from icsolve.case import Area, Case, Force, Load, Number, Pin, TorsionSpring, Weight
 from icsolve.case.names import pair_name
 from icsolve.draw.words import unit_word
 from icsolve.errors import CaseError
@@ -21,6 +21,8 @@ from icsolve.read import load
 from icsolve.read.joints import JOINTS
 from icsolve.read.keys import LOADS
 from icsolve.read.settings import places
+from icsolve.report.derivation import Known
+from icsolve.statics.inertia import is_loaded
 from icsolve.sweep.numbers import numbers_of
 from icsolve.tuples import NamedTuple
 from icsolve.wording.senses import unit_of
@@ -54,13 +56,14 @@ class FieldLine(NamedTuple):
     fields: tuple[Field, ...]
 
 
-def lines_of(case: Case) -> list[tuple[str, list[FieldLine]]]:
-    """All numbers of a case by section, in lines as one would say them."""
-    held = numbers_of(case)
+def lines_of(case: Case, asked: Collection[str] = ()) -> list[tuple[str, list[FieldLine]]]:
+    """The numbers of a case by section, in lines as one would say them, without those that are ``asked``."""
+    held = {path: number for path, number in numbers_of(case).items() if path not in asked}
     sections = (
         ("Points", _points(case, held)),
         ("Lengths", _plain(case, held, "lengths", unit_word(case.units.length))),
         ("Angles", _plain(case, held, "angles", DEGREES)),
+        ("Links", _masses(case, held)),
         ("Joints", _joints(case, held)),
         ("Loads", _loads(case, held)),
         ("Motion", _motion(case, held)),
@@ -88,6 +91,14 @@ def _plain(case: Case, held: Mapping[str, Number], section: str, unit: str) -> I
         if path.startswith(f"{section}."):
             name = path.partition(".")[2]
             yield FieldLine("", (_field(number, f"{name} =", unit, name, bound),))
+
+
+def _masses(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
+    for link, inertia in case.inertia.items() if is_loaded(case) else ():
+        units = {"mass": "kg", "inertia": "kg·m²"}
+        own = [(n, n.path.rpartition(".")[2]) for n in numbers_in(inertia)]
+        fields = (_field(n, key, units[key], f"{key} of link {link}", "not negative") for n, key in own)
+        yield FieldLine(f"link {link}", tuple(fields))
 
 
 def _joints(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
@@ -159,10 +170,11 @@ def _of_load(case: Case, one: Load, number: Number) -> Field:
 def _motion(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
     for given in case.motion:
         fields = []
-        for number, name in ((given.speed, "speed"), (given.angle, "angle")):
+        numbers = {"speed": given.speed, "angle": given.angle, "acceleration": given.acceleration}
+        for name, number in numbers.items():
             if number is not None and number.path in held:
                 speed = "rad/s" if given.point is None else f"{unit_word(case.units.length)}/s"
-                unit = DEGREES if name == "angle" else speed
+                unit = {"angle": DEGREES, "acceleration": f"{speed}²"}.get(name, speed)
                 bound = "positive" if name == "speed" else ""
                 fields.append(_field(number, name, unit, f"{name} of link {given.link}", bound))
         if fields:
@@ -226,6 +238,20 @@ def text_of(case: Case) -> str | None:
     return None
 
 
+def units_to_write(case: Case) -> dict[str, str]:
+    """By path the unit of a number that bare would be refused or mean another: masses and pressures."""
+    found = {
+        load.value.path: unit_of(load, case)
+        for load in case.loads
+        if isinstance(load, Weight | Force) and isinstance(load.value, Number)
+        if getattr(load, "mass", False) or isinstance(getattr(load, "over", None), Area)
+    }
+    for inertia in case.inertia.values():
+        for number, unit in ((inertia.mass, "kg"), (inertia.moment, "kg*m^2")):
+            found |= {} if number is None else {number.path: unit}
+    return found
+
+
 def text_data(case: Case, paths: list[str]) -> dict[str, Any] | None:
     """The text with the places of its numbers, by the place of each among the inputs; and of `near`."""
     text = text_of(case)
@@ -245,11 +271,11 @@ def text_data(case: Case, paths: list[str]) -> dict[str, Any] | None:
 # --- markup ----------------------------------------------------------------------------------------------
 
 
-def section(case: Case) -> str:
+def section(known: Known) -> str:
     """The numbers as a section of the page."""
     groups = "".join(
         f'<fieldset><legend>{title}</legend><ul class="lines">{"".join(map(_line, lines))}</ul></fieldset>'
-        for title, lines in lines_of(case)
+        for title, lines in lines_of(known.case, {unknown.path for unknown in known.posed})
     )
     return (
         '<section aria-label="Numbers" id="numbers"><h2>The numbers: change any</h2>\n'

@@ -26,28 +26,32 @@ from icsolve.assembly.workspace import (
     number_of,
 )
 from icsolve.case import Coordinates, Motion, Number, Pin, Rope, Screw
+from icsolve.case.figure import Unknown
 from icsolve.case.joints import Guided, Mesh
 from icsolve.draw.words import unit_word
-from icsolve.kinematics.motion import TURN
+from icsolve.kinematics.accelerations import Moving, drives_of, moving, rate_rows
+from icsolve.kinematics.motion import TURN, Motions
 from icsolve.kinematics.speeds import joint_order
 from icsolve.kinematics.twists import ORIGIN, Bases, Tree, loop_rows, rope_row, span
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.numbers.record import Record
 from icsolve.numbers.source import JAVASCRIPT, JAVASCRIPT_FUNCTIONS, straight_line
-from icsolve.page.fields import handles_of, text_data
+from icsolve.page.fields import handles_of, text_data, units_to_write
 from icsolve.report.derivation import Known
 from icsolve.report.derivation.ratios import independent_motions
-from icsolve.scene.program import Program
+from icsolve.scene.program import Program, Want, prepare
 from icsolve.scene.refusals import HANGS, rubs
 from icsolve.screws.joints import freedoms, guide_direction
+from icsolve.screws.plane import Triple, force_wrench
 from icsolve.screws.ropes import RopePart, rope_parts
 from icsolve.statics import power
+from icsolve.statics.inertia import COUPLE, FORCE, inertia_forces, is_loaded
 from icsolve.structure.topology import Bond
 from icsolve.sweep.numbers import numbers_of
 from icsolve.sweep.program import wanted_points
 from icsolve.tuples import NamedTuple
 
-SECTIONS = ("points", "lengths", "angles", "joints", "loads", "motion", "gravity")
+SECTIONS = ("points", "lengths", "angles", "joints", "loads", "motion", "gravity", "links")
 """What is an input of the program."""
 
 
@@ -71,8 +75,6 @@ class WrittenProgram(NamedTuple):
 def why_presolved(known: Known) -> str:
     """Why the numbers of a case can't be changed in its page, as a sentence; '' where they can."""
     case = known.case
-    if known.structure:
-        return "A structure is solved beforehand, as it is written."
     if known.answer is None:
         return "Nothing is solved for here that could follow other numbers."
     if case.space is not None:
@@ -80,10 +82,7 @@ def why_presolved(known: Known) -> str:
     for held, what in (
         (rubs(case), "With friction"),
         (known.answer.case.profiles is not None, "With cam profiles"),
-        (bool(case.ropes and case.screws), "With ropes and screws"),
-        (any(rope.length is not None for rope in case.ropes), "With the length of a rope"),
-        (case.dynamic, "With inertia forces"),
-        (known.answer.positions is not None, "Where a position is asked for"),
+        (len(known.posed) > 1 or known.written is not None, "Where such positions are asked for"),
     ):
         if held:
             return f"{what} every position is solved beforehand: the numbers are those of the case."
@@ -92,20 +91,37 @@ def why_presolved(known: Known) -> str:
 
 def live_of(known: Known) -> Live | None:
     """The scene of a case as a program; None where it has to be solved beforehand."""
-    if why_presolved(known) or known.scene is None:
+    if why_presolved(known):
         return None
-    live = _ProgramWriter(known.scene.program).live()
-    motions = independent_motions(known)
+    scene = known.scene
+    program = prepare(known.case, Want(bodies=True)) if scene is None else scene.program
+    live = _ProgramWriter(program, None if scene is None else scene.outcome.motions).live()
+    live.data["still"] = scene is None
+    live.data["posed"] = [_posed(live.data, unknown) for unknown in known.posed]
+    motions = () if known.structure else independent_motions(known)
     several = len(motions) > 1 and all(motion.turns for motion in motions)
     live.data["drivers"] = [motion.driver for motion in motions] if several else []
     return live
 
 
+def _posed(data: dict[str, Any], unknown: Unknown) -> dict[str, Any]:
+    """A datum that is asked for: its place among the inputs, and the range to search, of an angle a whole
+    turn; it can't be pulled."""
+    number = data["paths"].index(unknown.path)
+    ends = [None if end is None else end.value for end in (unknown.low, unknown.high)]
+    turns = unknown.path.startswith("angles.")
+    for name, moves in list(data["handles"].items()):
+        data["handles"][name] = [move for move in moves if move[1] != number]
+    data["handles"] = {name: moves for name, moves in data["handles"].items() if moves}
+    return {"name": unknown.path, "number": number, "range": ends, "turns": turns}
+
+
 class _ProgramWriter:
     """A case on a record whose inputs are its numbers."""
 
-    def __init__(self, program: Program) -> None:
+    def __init__(self, program: Program, motions: Motions | None) -> None:
         case = program.case
+        self.motions = motions
         self.case, self.record = case, Record()
         self.figure, self.top = program.figure, program.top
         self.names: dict[int, str] = {}
@@ -127,8 +143,13 @@ class _ProgramWriter:
         bases = {k: freedoms(bond, self._points(), self.record) for k, bond in enumerate(self.top.bonds)}
         top = self.top
         tree = span(top, sorted(bases), (top.ground,), bases, [group[0] for group in top.afloat])
-        parts = self._scene(bases, tree)
-        return Live(self._source(steps, parts), self._data(steps, tree, bases))
+        ends = [steps[-1].end if steps else 0]
+        parts = {"scene": self._scene(bases, tree)}
+        ends.append(len(self.record.nodes))
+        for name, made in self._dynamics() if is_loaded(self.case) else ():
+            parts[name] = made
+            ends.append(len(self.record.nodes))
+        return Live(self._source(steps, parts, ends), self._data(steps, tree, bases))
 
     def _points(self) -> Mapping[str, tuple[Scalar, Scalar]]:
         return {name: at for name, at in self.workspace.points.items() if isinstance(name, str)}
@@ -231,11 +252,46 @@ class _ProgramWriter:
         number = getattr(w.source, "value", None)
         return self.record.given(number) if isinstance(number, Number) else power.known_value(w) or 0.0
 
+    def _dynamics(self) -> Iterable[tuple[str, list[Any]]]:
+        """What the rates of the twists fulfil, as places and values of each row; then the wrenches of the
+        inertia forces. Twists and rates of the bodies are inputs."""
+        case, top, frame, points = self.case, self.top, self.figure.frame, self._points()
+        assert self.motions is not None
+        now = moving(case, top, frame, self.figure.points, self.motions.twists, FLOATS, self.motions.slack)
+        twists = self._inputs("t", now.twists)
+        drives = drives_of(case, {link: [t] for link, t in twists.items()}, frame, points, self.record)
+        rows, _ = rate_rows(case, top, points, twists, drives, self.record, frame)
+        yield "rates", [[[float(column), value] for column, value in row.items()] for row in rows]
+        moves = Moving(twists, self._inputs("r", now.rates), frozenset())
+        forces = inertia_forces(case, frame, moves, points, self.record)
+        found: list[Any] = []
+        for load in case.loads:
+            if load.name == FORCE.format(load.link):
+                centre, force, _ = forces[load.link]
+                assert centre is not None and force is not None
+                found.append(force_wrench(force, points[centre]))
+            elif load.name == COUPLE.format(load.link):
+                found.append((0.0, 0.0, forces[load.link][2]))
+        yield "inertia", found
+
+    def _inputs(self, letter: str, by_link: Mapping[str, Triple]) -> dict[str, Triple]:
+        """Triples of the bodies as inputs."""
+        nodes: dict[int, Triple] = {}
+        for link, triple in by_link.items():
+            body = self.top.body_of[link]
+            if body not in nodes:
+                own = [self.record.input(f"{letter} {body} {n}", float(v)) for n, v in enumerate(triple)]
+                self.names |= {node.index: f"{letter}[{3 * body + n}]" for n, node in enumerate(own)}
+                nodes[body] = (own[0], own[1], own[2])
+        return {link: nodes[self.top.body_of[link]] for link in by_link}
+
     # --- the program ------------------------------------------------------------------------------
 
-    def _source(self, steps: Sequence[WrittenProgram], parts: list[Any]) -> str:
-        """The program: a function a step, and one for the rest."""
-        flat = [v for step in steps for v in step.values] + list(_leaves(parts))
+    def _source(
+        self, steps: Sequence[WrittenProgram], parts: Mapping[str, list[Any]], ends: Sequence[int]
+    ) -> str:
+        """The program: a function a step, and one for each of the other parts, which end at these nodes."""
+        flat = [v for step in steps for v in step.values] + list(_leaves(list(parts.values())))
         wanted = [self.record.lifted(v).index for v in flat]
         text = straight_line(self.record, wanted, self.names, JAVASCRIPT)
         given = iter(text.wanted)
@@ -244,14 +300,15 @@ class _ProgramWriter:
             lines = [s for s, k in zip(text.lines, text.at, strict=True) if step.start <= k < step.end]
             values = ",".join(next(given) for _ in step.values)
             functions.append(f"()=>{{{''.join(lines)}return[{values}]}}")
-        last = steps[-1].end if steps else 0
-        lines = [s for s, k in zip(text.lines, text.at, strict=True) if k >= last]
-        body = f"{''.join(lines)}return{_shaped(parts, given)}"
+        others = []
+        for (name, made), (start, end) in zip(parts.items(), pairwise(ends), strict=True):
+            lines = [s for s, k in zip(text.lines, text.at, strict=True) if start <= k < end]
+            others.append(f"{name}: () => {{{''.join(lines)}return{_shaped(made, given)}}}")
         variables = f"let {','.join(text.names)};\n" if text.names else ""
         steps_text = ",\n".join(functions)
         return (
-            f"const program = (x, s, q) => {{\n{JAVASCRIPT_FUNCTIONS}{variables}"
-            f"return {{ steps: [{steps_text}],\nscene: () => {{{body}}} }};\n}};\n"
+            f"const program = (x, s, q, t, r) => {{\n{JAVASCRIPT_FUNCTIONS}{variables}"
+            f"return {{ steps: [{steps_text}],\n{','.join(others)} }};\n}};\n"
         )
 
     def _data(self, steps: Sequence[WrittenProgram], tree: Tree, bases: Bases) -> dict[str, Any]:
@@ -281,6 +338,7 @@ class _ProgramWriter:
             "halves": [numbers[path].half for path in self.paths],
             "handles": handles_of(case, self.figure.steps, self.paths),
             "text": text_data(case, self.paths),
+            "written": units_to_write(case),
             "links": {
                 **{link: [p for p in names if p in place] for link, names in case.carries.items()},
                 **{rope.end: [rope.points[-1]] for rope in case.ropes if rope.is_free},
@@ -291,6 +349,8 @@ class _ProgramWriter:
             "meshes": [mesh for bond in top.bonds for mesh in self._mesh(bond, place)],
             "motion": [self._motion(given, place) for given in case.motion],
             "order": joint_order(case),
+            "dynamic": is_loaded(case),
+            "heavy": [link for link in case.inertia if is_loaded(case)],
             "inexact": any(joint.has_written_centre for joint in case.joints),
             "given": any(joint.stands_in for joint in case.joints),
             "loads": [self._load(w) for w in self._wrenches()],

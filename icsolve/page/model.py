@@ -6,13 +6,14 @@ Whole numbers stand as differences of differences where the picture needs no mor
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
 import numpy as np
 
 from icsolve.answer import Centre, Found
+from icsolve.answer.bodies import Reaction
 from icsolve.case import Force, ForceVector, Load, Pair, Spring, TorsionSpring, Toward, Weight
 from icsolve.case.names import pair_name
 from icsolve.draw.loads import axle
@@ -20,12 +21,12 @@ from icsolve.draw.marks import Point, View
 from icsolve.draw.ropes import RopeCourse
 from icsolve.draw.scene import Scene
 from icsolve.draw.svg import identifier
-from icsolve.draw.words import centre_runs, figure_number, name_runs, unit_word
+from icsolve.draw.words import centre_runs, datum_name, datum_unit, figure_number, name_runs, unit_word
 from icsolve.errors import Status
 from icsolve.page.figure import PageFigure
 from icsolve.page.live import Live
 from icsolve.page.motion import FINE, Array, PageMotion, compact, exact, moved, moves
-from icsolve.report.derivation import Acting, Known, Step, acting_loads
+from icsolve.report.derivation import Acting, Known, Step, acting_loads, resting
 from icsolve.wording.senses import holding, sense_of, spelt, unit_of
 
 # --- loads through a motion ------------------------------------------------------------------------------
@@ -380,7 +381,38 @@ def _answers(known: Known, motion: PageMotion | None, loads: Sequence[Acting]) -
         else:
             _through(known, motion, one, name, acting[name])
         found.append(one)
-    return found
+    found += [
+        {**_named(name), "name": name, "joint": [force.by, force.on, force.where], "sense": compact(ZERO, 1)}
+        | {"values": exact([size]), "senses": [sense], "unit": unit_word(known.case.units.force)}
+        for name, force, size, sense in forces_in_joints(known)
+    ]
+    return found + _asked(known, 1 if motion is None else motion.last + 1 - motion.first)
+
+
+ZERO = np.zeros(1)
+
+
+def forces_in_joints(known: Known) -> Iterable[tuple[str, Reaction, float, str]]:
+    """Of a structure what its joints carry: name, force, size and direction in words."""
+    for name, force in known.answer.reactions.items() if known.answer and known.answer.reactions else ():
+        if known.structure and isinstance(force, Reaction) and force.magnitude is not None:
+            way = "" if force.direction is None else f"at {figure_number(force.direction)}\N{DEGREE SIGN}"
+            yield name, force, force.magnitude, way
+
+
+def _asked(known: Known, rows: int) -> list[dict[str, Any]]:
+    """The data of the figure that are asked for: the position that is shown, the same in all rows."""
+    here = resting(known)
+    if here is None or not all(isinstance(value, float) for value in here.at.values()):
+        return []
+    senses, sense = _indexed([here.stability or ""] * rows)
+    told = {"low": "", "senses": senses, "sense": sense, "asked": True}
+    return [
+        {"name": path, "base": datum_name(path), "unit": datum_unit(known, path), **told}
+        | {"values": exact([float(value)] * rows)}
+        for path, value in here.at.items()
+        if isinstance(value, float)
+    ]
 
 
 def _named(name: str) -> dict[str, str]:

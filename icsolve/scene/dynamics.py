@@ -19,7 +19,7 @@ from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.given import Number
 from icsolve.scene.program import Program, Want, evaluate, prepare
 from icsolve.screws.plane import Point
-from icsolve.statics.inertia import COUPLE, FORCE, _forces
+from icsolve.statics.inertia import COUPLE, FORCE, inertia_forces
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed
 
@@ -96,7 +96,7 @@ def _found(case: Case, program: Program, arithmetic: Balls) -> tuple[Case, Accel
         return Number(near, 0.0, path, repr(near))
 
     loads: list[Load] = []
-    for link, (centre, force, couple) in _forces(case, frame, moves, points, arithmetic).items():
+    for link, (centre, force, couple) in inertia_forces(case, frame, moves, points, arithmetic).items():
         path = f"inertia.{link}"
         if force is not None and centre is not None:
             x, y = (number(part, f"{path}.{axis}") for part, axis in zip(force, "xy", strict=True))

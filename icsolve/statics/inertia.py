@@ -56,7 +56,7 @@ def exactly(
         As `icsolve.kinematics.accelerations.moving`.
     """
     moves = moving(case, top, frame, points, motions.twists, arithmetic, motions.slack)
-    forces = _forces(case, frame, moves, points, arithmetic)
+    forces = inertia_forces(case, frame, moves, points, arithmetic)
     found = []
     for w in wrenches:
         load = w.load
@@ -79,7 +79,7 @@ InertiaForce = tuple[str | None, Point | None, Scalar | None]
 """Of a link its centre of mass, the force there and the couple, in case units."""
 
 
-def _forces(
+def inertia_forces(
     case: Case, frame: Frame, moves: Moving, points: Mapping[str, Point], arithmetic: Arithmetic
 ) -> dict[str, InertiaForce]:
     """-m a and -I alpha of every link that has a mass."""

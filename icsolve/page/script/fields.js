@@ -224,7 +224,7 @@ function nearHere() {
 }
 function caseText() {
   const { text, at, near } = live.text;
-  const swaps = differing().filter((n) => at[n]).map((n) => [...at[n], textOf(n)]);
+  const swaps = differing().filter((n) => at[n]).map((n) => [...at[n], `${textOf(n)} ${live.written[live.paths[n]] || ""}`.trim()]);
   const moved = nearHere();
   for (const [name, k] of Object.entries(live.points))
     ["x", "y"].forEach((axis, m) => { if (moved[k] && near[`${name}.${axis}`]) swaps.push([...near[`${name}.${axis}`], number(moved[k][m], 6).replace("−", "-")]); });

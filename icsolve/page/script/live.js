@@ -28,6 +28,7 @@ const guideOf = (k, own) => [own[k][1], -own[k][0]];
 if (live) {
   laboratory.typed();
   scene.solved = scene.first = solvedScene(live, numbers, laboratory);
+  for (const one of live.posed) scene.first.at = numbers[one.number];
   for (const name of Object.keys(live.points)) {
     written[name] = placeOf(name);
     if (!own(points, name)) points[name] = { x: filled(written[name][0]), y: filled(written[name][1]) };
@@ -44,10 +45,21 @@ if (live) {
     for (const place of [load.on, ...(load.span || [])])
       place.point = Object.keys(written).find((name) => apart(written[name], place.slice(1)) < 0.15);
   }
-  for (const answer of answers) answer.values[zero] = valueOf(answer.name, scene.first);
+  for (const answer of live.posed.length ? [] : answers) answer.values[zero] = valueOf(answer.name, scene.first);
   resolve(false);
 }
+/* Of a structure the force of the first link of a joint on the second. */
+function forceIn(name, solved) {
+  const [by, on, where] = answers.find((answer) => answer.name === name).joint;
+  const k = live.bonds.findIndex(([a, b], n) => live.at[n] === where && ((a === by && b === on) || (a === on && b === by)));
+  const w = k < 0 ? null : reactionsOf({ solved }).joints[k];
+  const sign = k >= 0 && live.bonds[k][0] === by ? 1 : -1;
+  return w ? [sign * w[1], -sign * w[0]] : [NaN, NaN];
+}
 function valueOf(name, solved) {
+  if (live.still) return Math.hypot(...forceIn(name, solved));
+  const asked = live.posed.find((one) => one.name === name);
+  if (asked) return asked.turns && asked.range[0] === null ? ((solved.at % 360) + 360) % 360 : solved.at;
   const n = live.loads.findIndex((load) => load.name === name);
   if (n >= 0) return solved.values[n];
   const parts = ["x", "y"].map((axis) => solved.values[live.loads.findIndex((load) => load.name === `${name}.${axis}`)]);
@@ -57,6 +69,8 @@ function valueOf(name, solved) {
 function senseOf(name, solved) {
   const n = live.loads.findIndex((load) => load.name === name);
   const value = valueOf(name, solved);
+  if (live.posed.length) return solved.stability || "";
+  if (live.still) return value ? `at ${degreesWords((Math.atan2(...forceIn(name, solved).reverse()) * 180) / Math.PI)}` : "";
   if (value === 0) return "";
   if (n < 0) {
     const [x, y] = ["x", "y"].map((axis) => solved.values[live.loads.findIndex((load) => load.name === `${name}.${axis}`)]);
@@ -108,6 +122,8 @@ function fillLinks(ownNow) {
 function fillLoads(solved) {
   live.loads.forEach(({ name }, n) => {
     const load = own(loads, name);
+    const [u, v, couple] = solved.loads[n];
+    if (load && load.values) load.values[LIVE] = load.torque ? couple : Math.hypot(u, v);
     if (load && !load.torque) load.way[LIVE] = turned(wrenchOf(scene.first.loads[n]), wrenchOf(solved.loads[n]));
   });
 }
@@ -150,17 +166,22 @@ function fillAnswers(solved) {
 function resolve(dragged, pulled) {
   let solved = null;
   [scene.status, scene.words, scene.placed] = ["ok", "", false];
+  let stability = "";
+  const before = live.posed.map((one) => numbers[one.number]);
   try {
-    if (dragged) laboratory.followed(pulled);
+    if (live.posed.length) stability = restOf(live, numbers, laboratory);
+    else if (dragged) laboratory.followed(pulled);
     else laboratory.typed();
     scene.placed = true;
     fillPlaces();
     fillLinks(ownOf(live, laboratory.scene()[3]));
     solved = solvedScene(live, numbers, laboratory);
+    for (const one of live.posed) [solved.at, solved.stability] = [numbers[one.number], stability];
     scene.solved = solved;
   } catch (refusal) {
     if (!(refusal instanceof Refusal)) throw refusal;
     [scene.status, scene.words] = [refusal.status, refusal.words];
+    live.posed.forEach((one, k) => { numbers[one.number] = before[k]; });
   }
   if (solved) fillLoads(solved);
   fillCentres(solved);

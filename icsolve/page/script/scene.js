@@ -82,7 +82,8 @@ function figureOf(program, told, x) {
   const points = [];
   const s = [];
   const q = [];
-  const { steps, scene } = program(x, s, q);
+  const [t, r] = [[], []];
+  const { steps, scene, rates, inertia } = program(x, s, q, t, r);
   const near = new Map(Object.entries(told.near).map(([k, at]) => [Number(k), at]));
   for (const step of told.steps) {
     if (step.sign !== undefined) s[step.p[0]] = step.sign;
@@ -370,6 +371,9 @@ function figureOf(program, told, x) {
     points,
     scene,
     near,
+    /* What the rates of twists fulfil, and the wrenches of inertia forces by these. */
+    rates: (twists) => (t.splice(0, t.length, ...twists), rates()),
+    inertia: (changes) => (r.splice(0, r.length, ...changes), inertia()),
     /* Branches, and where Newton's method stands. */
     state: () => [[...s], [...q]],
     adopt([branches, starts]) {
@@ -448,6 +452,11 @@ function motionsOf(told, [rows, paths, , , courses, threads], points) {
   if (!exact && told.inexact && last < 2e-3 && told.ropes.every((rope) => rope.end)) {
     const nearly = nullSpace(rows, told.columns, 2e-3 / found.pivots.length, 1);
     if (nearly.basis.length === 1) found = nearly;
+  }
+  if (!found.basis.length && told.still && last > LEAST_TRUST) {
+    const twists = paths.map(() => []);
+    withEnds(told, twists, courses, threads, points);
+    return { twists, mobility: 0, redundant: 0, trust: last };
   }
   if (!found.basis.length) {
     if (told.given) throw new Refusal("contradictory-centres");
@@ -598,6 +607,35 @@ const thrustsOf = (told, loads, values, threads, points) =>
     return [-fy, fx, x * fy - y * fx];
   });
 const LEAST_TRUST = 1e-11;
+/* The twist of every body in the motion that is meant; null where that leaves it open. */
+function movedAs(told, x, motions, points) {
+  if (!motions.mobility) return motions.twists.map(() => null);
+  const speed = speedOf(told, x, motions, points);
+  const mix = (by, ts) => [0, 1, 2].map((k) => dot(by, ts.map((t) => t[k])));
+  const fast = largest(motions.twists.flat(2));
+  return motions.twists.map((ts) => (speed.open.some((by) => largest(mix(by, ts)) > 1e-9 * fast) ? null : mix(speed.meant, ts)));
+}
+/* The inertia forces of the given motion among the loads. */
+function withInertia(told, figure, twists, loads) {
+  if (told.heavy.some((link) => !twists[told.body[link]])) throw new Refusal("mobility");
+  const count = 3 * told.bodies;
+  const rows = figure.rates(twists.slice(0, told.bodies).flatMap((t) => t || [0, 0, 0])).map((row) => {
+    const dense = Array(count + 1).fill(0);
+    for (const [k, value] of row) if (Math.floor(k / 3) !== told.ground) dense[k] += value;
+    return dense;
+  });
+  const held = [0, 1, 2].map((n) => [...Array(count + 1).keys()].map((k) => (k === 3 * told.ground + n ? 1 : 0)));
+  const { basis } = nullSpace([...rows, ...held], count + 1, 1e-13);
+  const first = basis.reduce((best, v) => (Math.abs(v[count]) > Math.abs(best ? best[count] : 0) ? v : best), null);
+  if (!first || Math.abs(first[count]) < 1e-9 * largest(first)) throw new Refusal("change-point");
+  const unit = first.map((v) => v / first[count]);
+  const open = basis.filter((v) => v !== first).map((v) => v.map((x, k) => x - v[count] * unit[k]));
+  const isOpen = (link) => open.some((v) => largest(v.slice(3 * told.body[link], 3 * told.body[link] + 3)) > 1e-9);
+  if (told.heavy.some(isOpen)) throw new Refusal("mobility");
+  const forces = figure.inertia(unit.slice(0, count));
+  const own = told.loads.map((_, n) => n).filter((n) => told.loads[n].name.startsWith("inertia "));
+  own.forEach((n, k) => { loads[n] = [...forces[k], loads[n][3], loads[n][4], 1]; });
+}
 /* All of a scene whose points are placed: loads, and the twist of every body in the motion that is meant (null
    where that is left open). */
 function solvedScene(told, x, figure) {
@@ -613,14 +651,12 @@ function solvedScene(told, x, figure) {
       throw new Refusal("inconsistent", "a weight hangs from a part of a rope that does not hang");
   });
   const motions = motionsOf(told, parts, figure.points);
+  const moved = told.dynamic ? movedAs(told, x, motions, figure.points) : null;
+  if (moved) withInertia(told, figure, moved, loads);
   const found = balanceOf(told, loads, motions);
   refuseUnbalanced(told, motions, found);
   if (Math.min(motions.trust, found.trust) < LEAST_TRUST) throw new Refusal("near-singular");
-  const speed = speedOf(told, x, motions, figure.points);
-  const mix = (by, ts) => [0, 1, 2].map((k) => dot(by, ts.map((t) => t[k])));
-  const fast = largest(motions.twists.flat(2));
-  const twists = motions.twists.map((ts) =>
-    speed.open.some((by) => largest(mix(by, ts)) > 1e-9 * fast) ? null : mix(speed.meant, ts));
+  const twists = moved || movedAs(told, x, motions, figure.points);
   const root = new Map(found.unknown.map((n, k) => [told.loads[n].root, found.values ? found.values[k] : 0]));
   const values = told.loads.map((load, n) => loads[n][4] * (root.has(load.root) ? root.get(load.root) : loads[n][5]));
   const thrusts = thrustsOf(told, loads, values, threads, figure.points);

@@ -30,7 +30,7 @@ function shadowed(numbersNow) {
 /* The numbers in a position of the turn; null where they do not tell it. */
 function numbersAt(r) {
   if (mover) return r === zero && !scene.changed ? live.numbers : numbersMoved({ [live.input]: degreesOf(r) });
-  if (r !== zero && (!live.moves || scene.changed)) return null;
+  if (r !== zero && (!live.moves || live.posed.length || scene.changed)) return null;
   const some = [...live.numbers];
   if (r !== zero)
     for (const [name, moves] of Object.entries(live.handles))
@@ -358,13 +358,14 @@ function see() {
   const rotations = ticked("[data-rotation]");
   const curves = ticked("[data-curve]");
   const rolls = ticked("[data-centrode]");
-  const wanted = byId("see-velocities").checked || rotations.length || rolls.length || chosen;
+  const velocities = byId("see-velocities") && byId("see-velocities").checked;
+  const wanted = velocities || rotations.length || rolls.length || chosen;
   const state = wanted ? stateAt(row) : null;
   let said = wanted && !state ? "Nothing of this is known in this position." : "";
   for (const e of curves) drawCurve(e.dataset.curve);
   for (const e of rolls) drawCentrodes(state, e.dataset.centrode);
   if (state) for (const e of rotations) drawRotation(state, e.dataset.rotation);
-  if (state && byId("see-velocities").checked) said = drawVelocities(state);
+  if (state && velocities) said = drawVelocities(state);
   if (byId("see-hint").textContent !== said) byId("see-hint").textContent = said;
   if (chosen) drawBody(chosen, state && actingOn(state, chosen), state && spotsOf(state, chosen), live.units, (1e-9 / live.frame[2]) * live.torque);
 }

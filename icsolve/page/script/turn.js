@@ -1,7 +1,7 @@
 /* The mechanism with its present numbers moved: every body rigid, its place by Newton's method on the joints and
    the inputs, from one position to the next. What the numbers of the case then are is measured. */
 const PLAIN = ["Pin", "Slide", "Slot", "Gears", "Belt"];
-const mover = live && live.kinds.every((kind) => PLAIN.includes(kind)) && live.measures ? { inputs: [], at: {} } : null;
+const mover = live && !live.posed.length && !live.still && live.kinds.every((kind) => PLAIN.includes(kind)) && live.measures ? { inputs: [], at: {} } : null;
 const perp = ([x, y]) => [-y, x];
 
 /* Bodies at rest: where the mechanism now is. */

@@ -3,8 +3,9 @@ function saying(answer, r) {
   const value = answer.values[r];
   const held = answer.holds && (answer.holds[r] ?? answer.holds[0]);
   if (held) return { text: ` ${held}`, sense: "" };
-  if (value === null || value === undefined) return { text: ` = no value (${statusAt(r)})`, sense: "" };
+  if (value === null || value === undefined || Number.isNaN(value)) return { text: ` = no value (${statusAt(r)})`, sense: "" };
   const sense = r === LIVE ? answer.word : answer.senses[answer.sense[r]];
+  if (answer.asked) return { text: ` = ${number(value, 6)}${answer.unit === "°" ? "" : " "}${answer.unit}`, sense };
   return { text: ` = ${number(Math.abs(value), 6)} ${answer.unit}`.trimEnd(), sense };
 }
 const statusAt = (r) => {

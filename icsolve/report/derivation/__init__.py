@@ -3,7 +3,15 @@ and how the speed of one link follows from another's. Explanations, drawings and
 
 from __future__ import annotations
 
-from icsolve.report.derivation.known import Acting, Known, acting_loads, joint_of_normal, known_at, known_of
+from icsolve.report.derivation.known import (
+    Acting,
+    Known,
+    acting_loads,
+    joint_of_normal,
+    known_at,
+    known_of,
+    resting,
+)
 from icsolve.report.derivation.ratios import (
     Ratio,
     Ratios,
@@ -31,6 +39,7 @@ __all__ = [
     "loaded_links",
     "needed_steps",
     "pulls_on",
+    "resting",
     "rope_pulls",
     "tension_name",
 ]

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.answer import Answer, Centre, by_load
+from icsolve.answer.equilibrium import EquilibriumPosition
 from icsolve.assembly import Frame, case_point, solve_figure
 from icsolve.case import Case, Coordinates, ForceVector, Joint, Like, Load, Pair, Pin
 from icsolve.case.figure import Unknown
@@ -139,8 +140,7 @@ def _at_rest(case: Case, answer: Answer | None, refusal: SceneError | None) -> K
     in the middle of what was searched)."""
     from icsolve.solve.load_function import given_at
 
-    positions = [] if answer is None else list(answer.positions or ())
-    positions.sort(key=lambda one: one.stability != "stable")
+    positions = _by_stability(answer)
     if positions:
         at = {path: held if isinstance(held, float) else held[0] for path, held in positions[0].at.items()}
     else:
@@ -164,6 +164,16 @@ def _at_rest(case: Case, answer: Answer | None, refusal: SceneError | None) -> K
         return known._replace(answer=None, refusal=refusal or known.refusal, posed=posed, written=written)
     shown = replace(known.answer, positions=answer.positions, notes=answer.notes)
     return known._replace(answer=shown, posed=posed, written=written)
+
+
+def _by_stability(answer: Answer | None) -> list[EquilibriumPosition]:
+    """The positions of an answer, the stable ones first."""
+    return sorted((answer and answer.positions) or (), key=lambda one: one.stability != "stable")
+
+
+def resting(known: Known) -> EquilibriumPosition | None:
+    """The position that is shown of a case that asks for one."""
+    return next(iter(_by_stability(known.answer)), None) if known.posed else None
 
 
 APART = 0.05
