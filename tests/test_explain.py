@@ -359,6 +359,23 @@ def test_a_roller_follower_goes_by_lines_of_centres_and_a_spring_by_its_force() 
     assert "The mechanical" not in text and "For one unit of the known load: T / F_S" in text
 
 
+def test_the_area_of_a_pressure_and_the_length_of_a_tapered_load_are_worked_out() -> None:
+    """pi (80^2 - 30^2)/4 mm^2 is 0.00431969 m^2, on which 1 MPa makes 4319.69 N; a load that falls from
+    500 to 200 N/m along 4 m has 0.7 of 500 N/m times 4 m."""
+    text = """icsolve: 1
+units: {length: m, force: N}
+points: {A: [0, 0], B: [4, 0], C: [4, 3]}
+joints: [{pin: [1, 2], at: A}]
+loads:
+  q: {distributed: [500, 200], from: A, to: B, link: 2, angle: -90}
+  p: {pressure: unknown, bore: 0.08, rod: 0.03, link: 2, at: B, toward: C}
+"""
+    said = explain(icsolve.load(text))
+    assert "A_p = pi x (0.08^2 - 0.03^2) / 4 = 0.00431969 m^2\n" in said
+    assert "1 MPa is 1000000 N/m^2, so that\n    A_p = 0.00431969 x 1000000 = 4319.69 N/MPa" in said
+    assert "L_q = (500 + 200) / (2 x 500) x 4 = 2.8 m" in said
+
+
 def test_two_slots_between_two_links_have_each_its_own_normal() -> None:
     """x + y tan 20 = 1 and x + y tan 70 = 2 tan 70, in words and in the figure."""
     text = """icsolve: 1

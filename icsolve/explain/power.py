@@ -4,13 +4,26 @@ solved; one equation for every motion where several freedoms need several."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from icsolve.answer.bodies import Rubbing
-from icsolve.case import Area, Force, ForceVector, Joint, Pin, Spring, Torque, TorsionSpring, Units, Weight
+from icsolve.case import (
+    Area,
+    Force,
+    ForceVector,
+    Joint,
+    Number,
+    Pin,
+    Spring,
+    Stretch,
+    Torque,
+    TorsionSpring,
+    Units,
+    Weight,
+)
 from icsolve.case.joints import Friction
 from icsolve.explain.document import Block, Items, Section, formula, words
-from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, Trig, product, solved_for
+from icsolve.explain.formula import Expr, Name, Num, Quotient, Square, Sum, Trig, product, solved_for, total
 from icsolve.explain.given import Figures, load_name
 from icsolve.explain.levers import lever, motion_name
 from icsolve.report.derivation import Acting, Known, Ratios
@@ -135,12 +148,12 @@ def gain_of(known: Known, figures: Figures, acting: Acting) -> tuple[tuple[Expr,
         turned = product(Sum(((1, begin), (-1, end))), Name("pi"))
         turn = formula(name, Quotient(turned, Num("180")), size)
         return (name,), slack, [words("By how much ", load_name(load.name), " is turned:"), turn]
+    if isinstance(load, Force) and isinstance(load.over, Area):
+        return (Name("A", load.name),), acting.gain, _area(known, figures, load, load.over, acting.gain)
     if isinstance(load, Force) and load.over is not None:
-        over = load.over
-        name = Name("A" if isinstance(over, Area) else "L", load.name)
-        said = "The area of " if isinstance(over, Area) else "The length over which it is the resultant, of "
-        number = figures.number(acting.gain)
-        return (name,), acting.gain, [words(said, load_name(load.name), ":"), formula(name, number)]
+        name, length = Name("L", load.name), figures.distance(acting.gain)
+        said = words("The length over which ", load_name(load.name), " makes its resultant:")
+        return (name,), acting.gain, [said, formula(name, *_tapered(known, figures, load), length)]
     if isinstance(load, Spring):
         a, b = known.points[load.at], known.points[load.to]
         long, free = figures.length(math.dist(a, b)), figures.length(load.free.value)
@@ -148,6 +161,35 @@ def gain_of(known: Known, figures: Figures, acting: Acting) -> tuple[tuple[Expr,
         stretch = formula(name, Sum(((1, long), (-1, free))), figures.distance(acting.gain))
         return (name,), acting.gain, [words("The stretch of ", load_name(load.name), ":"), stretch]
     return (), 1.0, []
+
+
+def _area(known: Known, figures: Figures, load: Force, over: Area, gain: float) -> list[Block]:
+    """The area under a pressure, and the force that a unit of the pressure makes on it."""
+    name, units, size = Name("A", load.name), known.case.units, 0.0 if over.area is None else over.area.value
+    numbers: tuple[Expr, ...] = ()
+    if over.bore is not None:
+        bore, rod = over.bore.value, 0.0 if over.rod is None else over.rod.value
+        size = math.pi * (bore - rod) * (bore + rod) / 4.0
+        squares = [(sign, Square(figures.number(d))) for sign, d in ((1, bore), (-1, rod)) if d]
+        numbers = (Quotient(product(Name("pi"), total(squares)), Num("4")),)
+    area, square = figures.quantity(size, f"{units.length}^2"), f"{units.force}/{units.length}^2"
+    blocks: list[Block] = [words("The area of ", load_name(load.name), ":"), formula(name, *numbers, area)]
+    if abs(gain - size) > 1e-9 * size:
+        unit = figures.quantity(gain / size, square)
+        force = figures.quantity(gain, f"{units.force}/{units.pressure}")
+        blocks += [
+            words(f"1 {units.pressure} is ", unit, ", so that"),
+            formula(name, product(area.number, unit.number), force),
+        ]
+    return blocks
+
+
+def _tapered(known: Known, figures: Figures, load: Force) -> Iterator[Expr]:
+    """The length of a load along a line that is another at its end, as far as its own number makes it."""
+    if isinstance(load.over, Stretch) and load.over.end is not None and isinstance(load.value, Number):
+        first, last = (figures.number(number.value) for number in (load.value, load.over.end))
+        mean = Quotient(Sum(((1, first), (1, last))), product(Num("2"), first))
+        yield product(mean, figures.number(math.dist(known.points[load.over.a], known.points[load.over.b])))
 
 
 def _end(
