@@ -110,6 +110,11 @@ class JointKind:
         return not any(isinstance(centre, CentreAt) for centre in self.centres)
 
     @property
+    def has_normal(self) -> bool:
+        """Whether its centre lies anywhere on a line through ``at``: the normal of what touches."""
+        return len(self.centres) > 1
+
+    @property
     def stays_known(self) -> bool:
         """Whether its centres go with its links, so that it is known in all positions."""
         return all(centre.link for centre in self.centres)

@@ -8,7 +8,6 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.answer import Centre
 from icsolve.case import Joint, Pair
-from icsolve.case.joints import Sliding
 from icsolve.case.names import pair_name
 from icsolve.explain.document import Block, Inline, Items, Section, formula, words
 from icsolve.explain.formula import (
@@ -123,7 +122,7 @@ def _line(known: Known, centre: Centre, line: tuple[Pair, ...]) -> Iterable[Inli
 
 
 def _normal(joint: Joint | None) -> str:
-    if not isinstance(joint, Sliding):
+    if joint is None or joint.at is None:
         return "common normal of the joint"
     what = normal_words(joint)
     hidden = joint.at.startswith("@")

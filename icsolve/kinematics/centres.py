@@ -21,7 +21,7 @@ from operator import attrgetter
 from icsolve.answer import Centre
 from icsolve.assembly.workspace import Frame
 from icsolve.case import Case, Pair, Pin
-from icsolve.case.joints import Mesh, Sliding
+from icsolve.case.joints import Mesh
 from icsolve.case.names import ordered_pair
 from icsolve.kinematics.twists import Closure, is_dead, products, rate_sizes
 from icsolve.numbers.arithmetic import ROUNDING_NOISE, Arithmetic, Showing, all_vanish
@@ -463,6 +463,5 @@ def _place(bond: Bond) -> str:
 
 def _normal(bond: Bond) -> str:
     joint = bond.joint
-    if not isinstance(joint, Sliding) or joint.freedom == 1 or joint.at.startswith("@"):
-        return ""
-    return f"the {normal_words(joint)} at {joint.at}"
+    named = joint.has_normal and joint.at and not joint.at.startswith("@")
+    return f"the {normal_words(joint)} at {joint.at}" if named else ""

@@ -12,8 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer import Term, bodies
-from icsolve.case import Case, Friction, Screw
-from icsolve.case.joints import Sliding
+from icsolve.case import Case, Friction, Number, Screw
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.numbers.linear import solve_square
 from icsolve.screws.joints import guide_direction
@@ -39,17 +38,18 @@ def rubs_of(position: Position, ties: Sequence[Tie]) -> tuple[Rub, ...]:
             found.append(_threaded(position, t, tie, tie.screw, arithmetic))
         if friction is None:
             continue
-        if isinstance(tie.joint, Sliding):
+        if friction.radius is None:
             found += _guided(position, t, tie, friction, arithmetic)
         else:
-            found.append(_pin(position, t, tie, friction, arithmetic))
+            found.append(_pin(position, t, tie, friction, friction.radius, arithmetic))
     return tuple(found)
 
 
-def _pin(position: Position, t: int, tie: Tie, friction: Friction, arithmetic: Arithmetic) -> Rub:
-    assert friction.radius is not None
+def _pin(
+    position: Position, t: int, tie: Tie, friction: Friction, given: Number, arithmetic: Arithmetic
+) -> Rub:
     mu = arithmetic.given(friction.mu)
-    radius = arithmetic.given(friction.radius) * position.scale * mu / arithmetic.sqrt(mu * mu + 1.0)
+    radius = arithmetic.given(given) * position.scale * mu / arithmetic.sqrt(mu * mu + 1.0)
     both = tuple(tuple(unit[part] for unit in tie.units) for part in (0, 1))
     return Rub(t, COUPLE, both, radius)
 

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from functools import reduce
+from operator import add, mul, sub
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from icsolve.assembly.workspace import Frame
@@ -354,8 +356,7 @@ def balance(
         fastest = max([magnitude(x) for ts in twists.values() for x in ts[m]], default=0.0)
         for w in all_wrenches:
             on, off = twists[w.load.link][m], twists[w.against][m]
-            relative = tuple([a - b for a, b in zip(on, off, strict=True)])
-            row.append(w.gain * power_of(w.unit, relative))
+            row.append(w.gain * power_of(w.unit, tuple(map(sub, on, off))))
             scale.append(w.reach * sum(map(magnitude, w.unit)) * fastest)
         factors.append(tuple(row))
         sizes.append(tuple(scale))
@@ -364,7 +365,7 @@ def balance(
 
 def power_of(wrench: tuple[Scalar, ...], twist: tuple[Scalar, ...]) -> Scalar:
     """Power of a wrench on a twist, of three components or six (`icsolve.screws.plane.pairing`)."""
-    return sum([a * b for a, b in zip(wrench, twist, strict=True)], 0.0)
+    return reduce(add, map(mul, wrench, twist))
 
 
 class Solution(NamedTuple):

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import assert_never
 
 from icsolve.case import Belt, Contact, Gears, Joint, KnownCentre, Number, Pin, Roll, Slide, Slot, Weld
-from icsolve.case.joints import Guided, Sliding, Thread
+from icsolve.case.joints import Thread
 from icsolve.wording.sentences import listed
 
 
@@ -126,9 +126,9 @@ def centre_words(joint: Joint) -> str:
             assert_never(joint)
 
 
-def normal_words(joint: Sliding) -> str:
+def normal_words(joint: Joint) -> str:
     """The line on which the centre of two surfaces lies."""
-    return "normal to the slot" if isinstance(joint, Guided) else "common normal"
+    return "normal to the slot" if joint.guide is not None else "common normal"
 
 
 def why_not_moved(joint: Joint) -> str:

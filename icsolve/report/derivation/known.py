@@ -10,7 +10,6 @@ from icsolve.answer.equilibrium import EquilibriumPosition
 from icsolve.assembly import Frame, case_point, solve_figure
 from icsolve.case import Case, Coordinates, ForceVector, Joint, Like, Load, Pair, Pin
 from icsolve.case.figure import Unknown
-from icsolve.case.joints import Sliding
 from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS, turn_of
@@ -342,9 +341,5 @@ def joint_of_normal(joints: Iterable[Joint], lines: Sequence[Sequence[Pair]], nu
     """
     pair = set(lines[number][0])
     before = sum(len(line) == 1 and set(line[0]) == pair for line in lines[:number])
-    found = [
-        joint
-        for joint in joints
-        if isinstance(joint, Sliding) and joint.freedom > 1 and pair <= set(joint.links)
-    ]
+    found = [joint for joint in joints if joint.has_normal and pair <= set(joint.links)]
     return found[before] if before < len(found) else None
