@@ -52,8 +52,6 @@ STEPS = 40
 SAME = 1e-7
 NUDGE = 1e-6
 """Derivatives are differences over this fraction of a range."""
-NUDGE = 1e-6
-"""Derivatives are differences over this fraction of a range."""
 
 Span = tuple[float, float]
 
