@@ -23,7 +23,7 @@ import pytest
 
 import icsolve
 from equilibrium_cases import POTENTIALS
-from icsolve.answer.equilibrium import EquilibriumPosition
+from icsolve.answer.equilibrium import EquilibriumPosition, position_dict
 from icsolve.errors import SceneError
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import Record
@@ -314,6 +314,8 @@ def test_at_a_limit_a_position_is_stable_by_the_motion_that_is_left(
     kinds = {30: "unstable", 150: "unstable", 210: "stable", 330: "stable"}
     assert {one.at["angles.AB"]: one.stability for one in found} == kinds
     assert [one.why for one in found if one.stiffness is None] == [AT_LIMIT] * 4
+    shown = position_dict(found[0])
+    assert (shown["stability"], shown["stiffness"], shown["why"]) == ("unstable", None, AT_LIMIT)
     text = BALANCED_ISOSCELES.format(angle="10", near="near: {C: [3, 0]}", **told)
     words = ("sweep", "CASE", "--vary", "angles.AB=-40:40:5", "--find", "rest", "--json")
     swept = json.loads(run(tmp_path, capsys, text, *words))["found"]

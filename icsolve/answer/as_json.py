@@ -156,12 +156,12 @@ def _equilibrium(answer: Answer) -> dict[str, Any]:
     """Positions of equilibrium, or the stability of the position as written."""
     if answer.positions is None and answer.stability is None:
         return {}
-    from icsolve.answer.equilibrium import position_dict, stiffness_dict
+    from icsolve.answer.equilibrium import position_dict, stability_dict
 
     if answer.positions is not None:
         return {"positions": [position_dict(position) for position in answer.positions]}
-    stiffness = stiffness_dict(answer.stiffness, answer.why_no_stiffness)
-    return {"stability": answer.stability, "stiffness": stiffness}
+    assert answer.stability is not None
+    return stability_dict(answer.stability, answer.stiffness, answer.why_no_stiffness)
 
 
 def _rate(rate: float | str) -> float | dict[str, str]:

@@ -47,19 +47,21 @@ def position_dict(position: EquilibriumPosition) -> dict[str, Any]:
         "error": {path: _held(value) for path, value in position.error.items()},
     }
     if position.stability is not None:
-        entry["stability"] = position.stability
-        entry["stiffness"] = stiffness_dict(position.stiffness, position.why)
+        entry |= stability_dict(position.stability, position.stiffness, position.why)
     scene = position.answer.to_dict()
     entry["points"] = scene["points"]
     asked = ("centres", "rates", "velocities", "reactions")
     return entry | {key: scene[key] for key in asked if key in scene and (key != "centres" or scene[key])}
 
 
-def stiffness_dict(stiffness: Stiffness | None, why: str) -> dict[str, Any]:
-    """A stiffness, or null with the reason."""
+def stability_dict(stability: str, stiffness: Stiffness | None, why: str) -> dict[str, Any]:
+    """Stability and stiffness, which is null where ``why`` says so."""
     if stiffness is None:
-        return {"value": None, "why": why}
-    return {"value": stiffness.value, "unit": stiffness.unit, "error": stiffness.error}
+        return {"stability": stability, "stiffness": None, "why": why}
+    return {
+        "stability": stability,
+        "stiffness": {"value": stiffness.value, "unit": stiffness.unit, "error": stiffness.error},
+    }
 
 
 def _held(value: Any) -> Any:

@@ -111,14 +111,12 @@ def refusal(case: Case, error: SceneError) -> str:
 
 def _words(entry: Mapping[str, Any], one: Finding, digits: int) -> dict[str, Any]:
     """What the sentence of an entry names."""
-    answers, stiffness = entry.get("answers", {}), entry.get("stiffness", {"value": None})
+    answers, stiffness = entry.get("answers", {}), entry.get("stiffness")
     return {
         **entry,
         "name": one.load,
         "answer": "".join(f"{a['value']:.{digits}g} {a['unit']}" for a in answers.values()),
-        "stiffness": ""
-        if stiffness["value"] is None
-        else f", {stiffness['value']:.{digits}g} {stiffness['unit']}",
+        "stiffness": "" if stiffness is None else f", {stiffness['value']:.{digits}g} {stiffness['unit']}",
     }
 
 
@@ -237,11 +235,11 @@ def _equilibrium(case: Case, word: str, along: str, low: float, high: float) -> 
 
 
 def _rest(case: Case, along: str, low: float, high: float) -> Iterable[tuple[Any, dict[str, Any]]]:
-    from icsolve.answer.equilibrium import stiffness_dict
+    from icsolve.answer.equilibrium import stability_dict
     from icsolve.solve.positions import find_along
 
     for one in find_along(case, along, low, high):
-        yield one, {"stability": one.stability, "stiffness": stiffness_dict(one.stiffness, one.why)}
+        yield one, stability_dict(one.stability, one.stiffness, one.why)
 
 
 def _neutral(case: Case, along: str, low: float, high: float) -> Iterable[tuple[Any, dict[str, Any]]]:
