@@ -89,6 +89,8 @@ def test_every_operation_holds_its_exact_result(digits: int, seed: int) -> None:
             assert x < 0
             continue
         assert holds(*made), operation
+        if isinstance(made[0], Ball) and (made[0].is_certain or made[0].exact):
+            assert made[0].sign == many.sign(made[1]), operation
         if many.mpf(10) ** -60 < abs(made[1]) < many.mpf(10) ** 60:
             pool[draw.randrange(len(pool))] = made
 
@@ -103,6 +105,31 @@ def test_cosine_and_sine_hold_theirs(digits: int) -> None:
             balls.turn(Number(float(text), 0.0, f"{k}", text)), (many.cos, many.sin), strict=True
         ):
             assert holds(found, function(many.mpf(text) * many.pi / 180)) or abs(found - 0.0) < 1e-300
+
+
+@pytest.mark.parametrize("digits", DIGITS)
+def test_directions_hold_theirs_and_lose_few_digits(digits: int) -> None:
+    draw, balls = Random(f"direction {digits}"), Balls(digits)
+    for k in range(40):
+        texts = [draw.choice(["0", "1", "-1", numeral(draw)]) for _ in "xy"]
+        if texts != ["0", "0"]:
+            x, y = (
+                balls.given(Number(float(t), 0.0, f"{axis}{k}", t))
+                for axis, t in zip("xy", texts, strict=True)
+            )
+            found, true = balls.angle(x, y), many.degrees(many.atan2(*map(many.mpf, reversed(texts))))
+            assert holds(found, true), texts
+            assert not isinstance(found, Ball) or found.radius <= 10.0 ** (4 - digits)
+
+
+def test_where_nothing_is_carried_on_a_ball_has_its_own_rounding_alone() -> None:
+    """Half a unit of its last digit: of quotients, products, sums and roots."""
+    balls = Balls(30, carried=0.0)
+    third = balls.ball(1.0) / 3.0
+    for _ in range(4):
+        for made in (third / (third + 1.0), third * third, third + third, third - 2.0, balls.sqrt(third)):
+            assert 0.0 < made.radius <= 5.1e-30 * made.size
+        third = (third * 7.0) / (third + 2.0)
 
 
 def test_an_angle_in_radians_is_converted_exactly() -> None:

@@ -233,6 +233,33 @@ motion: {point: B, link: 2, speed: 10, angle: 143.130102354, acceleration: 2}
     assert answer.accelerations["B", "2"] == pytest.approx((-4 * 3 - 0.4 * 4, -4 * 4 + 0.4 * 3))
 
 
+def test_of_two_given_motions_a_point_s_acceleration_counts_at_its_angle() -> None:
+    """Two links in series, the first driven, and the tip along a fixed direction u: v u and a u are given,
+    and v is that of rigid links, w2 k x b + w3 k x c."""
+    for k in range(6 * MORE):
+        rng = Random(f"arm {k}")
+        b, c = ((rng.uniform(0.5, 3.0), rng.uniform(-3.0, 3.0)) for _ in "bc")
+        x, y, w2, e2, speed, more = (rng.uniform(-4.0, 4.0) for _ in range(6))
+        lean = rng.uniform(0.0, 360.0)
+        u = (math.cos(math.radians(lean)), math.sin(math.radians(lean)))
+        places = {"A": (x, y), "B": (x + b[0], y + b[1]), "P": (x + b[0] + c[0], y + b[1] + c[1])}
+        faster = (math.copysign(1.0, w2) * e2, math.copysign(1.0, speed) * more)
+        answer = solved(f"""
+points: {{{", ".join(f"{name}: [{px!r}, {py!r}]" for name, (px, py) in places.items())}}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}]
+links: {{3: [P]}}
+motion:
+  - {{link: 2, speed: {w2!r}, acceleration: {faster[0]!r}}}
+  - {{point: P, link: 3, speed: {speed!r}, angle: {lean!r}, acceleration: {faster[1]!r}}}
+""")
+        square_b, square_c = ((-q[1] * u[0] + q[0] * u[1]) for q in (b, c))
+        w3 = (speed - w2 * square_b) / square_c
+        inward = sum(n * (w2 * w2 * p + w3 * w3 * q) for n, p, q in zip(u, b, c, strict=True))
+        e3 = (more - e2 * square_b + inward) / square_c
+        assert answer.rates == pytest.approx({"1": 0.0, "2": w2, "3": w3}, rel=1e-9)
+        assert answer.angular_accelerations == pytest.approx({"1": 0.0, "2": e2, "3": e3}, rel=1e-8)
+
+
 @pytest.mark.parametrize("way", ["speed: 5, turns: cw, acceleration: 3", "speed: -5, acceleration: 3"])
 def test_a_positive_acceleration_makes_the_link_faster_in_its_own_sense(way: str) -> None:
     answer = solved("points: {A: [0, 0]}\njoints: [{pin: [1, 2], at: A}]\nmotion: {link: 2, " + way + "}\n")

@@ -331,8 +331,14 @@ def test_zeros_are_found_to_the_last_digits(zero: float, width: float) -> None:
     def cube(x: float) -> float:
         return math.atan(x - zero) + (x - zero) ** 3
 
-    a, b = zero - width, zero + 0.7 * width
-    assert zero_between(cube, a, b, cube(a), cube(b)) == pytest.approx(zero, abs=2e-15, rel=1e-15)
+    a, b, calls = zero - width, zero + 0.7 * width, []
+
+    def counted(x: float) -> float:
+        calls.append(x)
+        return cube(x)
+
+    assert zero_between(counted, a, b, cube(a), cube(b)) == pytest.approx(zero, abs=2e-15, rel=1e-15)
+    assert len(calls) <= 15  # halvings alone take 50
 
 
 # --- friction, free bodies, lost contact ----------------------------------------------------------

@@ -366,7 +366,7 @@ class CentreFinder:
         lines = tuple(tuple(self._names(end) for end in line.ends) for line in known.lines)
         largest = max(abs(x), abs(y))
         if a.vanishes(w, max(INFINITE, min(4.0 * known.error, 1e-10) / ROUNDING_NOISE) * largest):
-            toward = a.degrees(x, y)
+            toward = a.angle(x, y)
             angle, error = a.rounded(toward + 180.0 if float(toward) < 0.0 else toward, 180.0)
             angle = 0.0 if angle == 180.0 else angle
             return Centre(pair, "toward", (angle,), known.by, lines, "", _bound(error))

@@ -67,9 +67,6 @@ class Showing(Arithmetic, Protocol):
     def rounded(self, value: Scalar, size: float = 0.0) -> tuple[float, float]:
         """The nearest double, and a bound on its error (in floats nothing is known of it: infinite)."""
 
-    def degrees(self, x: Scalar, y: Scalar) -> Scalar:
-        """The direction of a vector, within half a turn."""
-
 
 ROUNDING_NOISE = 2e-14
 """Rounding of a few hundred operations, as a fraction; numbers on a tape know their own."""
@@ -105,10 +102,6 @@ class Floats:
     def rounded(self, value: float, size: float = 0.0) -> tuple[float, float]:
         """The number itself."""
         return value + 0.0, math.inf
-
-    def degrees(self, x: float, y: float) -> float:
-        """The direction of a vector, within half a turn."""
-        return math.degrees(math.atan2(y, x))
 
 
 FLOATS = Floats()

@@ -121,8 +121,7 @@ def _product(a: Interval, b: Interval) -> Interval:
 
 def _quotient(a: Interval, b: Interval) -> Interval:
     through = (b.low <= 0.0) & (b.high >= 0.0)
-    over = Interval(np.where(through, -np.inf, 1.0 / b.high), np.where(through, np.inf, 1.0 / b.low))
-    found = _product(a, _out(*over))
+    found = _product(a, _out(1.0 / b.high, 1.0 / b.low))
     return Interval(np.where(through, -np.inf, found.low), np.where(through, np.inf, found.high))
 
 

@@ -90,7 +90,7 @@ def _refined(
     for _ in range(MOST_STEPS):
         values = system([balls.exactly(x) for x in middle])[0]
         step = [_product(row, values, balls) for row in inverse]
-        off = [abs(float(x)) * UP + r for x, r in step]
+        off = [abs(float(x)) + r for x, r in step]  # how they are rounded, `_left` has room for
         longest = max(off)
         if best is not None and longest > 0.25 * best:
             break

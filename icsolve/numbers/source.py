@@ -6,7 +6,6 @@ from one function, which reduces it exactly (`arithmetic.turn_of`).
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 
 from icsolve.numbers.record import Op, Record, operands
@@ -27,7 +26,8 @@ class Language(NamedTuple):
 
 
 def _number(value: float) -> str:
-    return repr(value) if value >= 0.0 and not math.copysign(1.0, value) < 0.0 else f"({value!r})"
+    text = repr(value)
+    return f"({text})" if text.startswith("-") else text
 
 
 _ARITHMETIC = {

@@ -164,7 +164,7 @@ def _polar(x: Scalar | None, y: Scalar | None, a: Showing) -> dict[str, Scalar |
         return found
     if float(x) == float(y) == 0.0:
         return {**found, "magnitude": x if isinstance(y, float) else y}
-    toward = a.degrees(x, y)
+    toward = a.angle(x, y)
     back = toward + 180.0
     return {
         "magnitude": a.sqrt(x * x + y * y),
@@ -215,7 +215,7 @@ def pressure_angle(position: Position, tie: Tie, a: Showing) -> Scalar | None:
     (u, v), (nx, ny) = moving[0], tie.units[0][:2]
     if not all(a.vanishes(u * y - v * x, fastest * fastest) for x, y in moving[1:]):
         return None
-    return a.degrees(size_of(u * nx + v * ny), size_of(u * ny - v * nx))
+    return a.angle(size_of(u * nx + v * ny), size_of(u * ny - v * nx))
 
 
 def _why(tie: Tie, kept: list[Scalar | None]) -> str:
