@@ -93,6 +93,7 @@ REFUSED = {
     "one end": (arm("{unknown: 90}"), "a range of two numbers, {unknown: [0, 90]}"),
     "ends the wrong way round": (arm("{unknown: [90, 0]}"), "from the lower to the higher number"),
     "a negative length": (slider("{unknown: [-1, 1]}"), "a length should not be negative"),
+    "more turns than are searched": (arm("{unknown: [-3600, 1e6]}"), "over 2,788 turns, and at most 20"),
     "from without unknown": (arm("{from: 30}"), "needs 'unknown': the range in which it is to find"),
     "another key": (arm("{unknown: [0, 90], to: 3}"), "has no key 'to'"),
     "a unit of another kind": (arm("{unknown: [0, 90 mm]}"), "'mm' is a length, but an angle is wanted"),

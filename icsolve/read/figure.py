@@ -43,6 +43,9 @@ from icsolve.tuples import NamedTuple
 if TYPE_CHECKING:
     from icsolve.case.space import SpatialPoint
 
+MOST_TURNS = 20
+"""Over so many turns a position is searched at most: the work grows with them."""
+
 
 def read_points(reading: Reading, section: Mapping) -> dict[str, Any]:
     """Coordinates and centroids by point."""
@@ -199,6 +202,11 @@ def _unknown(reading: Reading, node: Node, dimension: str, path: str) -> Unknown
                 return None
             if low.value >= high.value:
                 entry.refuse(span.mark, "a range goes from the lower to the higher number")
+                return None
+            turns = (high.value - low.value) / 360.0
+            if dimension == "angle" and turns > MOST_TURNS:
+                said = f"over {turns:,.0f} turns, and at most {MOST_TURNS} are searched: take whole turns off"
+                entry.refuse(span.mark, f"this range goes {said}")
                 return None
             if low.value < 0.0 and path.startswith("lengths."):
                 entry.refuse(span.mark, "a length should not be negative")
