@@ -18,6 +18,7 @@ from icsolve.grade.judge import judge_answer
 from icsolve.grade.keys import NumberKey
 from icsolve.grade.mistakes import CODES, Wrong, WrongAnswers, Wrongs, message
 from icsolve.grade.mistakes import solved_for as solved
+from icsolve.grade.mistakes.changed import changed_figures
 from icsolve.grade.mistakes.engine import shares
 from icsolve.grade.mistakes.lookup import near_miss
 from icsolve.grade.written.answer import Combined, Reader
@@ -81,6 +82,13 @@ def test_two_causes_that_coincide_are_both_named(a_class: Class) -> None:
     assert row["code"].split() == ["missed-load", "half"]
     assert "missing (P)" in row["feedback"]
     assert "Half the right size" in row["feedback"]
+
+
+def test_the_other_ways_to_assemble_that_are_tried_are_few() -> None:
+    """Ten links that are found together have mirror images by every two lengths of a point."""
+    case = icsolve.load(Path(__file__).parent / "data" / "found" / "wrongmode_1.yaml")
+    codes = [changed.code for changed in changed_figures(case, solved(case))]
+    assert 4 <= codes.count("other-mode") <= 12
 
 
 def test_shares_of_the_loads_add_up_to_the_unknown() -> None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from itertools import islice
 
 from icsolve.answer import Answer
 from icsolve.case import (
@@ -37,6 +38,8 @@ from icsolve.screws.ropes import rope_parts, wrap_angle
 from icsolve.tuples import NamedTuple, replace
 
 Place = tuple[float, float]
+MOST_MODES = 12
+"""Other ways to assemble that are tried for one case."""
 
 
 class Changed(NamedTuple):
@@ -289,15 +292,17 @@ def _other_modes(case: Case, answer: Answer) -> Iterator[Case]:
     """The case started in the mirror image of each point that ``near`` places.
 
     A point at given distances from two others has two places, mirror images about the line of the two;
-    one on a guide has two as well, about the foot of the other on the guide.
+    one on a guide has two as well, about the foot of the other on the guide. At most `MOST_MODES`: each is
+    solved, and points that are found together have images by the square of their lengths.
     """
-    for name in case.near:
-        here = answer.points.get(name)
-        if here is None:
-            continue
-        for image in _images(name, here, case, answer):
-            if math.dist(here, image) > 1e-6 * (1.0 + math.hypot(*here)):
-                yield replace(case, near={**case.near, name: image})
+    others = (
+        replace(case, near={**case.near, name: image})
+        for name in case.near
+        if (here := answer.points.get(name)) is not None
+        for image in _images(name, here, case, answer)
+        if math.dist(here, image) > 1e-6 * (1.0 + math.hypot(*here))
+    )
+    yield from islice(others, MOST_MODES)
 
 
 def _images(name: str, here: Place, case: Case, answer: Answer) -> Iterator[Place]:
