@@ -129,6 +129,9 @@ class Cluster:
         for datum in self.drawing.facts.of.get(point, ()):
             for other in datum.points:
                 self.mark(other)
+        self._mark_shapes_of(point)
+
+    def _mark_shapes_of(self, point: str) -> None:
         for cluster in self.drawing.holding.get(point, ()):
             if cluster is not self and cluster.number != 0:
                 for other in cluster.placed:
@@ -194,10 +197,7 @@ class Cluster:
             if datum.kind == LINE:
                 for other in datum.points:
                     self.mark(other)
-        for cluster in self.drawing.holding.get(point, ()):
-            if cluster is not self and cluster.number != 0:
-                for other in cluster.placed:
-                    self.mark(other)
+        self._mark_shapes_of(point)
 
     def _commit(self, step: Step) -> None:
         self.carried.update(carried_by(step))

@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from typing import Protocol, TypeVar
 
 from icsolve.numbers.arithmetic import RADIAN, Scalar
-from icsolve.numbers.record import Op, Record, Traced, operands
+from icsolve.numbers.record import Op, Record, Traced, live
 from icsolve.numbers.tape import TURN_NOISE, UNIT
 
 ROUNDINGS = {Op.NEG: 0.0, Op.NEAREST: 0.0, Op.COS: TURN_NOISE, Op.SIN: TURN_NOISE, Op.ANGLE: 0.0}
@@ -124,7 +124,7 @@ def gradient(record: Record, target: Scalar, inputs: Iterable[int]) -> dict[int,
         return result
     kind = RecordedAdjoints(record)
     weights: dict[int, Scalar] = {target.index: 1.0}
-    for k in reversed(behind(record, target.index)):
+    for k in reversed(live(record, (target.index,))):
         weight = weights.pop(k, None)
         if weight is None:
             continue
@@ -135,18 +135,6 @@ def gradient(record: Record, target: Scalar, inputs: Iterable[int]) -> dict[int,
             if record.nodes[n].row:
                 weights[n] = weights[n] + part if n in weights else part
     return result
-
-
-def behind(record: Record, target: int) -> list[int]:
-    """The nodes that vary from row to row and lead to the node ``target``, itself among them, in order."""
-    seen: set[int] = set()
-    stack = [target]
-    while stack:
-        k = stack.pop()
-        if k not in seen and record.nodes[k].row:
-            seen.add(k)
-            stack.extend(operands(record, k))
-    return sorted(seen)
 
 
 # --- errors of values that are the same in every row -----------------------------------------------------

@@ -12,8 +12,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from icsolve.numbers.record import Op, Record, operands
-from icsolve.numbers.replay import Array, live
+from icsolve.numbers.record import Op, Record, live, operands
+from icsolve.numbers.replay import Array
 from icsolve.tuples import NamedTuple
 
 TURN_ULPS = 6
@@ -45,7 +45,7 @@ def enclose(record: Record, wanted: Sequence[int], given: Mapping[int, Interval]
     nodes = record.nodes
     found: dict[int, Interval] = dict(given)
     with np.errstate(all="ignore"):
-        for k in live(record, wanted, list(given)):
+        for k in live(record, wanted, given):
             if k in found:
                 continue
             node = nodes[k]

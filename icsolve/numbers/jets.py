@@ -12,8 +12,8 @@ from functools import partial
 
 import numpy as np
 
-from icsolve.numbers.record import Op, Record, Traced
-from icsolve.numbers.replay import Array, live
+from icsolve.numbers.record import Op, Record, Traced, live
+from icsolve.numbers.replay import Array
 from icsolve.tuples import NamedTuple
 
 ROUNDED = 2.0**-51
@@ -189,7 +189,7 @@ class Cells:
 
     def __init__(self, record: Record, wanted: Sequence[int], main: int, inputs: Mapping[int, float]) -> None:
         self.record, self.wanted, self.main, self.inputs = record, tuple(wanted), main, inputs
-        self.order = live(record, self.wanted, ())
+        self.order = live(record, self.wanted)
 
     def run(self, mid: Array, half: Array) -> tuple[list[Jet], list[Jet]]:
         """The wanted nodes over the cells ``mid - half`` to ``mid + half``, and at their middles.

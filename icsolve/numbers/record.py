@@ -8,7 +8,7 @@ are carried out at once, those on 0 and 1 not at all, equal ones once.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Iterable, Sequence
 from enum import IntEnum
 from typing import Any
 
@@ -405,7 +405,21 @@ def operands(record: Record, k: int) -> tuple[int, ...]:
     return (node.a, node.b) if node.op in TWO else (node.a,)
 
 
-__all__ = ["Op", "Record", "Root", "Traced", "operands", "varies"]
+def live(record: Record, wanted: Iterable[int], given: Container[int] = ()) -> list[int]:
+    """The nodes that vary and lead to the wanted ones from the given ones, in the order of the record.
+
+    Nodes that are the same in every row are left out: their values stand in the record.
+    """
+    nodes, seen = record.nodes, set[int]()
+    stack = [k for k in wanted if nodes[k].row]
+    while stack:
+        k = stack.pop()
+        if k in seen:
+            continue
+        seen.add(k)
+        if k not in given:
+            stack += [n for n in operands(record, k) if nodes[n].row]
+    return sorted(seen)
 
 
 def terms_of(nodes: Sequence[Traced], k: int) -> float:

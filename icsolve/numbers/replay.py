@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from icsolve.numbers.record import Op, Record, operands
+from icsolve.numbers.record import Op, Record, live, operands
 
 Array = npt.NDArray[np.float64]
 BLOCK = 4096
@@ -24,23 +24,6 @@ MOST_SIZES = 24
 Step = tuple[Callable[..., Any], tuple[Any, ...]]
 
 BINARY = {Op.ADD: np.add, Op.SUB: np.subtract, Op.MUL: np.multiply, Op.DIV: np.divide}
-
-
-def live(record: Record, wanted: Iterable[int], given: Collection[int]) -> list[int]:
-    """The nodes that vary and lead to the wanted ones from the given ones, in the order of the record.
-
-    Nodes that are the same in every row are left out: their values stand in the record.
-    """
-    nodes, seen = record.nodes, set[int]()
-    stack = [k for k in wanted if nodes[k].row]
-    while stack:
-        k = stack.pop()
-        if k in seen:
-            continue
-        seen.add(k)
-        if k not in given:
-            stack += [n for n in operands(record, k) if nodes[n].row]
-    return sorted(seen)
 
 
 def not_negative(values: Array, out: Array) -> None:

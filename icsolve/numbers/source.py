@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from icsolve.numbers.record import Op, Record, operands
+from icsolve.numbers.record import Op, Record, live, operands
 from icsolve.tuples import NamedTuple
 
 DEEPEST = 12
@@ -103,7 +103,7 @@ def straight_line(
     Text
         Lines without indentation, to be run in order. Angles are in degrees.
     """
-    order = _needed(record, wanted, inputs)
+    order = live(record, wanted, inputs)
     uses: dict[int, int] = dict.fromkeys(order, 0)
     for k in order:
         for n in operands(record, k) if k not in inputs else ():
@@ -144,17 +144,3 @@ def straight_line(
             value, depth = names[-1], 0
         text[k] = (value, depth)
     return Text(tuple(lines), tuple(names), tuple(form(k)[0] for k in wanted), tuple(at))
-
-
-def _needed(record: Record, wanted: Sequence[int], inputs: Mapping[int, str]) -> list[int]:
-    """The nodes that vary and lead from the inputs to the wanted ones, in order."""
-    seen: set[int] = set()
-    stack = [k for k in wanted if record.nodes[k].row]
-    while stack:
-        k = stack.pop()
-        if k in seen:
-            continue
-        seen.add(k)
-        if k not in inputs:
-            stack += [n for n in operands(record, k) if record.nodes[n].row]
-    return sorted(seen)

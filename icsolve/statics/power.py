@@ -421,8 +421,12 @@ def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
     unknown, rows, scale = unknowns_of(b), power_rows(b, arithmetic), force_scale(b)
     idle = tuple([m for m, row in enumerate(rows) if len(row.zero) > len(unknown)])
     working = [row for m, row in enumerate(rows) if m not in idle]
-    scales = [(scale, w.measure) for w in unknown]
-    return _solved(working, [w.root for w in unknown], idle, scales, arithmetic)
+    if (len(working), len(unknown)) != (1, 1):
+        return _solved_many(working, unknown, scale, idle, arithmetic)
+    (factor, known), root = working[0].values, unknown[0].root
+    if 0 in working[0].zero:
+        return Solution("no value", {}, idle, root)
+    return Solution("balanced", {root: -known / factor / scale / unknown[0].measure}, idle)
 
 
 def unknowns_of(b: PowerFactors[L]) -> list[UnitWrench[L]]:
@@ -541,21 +545,6 @@ def _row(
     return PowerRow([zero_of(value) if k in zero else value for k, value in enumerate(sums)], terms, zero)
 
 
-def _solved(
-    rows: list[PowerRow],
-    roots: list[str],
-    idle: tuple[int, ...],
-    scales: list[tuple[float, float]],
-    arithmetic: Arithmetic,
-) -> Solution:
-    if len(rows) == 1 and len(roots) == 1:
-        factor, known = rows[0].values
-        if 0 in rows[0].zero:
-            return Solution("no value", {}, idle, roots[0])
-        return Solution("balanced", {roots[0]: -known / factor / scales[0][0] / scales[0][1]}, idle)
-    return _solved_many(rows, roots, idle, scales, arithmetic)
-
-
 def _equilibrated(rows: list[list[Scalar]]) -> list[list[Scalar]]:
     """The rows over powers of two that bring their largest entries near 1."""
     sizes = [math.ldexp(1.0, math.frexp(max(abs(value) for value in row))[1]) for row in rows]
@@ -563,12 +552,13 @@ def _equilibrated(rows: list[list[Scalar]]) -> list[list[Scalar]]:
 
 
 def _solved_many(
-    powers: list[PowerRow],
-    roots: list[str],
+    powers: Sequence[PowerRow],
+    unknown: Sequence[UnitWrench[L]],
+    scale: float,
     idle: tuple[int, ...],
-    scales: list[tuple[float, float]],
     arithmetic: Arithmetic,
 ) -> Solution:
+    roots = [w.root for w in unknown]
     count, rows = len(roots), _equilibrated([row.values for row in powers])
     free = null_space([row[:count] for row in rows], count, 1e-13, vanishes=decider(arithmetic))
     whole = null_space(rows, count + 1, 1e-13, vanishes=decider(arithmetic))
@@ -587,10 +577,10 @@ def _solved_many(
         )
     largest = max(abs(value) for value in vector)
     values: dict[str, Scalar] = {}
-    for k, root in enumerate(roots):
+    for k, w in enumerate(unknown):
         zero = arithmetic.vanishes(vector[k], largest)
-        value = vector[k] / (vector[-1] * scales[k][0] * scales[k][1])
-        values[root] = zero_of(value) if zero else value
+        value = vector[k] / (vector[-1] * scale * w.measure)
+        values[w.root] = zero_of(value) if zero else value
     return Solution("balanced", values, idle)
 
 

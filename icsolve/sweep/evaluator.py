@@ -18,9 +18,9 @@ from icsolve.answer import by_load
 from icsolve.assembly.steps import Group
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.adjoint import behind, gradient
+from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.arithmetic import turn_of
-from icsolve.numbers.record import Op, varies
+from icsolve.numbers.record import Op, live, varies
 from icsolve.numbers.replay import BLOCK, Array, Code
 from icsolve.numbers.source import PYTHON, straight_line
 from icsolve.scene import solve_scene
@@ -309,7 +309,7 @@ class _Compiled:
         self.slopes = [(name, path) for name in slopes for path in self.names]
         shown = [*(v for *_, v in values), *(v for by in slopes.values() for v in by.values())]
         self.shown = [record.lifted(v).index for v in shown]
-        alive = sorted({k for v in shown if varies(v) for k in behind(record, v.index)})
+        alive = live(record, [v.index for v in shown if varies(v)])
         self.positive = [*(r.radicand for k, r in record.roots.items() if k in set(alive)), *compiled.margins]
         divided = {record.nodes[k].b for k in alive if record.nodes[k].op == Op.DIV}
         self.apart = sorted(k for k in divided if record.nodes[k].row)

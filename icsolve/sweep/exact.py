@@ -15,8 +15,8 @@ from functools import lru_cache
 from icsolve.case import Case, Centroid, Coordinates, Number, TorsionSpring
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.record import Implicit, Op, Record, Root, Traced, operands, terms_of
-from icsolve.numbers.replay import BINARY, live
+from icsolve.numbers.record import Implicit, Op, Record, Root, Traced, live, operands, terms_of
+from icsolve.numbers.replay import BINARY
 from icsolve.statics.power import Points, spring_angle
 from icsolve.sweep.branches import live_roots
 from icsolve.sweep.numbers import numbers_of, with_numbers
@@ -114,7 +114,7 @@ class ExactRecord:
     def _found(self, wanted: Sequence[int], given: Mapping[int, Decimal]) -> Mapping[int, Decimal]:
         key, nodes = tuple(wanted), self.record.nodes
         if key not in self.orders:
-            order = [k for k in live(self.record, wanted, ()) if nodes[k].op != Op.INPUT]
+            order = [k for k in live(self.record, wanted) if nodes[k].op != Op.INPUT]
             steps = [(k, nodes[k].op, *_pair(nodes[k])) for k in order]
             divisors = [b for _, op, _, b in steps if op == Op.DIV and b not in self.least]
             self.least |= {b: VANISHED * Decimal(terms_of(nodes, b)) for b in divisors}

@@ -16,8 +16,8 @@ import numpy.typing as npt
 
 from icsolve.numbers.adjoint import noise_of
 from icsolve.numbers.backward import Backward
-from icsolve.numbers.record import Op, Record, Root, Traced, terms_of, varies
-from icsolve.numbers.replay import BLOCK, Array, Code, live
+from icsolve.numbers.record import Op, Record, Root, Traced, live, terms_of, varies
+from icsolve.numbers.replay import BLOCK, Array, Code
 from icsolve.sweep.branches import live_roots
 from icsolve.sweep.exact import RowScenes
 from icsolve.sweep.friction_rows import FrictionRows
@@ -76,7 +76,7 @@ class Runner:
         wanted = [index for _, _, index in self.moving]
         self.rubs = compiled.rubbing.nodes if compiled.rubbing is not None else []
         nodes = record.nodes
-        alive = [k for k in live(record, [*wanted, *self.rubs], ()) if nodes[k].op != Op.INPUT]
+        alive = [k for k in live(record, [*wanted, *self.rubs]) if nodes[k].op != Op.INPUT]
         answers = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
         self.resting = [(n, DWELL * _usual(record, wanted[n])) for n in answers if compiled.rests]
         self.roots = [record.roots[k] for k in alive if k in record.roots]
@@ -105,7 +105,7 @@ class Runner:
             return ()
         if self.sequential:
             return tuple(compiled.inputs)
-        behind = set(live(compiled.record, [root.radicand for root in self.roots], ()))
+        behind = set(live(compiled.record, [root.radicand for root in self.roots]))
         return tuple(name for name, k in compiled.inputs.items() if k in behind)
 
     @cached_property
@@ -263,7 +263,7 @@ def _living(compiled: CompiledSweep, alive: Sequence[int]) -> list[int]:
     """The checks of links that bear on what is asked."""
     checks = compiled.motion.checks if compiled.motion else ()
     known = set(alive)
-    return [k for k in checks if known.intersection(live(compiled.record, [k], ()))]
+    return [k for k in checks if known.intersection(live(compiled.record, [k]))]
 
 
 def column(array: Array, part: int) -> Array:
