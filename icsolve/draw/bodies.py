@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 import shapely
 
 from icsolve.answer.bodies import Reaction
+from icsolve.case import Pin
 from icsolve.draw.frame import point_parts, rims
 from icsolve.draw.links import bars, body_of, link_part, wheel_parts
 from icsolve.draw.loads import ARC, axle, heads, hidden, ways
@@ -58,6 +59,8 @@ class DrawnPush(NamedTuple):
     couple: float
     pull: bool = False
     """drawn from where it acts outward"""
+    circle: Point | None = None
+    """the middle of the friction circle that it touches"""
 
 
 def body_panels(scene: Scene, left: float, top: float, width: float) -> list[Mark]:
@@ -150,6 +153,11 @@ def _reaction(scene: Scene, name: str, reaction: Reaction) -> DrawnPush:
         force = (0.0, -part) if axis == "y" else (part, 0.0)
         return DrawnPush(words, (runs[0], low, known), "reaction", at, force, 0.0)
     size = math.hypot(reaction.x, reaction.y)
+    offset = _off_pin(scene, reaction, size)
+    if offset is not None:
+        p = scene.view.at((reaction.at[0] + offset[0], reaction.at[1] + offset[1]))
+        said = (*runs, TextRun(f" = {quantity(size, scene.case.units.force)}"))
+        return DrawnPush(words, said, "reaction", p, (reaction.x, -reaction.y), 0.0, circle=at)
     text: tuple[TextRun, ...] = (*runs, TextRun(f" = {quantity(size, scene.case.units.force)}"))
     if reaction.moment and abs(reaction.moment) > NOTHING * size * scene.known.size:
         couple = (
@@ -159,6 +167,18 @@ def _reaction(scene: Scene, name: str, reaction: Reaction) -> DrawnPush:
         )
         text = (*text, *couple)
     return DrawnPush(words, text, "reaction", at, (reaction.x, -reaction.y), reaction.moment or 0.0)
+
+
+def _off_pin(scene: Scene, reaction: Reaction, size: float) -> Point | None:
+    """From a pin that rubs to where its force touches the friction circle, case lengths: there it has the
+    moment of the friction. None where the pin does not rub."""
+    pins = (pin for pin in scene.case.joints if isinstance(pin, Pin) and pin.friction is not None)
+    rubbed = any(pin.at == reaction.where and {reaction.by, reaction.on} <= {*pin.links} for pin in pins)
+    moment = (reaction.moment or 0.0) / scene.case.units.torque_per_force_length
+    if not rubbed or not moment or size * scene.known.size * NOTHING >= abs(moment):
+        return None
+    assert reaction.x is not None and reaction.y is not None
+    return (moment * reaction.y / size**2, -moment * reaction.x / size**2)
 
 
 def _load(scene: Scene, acting: Acting, sign: float) -> DrawnPush:
@@ -224,6 +244,8 @@ def _drawn(
     marks: list[Mark] = []
     soft: list[Soft] = []
     anchors: list[Point] = [push.at]
+    if push.circle is not None:
+        marks.append(Disc(push.circle, math.dist(push.at, push.circle), "box"))
     foot = push.at if solid.is_empty else nearest(solid, push.at)
     if size and math.dist(foot, push.at) > BESIDE:
         marks.append(Stroke((foot, push.at), "box"))

@@ -291,12 +291,12 @@ def _stage(parts: PageParts) -> str:
 def _see(parts: PageParts) -> str:
     """What can be shown in the figure besides, each by a box to tick."""
     case, live = parts.known.case, parts.live is not None
-    seen = live and not parts.known.structure
     links = [link for link in case.links if link != case.ground and not link.startswith("@")]
+    links = links if live else list(parts.model.get("forces", {}).get("links", ()))
+    seen = bool(links) and not parts.known.structure
     moving = [
         name for name in parts.model.get("motion", {"points": ()})["points"] if not name.startswith("@")
     ]
-    bodies = links if live else parts.model.get("forces", {}).get("links", ())
 
     def boxes(what: str, kind: str, names: Iterable[str]) -> str:
         some = (f'<label><input type="checkbox" data-{kind}="{_text(n)}">{_text(n)}</label>' for n in names)
@@ -305,11 +305,11 @@ def _see(parts: PageParts) -> str:
     rows = [
         '<label><input type="checkbox" id="see-velocities">velocities of the points</label>' if seen else "",
         boxes("rotation about its centre of link", "rotation", links) if seen else "",
-        boxes("path of point", "curve", moving) if live and moving else "",
-        boxes("centrodes of link", "centrode", links) if live and moving else "",
+        boxes("path of point", "curve", moving) if seen and moving else "",
+        boxes("centrodes of link", "centrode", links) if seen and moving else "",
         '<label for="see-body" class="what">forces on link</label> <select id="see-body"><option value="">'
-        f"none</option>{''.join(f'<option>{_text(n)}</option>' for n in bodies)}</select>"
-        if bodies
+        f"none</option>{''.join(f'<option>{_text(n)}</option>' for n in links)}</select>"
+        if links
         else "",
     ]
     if not any(rows):

@@ -4,7 +4,7 @@ them, as a figure of free bodies draws it."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from icsolve.draw.bodies import DrawnPush, pushes_on
@@ -15,6 +15,7 @@ from icsolve.errors import SceneError
 from icsolve.page.motion import PageMotion, exact
 from icsolve.report.derivation import Known, known_at
 from icsolve.scene import solve_scene
+from icsolve.screws.plane import Triple
 
 MOST = 200
 """In more positions than these forces are not solved for: each is a scene of its own."""
@@ -23,10 +24,11 @@ SIZES = 6
 
 
 def forces_data(scene: Scene, motion: PageMotion | None) -> dict[str, Any]:
-    """For every link its places as written, and the forces and couples on it in every position; empty where
-    they are known in none.
+    """For every link its places as written, its twist, and the forces and couples on it in every position;
+    empty where they are known in none.
 
-    A force has its place in picture units and its components in case units, y up.
+    A force has its place in picture units and its components in case units, y up; a twist is (X, Y, W) in
+    case lengths.
     """
     known = scene.known
     if known.answer is None or not known.answer.reactions or known.case.space is not None:
@@ -41,12 +43,23 @@ def forces_data(scene: Scene, motion: PageMotion | None) -> dict[str, Any]:
         if link == known.case.ground or not spots:
             continue
         some = [dict(_named(scene, pose, link)) for pose in poses]
+        twists = [_nothing if pose is None else _twists(pose).get(link, _nothing) for pose in poses]
         data[link] = {
-            "spots": [[round(x, 1), round(y, 1)] for x, y in spots],
+            "spots": [[round(x, 5), round(y, 5)] for x, y in spots],
+            "names": [p for p in known.case.carries.get(link, ()) if p in scene.at],
+            "twist": [exact(column, SIZES) for column in zip(*twists, strict=True)],
             "pushes": [_through(name, [one.get(name) for one in some]) for name in _every(some)],
         }
     units = known.case.units
-    return {"links": data, "units": [unit_word(units.force), unit_word(units.torque)]}
+    words = [unit_word(unit) for unit in (units.force, units.torque, units.length)]
+    return {"links": data, "units": words}
+
+
+_nothing = (math.nan, math.nan, math.nan)
+
+
+def _twists(pose: Known) -> Mapping[str, Triple]:
+    return pose.twists or ({} if pose.scene is None else pose.scene.twists)
 
 
 def _in_row(known: Known, motion: PageMotion, row: int) -> Known | None:
@@ -80,6 +93,7 @@ def _through(name: str, pushes: list[DrawnPush | None]) -> dict[str, Any]:
     nothing = (math.nan,) * 5
     rows = [nothing if p is None else (*p.at, p.force[0], -p.force[1], p.couple) for p in pushes]
     columns = (exact(column, SIZES) for column in zip(*rows, strict=True))
-    told = dict(zip(("x", "y", "u", "v", "couple"), columns, strict=True))
-    open_ = {"open": True} if label.endswith("= ?") else {}
-    return {"name": label.partition(" = ")[0], "known": one.kind != "reaction", **open_, **told}
+    told: dict[str, Any] = dict(zip(("x", "y", "u", "v", "couple"), columns, strict=True))
+    told |= {"open": True} if label.endswith("= ?") else {}
+    told |= {"touches": True} if any(p is not None and p.circle is not None for p in pushes) else {}
+    return {"name": label.partition(" = ")[0], "known": one.kind != "reaction", **told}

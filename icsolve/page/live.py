@@ -27,7 +27,7 @@ from icsolve.assembly.workspace import (
 )
 from icsolve.case import Coordinates, Motion, Number, Pin, Rope, Screw
 from icsolve.case.figure import Unknown
-from icsolve.case.joints import Guided, Mesh
+from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.draw.words import unit_word
 from icsolve.kinematics.accelerations import Moving, drives_of, moving, rate_rows
 from icsolve.kinematics.motion import TURN, Motions
@@ -350,6 +350,12 @@ class _ProgramWriter:
             "motion": [self._motion(given, place) for given in case.motion],
             "order": joint_order(case),
             "dynamic": is_loaded(case),
+            "rolls": [
+                self.paths.index(radius.path)
+                for joint in case.joints
+                if isinstance(joint, Rolling)
+                for radius in joint.radii or ()
+            ],
             "heavy": [link for link in case.inertia if is_loaded(case)],
             "inexact": any(joint.has_written_centre for joint in case.joints),
             "given": any(joint.stands_in for joint in case.joints),

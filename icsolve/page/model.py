@@ -192,6 +192,7 @@ def model_of(
     data: dict[str, Any] = {
         "window": window,
         "scale": float(format(view.scale, ".6g")),
+        "view": [view.scale, *view.origin],
         "length": unit_word(known.case.units.length),
         "steps": max((step.number for step in steps), default=0),
         "centres": _centres(known, steps, view, motion),
@@ -201,11 +202,11 @@ def model_of(
         "answers": _answers(known, motion, loads),
     }
     if motion is not None:
-        told = live is not None and live.data["moves"]
+        told = live is None or live.data["moves"]  # by which velocities are told
         data["motion"] = motion_data(known, view, motion, FINE["told"] if told else FINE["px"])
     if live is not None:
         data["live"] = live.data
-        data |= {"view": [view.scale, *view.origin], "statuses": HINTS}
+        data["statuses"] = HINTS
     return data
 
 

@@ -616,7 +616,8 @@ function movedAs(told, x, motions, points) {
   return motions.twists.map((ts) => (speed.open.some((by) => largest(mix(by, ts)) > 1e-9 * fast) ? null : mix(speed.meant, ts)));
 }
 /* The inertia forces of the given motion among the loads. */
-function withInertia(told, figure, twists, loads) {
+function withInertia(told, x, figure, twists, loads) {
+  if (told.rolls.some((n) => (x[n] === 0) !== (told.numbers[n] === 0))) throw new Refusal("unsupported");
   if (told.heavy.some((link) => !twists[told.body[link]])) throw new Refusal("mobility");
   const count = 3 * told.bodies;
   const rows = figure.rates(twists.slice(0, told.bodies).flatMap((t) => t || [0, 0, 0])).map((row) => {
@@ -652,7 +653,7 @@ function solvedScene(told, x, figure) {
   });
   const motions = motionsOf(told, parts, figure.points);
   const moved = told.dynamic ? movedAs(told, x, motions, figure.points) : null;
-  if (moved) withInertia(told, figure, moved, loads);
+  if (moved) withInertia(told, x, figure, moved, loads);
   const found = balanceOf(told, loads, motions);
   refuseUnbalanced(told, motions, found);
   if (Math.min(motions.trust, found.trust) < LEAST_TRUST) throw new Refusal("near-singular");

@@ -3,6 +3,15 @@ const overlay = byId("see") && make("g", { id: "overlay", "clip-path": "url(#win
 if (overlay) figure.insertBefore(overlay, byId("labels"));
 for (const { pushes } of Object.values((data.forces && data.forces.links) || {}))
   for (const one of pushes) for (const part of ["x", "y", "u", "v", "couple"]) one[part] = column(one[part]);
+/* What is told of links: of a live page its scene, of another what was solved beforehand, in case units. */
+const before = !live && data.forces && data.forces.links;
+const told = live || (before && {
+  frame: [0, 0, 1],
+  unit: data.forces.units[2],
+  links: Object.fromEntries(Object.entries(before).map(([link, one]) => [link, one.names])),
+});
+for (const one of Object.values(before || {})) one.twist = one.twist.map(column);
+const placeIn = ([x, y]) => inPicture([x / told.frame[2] + told.frame[0], y / told.frame[2] + told.frame[1]]);
 const ticked = (selector) => all(selector).filter((e) => e.checked);
 
 /* A scene of its own for the positions of the turn, followed from one to the next. */
@@ -15,8 +24,18 @@ const stateOf = (lab, solved) => {
   const place = (name) => inPicture(fromFrame(lab.points[live.points[name]]));
   const places = Object.fromEntries(Object.keys(live.points).map((name) => [name, place(name)]));
   const poses = Object.fromEntries(Object.entries(live.poses).map(([link, pose]) => [link, poseIn(pose, (n) => places[n], solved.own)]));
-  return { places, poses, solved, frame: lab.points.map((p) => [...p]) };
+  const frame = lab.points.map((p) => [...p]);
+  return { places, poses, solved, frame, twist: (link) => solved.twists[live.body[link]], where: (name) => frame[live.points[name]] };
 };
+function stateBefore(r) {
+  const known = Object.values(before).some((one) => one.twist[0][r] !== null);
+  if (!known) return null;
+  const spots = Object.entries(before).flatMap(([, one]) => one.names.map((name, n) => [name, own(points, name) ? at(name, r) : one.spots[n]]));
+  const places = Object.fromEntries(spots);
+  const poses = Object.fromEntries(Object.entries(links).map(([link, l]) => [link, [l.x[r], l.y[r], l.a[r]]]));
+  const twist = (link) => { const t = before[link].twist.map((part) => part[r]); return t[0] === null ? null : t; };
+  return { places, poses, twist, where: (name) => inCase(places[name]) };
+}
 function shadowed(numbersNow) {
   numbersNow.forEach((value, n) => (shadow.numbers[n] = value));
   try {
@@ -38,6 +57,7 @@ function numbersAt(r) {
   return some;
 }
 function stateAt(r) {
+  if (!live) return stateBefore(r);
   if (r === LIVE) return scene.status === "ok" ? stateOf(laboratory, scene.solved) : null;
   const some = numbersAt(r);
   return some && shadowed(some);
@@ -45,6 +65,7 @@ function stateAt(r) {
 /* All positions of the turn, every other one; solved once for the same numbers. */
 function turnTable() {
   if (!motion) return [];
+  if (!live) return [...Array(rows).keys()].map(stateBefore);
   const key = mover ? `${live.input} ${mover.numbers.join()}` : String(scene.changed);
   if (shadow.key !== key) {
     shadow.key = key;
@@ -86,11 +107,11 @@ function nameAt(parent, kind, [x, y], [u, v], words) {
 const FASTEST = 80;
 function drawVelocities(state) {
   const some = [];
-  for (const [link, names] of Object.entries(live.links)) {
-    const t = state.solved.twists[live.body[link]];
+  for (const [link, names] of Object.entries(told.links)) {
+    const t = state.twist(link);
     for (const name of t ? names : []) {
-      const v = velocity(t, state.frame[live.points[name]]);
-      if (!name.startsWith("@") && v.every(Number.isFinite) && Math.hypot(...v) > 0 && !some.some((one) => one.name === name && apart(one.v, v) < 1e-9)) some.push({ name, link, v });
+      const v = velocity(t, state.where(name));
+      if (!name.startsWith("@") && v.every(Number.isFinite) && Math.hypot(...v) > 0 && !some.some((one) => one.name === name && apart(one.v, v) < (live ? 1e-9 : 1e-4 * Math.hypot(...v)))) some.push({ name, link, v });
     }
   }
   const most = Math.max(...some.map(({ v }) => Math.hypot(...v)));
@@ -101,11 +122,11 @@ function drawVelocities(state) {
     const [u, w] = [(v[0] / most) * FASTEST, (-v[1] / most) * FASTEST];
     arrow(overlay, "v-arrow", state.places[name], [u, w], called(one));
   }
-  return some.filter(({ v }) => Math.hypot(...v) > 1e-9 * most).map((one) => `${called(one)} = ${number(Math.hypot(...one.v) / live.frame[2], 4)} ${live.unit}/s`).join(", ");
+  return some.filter(({ v }) => Math.hypot(...v) > (live ? 1e-9 : 1e-5) * most).map((one) => `${called(one)} = ${number(Math.hypot(...one.v) / told.frame[2], 4)} ${told.unit}/s`).join(", ");
 }
 /* The rotation of a link: rays from its centre, and how each point goes about it. */
 function drawRotation(state, link) {
-  const t = state.solved.twists[live.body[link]];
+  const t = state.twist(link);
   if (!t || largest(t) === 0) return;
   const spots = spotsOf(state, link);
   const far = Math.abs(t[2]) * 1e7 <= Math.hypot(t[0], t[1]);
@@ -116,7 +137,7 @@ function drawRotation(state, link) {
     for (const p of spots) arrow(g, "spin", p, [(v[0] / size) * 40, (-v[1] / size) * 40]);
     return;
   }
-  const c = inPicture(fromFrame([t[0] / t[2], t[1] / t[2]]));
+  const c = placeIn([t[0] / t[2], t[1] / t[2]]);
   const sign = t[2] > 0 ? -1 : 1;
   for (const p of spots) {
     const r = apart(p, c);
@@ -135,7 +156,7 @@ function drawRotation(state, link) {
   g.appendChild(low);
 }
 /* The points of a link that have a place. */
-const spotsOf = (state, link) => live.links[link].map((name) => state.places[name]).filter((p) => p && p.every(Number.isFinite));
+const spotsOf = (state, link) => told.links[link].map((name) => state.places[name]).filter((p) => p && p.every(Number.isFinite));
 const path = (places) => {
   let d = "";
   let before = null;
@@ -146,15 +167,15 @@ const path = (places) => {
   return d;
 };
 function drawCurve(name) {
-  const places = scene.changed || !motion ? turnTable().map((state) => state && state.places[name]) : points[name].x.slice(0, rows).map((x, r) => [x, points[name].y[r]]);
+  const places = (live && scene.changed) || !motion ? turnTable().map((state) => state && state.places[name]) : points[name].x.slice(0, rows).map((x, r) => [x, points[name].y[r]]);
   if (places.length) make("path", { class: "curve", d: path(places) }, overlay);
 }
 /* Where the centre of a link and the frame goes: in the frame, and in the link itself. */
 function drawCentrodes(state, link) {
   const table = turnTable();
   const centre = (one) => {
-    const t = one && one.solved.twists[live.body[link]];
-    return t && Math.abs(t[2]) * 100 > Math.hypot(t[0], t[1]) * 1e-3 && t[2] !== 0 ? inPicture(fromFrame([t[0] / t[2], t[1] / t[2]])) : null;
+    const t = one && one.twist(link);
+    return t && Math.abs(t[2]) * 1e5 > Math.hypot(t[0], t[1]) * told.frame[2] && t[2] !== 0 ? placeIn([t[0] / t[2], t[1] / t[2]]) : null;
   };
   const near = (p) => p && Math.max(Math.abs(p[0]), Math.abs(p[1])) < 5000;
   const fixed = table.map(centre).map((p) => (near(p) ? p : null));
@@ -287,17 +308,19 @@ function drawBody(link, acting, spots, [force, torque], least) {
   const disc = wheel && [carried([link, ...["cx", "cy"].map((c) => Number(wheel.getAttribute(c)))], row), Number(wheel.getAttribute("r"))];
   const middle = (n) => (Math.min(...spots.map((p) => p[n])) + Math.max(...spots.map((p) => p[n]))) / 2;
   const reach = Math.max(...spots.map((p) => Math.max(Math.abs(p[0] - middle(0)), Math.abs(p[1] - middle(1)))), disc ? disc[1] : 1);
-  const zoom = Math.min(1, 80 / reach);
-  const here = (p) => [150 + (p[0] - middle(0)) * zoom, 150 + (p[1] - middle(1)) * zoom];
+  const zoom = Math.min(1, 60 / reach);
+  const here = (p) => [170 + (p[0] - middle(0)) * zoom, 150 + (p[1] - middle(1)) * zoom];
   if (disc) {
     const [x, y] = here(disc[0]);
     make("circle", { class: "body", cx: f(x), cy: f(y), r: f(disc[1] * zoom) }, svg);
   }
-  if (!disc || spots.length > 1) make("path", { class: "body", d: spots.length > 1 ? outlineOf(spots.map(here)) : `M134,140 h32 v20 h-32Z` }, svg);
+  if (!disc || spots.length > 1) make("path", { class: "body", d: spots.length > 1 ? outlineOf(spots.map(here)) : `M154,140 h32 v20 h-32Z` }, svg);
   for (const one of real) {
     const [x, y] = here(one.at || spots[0]);
+    const pin = one.touches && spots.reduce((best, p) => (apart(p, one.at) < apart(best, one.at) ? p : best));
+    if (pin) make("circle", { class: "rim", cx: f(here(pin)[0]), cy: f(here(pin)[1]), r: f(apart(pin, one.at) * zoom) }, svg);
     const [u, v] = [(one.force[0] / most) * 62, (-one.force[1] / most) * 62];
-    const pushes = (150 - x) * u + (150 - y) * v > 0; // drawn from outside, as on a body that is pressed
+    const pushes = (170 - x) * u + (150 - y) * v > 0; // drawn from outside, as on a body that is pressed
     const kind = one.known ? "f-load" : "f-joint";
     arrow(svg, kind, pushes ? [x - u, y - v] : [x, y], [u, v], pushes ? "" : one.name);
     if (pushes) nameAt(svg, kind, [x - u, y - v], [-u, -v], one.name);
@@ -349,11 +372,7 @@ function see() {
   if (!overlay) return;
   const chosen = byId("see-body") ? byId("see-body").value : "";
   byId("body-panel").hidden = !chosen;
-  if (!live) {
-    if (chosen) drawBody(chosen, solvedBefore(chosen), data.forces.links[chosen].spots.map(([x, y]) => carried([chosen, x, y], row)), data.forces.units, 0);
-    return;
-  }
-  tellMotions();
+  if (live) tellMotions();
   overlay.textContent = "";
   const rotations = ticked("[data-rotation]");
   const curves = ticked("[data-curve]");
@@ -367,7 +386,9 @@ function see() {
   if (state) for (const e of rotations) drawRotation(state, e.dataset.rotation);
   if (state && velocities) said = drawVelocities(state);
   if (byId("see-hint").textContent !== said) byId("see-hint").textContent = said;
-  if (chosen) drawBody(chosen, state && actingOn(state, chosen), state && spotsOf(state, chosen), live.units, (1e-9 / live.frame[2]) * live.torque);
+  if (!chosen) return;
+  if (live) drawBody(chosen, state && actingOn(state, chosen), state && spotsOf(state, chosen), live.units, (1e-9 / live.frame[2]) * live.torque);
+  else drawBody(chosen, solvedBefore(chosen), state && spotsOf(state, chosen), data.forces.units, 0);
 }
 if (overlay) {
   byId("see").addEventListener("change", see);
