@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 
 import pytest
@@ -25,6 +26,14 @@ def chromium() -> Iterator[Browser]:
         if required():
             pytest.fail(f"{REQUIRED}=required, and {missing}")
         pytest.skip(f"no browser: {missing}")
+
+
+@pytest.fixture(scope="module", autouse=True)
+def forgotten() -> Iterator[None]:
+    """No module's compiled sweeps, with their buffers, are kept for the next."""
+    yield
+    if "icsolve.sweep.start" in sys.modules:
+        sys.modules["icsolve.sweep.start"].runner.cache_clear()
 
 
 @pytest.fixture

@@ -244,7 +244,7 @@ def test_folders_made_for_a_file_go_again_where_it_fails(here: Path) -> None:
 
 STRACE = shutil.which("strace")
 CALLS = "openat,write,pwrite64,close,fchmod,fchown,rename,link,linkat,unlink,mkdir,newfstatat,fstat,lseek"
-FAULTS = 2
+FAULTS = 1
 """For each command and run of the tests; ICSOLVE_FAULTS=30 tries more."""
 
 

@@ -9,7 +9,7 @@ import ast
 from collections import Counter
 from functools import cache
 from pathlib import Path
-from typing import get_args
+from typing import Any, get_args
 
 import pytest
 
@@ -23,9 +23,14 @@ ROOMS = (
 """In the order in which they may lean on one another: each only on those before it."""
 
 
-def parsed(file: Path) -> ast.Module:
-    """A module as a tree."""
-    return ast.parse(file.read_text())
+@cache
+def nodes(file: Path) -> dict[type, list[Any]]:
+    """What a module imports, names, defines and tells apart, wherever in it: each file is read once."""
+    found: dict[type, list[Any]] = {kind: [] for kind in (ast.ImportFrom, ast.Name, ast.ClassDef, ast.Match)}
+    for node in ast.walk(ast.parse(file.read_text())):
+        found.get(type(node), []).append(node)
+    found[ast.Name] = list({node.id: node for node in found[ast.Name]}.values())
+    return found
 
 
 @cache
@@ -41,10 +46,10 @@ def modules() -> dict[str, Path]:
 @cache
 def imported(file: Path) -> frozenset[str]:
     """The package's modules that a module imports, wherever in it."""
-    tree, known = parsed(file), modules()
+    known = modules()
     found = set()
-    for node in ast.walk(tree):
-        if isinstance(node, ast.ImportFrom) and node.module:
+    for node in nodes(file)[ast.ImportFrom]:
+        if node.module:
             for alias in node.names:
                 whole = f"{node.module}.{alias.name}"
                 found.add(whole if whole in known else node.module)
@@ -97,15 +102,14 @@ def test_no_class_has_its_name_from_another() -> None:
     names = Counter(
         node.name
         for file in modules().values()
-        for node in parsed(file).body
-        if isinstance(node, ast.ClassDef)
+        for node in nodes(file)[ast.ClassDef]
     )
     assert {name for name, count in names.items() if count > 1} <= {"Group"}
 
 
 def test_named_tuples_are_those_that_start_fast() -> None:
     for name, file in modules().items():
-        imports = [node for node in ast.walk(ast.parse(file.read_text())) if isinstance(node, ast.ImportFrom)]
+        imports = nodes(file)[ast.ImportFrom]
         asked = {(node.module, alias.name) for node in imports for alias in node.names}
         slow = {("typing", "NamedTuple"), ("dataclasses", "dataclass"), ("dataclasses", "replace")}
         assert not slow & asked or name == "icsolve.tuples", name
@@ -118,8 +122,7 @@ KINDS = [kind.__name__ for kind in get_args(Joint)]
 @cache
 def named_in(file: Path) -> set[str]:
     """The kinds of joint that a module names."""
-    names = {node.id for node in ast.walk(parsed(file)) if isinstance(node, ast.Name)}
-    return names & set(KINDS)
+    return {node.id for node in nodes(file)[ast.Name]} & set(KINDS)
 
 
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "Pin"])
@@ -139,11 +142,10 @@ def test_a_kind_of_joint_is_told_in_few_places(kind: str) -> None:
 
 def test_where_kinds_are_told_apart_the_type_checker_sees_to_it_that_all_are() -> None:
     for file in modules().values():
-        for node in ast.walk(parsed(file)):
-            if isinstance(node, ast.Match):
-                cases = [ast.unparse(one.pattern) for one in node.cases]
-                kinds = {word for one in cases for word in KINDS if f"{word}(" in one}
-                assert len(kinds) < 2 or "assert_never" in ast.unparse(node.cases[-1]), f"{file}: {kinds}"
+        for node in nodes(file)[ast.Match]:
+            cases = [ast.unparse(one.pattern) for one in node.cases]
+            kinds = {word for one in cases for word in KINDS if f"{word}(" in one}
+            assert len(kinds) < 2 or "assert_never" in ast.unparse(node.cases[-1]), f"{file}: {kinds}"
 
 
 @pytest.mark.parametrize("room", ["case", "answer"])
