@@ -333,7 +333,7 @@ def printed(command: list[str], apart: bool) -> tuple[int, str, str, str]:
     """Status, what stood on standard output and error, and the trace of a fault."""
     if apart:
         env = {**os.environ, "PYTHONPATH": str(ROOT), "ICSOLVE_DEBUG": "1"}
-        words = [word.encode(errors="surrogatepass") for word in command]  # which a shell could pass
+        words = [word.encode(errors="surrogatepass").replace(b"\0", b"") for word in command]  # as a shell
         call = [sys.executable, "-m", "icsolve", *words]
         ran = subprocess.run(call, env=env, capture_output=True, check=False, preexec_fn=_little)
         said = ran.stderr.decode(errors="replace")

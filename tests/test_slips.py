@@ -12,6 +12,7 @@ import pytest
 
 import icsolve
 from icsolve.errors import CaseError, SceneError
+from icsolve.manual import template
 from shell import exit_status
 
 PRESS = """\
@@ -57,7 +58,20 @@ REFUSED = {
     "no comma between names": ("[1, 2]", "[1 2]", 9, 12, "with a comma between, 1, 2"),
     "open bracket": ("[1, 2]", "[1, 2", 9, 23, "not closed"),
     "a lost dash": ("  - {pin: [2, 3]", "  {pin: [2, 3]", 10, 3, "starts with a dash"),
+    "a comment of another language": (
+        "CDE: 0}",
+        "CDE: 0} // deg",
+        6,
+        26,
+        "a comment starts with '#', not with '//'",
+    ),
+    "an equals sign in brackets": ("AB: 1,", "AB = 1,", 5, 11, "write a colon in place of '=', AB: 1"),
+    "nothing before a comma": ("[4, 0]", "[, 0]", 4, 25, "a value is missing before this comma"),
+    "a no-break space": ("AB: 60", "AB:\xa060", 6, 10, "a space after the colon, an ordinary one"),
+    "a quotient": ("AB: 1,", "AB: 1/2,", 5, 15, "write the quotient as one decimal number"),
+    "a point and no digit": ("AB: 1,", "AB: .,", 5, 15, "'.' does not start with a number"),
     # the unknown
+    "question mark in brackets": ("[4, 0]", "[?, 0]", 4, 25, "write 'unknown' for what is to find"),
     "question mark in quotes": ("unknown", '"?"', 15, 17, "write 'unknown' for what is to find"),
     "question mark": ("unknown", "?", 15, 17, "write 'unknown' for what is to find"),
     "find": ("unknown", "find", 15, 17, "write 'unknown' for what is to find"),
@@ -65,6 +79,15 @@ REFUSED = {
     "unknown in brackets": ("unknown", "[unknown]", 15, 17, "without brackets, torque: unknown"),
     "a pen's slip": ("unknown", "unkown", 15, 17, "did you mean 'unknown'?"),
     # other words
+    "inertia": ("loads:", "inertia: {3: {mass: 2 kg, centre: B}}\nloads:", 13, 1, "did you mean 'links'?"),
+    "two frames": (
+        "joints:",
+        "ground: 1, 4\njoints:",
+        8,
+        9,
+        "with a comma between, 1, 4, these are two names",
+    ),
+    "the word centroid": ("at: E", "at: centroid", 14, 32, "'G: {centroid: [A, B]}' under 'points'"),
     "moment": ("torque:", "moment:", 15, 9, "did you mean 'torque'?"),
     "direction": ("angle:", "direction:", 14, 35, "load P has no key 'direction'; did you mean 'angle'?"),
     "body": ("link: 4", "body: 4", 14, 19, "did you mean 'link'?"),
@@ -361,6 +384,11 @@ SCENES = {
     "a length left out": ([("CD: 2.5, ", "")], "underdetermined", "one more length, angle or coordinate"),
     "near left out": ([("near: {C: [3.5, 2.4]}\n", "")], "ambiguous", "add near: {C: [3.61106, 2.46956]}"),
     "a length of ten times": ([("BC: 3.5", "BC: 35")], "cannot-assemble", "BC = 35 and CD = 2.5 cannot meet"),
+    "a letter in an angle": (
+        [("CDE: 0", "CDF: 0")],
+        "underdetermined",
+        "nothing but angles.CDF names point F",
+    ),
     "two unknowns": ([("force: 100", "force: unknown")], "mobility", "Give one of them a number"),
 }
 
@@ -376,6 +404,11 @@ def test_a_slip_of_the_scene_is_told(slip: str) -> None:
         assert said in refused.value.message
     else:
         assert said in " ".join(icsolve.solve(case).notes)
+
+
+def test_teeth_are_counted_without_a_word() -> None:
+    with pytest.raises(CaseError, match="a bare number is wanted here, without 'teeth'"):
+        icsolve.load(template("gears").replace("[31, 57]", "[31 teeth, 57]"))
 
 
 @pytest.mark.parametrize("words", [["press"], ["solve", "press"], ["draw", "pres.yaml"]])

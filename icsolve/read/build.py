@@ -34,6 +34,7 @@ from icsolve.read.figure import (
     read_links,
     read_near,
     read_points,
+    stray_points,
 )
 from icsolve.read.joints import JOINTS, mention_links, read_joints
 from icsolve.read.keys import SECTIONS, SPACE_JOINTS
@@ -83,6 +84,7 @@ def build(root: Mapping, problems: Problems, name: str, measured: Measures) -> C
         figure = FigureData(parts.joints, parts.lengths, parts.angles, parts.points, _shaped(parts))
         if not reading.problems.found:
             reading.noticed += check_loads(reading, root, figure, parts.loads, parts.motion, ground)
+            reading.noticed += stray_points(reading, figure)
     links = tuple(reading.links or ())
     return Case(
         **told_of_itself(reading, root, name, units, ground),

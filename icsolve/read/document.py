@@ -26,7 +26,7 @@ from yaml.events import (
 
 from icsolve.case import Mark
 from icsolve.files import reading
-from icsolve.read.names import Problems, Stop, suggestion
+from icsolve.read.names import Problems, Stop, shown, suggestion
 from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
@@ -145,7 +145,11 @@ def explained(error: yaml.MarkedYAMLError, text: str) -> tuple[Mark, str]:
 
 def _known(error: yaml.MarkedYAMLError, place: Mark, lines: list[str], line: str) -> tuple[Mark, str] | None:
     """Causes that are met often."""
-    return _of_characters(error, place, line) or _of_lines(error, place, lines, line)
+    return (
+        _of_characters(error, place, line)
+        or _of_another_language(error.problem or "", place[0], lines)
+        or _of_lines(error, place, lines, line)
+    )
 
 
 def _of_characters(error: yaml.MarkedYAMLError, place: Mark, line: str) -> tuple[Mark, str] | None:
@@ -158,8 +162,12 @@ def _of_characters(error: yaml.MarkedYAMLError, place: Mark, line: str) -> tuple
     if curly:
         said = 'these quotation marks are letters to YAML; write straight ones (")'
         return (place[0], min(curly)), said
-    if here == "?" or (here and before == "?"):
-        return place, "a '?' cannot stand here; write 'unknown' for what is to find"
+    asked = re.search(r"[\[{,:]\s*\?(?=\s*[,\]}])", line)
+    if asked or here == "?" or (here and before == "?"):
+        at = (place[0], asked.end()) if asked else place
+        return at, "a '?' cannot stand here; write 'unknown' for what is to find"
+    if here == "," and "node content" in (error.problem or ""):
+        return place, "a value is missing before this comma"
     if "found unexpected ':'" in (error.problem or "") and re.search(r":\s*,", line):
         return place, "there is no value between the colon and the comma"
     if here and here in "@`%&*!|>":
@@ -175,10 +183,6 @@ def _of_lines(
     if line[place[1] - 1 : place[1]] == "," and not line[place[1] :].strip():
         return place, "take this comma away: entries that stand in lines of their own have none between"
     if any(sign in problem for sign in _OF_A_COLON):
-        for at in range(place[0], max(place[0] - 2, 0), -1):
-            told = _of_another_language(lines[at - 1] if at <= len(lines) else "")
-            if told:
-                return (at, told[0]), told[1]
         cause = _unspaced_line(place[0], lines)
         if cause:
             return cause, "write a space after the colon"
@@ -202,13 +206,20 @@ def _of_lines(
     return None
 
 
-def _of_another_language(line: str) -> tuple[int, str] | None:
-    """Column and wording of what is a comment, or gives a value, elsewhere."""
-    first = len(line) - len(line.lstrip()) + 1
-    if line.lstrip().startswith(("//", "/*", "--", "%")):
-        return first, f"a comment starts with '#', not with '{line.split(maxsplit=1)[0][:2]}'"
-    given = re.match(r"\s*(\w+)\s*=\s*(.*)", line)
-    return (first, f"write a colon in place of '=', {given[1]}: {given[2][:60]}") if given else None
+def _of_another_language(problem: str, last: int, lines: list[str]) -> tuple[Mark, str] | None:
+    """What is a comment, or gives a value, elsewhere, in the line of a problem or the one before it."""
+    if not any(sign in problem for sign in (*_OF_A_COLON, *_OF_A_START)):
+        return None
+    for at in range(min(last, len(lines)), max(last - 2, 0), -1):
+        line = lines[at - 1]
+        comment = re.search(r"(?:^\s*|[\]}]\s*)(//|/\*)|^\s*(--|%)", line)
+        if comment:
+            sign = comment[1] or comment[2]
+            return (at, comment.end() - len(sign) + 1), f"a comment starts with '#', not with '{sign}'"
+        given = re.match(r"\s*(\w+)\s*=\s*(.*)", line)
+        if given:
+            return (at, given.start(1) + 1), f"write a colon in place of '=', {given[1]}: {given[2][:60]}"
+    return None
 
 
 def _opened(error: yaml.MarkedYAMLError) -> str:
@@ -417,7 +428,8 @@ class _Tree:
             self.problems.refuse(mark, f"'{name}' is given twice, the first time in {place}")
             return
         if type(node) is Scalar and node.text == "" and node.plain and missing_space(name):
-            self.problems.refuse(mark, f"'{name}': write a space after the colon")
+            odd = ", an ordinary one" if "\xa0" in name else ""
+            self.problems.refuse(mark, f"{shown(name)}: write a space after the colon{odd}")
             name, _, value = name.partition(":")
             node = Scalar(value, True, mark)
             if name in mapping.keys:

@@ -325,6 +325,19 @@ def check_given(reading: Reading) -> None:
             reading.refuse(mark, _never_given(reading, name, given))
 
 
+def stray_points(reading: Reading, figure: FigureData) -> list[str]:
+    """Sentences on points that an angle alone names, which places nothing."""
+    names = Counter(name for datum in (*figure.lengths, *figure.angles) for name in datum[:-1])
+    shaped = {name for names in figure.further.values() for name in names}
+    known = {*figure.points, *shaped, *reading.used, *reading.on_guides}
+    return [
+        f"nothing but {angle.value.path} names point {name}."
+        for angle in figure.angles
+        for name in dict.fromkeys(angle[:-1])
+        if names[name] == 1 and name not in known
+    ]
+
+
 def _given_backwards(reading: Reading) -> set[str]:
     """Points of which a centroid is placed by something else: it then says where they are."""
     placed = reading.measured | set(reading.on_guides)
@@ -353,11 +366,10 @@ def _likely(reading: Reading, name: str, given: set[str]) -> str:
         return near
     if reading.links and name in reading.links:
         return f"; {name} is a link, and a point of it is wanted here"
-    return (
-        f"; the middle of two points is '{name}: {{centroid: [A, B]}}' under 'points'"
-        if name[0] in "MG"
-        else ""
-    )
+    if name in ("centroid", "centre", "center", "middle", "midpoint"):
+        return "; a centroid is a point with a name, 'G: {centroid: [A, B]}' under 'points'"
+    middle = f"; the middle of two points is '{name}: {{centroid: [A, B]}}' under 'points'"
+    return middle if name[0] in "MG" else ""
 
 
 def carried(

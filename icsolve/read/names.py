@@ -78,6 +78,7 @@ _OTHER_WORDS = {
     "points": "nodes coordinates positions joints_positions point",
     "near": "guess initial start approx",
     "expect": "answer answers expected results published",
+    "links": "inertia inertias masses mass",
     "title": "name heading",
     "source": "reference book",
     "motion": "speed speeds velocity input",
@@ -138,8 +139,12 @@ def is_name(text: str) -> bool:
 
 def why_no_name(text: str) -> str:
     """What a name is, for a text that is none."""
-    if len(text.split()) > 1:
-        return f"with a comma between, {', '.join(text.split())}, these are two names"
+    before, sign, after = (part.strip() for part in text.partition("="))
+    if sign:
+        return f"write a colon in place of '=', {before}: {after}"
+    words = text.replace(",", " ").split()
+    if len(words) > 1:
+        return f"with a comma between, {', '.join(words)}, these are two names"
     if "’" in text or "′" in text:
         return "write the prime as a straight apostrophe (')"
     return "a name is a letter or digit followed by letters, digits, _ and '"

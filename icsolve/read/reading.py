@@ -262,6 +262,10 @@ def _fitting(reading: Reading, text: str, dimension: str) -> Unit:
         raise UnitError("write the digits of a number without separators")
     if text == "%":
         raise UnitError("write the number itself, 0.2 for 20 %")
+    if dimension == "number" and text.isalpha():
+        raise UnitError(f"a bare number is wanted here, without '{text}'")
+    if text[0] == "/" and text[1:].strip().isdigit():
+        raise UnitError("write the quotient as one decimal number")
     sense = re.search(r"\b(c?cw|(?:counter)?clockwise)$", text)
     if sense:
         turns = "ccw" if sense[1][:2] == "cc" or sense[1][:2] == "co" else "cw"
@@ -348,7 +352,7 @@ def _no_number(node: Scalar, text: str, dimension: str, path: str) -> str:
 def _meant(text: str, dimension: str, path: str) -> str:
     """What a text that is no number may mean, and how it is written."""
     digits = text.translate(str.maketrans("OoIl", "0011"))
-    if re.fullmatch(r"-?[\d.]+", digits):
+    if digits != text and re.fullmatch(r"-?[\d.]+", digits):
         return f"; write digits, {digits}"
     share = re.fullmatch(r"(-?)(\d*)\s*\*?\s*(?:pi|π)\s*(?:/\s*(\d+))?", text)
     if dimension == "angle" and share:

@@ -61,7 +61,7 @@ def solve_scene(
 
 MISTAKEN = (
     *(Status.STRUCTURE, Status.MOBILITY, Status.NO_VALUE, Status.ANY_VALUE, Status.DEAD_CENTRE),
-    *(Status.INCONSISTENT, Status.CANNOT_ASSEMBLE),
+    *(Status.INCONSISTENT, Status.CANNOT_ASSEMBLE, Status.UNDERDETERMINED),
 )
 """Refusals of which the cause may be what was noticed in the file."""
 
