@@ -276,6 +276,18 @@ def test_an_unknown_kind_suggests_one(icsolve: Shell) -> None:
     ran = icsolve("new", "slidercrank")
     assert ran.code == 2
     assert "did you mean slider-crank?" in ran.err
+    for word, kind in (
+        ("planetary", "epicyclic"),
+        ("pump", "slider-crank"),
+        ("jack", "scissor-jack or screw-jack"),
+    ):
+        assert f"did you mean {kind}?" in icsolve("new", word).err
+    assert "`icsolve new epicyclic` starts" in icsolve("manual", "planetary").err
+
+
+def test_a_number_set_twice_is_told(icsolve: Shell) -> None:
+    ran = icsolve("press.yaml", "--set", "angles.AB=60", "--set", "angles.AB=30")
+    assert ran.code == 2 and "angles.AB is set twice, to 60 and 30" in ran.err
 
 
 def test_schema_is_a_draft_07_schema(icsolve: Shell) -> None:

@@ -25,6 +25,7 @@ from figures import from_lengths, without_order
 from icsolve.bench.digits import every_row, shown
 from icsolve.bench.families import EXACT, Family
 from icsolve.errors import SceneError
+from icsolve.manual import template
 from sizes import FULL
 
 
@@ -200,6 +201,17 @@ joints:
   - {{pin: [4, 1], at: D}}
 loads: {{T4: {{torque: 10, link: 4}}, T: {{torque: unknown, link: 2}}}}
 """)
+
+
+@pytest.mark.parametrize("power", [-300, -299, -150, 150, 299])
+def test_loads_of_any_size_have_answers_of_the_same_digits(power: int) -> None:
+    """Nothing is small or large but beside something else."""
+    press = template("four-bar")
+    (one,) = icsolve.solve(icsolve.load(press)).answers.values()
+    other = icsolve.solve(icsolve.load(press.replace("force: 100", f"force: 1e{power}")))
+    (value,) = (found.value for found in other.answers.values())
+    assert value == pytest.approx(one.value * 10.0 ** (power - 2), rel=1e-15, abs=0.0)
+    assert other.advantage == pytest.approx(one.value / 100.0, rel=1e-15)
 
 
 def test_a_train_of_gears_keeps_the_digits_of_its_last_wheel() -> None:

@@ -99,11 +99,7 @@ def test_no_module_comes_back_to_itself() -> None:
 
 def test_no_class_has_its_name_from_another() -> None:
     """One word, one meaning; `Group` is that of the theory in the plan and in the assembly."""
-    names = Counter(
-        node.name
-        for file in modules().values()
-        for node in nodes(file)[ast.ClassDef]
-    )
+    names = Counter(node.name for file in modules().values() for node in nodes(file)[ast.ClassDef])
     assert {name for name, count in names.items() if count > 1} <= {"Group"}
 
 

@@ -165,7 +165,7 @@ def test_equal_kinds_have_a_mechanical_advantage() -> None:
         Term("Q", "3", 4000.0, "N", -1.0, -4000.0, True, "Q on link 3 at J"),
     )
     answer = four_bar_answer(answers={"Q": Found(4000.0, "N", "push")}, terms=terms, advantage=40.0)
-    assert "Q/P = 40 (mechanical advantage)" in answer_text(answer)
+    assert "Q/P = 40 (mechanical advantage, where Q is the output)" in answer_text(answer)
 
 
 def test_text_of_rates_says_whether_they_are_scaled() -> None:

@@ -411,6 +411,18 @@ def test_teeth_are_counted_without_a_word() -> None:
         icsolve.load(template("gears").replace("[31, 57]", "[31 teeth, 57]"))
 
 
+def test_a_roller_of_a_bar_that_is_written_as_a_slide_is_told() -> None:
+    """The foot of a scissor's arm runs along the floor, and the arm turns: a slide would hold it."""
+    lift = template("scissor-lift").replace(
+        "{slot: [3, 1], at: B, along: 0}", "{slide: [3, 1], at: B, along: 0}"
+    )
+    with pytest.raises(
+        SceneError, match=r"The slide at B keeps links 3 and 1 from turning .* it is a `slot`"
+    ) as one:
+        icsolve.solve(icsolve.load(lift))
+    assert one.value.status == "structure"
+
+
 @pytest.mark.parametrize("words", [["press"], ["solve", "press"], ["draw", "pres.yaml"]])
 def test_a_file_without_its_ending_is_named(
     words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

@@ -196,7 +196,8 @@ def _value(case: Case, name: str, text: str) -> float:
             raise UnitError(f"'{parts[1]}' is a unit of {given}, and {name} is in {target}")
         return converted(parts[0], unit, wanted)
     except (UnitError, OverflowError) as error:
-        raise RequestError(f"{text!r} is no value of {name}: {error}") from None
+        likely = f"; `--find max` finds where {name} is largest" if text in ("max", "min") else ""
+        raise RequestError(f"{text!r} is no value of {name}: {error}{likely}") from None
 
 
 def _unit(case: Case, name: str) -> str | None:

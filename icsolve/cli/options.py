@@ -59,5 +59,8 @@ def parse_settings(pairs: tuple[str, ...]) -> dict[str, str]:
         path, equals, value = pair.partition("=")
         if not (path.strip() and equals and value.strip()):
             raise click.BadParameter(f"{pair!r} is not PATH=VALUE, e.g. angles.AB=30")
-        settings[path.strip()] = value.strip()
+        if settings.setdefault(path.strip(), value.strip()) != value.strip():
+            raise click.BadParameter(
+                f"{path.strip()} is set twice, to {settings[path.strip()]} and {value.strip()}"
+            )
     return settings

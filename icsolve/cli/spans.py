@@ -40,12 +40,19 @@ class SweepSpan(click.ParamType):  # type: ignore[type-arg]
             return path.strip(), _array([float(number) for number in numbers])
         first, last, step = numbers
         if step == 0 or (last - first) / step < 0:
-            message = f"{value!r} is an empty range: the step should lead from the first to the last"
+            turned = f"; write {path.strip()}={_reversed(span)}" if step else ""
+            message = f"{value!r} is an empty range: the step should lead from the first to the last{turned}"
             self.fail(message, param, ctx)
         count = int((last - first) // step) + 1
         if count > MOST_ROWS:
             self.fail(f"{value!r} has {count} values; at most {MOST_ROWS} rows fit", param, ctx)
         return path.strip(), progression(first, step, count)
+
+
+def _reversed(span: str) -> str:
+    """A range with its step the other way."""
+    first, last, step = (word.strip() for word in span.split(":"))
+    return f"{first}:{last}:{step[1:] if step[0] in '+-' else '-' + step}"
 
 
 def _numbers(span: str) -> list[Fraction] | None:

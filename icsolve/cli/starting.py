@@ -7,7 +7,7 @@ import click
 from icsolve.cli.options import Verb
 from icsolve.cli.run import DONE, UNREADABLE, complain
 from icsolve.files import KeptError, whole_file
-from icsolve.manual import TOPICS, kinds, nearest, template, told_of
+from icsolve.manual import TOPICS, kinds, kinds_like, nearest, template, told_of
 
 
 @click.command("new", cls=Verb)
@@ -51,6 +51,8 @@ def manual_command(topic: str | None) -> int:
     text = told_of(topic)
     if text is None:
         hint = nearest(topic, list(TOPICS))
+        if starts := kinds_like(topic):
+            hint = f"`icsolve new {starts[0]}` starts a case of such a thing; "
         complain(f"icsolve manual: nothing is told of {topic!r}; {hint}`icsolve manual` lists the pages")
         return UNREADABLE
     click.echo(text, nl=False)
@@ -69,7 +71,8 @@ def list_kinds() -> int:
 def write_template(kind: str, output: str | None) -> int:
     """Print or write the case of a kind; never over a file that is there."""
     if kind not in kinds():
-        hint = nearest(kind, kinds())
+        alike = kinds_like(kind)[:3]
+        hint = f"did you mean {' or '.join(alike)}? " if alike else ""
         complain(f"icsolve new: there is no kind {kind!r}; {hint}`icsolve new` lists the kinds")
         return UNREADABLE
     text = _for_editors(template(kind))

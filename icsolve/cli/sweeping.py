@@ -67,7 +67,11 @@ class SweepOptions(NamedTuple):
 @click.option("--accelerations", is_flag=True, help="With --dynamic: those of the links and points too.")
 @click.option("--dynamic", is_flag=True, help="With the inertia forces of the motion.")
 @click.option("--plot", metavar="SVG", help="The answers over the range, as a picture, into this file.")
-@click.option("--find", metavar="WHAT", help="Instead of rows, where: dead, max, or NAME=VALUE (T12=0).")
+@click.option(
+    "--find",
+    metavar="WHAT",
+    help="Instead of rows, where: dead, max, rest, neutral, hold, or NAME=VALUE (T12=0).",
+)
 @click.option("--json", "as_json", is_flag=True, help="With --find: one JSON object.")
 @SET
 @DIGITS

@@ -80,8 +80,11 @@ def _advantage(known: Known, figures: Figures) -> Iterable[Block]:
     acting = next(a for a in acting_loads(known) if a.load.name == bottom)
     if isinstance(acting.load, Spring):  # its force, not its stiffness
         under, unit, value = Name("F", bottom), known.case.units.force, value / acting.gain
-    kind = "The mechanical advantage" if units[top] == unit else "For one unit of the known load"
-    per = "" if units[top] == unit else f"{units[top]} per {unit}"
+    alike = units[top] == unit
+    kind = (
+        f"The mechanical advantage, where {top} is the output" if alike else "For one unit of the known load"
+    )
+    per = "" if alike else f"{units[top]} per {unit}"
     yield words(f"{kind}: ", Quotient(load_name(top), under), " = ", figures.quantity(value, per), ".")
 
 

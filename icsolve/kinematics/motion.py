@@ -179,7 +179,7 @@ def _rigid(top: Topology, motions: LoopMotions) -> SceneError:
     last = pivots[-1] if pivots else 1.0
     if last < DOUBT:
         return SceneError(Status.NEAR_SINGULAR, near_structure(last))
-    return SceneError(Status.STRUCTURE, structure(len(top.members) - 1, top.constraints))
+    return SceneError(Status.STRUCTURE, structure(top))
 
 
 def contradiction(top: Topology, bases: Bases, frame: Frame, unit: str, arithmetic: Arithmetic) -> str:

@@ -62,6 +62,21 @@ def kinds() -> list[str]:
     return sorted(path.stem for path in (_HERE / "templates").glob("*.yaml"))
 
 
+def kinds_like(word: str) -> list[str]:
+    """The kinds that a word may mean: by a slip of the pen, a part of their names, or their descriptions
+    (``epicyclic`` for ``planetary``).
+    """
+    begins = {part[:6] for part in re.findall(r"[a-z]{4,}", word.lower())}
+    described = {kind: template(kind).partition("\n")[0].lower() for kind in kinds()}
+
+    def having(texts: dict[str, str]) -> list[str]:
+        words = {kind: {one[:6] for one in re.findall(r"[a-z]+", text)} for kind, text in texts.items()}
+        return [kind for kind, own in words.items() if begins & own]
+
+    close = get_close_matches(word.lower().replace("_", "-"), kinds(), n=1, cutoff=0.8)
+    return close or having({kind: kind for kind in described}) or having(described)
+
+
 def template(kind: str) -> str:
     """The template of a kind; its first line is a comment that says what it is."""
     return (_HERE / "templates" / f"{kind}.yaml").read_text(encoding="utf-8")
@@ -69,5 +84,5 @@ def template(kind: str) -> str:
 
 def nearest(word: str, options: list[str]) -> str:
     """``did you mean ...? `` for the option that is most like a word, else nothing."""
-    near = get_close_matches(word.lower().replace("_", "-"), options, n=1, cutoff=0.5)
+    near = get_close_matches(word.lower().replace("_", "-"), options, n=1, cutoff=0.65)
     return f"did you mean {near[0]}? " if near else ""

@@ -42,7 +42,7 @@ ROW_FRACTION = 1e-60
 coordinates are rounded, comes so near to a singular position."""
 PRECISIONS = (30, 60, 120)
 """Digits with which a scene is evaluated, one after the other, until everything is decided."""
-NORMAL = 1e-300
+NORMAL = 2.3e-308
 """Above this floats have all their digits."""
 SPENT = 30
 """Digits that a number of a scene loses on the way, at the most, where it is zero and its terms are too."""

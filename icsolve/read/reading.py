@@ -171,7 +171,7 @@ class Reading:
         return node.text.strip()
 
 
-SMALLEST, LARGEST = 1e-305, 1e305
+SMALLEST, LARGEST = 1e-300, 1e305
 """Magnitudes between which a number stays; the solver scales figures and forces by powers of two."""
 
 _A = {

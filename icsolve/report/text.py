@@ -111,8 +111,10 @@ def _advantage(answer: Answer, advantage: float, show: Format) -> str:
     known = [term.load for term in answer.terms if term.load not in answer.answers and " " not in term.load]
     names = [*answer.answers, *known]
     above, below = (units.get(name, "") for name in (names[0], names[-1]))
-    unit = "" if above == below else f" {above} per {below}"
-    return f"{'/'.join(names)} = {show(advantage)}{unit}" + (" (mechanical advantage)" if not unit else "")
+    told = f"{'/'.join(names)} = {show(advantage)}"
+    if above != below:
+        return f"{told} {above} per {below}"
+    return f"{told} (mechanical advantage, where {names[0]} is the output)"
 
 
 def _unknown(case: Case, name: str, found: Found, digits: int) -> str:

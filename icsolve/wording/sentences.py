@@ -26,12 +26,22 @@ def link_words(link: str) -> str:
     return f"the end of the rope {link[1:]}" if link.startswith("@") else f"link {link}"
 
 
-def structure(bodies: int, constraints: int) -> str:
-    """No joint lets anything move: moving links, and the freedoms that the joints take."""
+def structure(top: Topology) -> str:
+    """No joint lets anything move: moving links, the freedoms that the joints take, and the slides that keep
+    a link of several joints from turning, where a roller may be meant."""
+    bodies = len(top.members) - 1
+    held = [
+        f"The slide at {bond.joint.at} keeps links {listed(bond.links)} from turning against each other: "
+        "where a pin or a roller of one runs along the other, it is a `slot`. "
+        for bond in top.bonds
+        if bond.joint.guide is not None and bond.joint.keeps_direction
+        if any(len(top.at[body]) > 2 for body in {bond.a, bond.b} - {top.ground})
+    ]
     return (
         f"the links form a structure: 3 x {bodies} freedoms of {plural(bodies, 'link')} beside the frame, of "
-        f"which the joints take {constraints}. Nothing moves, so power gives no equation. Take out a joint "
-        "or a link to make it move; or give every load a number, and its reactions are found by statics."
+        f"which the joints take {top.constraints}. Nothing moves, so power gives no equation. "
+        f"{''.join(held)}Take out a joint or a link to make it move; or give every load a number, and its "
+        "reactions are found by statics."
     )
 
 
