@@ -260,7 +260,7 @@ def test_an_exercise_asks_for_inertia_forces_and_tells_the_acceleration(name: st
     sheet, _, key = sheet_tex("Exercises", [("", [one])]).rpartition("section*{Key")
     for text in (figure, sheet):
         assert not re.search(r"inertia (force|couple)|>i\d|_\{i\d", text)
-    assert f"speeds up at {case.motion[0].acceleration.digits} rad/s" in sheet.replace("\\", "")
+    assert f"speeding up at {case.motion[0].acceleration.digits} rad/s" in sheet.replace("\\", "")
     assert f"{icsolve.solve(case).answers['T'].value:.4g}" in key
 
 
