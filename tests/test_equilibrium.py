@@ -14,6 +14,7 @@ import math
 import random
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 
@@ -135,6 +136,25 @@ def test_an_upright_strut_loses_its_stability_at_the_critical_load(weight: str, 
     stiffness = upright[0].stiffness
     assert stiffness is not None
     assert stiffness.value == pytest.approx(40.0 - 2.0 * float(weight), abs=1e-10)
+
+
+@pytest.mark.parametrize(("k", "kind"), [(12, "unstable"), (25, "neutral"), (60, "stable")])
+def test_a_straight_toggle_is_held_up_by_a_torsion_spring(k: int, kind: str) -> None:
+    """V = 100 sin u + k (90 - u)^2 2, with the corner at 180 degrees, where directions are cut."""
+    (one,) = positions(f"""icsolve: 1
+points: {{A: [0, 0]}}
+lengths: {{AB: 0.5, BC: 0.5}}
+angles: {{AB: {{unknown: [70, 110]}}}}
+near: {{C: [0, 1]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}},
+  {{slide: [4, 1], at: C, along: 90, through: A}}]
+loads:
+  P: {{force: 100, link: 4, at: C, angle: -90}}
+  T: {{spring: {k} N*m/rad, corner: ABC, free: 180, link: 3, against: 2}}
+""")
+    assert one.stiffness is not None
+    assert (one.at, one.stability) == ({"angles.AB": pytest.approx(90.0)}, kind)
+    assert one.stiffness.value == pytest.approx(4.0 * k - 100.0, abs=1e-9)
 
 
 @pytest.mark.parametrize("mu", [0.1, 0.3])
@@ -857,6 +877,68 @@ def test_the_stability_of_a_position_as_written(tmp_path: Path, capsys: pytest.C
         found = json.loads(run(tmp_path, capsys, text, "solve", "CASE", "--json", "--stability", of))
         assert found["stability"] == "unstable"
         assert found["stiffness"]["value"] == pytest.approx(-20.0 * math.sin(math.pi / 3.0), rel=1e-12)
+
+
+FOUR_BAR = """icsolve: 1
+points: {{A: [0, 0], D: [{frame}, 0]}}
+lengths: {{AB: 1, BC: {coupler}, CD: {rocker}}}
+angles: {{AB: 60}}
+near: {{C: [{frame}.5, 1.5]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
+loads: {{W: {{weight: 10, link: 3, at: C}}, V: {{weight: 3, link: 2, at: B}}, M: {{torque: 4, link: 2}}}}
+"""
+
+
+@pytest.mark.parametrize(("frame", "coupler", "rocker"), [(4, 3.5, 2.5), (2, 2, 1)])
+def test_a_driven_link_rests_where_its_angle_does(
+    frame: int, coupler: float, rocker: float, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A crank turned by degrees from where it is written, a parallelogram's straight on through its change
+    points; the rocker of that turns as far."""
+    text = FOUR_BAR.format(frame=frame, coupler=coupler, rocker=rocker)
+    found = {}
+    links = ("2", "4") if frame == coupler else ("2",)
+    for turned in (("--vary", "angles.AB=0:360:5"), *(("--drive", f"{link}=-60:300:5") for link in links)):
+        swept = run(tmp_path, capsys, text, "sweep", "CASE", *turned, "--find", "rest", "--json")
+        rests = json.loads(swept)["found"]
+        at = [value for one in rests for value in one["at"].values()]
+        kinds = [(one["stability"], pytest.approx(one["stiffness"]["value"], rel=1e-9)) for one in rests]
+        found[turned[1]] = [a + (60.0 if turned[0] == "--drive" else 0.0) for a in at], kinds
+    (at, kinds), *others = found.values()
+    assert len(at) >= 2
+    assert all(other == (pytest.approx(at, abs=1e-11), kinds) for other in others)
+
+
+def test_stability_is_by_the_work_of_the_loads_though_they_do_not_balance() -> None:
+    """d/dq (dV/dq) by crank, coupler and rocker, in thirty digits from the potential of their loads."""
+    case = icsolve.load(FOUR_BAR.format(frame=4, coupler=3.5, rocker=2.5))
+    answer = icsolve.solve(case)
+    with mpmath.workdps(40):
+
+        def places(t: mpmath.mpf) -> tuple[mpmath.mpc, mpmath.mpc]:
+            b = mpmath.expj(t)
+            apart = 4 - b
+            along = (mpmath.mpf("12.25") - mpmath.mpf("6.25") + abs(apart) ** 2) / (2 * abs(apart) ** 2)
+            up = mpmath.sqrt(mpmath.mpf("12.25") / abs(apart) ** 2 - along**2)
+            return b, b + apart * mpmath.mpc(along, up)
+
+        def potential(t: mpmath.mpf) -> mpmath.mpf:
+            b, c = places(t)
+            return 10 * c.imag + 3 * b.imag - 4 * t
+
+        at = mpmath.pi / 3
+        angles = {
+            "angles.AB": lambda t: t,
+            "2": lambda t: t,
+            "3": lambda t: mpmath.arg(places(t)[1] - places(t)[0]),
+            "4": lambda t: mpmath.arg(places(t)[1] - 4),
+        }
+        for of, angle in angles.items():
+            load = partial(lambda q, t: mpmath.diff(potential, t) / mpmath.diff(q, t), angle)
+            wanted = float(mpmath.diff(load, at) / mpmath.diff(angle, at))
+            found = with_stability(case, answer, of).stiffness
+            assert found is not None
+            assert found.value == pytest.approx(wanted, rel=1e-9)
 
 
 def test_the_stability_by_any_link_goes_with_the_square_of_its_rate() -> None:

@@ -146,9 +146,11 @@ def _wave(low: Array, high: Array, crest: float) -> Interval:
 
 
 def _angle(x: Interval, y: Interval) -> Interval:
-    """Directions of vectors in degrees; the whole turn where the box holds the origin or the cut."""
+    """Directions of vectors in degrees, but for whole turns; all of one where the box holds the origin."""
+    both_sides = (x.low <= 0.0) & (y.low <= 0.0) & (y.high >= 0.0)
     corners = [np.degrees(np.arctan2(b, a)) for a in x for b in y]
+    corners = [np.where(both_sides & (corner < 0.0), corner + 360.0, corner) for corner in corners]
     low, high = np.minimum.reduce(corners), np.maximum.reduce(corners)
     slack = 8.0 * 2.0**-53 * 180.0
-    cut = (x.low <= 0.0) & (y.low <= 0.0) & (y.high >= 0.0)
-    return Interval(np.where(cut, -180.0, low - slack), np.where(cut, 180.0, high + slack))
+    origin = both_sides & (x.high >= 0.0)
+    return Interval(np.where(origin, -180.0, low - slack), np.where(origin, 180.0, high + slack))

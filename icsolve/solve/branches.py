@@ -106,7 +106,7 @@ class Branches:
 
     def _closed(self, ids: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
         """A whole turn ends where it begins: what goes straight on there is one branch."""
-        if self.high - self.low != 360.0 or not self.functions[0].path.startswith("angles."):
+        if self.high - self.low != 360.0 or not self.functions[0].turns_links:
             return ids
         for m in np.flatnonzero(ids[:, -1] >= 0).tolist():
             ahead = self._ahead(ids, m, SAMPLES + 1)

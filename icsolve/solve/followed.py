@@ -55,7 +55,7 @@ class LedMechanism:
         if not turning:
             said = "no link turns, and points of this mechanism can only all together be placed as it moves."
             raise SceneError(Status.UNSUPPORTED, said)
-        self.links = sorted(turning, key=lambda link: -turning[link])
+        self.links = sorted(turning, key=lambda link: (link != along, -turning[link]))
         loaded = replace(self.case, loads=(*self.case.loads, Torque(PROBE, self.links[0], None)))
         varied = {along: np.array(span)}
         columns = columns_of(loaded, *((None, varied) if along in case.links else (varied, None)))

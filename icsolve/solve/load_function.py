@@ -33,10 +33,19 @@ from icsolve.scene import refusals
 from icsolve.screws.plane import velocity
 from icsolve.statics import power
 from icsolve.structure.topology import Topology, topology
+from icsolve.sweep.branches import may_vanish
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.exact import spring_angles
 from icsolve.sweep.numbers import with_numbers
-from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of, wanted_points
+from icsolve.sweep.program import (
+    CompiledSweep,
+    RowRequest,
+    Setting,
+    Signs,
+    compile_sweep,
+    setting_of,
+    wanted_points,
+)
 from icsolve.sweep.recorded_scene import RecordedScene, motions_of
 from icsolve.tuples import NamedTuple, replace
 
@@ -83,7 +92,13 @@ class LoadFunction(NamedTuple):
     springs: dict[str, int]
     """the angles of the torsion springs"""
     turns: tuple[Array, dict[int, Array]]
-    """values of the free number, in order, and there the angles about which turns are counted, by node"""
+    """values of the free number, in order, and there the other inputs, by node: the angles about which turns
+    are counted, and the signs of branches"""
+
+    @property
+    def turns_links(self) -> bool:
+        """Whether the free number is an angle."""
+        return self.path.startswith("angles.") or self.path in self.case.links
 
     def given(self, values: Array) -> dict[int, Array]:
         """The inputs, by node, for values (n,) of the free datum; turns go on from the record's own."""
@@ -247,11 +262,36 @@ def moving_function(
     if path and not setting.moves:
         raise SceneError(Status.UNSUPPORTED, f"{path} does not pose the figure: it moves nothing.")
     compiled = compile_sweep(setting, RowRequest(answers=False))
-    record = compiled.record
     if compiled.motion is not None and compiled.motion.groups:
         raise TogetherError(Status.UNSUPPORTED, TOGETHER)
-    margins = [node for root in record.roots.values() for node, _ in root.margins]
-    return _on_sheet(compiled, path or link, setting.figure, margins, span)
+    return _moving_on(compiled, path or link, span)
+
+
+def _moving_on(compiled: CompiledSweep, path: str, span: tuple[float, float] | None) -> LoadFunction:
+    margins = [node for root in compiled.record.roots.values() for node, _ in root.margins]
+    return _on_sheet(compiled, path, compiled.setting.figure, margins, span)
+
+
+def with_other_ways(function: LoadFunction, span: tuple[float, float]) -> list[LoadFunction]:
+    """The function of a mechanism that moves, and those of the other ways in which its links assemble that it
+    may come to over a range: through change points, or at its limits."""
+    found: list[tuple[LoadFunction, Signs]] = [(function, ())]
+    values = np.linspace(*span, COUNTED)
+    for one, signs in found:  # which grows
+        motion = one.compiled.motion
+        assert motion is not None
+        roots = [root for root in one.record.roots.values() if root.node in motion.branches]
+        radicands = Code(one.record, [root.radicand for root in roots]).run(one.given(values), len(values))
+        for root, radicand in zip(roots, radicands, strict=True):
+            name = motion.branches[root.node]
+            others = {**dict(signs), name: -dict(signs).get(name, motion.written[name])}
+            beyond = tuple(sorted(pair for pair in others.items() if pair[1] != motion.written[pair[0]]))
+            met = may_vanish(radicand) and beyond not in (known for _, known in found)
+            if met and len(found) < MOST_MODES:
+                with suppress(SceneError):  # a load may have no direction in it
+                    again = compile_sweep(one.compiled.setting, RowRequest(answers=False), beyond)
+                    found.append((_moving_on(again, function.path, span), beyond))
+    return [one for one, _ in found]
 
 
 def written_function(case: Case, path: str, span: tuple[float, float] | None = None) -> LoadFunction:
@@ -311,17 +351,20 @@ def _on_sheet(
             name: record.lifted(angle).index
             for name, angle in spring_angles(case, scene.points, record).items()
         },
-        _turns(record, given, span),
+        _turns(record, given, set(compiled.inputs.values()) - {given}, span),
     )
 
 
-def _turns(record: Record, given: int, span: tuple[float, float] | None) -> tuple[Array, dict[int, Array]]:
-    """The counted angles over a range of the free number, going on from where it was recorded."""
+def _turns(
+    record: Record, given: int, others: Iterable[int], span: tuple[float, float] | None
+) -> tuple[Array, dict[int, Array]]:
+    """The counted angles over a range of the free number, going on from where it was recorded; other inputs
+    as they were recorded."""
     written = record.nodes[given].value
     low, high = span or (written, written)
     values = np.union1d(np.linspace(min(low, written), max(high, written), COUNTED), [written])
     own = int(np.searchsorted(values, written))
-    found: dict[int, Array] = {}
+    found = {node: np.full(values.shape, record.nodes[node].value) for node in others}
     for angle, (guess, _) in record.counted.items():
         (here,) = Code(record, [angle]).run({**found, given: values}, len(values))
         turned = np.unwrap(np.broadcast_to(here, values.shape), period=360.0)

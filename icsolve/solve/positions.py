@@ -22,6 +22,7 @@ from icsolve.case import (
 )
 from icsolve.case.joints import Mesh, Rolling
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.replay import Code
 from icsolve.scene import solve_scene
@@ -42,6 +43,7 @@ from icsolve.solve.load_function import (
     load_functions,
     moving_function,
     refuse_unposed,
+    with_other_ways,
     written_function,
 )
 from icsolve.solve.rest import AT_LIMIT, PROBE, Rest, held
@@ -234,31 +236,12 @@ def find_along(case: Case, along: str, low: float, high: float) -> list[Rest]:
         function = moved_by(bare, along, wide)
     except TogetherError:
         return LedMechanism(bare, _own(bare, along), (low, high)).rests()
-    functions, kept = [function], None
-    branches = Branches(functions, low, high)
-    if function.compiled.setting.moves and along not in case.links:
-        functions += _other_ways(bare, function, value, wide)
-        branches = Branches(functions, *wide)
-        kept = frozenset({branches.on(0, value)})
+    functions = with_other_ways(function, wide) if function.compiled.setting.moves else [function]
+    branches = Branches(functions, *wide)
+    kept = frozenset({branches.on(0, value)})
     found = (rest for _, rest in search_modes(functions, branches, kept, False))
     rests = [rest for rest in found if low <= rest.value <= high]
     return _distinct(sorted(rests, key=lambda rest: rest.value))
-
-
-def _other_ways(
-    case: Case, function: LoadFunction, value: float, span: tuple[float, float]
-) -> list[LoadFunction]:
-    """The other ways in which the figure as written assembles: beyond a change point the mechanism goes on in
-    one of them."""
-    own = solve_scene(scene_at(function, value)).points
-    size = max(abs(c) for at in own.values() for c in at) or 1.0
-    found = []
-    with suppress(SceneError):
-        for way in ways_of(case).ways:
-            if any(math.dist(at, way.points[name]) > APART * size for name, at in own.items()):
-                with suppress(SceneError):  # a load may have no direction in it
-                    found.append(moving_function(replace(case, near=way.near), function.path, span=span))
-    return found
 
 
 def _own(case: Case, along: str) -> str:
@@ -574,9 +557,15 @@ def _probe(function: LoadFunction, value: float, on: str = "") -> float:
 
 
 def described(function: LoadFunction, value: float, error: float) -> Rest:
-    """A position with its stiffness: enclosed about the value by the record."""
-    here = Interval(np.array([value - error]), np.array([value + error]))
-    slope, rate = enclose(function.record, [function.slope, function.rate], function.enclosed(here))
+    """A position with its stiffness: enclosed about the value by the record. Where the loads do not balance
+    it counts, too, that the rate of the free number changes along the motion."""
+    cells = function.enclosed(Interval(np.array([value - error]), np.array([value + error])))
+    record, nodes = function.record, [function.slope, function.rate, function.power]
+    slope, rate, power = enclose(record, nodes, cells)
+    if float(power.low.flat[0]) > 0.0 or float(power.high.flat[0]) < 0.0:
+        per_rate = record.at(function.power) / record.at(function.rate)
+        change = gradient(record, per_rate, (function.input,))[function.input] * record.at(function.rate)
+        (slope,) = enclose(record, [record.lifted(change).index], cells)
     factor, unit = _units(function)
     stiffness, why = None, ""
     stability = "neutral"
@@ -620,7 +609,7 @@ def _units(function: LoadFunction) -> tuple[float, str]:
     case, frame = function.case, function.compiled.scene.frame
     per_load = 1.0 / (function.force_scale * frame.scale)
     units = case.units
-    if function.path.startswith("angles.") or function.path in case.links:
+    if function.turns_links:
         return per_load * DEGREES * DEGREES * units.torque_per_force_length, f"{units.torque}/rad"
     return per_load, f"{units.force}/{units.length}"
 
@@ -683,9 +672,8 @@ def _at_change_point(
         here = next(_scenes_near(function, value, step))
     except (SceneError, StopIteration):
         return []
-    turns = function.path.startswith("angles.") or function.path in function.case.links
-    stiffness = -float(smooth.deriv()(0.0)) / step * (DEGREES if turns else 1.0)
-    off = 1e-9 * max(map(abs, loads)) / abs(step) * (DEGREES if turns else 1.0)
+    stiffness = -float(smooth.deriv()(0.0)) / step * (DEGREES if function.turns_links else 1.0)
+    off = 1e-9 * max(map(abs, loads)) / abs(step) * (DEGREES if function.turns_links else 1.0)
     kind = "stable" if stiffness > off else "unstable" if stiffness < -off else "neutral"
     known = Stiffness(stiffness, _units(function)[1], off)
     return [here._replace(value=value, error=error, stability=kind, stiffness=known)]
@@ -698,10 +686,9 @@ def _generalised(function: LoadFunction, value: float) -> float:
     probe, units = answer.case.loads[-1], function.case.units
     if not isinstance(probe, Torque):
         return 0.0
-    turns = function.path.startswith("angles.") or function.path in function.case.links
     ratio = float((answer.rates or {})[probe.link]) / rate_of(answer, function.path)
     torque: float = answer.answers[PROBE].value
-    return -torque * ratio * (1.0 if turns else 1.0 / units.torque_per_force_length)
+    return -torque * ratio * (1.0 if function.turns_links else 1.0 / units.torque_per_force_length)
 
 
 def _scenes_near(function: LoadFunction, value: float, step: float) -> Iterator[Rest]:

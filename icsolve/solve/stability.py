@@ -62,8 +62,8 @@ def _by_another(case: Case, link: str, refusal: SceneError) -> Rest:
     can.
 
     Where the loads balance, the second derivative of their work by one coordinate is that by another times
-    the square of the ratio of their rates. Raises ``refusal`` where they do not, or where the link stands
-    still; where none can be led alone, the link is led with all the others.
+    the square of the ratio of their rates; where they do not, or none can be led alone, the link is led with
+    all the others. Raises ``refusal`` where it stands still.
     """
     try:
         other = _driven(case)
@@ -76,8 +76,10 @@ def _by_another(case: Case, link: str, refusal: SceneError) -> Rest:
     if slides:
         speeds = (v for (_, on), v in velocities.items() if on == link and isinstance(v, tuple))
         own = next((math.hypot(*v) for v in speeds), 0.0)
-    if not isinstance(own, float) or not isinstance(by, float) or not own or not balances(rest):
+    if not isinstance(own, float) or not isinstance(by, float) or not own:
         raise refusal
+    if not balances(rest):  # the second derivative by another coordinate is not that by this one
+        return led_rest(case, link)
     if rest.stiffness is None:
         return rest
     ratio, unit = (by / own) ** 2, rest.stiffness.unit

@@ -172,6 +172,12 @@ class Radicands:
         return min(a / a_size, b / b_size)
 
 
+def may_vanish(radicand: Array) -> bool:
+    """Whether a radicand may vanish at or between places in order."""
+    step = np.abs(np.diff(radicand, append=radicand[-1:]))
+    return not bool((radicand > STEEP * np.maximum(step, np.roll(step, 1))).all())
+
+
 def _valleys(radicand: Array) -> Iterator[int]:
     """Where it is lower than on both sides, and near enough to zero that it may vanish between places."""
     radicand = np.where(np.isnan(radicand), -np.inf, radicand)
