@@ -174,8 +174,8 @@ class Radicands:
 
 def may_vanish(radicand: Array) -> bool:
     """Whether a radicand may vanish at or between places in order."""
-    step = np.abs(np.diff(radicand, append=radicand[-1:]))
-    return not bool((radicand > STEEP * np.maximum(step, np.roll(step, 1))).all())
+    step = np.abs(radicand[1:] - radicand[:-1])
+    return not bool((np.minimum(radicand[1:], radicand[:-1]) > STEEP * step).all())
 
 
 def _valleys(radicand: Array) -> Iterator[int]:

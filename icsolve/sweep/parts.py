@@ -11,7 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from icsolve.numbers.replay import BLOCK, Array, code_of
-from icsolve.sweep.branches import STEEP, Followed, follow, grid_of, live_roots, signs_of
+from icsolve.sweep.branches import STEEP, Followed, follow, grid_of, live_roots, may_vanish, signs_of
 from icsolve.sweep.continuation import InputLine, State, written_state
 from icsolve.sweep.numbers import numbers_of
 from icsolve.sweep.path_tracking import Mask
@@ -128,10 +128,8 @@ class SweepParts:
         grid = grid_of([float(at.min()), float(at.max())], self._way(compiled, main, {}))
         for start in range(0, len(grid) - 1, BLOCK):
             here = grid[start : start + BLOCK + 1]
-            for radicand in code.run({compiled.inputs[main]: here}, len(here)):
-                step = np.abs(radicand[1:] - radicand[:-1])
-                if not (np.minimum(radicand[1:], radicand[:-1]) > STEEP * step).all():
-                    return False
+            if any(map(may_vanish, code.run({compiled.inputs[main]: here}, len(here)))):
+                return False
         return True
 
     def _clear(self, compiled: CompiledSweep, main: str, others: list[str]) -> Mask:
