@@ -563,8 +563,9 @@ def described(function: LoadFunction, value: float, error: float) -> Rest:
     record, nodes = function.record, [function.slope, function.rate, function.power]
     slope, rate, power = enclose(record, nodes, cells)
     if float(power.low.flat[0]) > 0.0 or float(power.high.flat[0]) < 0.0:
-        per_rate = record.at(function.power) / record.at(function.rate)
-        change = gradient(record, per_rate, (function.input,))[function.input] * record.at(function.rate)
+        motion = record.nodes[function.rate]
+        load = record.nodes[function.power] / motion
+        change = gradient(record, load, (function.input,))[function.input] * motion
         (slope,) = enclose(record, [record.lifted(change).index], cells)
     factor, unit = _units(function)
     stiffness, why = None, ""
