@@ -26,7 +26,7 @@ from yaml.events import (
 
 from icsolve.case import Mark
 from icsolve.files import reading
-from icsolve.read.names import Problems, Stop, shown, suggestion
+from icsolve.read.names import Problems, Stop, meant_by, shown
 from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
@@ -77,8 +77,9 @@ def _likely_file(path: str | os.PathLike[str], error: OSError | ValueError) -> s
         there = sorted(one for one in os.listdir(folder or ".") if one.endswith((".yaml", ".yml")))
     except OSError:
         return ""
-    ended = [one for one in there if os.path.splitext(one)[0] == name]
-    return suggestion(ended[0] if ended else name, there)
+    stems = {os.path.splitext(one)[0]: one for one in reversed(there)}
+    near = meant_by(name if name in stems else os.path.splitext(name)[0], stems)
+    return f"; did you mean '{stems[near]}'?" if near else ""
 
 
 def _decoded(data: bytes, problems: Problems) -> str:
