@@ -431,6 +431,8 @@ def test_a_file_without_its_ending_is_named(
     (tmp_path / "press.yaml").write_text(PRESS)
     assert exit_status(*words) == 2
     assert "press.yaml" in capsys.readouterr().err
+    assert exit_status("solve", "boat.yaml") == 2  # which has but its ending from that
+    assert "did you mean" not in capsys.readouterr().err
 
 
 def test_there_are_a_hundred() -> None:
