@@ -15,6 +15,8 @@ mp.dps = 60
 class SixtyDigits:
     """An arithmetic of mpmath numbers, on the decimals of the file and the exact ratios of their units."""
 
+    rounds = 5
+
     def given(self, number: Number) -> Any:
         return mpf(number.digits) if number.exact is None else self.ratio(number.exact)
 

@@ -37,7 +37,7 @@ TURNING = [mechanisms.gear_pair, mechanisms.epicyclic, mechanisms.belt, mechanis
 def pessimism(text: str) -> float:
     """Bound over true error; the law itself is asserted here."""
     program = prepare(icsolve.load(text), Want())
-    _, exact = evaluate(program, SixtyDigits(), rounds=5)
+    _, exact = evaluate(program, SixtyDigits())
     scene = EvaluatedScene(program, certain=True).ask(unknown_values)
     worst = 1.0
     for w in exact.balance.wrenches:

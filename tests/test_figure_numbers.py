@@ -16,7 +16,7 @@ from icsolve.assembly import Figure, case_point, place, solve_figure
 from icsolve.assembly.refusals import step_words
 from icsolve.case import Case, Coordinates, Number
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Scalar, turn_of
+from icsolve.numbers.arithmetic import Floats, Scalar, turn_of
 from icsolve.numbers.balls import Balls
 from icsolve.numbers.tape import Tape
 from icsolve.read import load
@@ -29,6 +29,8 @@ DYAD += PINS.replace("{", "{{").replace("}", "}}")
 
 class Digits:
     """Sixty digits, of the doubles as read."""
+
+    rounds = 8
 
     def given(self, number: Number) -> Scalar:
         return mpmath.mpf(number.value)
@@ -44,8 +46,16 @@ class Digits:
         return bool(abs(value) < mpmath.mpf(10) ** -50 * size)
 
 
+class FarOff(Floats):
+    """Floats that groups take more steps of Newton's method with, from farther off."""
+
+    rounds = 6
+
+
 class Swept:
     """Arrays for the numbers of some paths."""
+
+    rounds = 8
 
     def __init__(self, **arrays: np.ndarray) -> None:
         self.arrays = {path.replace("__", "."): values for path, values in arrays.items()}
@@ -88,7 +98,7 @@ def moved(one: Case, scale: float, dx: float = 0.0, dy: float = 0.0) -> Case:
 def exact_error(one: Case, figure: Figure) -> float:
     """Largest distance from the same construction in sixty digits (normalised: the size is about 1)."""
     with mpmath.workdps(60):
-        exact = place(figure, one, Digits(), rounds=8).points
+        exact = place(figure, one, Digits()).points
         return max(
             float(mpmath.hypot(exact[p][0] - at[0], exact[p][1] - at[1])) for p, at in figure.points.items()
         )
@@ -248,7 +258,7 @@ def test_a_newton_group_follows_on_arrays_from_its_own_solution() -> None:
     figure = solve_figure(one)
     crank = next(a.value for a in one.angles if a.value.path == "angles.AD")
     angles = crank.value + np.array([-0.5, 0.0, 0.5])
-    swept = place(figure, one, Swept(angles__AD=angles), rounds=8)
+    swept = place(figure, one, Swept(angles__AD=angles))
     for k, angle in enumerate(angles):
         row = solve_figure(case(text.replace(crank.digits, repr(float(angle)))))
         for p in "FGHIJ":
@@ -271,7 +281,7 @@ def test_one_recorded_step_carries_the_derivatives(name: str) -> None:
         for d in (1e-6, -1e-6):
             value = length.value._replace(value=length.value.value + d)
             lengths = (*one.lengths[:k], length._replace(value=value), *one.lengths[k + 1 :])
-            ends.append(place(figure, replace(one, lengths=lengths), rounds=6).points[last][0])
+            ends.append(place(figure, replace(one, lengths=lengths), FarOff()).points[last][0])
         slope = (ends[0] - ends[1]) / 2e-6
         assert by_path.get(length.value.path, 0.0) == pytest.approx(slope, abs=2e-8)
 

@@ -76,7 +76,7 @@ def free_bodies(case: c.Case) -> dict[Any, Force] | None:
     None where the joints share a load.
     """
     digits: Any = SixtyDigits()
-    program, outcome = evaluate(prepare(case, Want(bodies=True)), digits, rounds=5)
+    program, outcome = evaluate(prepare(case, Want(bodies=True)), digits)
     row = {link: 3 * k for k, link in enumerate(link for link in case.links if link != case.ground)}
     wrenches = []
     pivots = {(id(bond.joint), bond.links): bond.pivots for bond in program.top.bonds}

@@ -5,7 +5,7 @@ Each puts points on a workspace (``place``), its ``targets``, and is made of oth
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 
 from icsolve.assembly.conditions import FigureEquation, Unknown
 from icsolve.assembly.loci import (
@@ -17,6 +17,7 @@ from icsolve.assembly.loci import (
     gaps_of,
     intersection,
     is_ray,
+    is_round,
 )
 from icsolve.assembly.workspace import (
     Apart,
@@ -139,18 +140,18 @@ class Meet(NamedTuple):
         return out
 
     def place(self, workspace: Workspace) -> None:
-        """Put the point that ``sign`` takes, and note the margins."""
-        loci, a = self.loci(workspace), workspace.arithmetic
-        found = intersection(*loci)
-        gaps: tuple[Scalar, ...] = ()
+        """Put the point that ``sign`` takes."""
+        found = intersection(*self.loci(workspace))
         if found.factors is None or self.sign == 0:
             workspace.points[self.target] = found.middle
         else:
-            root = a.sqrt(found.factors[0][0] * found.factors[1][0])
+            root = workspace.arithmetic.sqrt(found.factors[0][0] * found.factors[1][0])
             workspace.points[self.target] = found.at(root if self.sign > 0 else -root)
-        if found.factors is not None:
-            gaps = gaps_of(*loci, a)[:3]
-        workspace.margins[self.target] = (*gaps, *self.ahead(workspace))
+
+    def margins(self, workspace: Workspace) -> tuple[Scalar, ...]:
+        """What must not be negative for it to assemble [frame]: gaps of circles, distances along rays."""
+        gaps = gaps_of(*self.loci(workspace), workspace.arithmetic)[:3] if is_round(self.second) else ()
+        return (*gaps, *self.ahead(workspace))
 
 
 # --- shapes that move as a whole: how one begins on a cluster of its own, and how it carries its points ---
@@ -230,7 +231,8 @@ class Group(NamedTuple):
     """Points placed by Newton's method, as many equations as coordinates.
 
     ``start`` has the places (x, y) of the targets [frame] in the solution that was settled on. ``place``
-    takes ``workspace.rounds`` steps from there: at the solution, one carries the derivatives by all data.
+    takes a step from there, or from where the workspace says, which carries the derivatives by all data; as
+    many as the arithmetic has ``rounds`` where that has more digits.
     """
 
     targets: tuple[str, ...]
@@ -244,7 +246,7 @@ class Group(NamedTuple):
             return
         for target, at in zip(self.targets, self.start, strict=True):
             workspace.points[target] = workspace.starts.get(target, at)
-        for _ in range(workspace.rounds):
+        for _ in range(getattr(workspace.arithmetic, "rounds", 1)):
             move = newton_step(*self.system(workspace)).move
             x = (part for target in self.targets for part in workspace.points[target])
             self.put(workspace, [a - b for a, b in zip(x, move, strict=True)])
@@ -363,22 +365,21 @@ class Placement(NamedTuple):
 
     Attributes
     ----------
-    points : by name [frame of size 1]; points on the cluster of a loose shape by its number and the name
-    margins : for each point where two loci meet, what must not be negative [frame]: gaps of circles,
-        distances along rays. Callers with arrays test them outside
+    points : by name [frame of size 1]
+    steps, workspace : the construction, and where it ran
     """
 
     points: dict[str, Point]
-    margins: dict[Key, tuple[Scalar, ...]]
+    steps: tuple[Step, ...]
+    workspace: Workspace
+
+    @property
+    def margins(self) -> dict[Key, tuple[Scalar, ...]]:
+        """For each point where two loci meet its `Meet.margins`: callers with arrays test them."""
+        return {step.target: step.margins(self.workspace) for step in self.steps if isinstance(step, Meet)}
 
 
-def place(
-    figure: Figure,
-    case: Case,
-    arithmetic: Arithmetic = FLOATS,
-    rounds: int = 1,
-    starts: Mapping[str, Point] | None = None,
-) -> Placement:
+def place(figure: Figure, case: Case, arithmetic: Arithmetic = FLOATS) -> Placement:
     """Run a figure's construction again, on the numbers of a case of the same shape.
 
     The same steps with the same branches, without a test on any value: what does not assemble has a negative
@@ -389,12 +390,9 @@ def place(
     figure : as of `icsolve.assembly.solve_figure`
     case : of the same shape, perhaps with other numbers
     arithmetic : in which the points come
-    rounds : Newton steps for groups without an order of construction; 1 is enough at the
-        figure's own numbers, where that step carries the derivatives by all data
-    starts : by name, where such groups start [frame]; left out, at the figure's own points
     """
     workspace = Workspace(case, figure.frame, arithmetic)
-    workspace.rounds, workspace.starts = rounds, starts or {}
     for step in figure.steps:
         step.place(workspace)
-    return Placement({p: at for p, at in workspace.points.items() if isinstance(p, str)}, workspace.margins)
+    points = {p: at for p, at in workspace.points.items() if isinstance(p, str)}
+    return Placement(points, figure.steps, workspace)

@@ -359,22 +359,17 @@ class Workspace:
     Attributes
     ----------
     points : by name (or cluster and name), (x, y) [frame]
-    margins : for each point where two loci meet, what must not be negative for it to assemble [frame]: gaps
-        of circles, distances along rays
-    starts : where groups that Newton's method solves start
-    rounds : how many of its steps they take
+    starts : where groups that Newton's method solves start, if not where they were settled
     """
 
-    __slots__ = ("arithmetic", "case", "frame", "margins", "points", "rounds", "starts")
+    __slots__ = ("arithmetic", "case", "frame", "points", "starts")
 
     def __init__(self, case: Case, frame: Frame, arithmetic: Arithmetic) -> None:
         self.case = case
         self.frame = frame
         self.arithmetic = arithmetic
         self.points: dict[Key, Point] = {}
-        self.margins: dict[Key, tuple[Scalar, ...]] = {}
         self.starts: Mapping[str, Point] = {}
-        self.rounds = 1
 
     def length(self, span: Span) -> Scalar:
         """A length [frame]: as the case gives it, or between two points."""

@@ -63,6 +63,9 @@ class AsRead:
 class AsWritten(AsRead):
     """The same on the decimals of the file: what a bound must cover."""
 
+    rounds = 5
+    """Newton's steps to these decimals from where doubles settled"""
+
     def given(self, number: Number) -> Any:
         """The decimal as written, and the exact ratio of its unit."""
         return self.mp.mpf(number.digits) if number.exact is None else self.ratio(number.exact)
@@ -94,7 +97,7 @@ def truth(case: Case) -> Truth:
     program = prepare(case, Want())
     _, outcome = evaluate(program, AsRead())
     refusals.refuse_unbalanced(case, program.top, outcome.motions, outcome.balance, outcome.solution)
-    _, written = evaluate(program, AsWritten(), rounds=5)
+    _, written = evaluate(program, AsWritten())
     values = [next(iter(one.solution.values.values())) for one in (outcome, written)]
     return Truth(values[0], condition(program), values[1])
 
@@ -267,7 +270,7 @@ def bound_over_error(case: Case) -> float:
     """Error bound over the true error (half a unit of the value at least) against the file's decimals."""
     found = solve(case).answers["U"]
     program = prepare(case, Want())
-    _, exact = evaluate(program, AsWritten(), rounds=5)
+    _, exact = evaluate(program, AsWritten())
     true = abs(found.value - next(iter(exact.solution.values.values())))
     assert found.error is not None
     ratio = found.error / max(float(true), abs(found.value) * 2.0**-53, math.ulp(0.0))

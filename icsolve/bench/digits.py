@@ -57,7 +57,7 @@ def shown(case: Case) -> Iterator[Shown]:
     arithmetic = AsWritten()
     with arithmetic.mp.workdps(DIGITS):
         answer = solve(case, all_centres=True, rates=True)
-        program, exact = evaluate(prepare(case, Want(True, True)), arithmetic, rounds=5)
+        program, exact = evaluate(prepare(case, Want(True, True)), arithmetic)
         for w in exact.balance.wrenches:
             if w.root in exact.solution.values:
                 found, true = answer.answers[w.load.name], w.ratio * exact.solution.values[w.root]

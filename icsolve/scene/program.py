@@ -131,15 +131,15 @@ def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want
     return list(dict.fromkeys(points))
 
 
-def _placed(program: Program, arithmetic: Arithmetic, rounds: int = 1) -> Points:
+def _placed(program: Program, arithmetic: Arithmetic) -> Points:
     """The points; refused where two of them should give a direction and are one."""
     figure = program.figure
-    points = figure.points if arithmetic is FLOATS else place(figure, program.case, arithmetic, rounds).points
+    points = figure.points if arithmetic is FLOATS else place(figure, program.case, arithmetic).points
     refusals.refuse_no_direction(program.directions, points, arithmetic)
     return points
 
 
-def evaluate(program: Program, arithmetic: Arithmetic = FLOATS, rounds: int = 1) -> tuple[Program, Outcome]:
+def evaluate(program: Program, arithmetic: Arithmetic = FLOATS) -> tuple[Program, Outcome]:
     """Places, motions and unknown loads; the program that ran (without a plan where a group of it
     is singular in this position).
 
@@ -147,13 +147,13 @@ def evaluate(program: Program, arithmetic: Arithmetic = FLOATS, rounds: int = 1)
     """
     figure, case, top = program.figure, program.case, program.top
     # position
-    points = _placed(program, arithmetic, rounds)
+    points = _placed(program, arithmetic)
     # centres, which keep their weight: the twists of the links
     motions = None
     if program.plan is not None:
         motions = motion.by_plan(program.plan, top, points, arithmetic)
         if motions is None:
-            return evaluate(without_plan(program), arithmetic, rounds)
+            return evaluate(without_plan(program), arithmetic)
     if motions is None:
         motions = motion.by_loops(case, top, points, arithmetic, figure.frame)
     motions = motion.with_ends(motions, case, points, figure.frame.scale, arithmetic)

@@ -23,7 +23,7 @@ from icsolve.statics.power import (
     force_scale,
     number_of,
     place_of,
-    unknowns_of,
+    unknown_loads,
 )
 from icsolve.statics.reaction_basis import Force, Position, RopeTie, Tie
 from icsolve.tuples import NamedTuple
@@ -234,7 +234,7 @@ def columns_of(
 ) -> Equilibrium[T]:
     """The columns of what is to be solved: statics without equations."""
     *first, count = accumulate((len(tie.units) for tie in ties), initial=0)
-    roots, known = tuple(w.root for w in unknowns_of(balance)), count + len(ropes)
+    roots, known = tuple(w.root for w in unknown_loads(balance)), count + len(ropes)
     nothing = General({}, (), ())
     return Equilibrium(
         ties, ropes, tuple(first), known, roots, rubs, force_scale(balance), {}, nothing, arithmetic

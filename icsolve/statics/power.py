@@ -418,7 +418,7 @@ def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
     MoreDigits
         Of balls, where a zero is open.
     """
-    unknown, rows, scale = unknowns_of(b), power_rows(b, arithmetic), force_scale(b)
+    unknown, rows, scale = unknown_loads(b), power_rows(b, arithmetic), force_scale(b)
     idle = tuple([m for m, row in enumerate(rows) if len(row.zero) > len(unknown)])
     working = [row for m, row in enumerate(rows) if m not in idle]
     if (len(working), len(unknown)) != (1, 1):
@@ -429,7 +429,7 @@ def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
     return Solution("balanced", {root: -known / factor / scale / unknown[0].measure}, idle)
 
 
-def unknowns_of(b: PowerFactors[L]) -> list[UnitWrench[L]]:
+def unknown_loads(b: PowerFactors[L]) -> list[UnitWrench[L]]:
     """The loads whose own number is to find."""
     return [w for w in b.wrenches if is_unknown(w.load)]
 
@@ -437,7 +437,7 @@ def unknowns_of(b: PowerFactors[L]) -> list[UnitWrench[L]]:
 def power_rows(b: PowerFactors[L], arithmetic: Arithmetic) -> list[PowerRow]:
     """The equation of power of every motion, in the unknown loads over their ``measure``, all times
     `force_scale`."""
-    unknown, scale = unknowns_of(b), force_scale(b)
+    unknown, scale = unknown_loads(b), force_scale(b)
     place = {w.root: k for k, w in enumerate(unknown)}
     shares = [_share(w, unknown, place, scale, arithmetic) for w in b.wrenches]
     both = zip(b.factors, b.sizes, strict=True)

@@ -55,27 +55,13 @@ ROUNDINGS = 32 * 2.0**-53
 """What the operations from a point to a term of an equation can lose together, of the term."""
 
 
-def unknowns_of(
-    statics: Equilibrium[T], friction: Mapping[int, float] | None = None
-) -> dict[str, Scalar] | None:
-    """The unknown loads [case units] from the equations in which no joint is left.
-
-    Parameters
-    ----------
-    statics : as of `equilibrium`
-    friction : by friction column, its value [scaled]; 0 of those that are not there
-
-    Returns
-    -------
-    dict[str, Scalar] | None
-        None where these equations do not determine them.
-    """
-    fixed = {statics.known: 1.0, **(friction or {})}
+def unknowns_of(statics: Equilibrium[T]) -> dict[str, Scalar] | None:
+    """The unknown loads [case units] from the equations in which no joint is left, without friction; None
+    where these do not determine them."""
     vanishes = decider(statics.arithmetic)
     columns = [statics.root(n) for n in range(len(statics.roots))]
     rows = [
-        [*(left.get(c, 0.0) for c in columns), -sum(a * fixed.get(c, 0.0) for c, a in left.items())]
-        for left in statics.general.left
+        [*(left.get(c, 0.0) for c in columns), -left.get(statics.known, 0.0)] for left in statics.general.left
     ]
     rows = independent(rows, len(columns))
     if len(rows) < len(columns):

@@ -25,7 +25,7 @@ from icsolve.statics.power import (
     power_rows,
     reacting,
     source_of,
-    unknowns_of,
+    unknown_loads,
     vector_size,
 )
 from icsolve.statics.space.reaction_basis import (
@@ -177,7 +177,7 @@ class SpatialBalance(NamedTuple):
 
 def balance_of(powers: SpatialFactors, arithmetic: Arithmetic) -> SpatialBalance:
     """The unknown loads that make the power of all loads zero on every motion."""
-    unknown, rows, scale = unknowns_of(powers), power_rows(powers, arithmetic), force_scale(powers)
+    unknown, rows, scale = unknown_loads(powers), power_rows(powers, arithmetic), force_scale(powers)
     count = len(unknown)
     equations = [dict(enumerate(row.values)) for row in rows]
     general = eliminate(equations, count, vanishes=decider(arithmetic))

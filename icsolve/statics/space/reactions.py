@@ -29,7 +29,7 @@ from icsolve.numbers.arithmetic import Arithmetic, Scalar, Showing, decider, zer
 from icsolve.numbers.sparse import Row
 from icsolve.screws.space import AXES, Vec, cross, dot, size, square_to, sub, times, unit
 from icsolve.statics.equilibrium import value_of
-from icsolve.statics.power import unknowns_of
+from icsolve.statics.power import unknown_loads
 from icsolve.statics.reactions import SHARED, names_by_tie
 from icsolve.statics.space.power import (
     NEARLY,
@@ -96,7 +96,7 @@ def terms_of_power(
     case: Case, powers: SpatialFactors, values: Mapping[str, float], a: Arithmetic
 ) -> tuple[Term, ...]:
     """The sum of power, for the motion in which the one unknown load moves at 1 (length or rad a second)."""
-    unknowns = unknowns_of(powers)
+    unknowns = unknown_loads(powers)
     if len(unknowns) != 1:
         return ()
     (one,), loads = unknowns, powers.wrenches
@@ -347,7 +347,7 @@ def refuse_unbalanced(
     figure: SpatialFigure, twists: Twists, powers: SpatialFactors, balance: SpatialBalance
 ) -> None:
     """Refuse unknown loads that have no value, or any, and known loads that nothing balances."""
-    unknowns = unknowns_of(powers)
+    unknowns = unknown_loads(powers)
     if unknowns and not count_of(twists):
         raise SceneError(
             Status.STRUCTURE,
