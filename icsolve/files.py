@@ -157,7 +157,12 @@ def write_whole(path: str, data: str | bytes | Iterable[str | bytes], force: boo
 
 @contextmanager
 def folder_of(path: str) -> Iterator[None]:
-    """The folder of a file that is written within; what had to be made for it goes again where that fails."""
+    """The folder of a file that is written within; what had to be made for it goes again where that fails.
+
+    Raises KeptError where it is called ``-``, which is standard output: no folder goes there.
+    """
+    if path.startswith(f"-{os.sep}"):
+        raise KeptError("several files are written here, and '-' is standard output: name a folder")
     missing = []
     folder = os.path.dirname(os.path.abspath(path))
     while not os.path.lexists(folder):

@@ -150,6 +150,14 @@ def test_a_hyphen_is_ones_own_output_for_exports_too(capfd: pytest.CaptureFixtur
     assert not Path("-").exists()
 
 
+@pytest.mark.parametrize("writer", [*FOLDERS, "students"])
+def test_no_folder_is_called_a_hyphen(writer: str, capsys: pytest.CaptureFixture[str]) -> None:
+    line = {**FOLDERS, "students": "grade hand --cases cases -q --force -o out/g.csv --students {}"}[writer]
+    assert exit_status(*line.format("-").split()) == 2
+    assert "'-' is standard output: name a folder" in capsys.readouterr().err
+    assert not Path("-").exists()
+
+
 @pytest.mark.parametrize("writer", [w for w in WRITERS if w != "new"])
 @pytest.mark.parametrize("by", ["its name", "a link", "a hard link"])
 def test_what_is_read_is_never_written_over(writer: str, by: str, here: Path) -> None:

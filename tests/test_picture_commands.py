@@ -63,7 +63,7 @@ def test_the_case_itself_is_never_written_over(
     os.link(press, tmp_path / "hard.svg")
     for name in ("press.yaml", "../" + tmp_path.name + "/press.yaml", "link.svg", "hard.svg"):
         assert exit_status(verb, str(press), "-o", str(tmp_path / name)) == 2
-        assert "is the case itself, and is left as it is" in capsys.readouterr().err
+        assert "is one of the files read here, and is left as it is" in capsys.readouterr().err
         assert press.read_text() == text
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from contextlib import nullcontext
 
 import click
 
 from icsolve.cli.inputs import sources
 from icsolve.cli.run import DONE, UNREADABLE, complain
-from icsolve.files import KeptError, whole_file
+from icsolve.files import KeptError, folder_of, whole_file
 
 OUTPUT = click.option("-o", "--output", metavar="FILE", help="Write here instead of standard output.")
 
@@ -22,12 +23,12 @@ def one_source(verb: str, argument: str) -> bool:
 
 
 def write_output(
-    verb: str, text: str | bytes | Iterable[bytes], path: str | None, inputs: Iterable[str] = ()
+    verb: str, text: str | bytes | Iterable[bytes], path: str | None, folders: bool = False
 ) -> int:
     """Write to a file, or to standard output for None and ``-``; returns the exit status.
 
     The file appears whole or not at all, also where the content comes in parts; an input is refused, and
-    what can't be written is said.
+    what can't be written is said. With ``folders`` those that the file needs are made.
     """
     parts = [text] if isinstance(text, str | bytes) else text
     if path is None or path == "-":
@@ -35,15 +36,15 @@ def write_output(
             click.echo(part, nl=False)
         return DONE
     try:
-        with whole_file(path, binary=True) as file:
+        with folder_of(path) if folders else nullcontext(), whole_file(path, binary=True) as file:
             for part in parts:
                 file.write(part.encode("utf-8") if isinstance(part, str) else part)
-    except KeptError:
-        complain(f"icsolve {verb}: {path} is the case itself, and is left as it is; choose another name")
+    except KeptError as error:
+        complain(f"icsolve {verb}: {error}")
         return UNREADABLE
     except BrokenPipeError:
         raise
     except OSError as error:
-        complain(f"icsolve {verb}: {path} can't be written: {error.strerror or error}")
+        complain(f"icsolve {verb}: {error.filename or path} can't be written: {error.strerror or error}")
         return UNREADABLE
     return DONE

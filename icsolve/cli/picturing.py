@@ -175,7 +175,7 @@ def sheet_command(
         sheets.append((who, found))
     if not any(some for _, some in sheets):
         return max(worst, UNREADABLE)
-    return max(worst, write_output("sheet", sheet_tex(title, sheets), output, cases))
+    return max(worst, write_output("sheet", sheet_tex(title, sheets), output))
 
 
 Values = Mapping[str, str]
@@ -229,7 +229,7 @@ def laid_out(
         from icsolve.report.derivation import known_of
 
         known = known_of(case, reactions=reactions)
-        code = write_output(verb, made(known), output, [argument])
+        code = write_output(verb, made(known), output)
         if known.refusal is not None:
             on_stderr(case, path, known.refusal)
             return max(code, NO_ANSWER)

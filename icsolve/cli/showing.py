@@ -58,7 +58,7 @@ def gallery_command(
         more = f" (and {len(taken) - 1} more)" if len(taken) > 1 else ""
         complain(f"icsolve gallery: {taken[0]}{more} is there already; --force writes over what is there")
         return UNREADABLE
-    return _write(items, output, title or _title(cases), cases, exercises)
+    return _write(items, output, title or _title(cases), exercises)
 
 
 def _items(arguments: Iterable[str]) -> Iterator[Item]:
@@ -99,7 +99,7 @@ def _taken(items: Iterable[Item], output: str) -> list[str]:
     return [path for path in paths if os.path.lexists(path)]
 
 
-def _write(items: list[Item], output: str, title: str, inputs: Iterable[str], exercises: bool) -> int:
+def _write(items: list[Item], output: str, title: str, exercises: bool) -> int:
     """Show each case and write its files, then the index; returns the exit status."""
     from icsolve.page.gallery import index_html
 
@@ -110,11 +110,11 @@ def _write(items: list[Item], output: str, title: str, inputs: Iterable[str], ex
             one, code = _shown(item, exercises)
             if one is None:
                 continue
-            if not all(_put(output, item.name + ending, text, inputs) for ending, text in one.files.items()):
+            if not all(_put(output, item.name + ending, text) for ending, text in one.files.items()):
                 return UNREADABLE
             worst = max(worst, code)
             exhibits.append(one._replace(files={}))
-    done = _put(output, f"{INDEX}.html", index_html(exhibits, title), inputs)
+    done = _put(output, f"{INDEX}.html", index_html(exhibits, title))
     return worst if done else UNREADABLE
 
 
@@ -142,12 +142,6 @@ def _shown(item: Item, exercises: bool) -> tuple[Exhibit | None, int]:
     return one, DONE
 
 
-def _put(output: str, name: str, text: str, inputs: Iterable[str]) -> bool:
-    """Write a file of the gallery, and the folders that it needs; whether that was done."""
-    path = os.path.join(output, *name.split("/"))
-    try:
-        os.makedirs(os.path.dirname(path), exist_ok=True)
-    except OSError as error:
-        complain(f"icsolve gallery: {error.filename or path} can't be made: {error.strerror or error}")
-        return False
-    return write_output("gallery", text, path, inputs) == DONE
+def _put(output: str, name: str, text: str) -> bool:
+    """Write a file of the gallery; whether that was done."""
+    return write_output("gallery", text, os.path.join(output, *name.split("/")), folders=True) == DONE

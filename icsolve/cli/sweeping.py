@@ -199,7 +199,7 @@ def _pictured(found: Sweep, asked: SweepOptions) -> int:
 def _written(content: str | Iterable[bytes], path: str | None, asked: SweepOptions) -> int:
     """Write a table or a picture; that a file was there is said."""
     there = path is not None and os.path.isfile(path)
-    code = write_output("sweep", content, path, [asked.case])
+    code = write_output("sweep", content, path)
     if there and code == DONE:
         complain(f"icsolve sweep: {path} was there and is replaced")
     return code
