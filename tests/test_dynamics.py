@@ -448,6 +448,19 @@ motion: {link: 2, speed: 3}
     assert caught.value.status == "mobility"
 
 
+def test_inertia_forces_are_known_to_rounding() -> None:
+    """Of 200 g at 0.2 rad/s^2: they were not written, so no last decimal of theirs leaves anything open."""
+    answer = solved("""
+points: {A: [0, 0], G: [0.01, 0.001]}
+links: {2: {mass: 0.2 kg, centre: G, inertia: 0.2 kg*m^2}}
+joints: [{pin: [1, 2], at: A}]
+loads: {T: {torque: unknown, link: 2}}
+motion: {link: 2, speed: 0.3, acceleration: 0.2}
+""")
+    assert answer.answers["T"].value == pytest.approx(0.2 * 0.2 * (1.0 + 0.01**2 + 0.001**2), rel=1e-15)
+    assert answer.notes == ()
+
+
 # --- sweeps ----------------------------------------------------------------------------------------
 
 FOUR_BAR = """

@@ -103,6 +103,18 @@ def test_ways_are_listed_dyad_by_dyad() -> None:
     assert second.count(" or ") == 3
 
 
+def test_a_place_that_two_ways_share_is_listed_once_wherever_it_lies() -> None:
+    """Two dyads on one base, each with two places, far from the first pin against the figure's size."""
+    text = (
+        "points: {A: [0, 0], D: [0.9, 0.9], E: [0.9, 0]}\nlengths: {DB: 0.5, EB: 0.8, DC: 0.45, EC: 0.85}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [3, 4], at: B}, {pin: [4, 1], at: D}, {pin: [3, 1], at: E}, "
+        "{pin: [5, 6], at: C}, {pin: [5, 1], at: D}, {pin: [6, 1], at: E}]\nlinks: {2: [A]}\n"
+    )
+    status, message = refused(text)
+    assert status == Status.AMBIGUOUS
+    assert message.split("; ")[0].count(" or ") == message.split("; ")[1].count(" or ") == 1
+
+
 def test_a_later_near_chooses_an_earlier_dyad() -> None:
     text = FOUR_BAR.replace("CD: 2.5", "CD: 2.5, CE: 3, EG: 4").replace("D: [4, 0]", "D: [4, 0], G: [8, 0]")
     joints = LOOP + "  - {pin: [3, 5], at: C}\n  - {pin: [5, 6], at: E}\n  - {pin: [6, 1], at: G}\n"
@@ -267,6 +279,14 @@ def test_coordinates_that_cannot_draw_the_figure() -> None:
         + PINS
     )
     assert_refused(text, Status.NEAR_SINGULAR, "cannot resolve the figure", "near 1e+17", "16 apart")
+    text = "points: {A: [1e15, 0], D: [1e15, 0.5]}\nlengths: {AB: 0.1, BC: 0.3}\nangles: {AB: 60}\n" + PINS
+    assert_refused(text, Status.NEAR_SINGULAR, "cannot resolve the figure", "0.125 apart", "size is 0.5")
+
+
+@pytest.mark.parametrize("unit", ["1", "1e-18"])
+def test_lengths_alone_lie_nowhere_however_small(unit: str) -> None:
+    text = f"lengths: {{AB: {unit}, BC: {unit}, CA: {unit}}}\n" + PINS
+    assert_refused(text, Status.UNDERDETERMINED, "nothing fixes where the figure of A, B and C lies")
 
 
 def test_two_points_that_become_one() -> None:
@@ -279,8 +299,11 @@ def test_one_point_by_two_names_is_allowed() -> None:
     assert at["A"] == at["B"]
 
 
-def test_a_direction_between_points_that_coincide() -> None:
+@pytest.mark.parametrize("pin", ["A", "E"])
+def test_a_direction_between_points_that_coincide(pin: str) -> None:
+    """Where the frame has its origin, and apart from it."""
     text = "points: {A: [1, 1], B: [1, 1], E: [0, 0]}\nlengths: {BC: 2}\nangles: {ABC: 30}\n" + PINS
+    text = text.replace("at: A", f"at: {pin}", 1)
     assert_refused(text, Status.CANNOT_ASSEMBLE, "C has no place", "from B to A, and these coincide")
 
 

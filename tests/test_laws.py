@@ -6,11 +6,13 @@ answer as they should; the unknown may change roles and links. `ICSOLVE_FULL=1` 
 
 from __future__ import annotations
 
+import math
 from random import Random
 from typing import Any
 
 import pytest
 
+import icsolve
 import mechanisms
 import reference
 import transcribe
@@ -18,6 +20,7 @@ import transforms
 import witness
 from growth import random_mechanism
 from icsolve.answer import Centre
+from icsolve.errors import SceneError
 from sizes import MORE
 from solving import LAW, kinds, random_scenes, solved, told, unknown, whole
 from transcribe import Scene
@@ -194,3 +197,38 @@ def test_a_torque_elsewhere_does_the_same_work(scenes: list[Scene]) -> None:
             a, b = Random(k).sample(turning, 2)
             one, other = (unknown(transforms.moved_to(scene, n)) for n in (a, b))
             assert one * rates[a] == pytest.approx(other * rates[b], rel=LAW), told(scene)
+
+
+# --- what stands for motion where none is given, and centres that no motion has ------------------------
+
+
+@pytest.mark.parametrize("lean", [0.0, 30.0, 90.0, 150.0, 250.0])
+def test_where_no_link_turns_the_first_that_moves_does_so_at_unit_speed_to_the_right(lean: float) -> None:
+    """A block on an incline pushes another along the frame: at one length a second."""
+    answer = icsolve.solve(
+        icsolve.load(
+            f"icsolve: 1\npoints: {{A: [0, 0], B: [5, 1]}}\nlinks: {{2: [A]}}\n"
+            f"joints: [{{slide: [2, 1], at: A, along: {lean}}}, {{slide: [2, 3], at: B, along: 20}}, "
+            "{slide: [3, 1], at: B, along: 80}]\n"
+        ),
+        rates=True,
+    )
+    assert answer.velocities is not None
+    along = math.radians(lean) + (math.pi if 90.0 < lean < 270.0 else 0.0)
+    assert answer.velocities["A", "2"] == pytest.approx((math.cos(along), math.sin(along)), abs=1e-15)
+
+
+@pytest.mark.parametrize(("place", "miss"), [((3, 1), 1.6), ((9, 2), 5.8), ((-2, 2), 3)])
+def test_a_centre_off_the_line_of_two_others_is_refused_with_its_distance(
+    place: tuple[float, float], miss: float
+) -> None:
+    """From the line through (1, 1) and (4, 5); the figure's origin, the first joint, lies apart from it."""
+    with pytest.raises(SceneError, match=f"centre 1-3 lies {miss} m") as refused:
+        icsolve.solve(
+            icsolve.load(
+                f"icsolve: 1\npoints: {{A: [1, 1], B: [4, 5], C: {list(place)}}}\n"
+                "joints: [{centre: [1, 3], at: C}, {pin: [1, 2], at: A}, {pin: [2, 3], at: B}]\n"
+                "loads: {T: {torque: 1, link: 2}, U: {torque: unknown, link: 3}}\n"
+            )
+        )
+    assert refused.value.status == "contradictory-centres"

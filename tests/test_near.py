@@ -9,7 +9,9 @@ import pytest
 import yaml
 
 from figure_drafts import Draft, Place, framework
-from icsolve.assembly import case_point, solve_figure
+from icsolve.assembly import case_point, newton, solve_figure
+from icsolve.assembly.steps import Group
+from icsolve.assembly.workspace import Workspace
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.read import load
@@ -101,6 +103,38 @@ def test_rings_of_forty_beside_others(seed: int) -> None:
     places = places_of(load(text))
     near = {p: at for p, at in places_near(text).items() if p in places}
     assert off(near, places) <= off(near, at) * (1.0 + 1e-9)
+
+
+def test_data_that_no_place_meets_are_violated_least_where_the_descent_from_near_ends(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A plate on three legs that are too short: there the gradient of the squares' sum vanishes."""
+    descent, ends = newton._least_residual, []
+
+    def kept(group: Group, workspace: Workspace, start: newton.Start, reach: float) -> newton.Start:
+        end = descent(group, workspace, start, reach)
+        for at in (start, end):
+            workspace.points.update(at)
+            values, rows = group.system(workspace)
+            slope = [sum(row.get(k, 0.0) * v for row, v in zip(rows, values, strict=True)) for k in range(6)]
+            ends.append((math.hypot(*values), math.hypot(*slope)))
+        return end
+
+    monkeypatch.setattr(newton, "_least_residual", kept)
+    for k in range(6 * MORE):
+        rng = Random(f"legs {k}")
+        feet, near = ([[rng.uniform(-s, s) for _ in "xy"] for _ in range(3)] for s in (6.0, 4.0))
+        text = f"""icsolve: 1
+points: {{{", ".join(f"{p}: {at}" for p, at in zip("ABC", feet, strict=True))}}}
+lengths: {{AP: 0.3, BQ: 0.2, CR: 0.4, PQ: 1, QR: {rng.uniform(0.6, 1.5)}, PR: 0.9}}
+near: {{{", ".join(f"{p}: {at}" for p, at in zip("PQR", near, strict=True))}}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [1, 3], at: B}}, {{pin: [1, 4], at: C}}]
+"""
+        with pytest.raises(SceneError, match="no position found"):
+            solve_figure(load(text), ["P"])
+    assert len(ends) == 12 * MORE
+    for (before, steep), (after, flat) in zip(ends[::2], ends[1::2], strict=True):
+        assert after < before and flat < 1e-3 * steep
 
 
 SIX = """

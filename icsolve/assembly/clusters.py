@@ -418,9 +418,9 @@ def _means(cluster: Cluster, point: str) -> Iterator[tuple[Cost, Step]]:
         others = [cluster.key(p) for p in of if p != point]
         if not all(p in cluster.placed for p in datum.points if p != point):
             continue
-        if point == whole and point not in of:
+        if point == whole:
             yield (EXACT, EXACT, 0), Mean(cluster.key(point), datum, tuple(others))
-        elif point != whole:
+        else:
             parts = len(of) - len(others)
             yield (EXACT, EXACT, 0), Mean(cluster.key(point), datum, tuple(others), cluster.key(whole), parts)
 

@@ -392,12 +392,13 @@ def _side(column: int, fixed: Point, axis: int, low: Array, high: Array) -> tupl
 
 
 def _put(link: _Link, axis: int, d_low: Array, d_high: Array, empty: Mask, low: Array, high: Array) -> None:
-    """Narrow both ends by the difference of their coordinates; an empty box gets bounds that cross."""
+    """Narrow both ends by the difference of their coordinates, whose bounds lie outward by `SLACK`; an empty
+    box gets bounds that cross."""
     a_low, a_high = _side(link.a, link.fixed_a, axis, low, high)
     b_low, b_high = _side(link.b, link.fixed_b, axis, low, high)
     if link.b >= 0:
-        low[:, link.b + axis] = np.where(empty, np.inf, np.maximum(b_low, a_low + d_low - SLACK))
-        high[:, link.b + axis] = np.where(empty, -np.inf, np.minimum(b_high, a_high + d_high + SLACK))
+        low[:, link.b + axis] = np.where(empty, np.inf, np.maximum(b_low, a_low + d_low))
+        high[:, link.b + axis] = np.minimum(b_high, a_high + d_high)
     if link.a >= 0:
-        low[:, link.a + axis] = np.where(empty, np.inf, np.maximum(a_low, b_low - d_high - SLACK))
-        high[:, link.a + axis] = np.where(empty, -np.inf, np.minimum(a_high, b_high - d_low + SLACK))
+        low[:, link.a + axis] = np.where(empty, np.inf, np.maximum(a_low, b_low - d_high))
+        high[:, link.a + axis] = np.minimum(a_high, b_high - d_low)

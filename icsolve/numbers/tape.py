@@ -66,7 +66,7 @@ class Taped:
                 return self
             size = max(size, abs(y))
         value = x + y
-        noise = UNIT * value if value >= 0.0 else -UNIT * value
+        noise = UNIT * abs(value)
         return Taped(self.tape, (self.index, 1.0, k, 1.0, noise if x and y else 0.0), value, size)
 
     __radd__ = __add__
@@ -85,7 +85,7 @@ class Taped:
                 return self
             size = max(size, abs(y))
         value = x - y
-        noise = UNIT * value if value >= 0.0 else -UNIT * value
+        noise = UNIT * abs(value)
         return Taped(self.tape, (self.index, 1.0, k, -1.0, noise if x and y else 0.0), value, size)
 
     def __rsub__(self, other: float) -> Taped:
@@ -96,7 +96,7 @@ class Taped:
         if type(other) is Taped:
             y, k, size = other.value, other.index, other.size
             value = x * y
-            noise = UNIT * value if value >= 0.0 else -UNIT * value
+            noise = UNIT * abs(value)
             return Taped(self.tape, (self.index, y, k, x, noise), value, self.size * size)
         y = float(other)
         if y == 1.0:

@@ -89,10 +89,9 @@ def _found(case: Case, program: Program, arithmetic: Balls) -> tuple[Case, Accel
         case, program.top, frame, points, outcome.motions.twists, arithmetic, outcome.motions.slack
     )
     _refuse_open(case, moves)
-    size = moves.size
 
     def number(value: Scalar, path: str) -> Number:
-        near = _rounded(value, arithmetic, abs(value) + size)
+        near = _rounded(value, arithmetic, moves.size)
         return Number(near, 0.0, path, repr(near))
 
     loads: list[Load] = []

@@ -222,7 +222,7 @@ def equilibrium(
     """
     bare = columns_of(tuple(ties), balance, position.arithmetic, position.ropes, tuple(rubs))
     ground = position.case.ground
-    return solve_statics(bare, actions_of(bare, position, balance.wrenches), ground, position.mobility)
+    return solve_statics(bare, actions_of(bare, position, balance.wrenches), ground)
 
 
 def columns_of(
@@ -241,9 +241,7 @@ def columns_of(
     )
 
 
-def solve_statics(
-    bare: Equilibrium[T], actions: Iterable[Action], ground: str, mobility: int
-) -> Equilibrium[T]:
+def solve_statics(bare: Equilibrium[T], actions: Iterable[Action], ground: str) -> Equilibrium[T]:
     """The statics with its equations and their general solution.
 
     Parameters
@@ -251,25 +249,15 @@ def solve_statics(
     bare : ties, columns, scale
     actions : of all columns; those of the joints first
     ground : link without equations
-    mobility : motions of the links: how many equations have to lose all joints. Where the rounding of
-        floats hides that number, it is looked for a little above and below
     """
     equations = _equations(actions, bare.known, ground)
     rows = [row for _, rows in equations.values() for row in rows]
     vanishes = decider(bare.arithmetic)
-    general = usual = eliminate(rows, bare.known, vanishes=vanishes)
-    if vanishes is None:
-        for spent in SPENT_TRIES:
-            if len(general.left) == mobility:
-                break
-            general = eliminate(rows, bare.known, spent)
-    fits = vanishes is not None or len(general.left) == mobility
-    return bare._replace(equations=equations, general=general if fits else usual)
+    return bare._replace(equations=equations, general=eliminate(rows, bare.known, vanishes=vanishes))
 
 
 UNIQUE = 1e-9
 """In floats a share below this fraction of the largest is rounding."""
-SPENT_TRIES = (1e-12, 1e-11, 1e-10, 1e-14, 1e-15)
 
 
 def _equations(actions: Iterable[Action], known: int, ground: str) -> Equations:

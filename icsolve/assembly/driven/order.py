@@ -173,13 +173,10 @@ def train_ratios(ratios: Sequence[Turning], known: Collection[int]) -> tuple[int
     rows = [_row(ratio) for ratio in ratios]
     done: list[tuple[int, _Row]] = []
     while rows:
-        body, row = max(
-            ((b, r) for r in rows for b in _open(r, known)),
-            key=lambda pair: abs(float(pair[1].factors[pair[0]])) / _size(pair[1]),
-            default=(-1, rows[0]),
-        )
-        if body < 0:
+        choices = [(b, r) for r in rows for b in _open(r, known)]
+        if not choices:
             break
+        body, row = max(choices, key=lambda pair: abs(float(pair[1].factors[pair[0]])) / _size(pair[1]))
         rows = [_without(other, row, body) for other in rows if other is not row]
         done = [(b, _without(other, row, body)) for b, other in done]
         done.append((body, row))

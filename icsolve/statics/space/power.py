@@ -197,14 +197,13 @@ def spatial_statics(
     figure: SpatialFigure,
     ties: tuple[SpatialTie, ...],
     powers: SpatialFactors,
-    mobility: int,
 ) -> SpatialStatics:
     """Solve the equilibrium of every link in space but the frame: six equations a link.
 
     Parameters and result as of `icsolve.statics.equilibrium.equilibrium`.
     """
     bare = columns_of(ties, powers, figure.arithmetic)
-    return solve_statics(bare, _actions(bare, figure, powers.wrenches), case.ground, mobility)
+    return solve_statics(bare, _actions(bare, figure, powers.wrenches), case.ground)
 
 
 def _actions(

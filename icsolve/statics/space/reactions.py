@@ -393,8 +393,8 @@ def driven_motion(
     rests = zip(balance.unbalanced, balance.left, strict=True)
     shares = [rest / most if rest else 0.0 for rest, (_, most) in rests]
     most = max(range(len(shares)), key=lambda m: abs(shares[m]))
-    sense = math.copysign(1.0, shares[most])
-    motion = {link: [sense * float(part) for part in each[most]] for link, each in twists.items()}
+    back = shares[most] < 0.0
+    motion = {q: [-float(a) if back else float(a) for a in each[most]] for q, each in twists.items()}
     link = moving(motion, [w.load.link for w in powers.wrenches])
     return motion_words(link, motion, figure)
 

@@ -163,7 +163,7 @@ def _solved(
 ) -> SpatialSolution:
     twists = motions_of(case, ties, figure.arithmetic)
     powers = balance(loads, twists, count_of(twists))
-    statics = spatial_statics(case, figure, ties, powers, count_of(twists))
+    statics = spatial_statics(case, figure, ties, powers)
     refuse_doubt(len(statics.general.left), count_of(twists))
     return SpatialSolution(twists, balance_of(powers, figure.arithmetic), statics, powers)
 
