@@ -17,7 +17,7 @@ from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, size_of, zero_of
 from icsolve.screws.plane import velocity
-from icsolve.statics.equilibrium import Statics, Transmits, value_of
+from icsolve.statics.equilibrium import Equilibrium, Statics, T, Transmits, value_of
 from icsolve.statics.reaction_basis import Position, Tie, axial_shares, tangent_and_separating
 from icsolve.wording.sentences import listed, plural
 
@@ -244,10 +244,13 @@ def notes_of(statics: Statics, reactions: Reactions, names: Sequence[str]) -> tu
 def _not_unique(statics: Statics, shown: Sequence[Reaction], names: Sequence[str]) -> Iterable[str]:
     said = _open_parts(dict(zip(names, shown, strict=True)))
     if said:
-        yield (
-            f"equilibrium leaves {plural(len(statics.general.free), 'part')} of the reactions open; not "
-            f"determined: {', '.join(said)}. {_remedy(statics.ties)}"
-        )
+        yield left_open(statics, said, _remedy(statics.ties))
+
+
+def left_open(statics: Equilibrium[T], said: Iterable[str], remedy: str) -> str:
+    """The sentence on reactions that equilibrium does not determine."""
+    parts = plural(len(statics.general.free), "part")
+    return f"equilibrium leaves {parts} of the reactions open; not determined: {', '.join(said)}. {remedy}"
 
 
 def _open_parts(shown: Mapping[str, Reaction]) -> list[str]:
@@ -271,7 +274,10 @@ def _remedy(ties: Sequence[Tie]) -> str:
             "The bearing loads depend on the belt's initial tension: in place of the belt put its two pulls "
             "on the pulleys as loads."
         )
-    return "The joints are redundant: how they share the load depends on their fit and stiffness."
+    return REDUNDANT
+
+
+REDUNDANT = "The joints are redundant: how they share the load depends on their fit and stiffness."
 
 
 def _touching(tie: Tie, reaction: Reaction) -> Iterable[str]:

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from icsolve.answer import Found
 from icsolve.case import Area, Case, Force, Load, Spring, Stretch, Torque, TorsionSpring, Toward, Weight
+
+if TYPE_CHECKING:
+    from icsolve.case.space import Load as SpatialLoad
 
 SPELT = {"ccw": "counterclockwise", "cw": "clockwise"}
 
@@ -65,7 +69,7 @@ def holding(found: Found, show: Show) -> str:
     return f"holds still {reach}" + (", self-locking" if found.self_locking else "")
 
 
-def unit_of(load: Load, case: Case) -> str:
+def unit_of(load: Load | SpatialLoad, case: Case) -> str:
     """Unit in which a load's number is given and printed."""
     match load:
         case Torque():

@@ -21,7 +21,6 @@ from icsolve.case.space import (
     SpatialForce,
     SpatialTorque,
     Thrust,
-    TorqueVector,
     Vector,
 )
 from icsolve.errors import SceneError, Status
@@ -30,7 +29,7 @@ from icsolve.numbers.sparse import Row
 from icsolve.screws.space import AXES, Vec, cross, dot, size, square_to, sub, times, unit
 from icsolve.statics.equilibrium import value_of
 from icsolve.statics.power import unknown_loads
-from icsolve.statics.reactions import SHARED, names_by_tie
+from icsolve.statics.reactions import REDUNDANT, SHARED, left_open, names_by_tie
 from icsolve.statics.space.power import (
     NEARLY,
     SpatialBalance,
@@ -43,19 +42,13 @@ from icsolve.statics.space.power import (
 )
 from icsolve.statics.space.reaction_basis import SpatialFigure, SpatialFrame, SpatialTie
 from icsolve.structure.topology import reached
-from icsolve.wording.sentences import listed, plural, wrong_count
+from icsolve.wording import senses, sentences
+from icsolve.wording.sentences import plural, wrong_count
 
 
 def unit_of(load: Load, case: Case) -> str:
     """Unit in which a load's number is given and printed."""
-    match load:
-        case SpatialTorque() | TorqueVector():
-            return case.units.torque
-        case Weight(mass=True):
-            return "kg"
-        case Spring():
-            return f"{case.units.force}/{case.units.length}"
-    return case.units.force
+    return case.units.torque if is_couple(load) else senses.unit_of(load, case)
 
 
 def sense_of(w: SpatialWrench, value: float) -> str:
@@ -338,9 +331,7 @@ def refuse_loose(case: Case, ties: Sequence[SpatialTie]) -> None:
     seen = reached((case.ground,), beside)
     loose = [link for link in case.links if link not in seen]
     if loose:
-        which = f"link {loose[0]}" if len(loose) == 1 else f"links {listed(loose)}"
-        said = f"no chain of joints ties {which} to the frame {case.ground}. Add a joint."
-        raise SceneError(Status.LOOSE, said)
+        raise SceneError(Status.LOOSE, sentences.loose(case, loose))
 
 
 def refuse_unbalanced(
@@ -441,13 +432,8 @@ def notes_of(
 
 def _not_unique(statics: SpatialStatics, reactions: SpatialReactions) -> Iterable[str]:
     named = [part for name, reaction in reactions.items() for part in _open_parts(name, reaction)]
-    if not named:
-        return
-    yield (
-        f"equilibrium leaves {plural(len(statics.general.free), 'part')} of the reactions open; not "
-        f"determined: {', '.join(named)}. "
-        "The joints are redundant: how they share the load depends on their fit and stiffness."
-    )
+    if named:
+        yield left_open(statics, named, REDUNDANT)
 
 
 def _open_parts(name: str, reaction: SpatialReaction) -> Iterable[str]:
