@@ -9,7 +9,7 @@ a value.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterable
 from itertools import pairwise
 
 from icsolve.assembly.loci import length_of
@@ -26,7 +26,7 @@ from icsolve.assembly.workspace import (
     X,
     Y,
 )
-from icsolve.case import Case
+from icsolve.case import Case, Number
 from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
@@ -272,10 +272,11 @@ def refuse_misfit(case: Case, top: Topology, points: Points, scale: float) -> No
         if module is None or not {*bond.pivots} <= points.keys():
             continue
         assert isinstance(bond.joint, Mesh)
-        fit = abs(bond.joint.sizes[0].value + bond.joint.sizes[1].value) * module / 2.0
-        apart = math.dist(*(points[p] for p in bond.pivots)) / scale
-        if abs(apart - fit) > MISFIT * fit:
-            raise SceneError(Status.INCONSISTENT, _misfit(case, bond, fit, apart))
+        (a, b), apart = bond.links, math.dist(*(points[p] for p in bond.pivots)) / scale
+        line, _ = case.marks.get(f"joints.{a}-{b}", (0, 0))
+        what = f"gears {a} and {b}" + (f" (line {line})" if line else "")
+        ends = (*bond.pivots, "pivots")
+        refuse_unfit(what, bond.joint.sizes, module, apart, ends, f" {case.units.length}")
 
 
 def _module(bond: Bond) -> float | None:
@@ -283,13 +284,21 @@ def _module(bond: Bond) -> float | None:
     return bond.joint.pitch if isinstance(bond.joint, Mesh) and bond.pivots[0] else None
 
 
-def _misfit(case: Case, bond: Bond, fit: float, apart: float) -> str:
-    a, b = bond.links
-    line, _ = case.marks.get(f"joints.{a}-{b}", (0, 0))
-    where = f" (line {line})" if line else ""
-    unit, (p, q) = case.units.length, bond.pivots
-    return (
-        f"the teeth of gears {a} and {b}{where} do not fit: their pitch circles touch where the pivots are "
-        f"{fit:.6g} {unit} apart, and {p} and {q} are {apart:.6g} {unit} apart. Correct the teeth, the pitch "
-        "or module, or the pivots."
-    )
+def refuse_unfit(
+    what: str,
+    teeth: Iterable[Number],
+    module: float,
+    apart: float,
+    ends: tuple[str, str, str],
+    unit: str = "",
+) -> None:
+    """Refuse two wheels whose pitch circles do not touch at this distance of their centres; ``ends`` are
+    these, and the word for them."""
+    fit, (p, q, centres) = abs(sum(n.value for n in teeth)) * module / 2.0, ends
+    if abs(apart - fit) > MISFIT * fit:
+        raise SceneError(
+            Status.INCONSISTENT,
+            f"the teeth of {what} do not fit: their pitch circles touch where the {centres} are {fit:.6g}"
+            f"{unit} apart, and {p} and {q} are {apart:.6g}{unit} apart. Correct the teeth, the pitch or "
+            f"module, or the {centres}.",
+        )

@@ -15,6 +15,7 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import assert_never
 
+from icsolve.assembly.conditions import refuse_unfit
 from icsolve.case import Case, Centroid, Number, Spring, Toward
 from icsolve.case.space import (
     Along,
@@ -326,8 +327,6 @@ def _nearly_one_axis(a: SpatialTie, b: SpatialTie) -> bool:
 
 SQUARE = 2e-3
 """The line of the centres may lean against the plane of the wheels by this (sine)."""
-MISFIT = 2e-3
-"""Centres may miss the distance of the pitch radii by this fraction of it."""
 
 
 class SpatialMesh(NamedTuple):
@@ -407,7 +406,9 @@ def mesh_of(joint: GearPair, axis: Vec, figure: SpatialFigure, what: str) -> Spa
         raise SceneError(Status.INCONSISTENT, f"the centres of {what} lie at one place. Correct the points.")
     apart = size(line, arithmetic)
     _refuse_oblique(unit(line, arithmetic), axis, what)
-    _refuse_misfit(joint, apart, what, arithmetic)
+    module, (a, b) = _transverse_module(joint.teeth, arithmetic), joint.centres
+    if module is not None:
+        refuse_unfit(what, joint.counts, float(module), float(apart), (a, b, "centres"))
     n, m = map(arithmetic.given, joint.counts)
     at = add(first, times(n / (n + m), line))
     radii = (abs(n / (n + m)) * apart, abs(m / (n + m)) * apart)
@@ -455,19 +456,4 @@ def _refuse_oblique(line: Vec, axis: Vec, what: str) -> None:
             Status.INCONSISTENT,
             f"the line of the centres of {what} is not square to their axis: gears here have parallel axes "
             "and lie in one plane. Correct the centres or the axis.",
-        )
-
-
-def _refuse_misfit(joint: GearPair, apart: Scalar, what: str, arithmetic: Arithmetic) -> None:
-    module = _transverse_module(joint.teeth, arithmetic)
-    if module is None:
-        return
-    fit = abs(sum(count.value for count in joint.counts)) * float(module) / 2.0
-    if abs(float(apart) - fit) > MISFIT * fit:
-        (g, h), found = joint.centres, float(apart)
-        raise SceneError(
-            Status.INCONSISTENT,
-            f"the teeth of {what} do not fit: their pitch circles touch where the centres are {fit:.6g} "
-            f"apart, and {g} and {h} are {found:.6g} apart. Correct the teeth, the pitch or module, or the "
-            "centres.",
         )
