@@ -19,7 +19,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import LOOSE, NO_SPEED, fastest, meant, path_of, speed_of
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, all_vanish, decider
 from icsolve.numbers.sparse import SPENT, Row, eliminate
-from icsolve.screws.joints import Points, freedoms, guide_direction, mesh_weights, transmitted
+from icsolve.screws.joints import Points, at_radius, freedoms, guide_direction, mesh_weights, transmitted
 from icsolve.screws.plane import Point, Triple, add, cross, pairing, subtract, velocity
 from icsolve.screws.ropes import part_changes, rope_parts
 from icsolve.structure.topology import Bond, Topology
@@ -29,8 +29,7 @@ from icsolve.wording.sentences import listed
 
 STILL: Triple = (0.0, 0.0, 0.0)
 NEAR = 2e-3
-"""A wheel's centre may miss its radius by this fraction of it, and contacts as written a motion by so much of
-the figure's size."""
+"""Contacts as written may miss a motion by so much of the figure's size."""
 GROWN = 1e4
 """By so much what contacts miss may grow in the elimination."""
 
@@ -371,12 +370,11 @@ def _normal(place: _Place, joint: Rolling) -> Point:
     px, py = place.points[joint.at]
     pins = {j.at for j in place.case.joints if isinstance(j, Pin)}
     for link, radius, sense in zip(joint.links, joint.radii, (-1.0, 1.0), strict=True):
-        carried = [p for p in place.case.carries.get(link, ()) if p != joint.at and p in place.points]
-        for name in sorted(carried, key=lambda p: p not in pins):
-            x, y = place.points[name][0] - px, place.points[name][1] - py
-            size = place.arithmetic.sqrt(x * x + y * y)
-            reach = abs(radius.value) * place.frame.scale
-            if radius.value and abs(float(size) - reach) <= NEAR * reach:
-                sign = sense if radius.value > 0.0 else -sense
-                return sign * x / size, sign * y / size
+        carried, reach = place.case.carries.get(link, ()), radius.value * place.frame.scale
+        near = at_radius(carried, joint.at, reach, place.points)
+        if near:
+            x, y = place.points[min(near, key=lambda p: p not in pins)]
+            x, y = x - px, y - py
+            size, sign = place.arithmetic.sqrt(x * x + y * y), sense if reach > 0.0 else -sense
+            return sign * x / size, sign * y / size
     raise _unknown(joint, "no point of its round link lies at its radius. Name its centre, under `links`")

@@ -6,7 +6,8 @@ point; with two freedoms it lies on the line that joins them.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterable, Mapping
 
 from icsolve.case import Guide, Joint
 from icsolve.case.joints import CentreAt, CentreSquareTo, JointCentre, Mesh
@@ -63,6 +64,26 @@ def _points(centre: JointCentre) -> tuple[str, ...]:
     if isinstance(centre, CentreAt):
         return (centre.point,)
     return centre.guide.ends or () if isinstance(centre, CentreSquareTo) else ()
+
+
+OFF_RADIUS = 2e-3
+"""The centre of a wheel may miss its radius by this fraction of it."""
+
+
+def at_radius(names: Iterable[str], contact: str, radius: float, points: Points) -> list[str]:
+    """The points that may be the centre of a link that rolls: at its radius from where it touches, the
+    nearest to it first.
+
+    Parameters
+    ----------
+    names : points of the link; those without a place are left out
+    radius : of either sign [frame]; at 0 there is none
+    points : by name [frame]
+    """
+    r = abs(radius)
+    placed = [p for p in names if p != contact and p in points]
+    off = {p: abs(math.dist(points[p], points[contact]) - r) for p in placed}
+    return sorted((p for p in off if off[p] <= OFF_RADIUS * r and r), key=off.__getitem__)
 
 
 def guide_direction(guide: Guide, points: Points, arithmetic: Arithmetic) -> Point:

@@ -10,16 +10,14 @@ pressure angle, pushes each externally toothed gear toward its own pivot, whiche
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 
-from icsolve.assembly.conditions import MISFIT
 from icsolve.case import Case, Guide, Joint, Pin, Rope, Screw, Slide, Thread
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import TURN
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
-from icsolve.screws.joints import Points, freedoms, guide_direction, pitch_point, transmitted
+from icsolve.screws.joints import Points, at_radius, freedoms, guide_direction, pitch_point, transmitted
 from icsolve.screws.plane import Point, Triple, shift, subtract
 from icsolve.screws.ropes import RopePart, rope_parts
 from icsolve.structure.topology import Bond, Topology, pairs_of
@@ -341,12 +339,12 @@ def _wheel(position: Position, tie: Tie) -> tuple[str, Point]:
     for link, radius in zip(tie.joint.links, radii, strict=True):
         if link == position.case.ground or (radius is not None and radius.value <= 0.0):
             continue
-        for joint in position.case.joints:
-            if isinstance(joint, Pin) and link in joint.links and joint.at != tie.joint.at:
-                centre = position.points[joint.at]
-                apart = math.dist(centre, tie.at) / position.scale
-                if radius is None or abs(apart - radius.value) <= MISFIT * radius.value:
-                    return link, centre
+        pins = [pin.at for pin in position.case.joints if isinstance(pin, Pin) and link in pin.links]
+        found = [p for p in pins if p != tie.joint.at]
+        if radius is not None:
+            found = at_radius(pins, tie.joint.at, radius.value * position.scale, position.points)
+        if found:
+            return link, position.points[found[0]]
     raise SceneError(
         Status.UNSUPPORTED,
         f"the teeth of links {tie.by} and {tie.on} need the pin of the round one: give `radii`, and the pin "

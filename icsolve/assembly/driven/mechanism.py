@@ -26,15 +26,13 @@ from icsolve.case.joints import CentreAt, Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.numbers.record import Record
-from icsolve.screws.joints import guide_direction, joint_freedoms, transmitted
+from icsolve.screws.joints import at_radius, guide_direction, joint_freedoms, transmitted
 from icsolve.screws.plane import Point
 from icsolve.screws.ropes import offsets_of, rope_parts
 from icsolve.structure.topology import Bond, Topology
 from icsolve.tuples import NamedTuple
 from icsolve.wording.joints import why_not_moved
 
-NEAR = 2e-3
-"""A centre may miss its radius by this fraction of it."""
 ROUNDED = 1e-14
 """A distance that misses the given one by no more is the given one, rounded (normalised)."""
 
@@ -148,7 +146,7 @@ def _centres(
 ) -> tuple[str | None, str | None]:
     """A point of each round link that lies at its radius from the contact; None where there is none."""
     at = ref[joint.at]
-    one, two = (_options(side, joint.at, at, ref) for side in sides)
+    one, two = (at_radius(side.points, joint.at, float(side.radius), ref) for side in sides)
     if one and two:
         return min(((p, q) for p in one for q in two), key=lambda pair: _bend(at, ref[pair[0]], ref[pair[1]]))
     if one:
@@ -171,19 +169,6 @@ def _only(joint: Rolling, side: RollingSide, options: list[str]) -> str:
         f"{' and '.join(named)} of link {side.link} both lie at its radius from {joint.at}, and nothing says "
         "which is the centre. Name the centre of the other link too, under `links`, or take one of them out",
     )
-
-
-def _options(side: RollingSide, contact: str, at: Point, ref: Mapping[str, Point]) -> list[str]:
-    """The points of a link at its radius from the contact, the nearest to it first."""
-    r = abs(float(side.radius))
-    if r == 0.0:
-        return []
-    off = {
-        name: abs(math.hypot(float(ref[name][0] - at[0]), float(ref[name][1] - at[1])) - r)
-        for name in side.points
-        if name != contact and name in ref
-    }
-    return sorted((name for name in off if off[name] <= NEAR * r), key=lambda name: off[name])
 
 
 def _bend(at: Point, p: Point, q: Point) -> float:
