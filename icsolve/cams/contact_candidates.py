@@ -9,8 +9,7 @@ import math
 from collections.abc import Iterator
 
 from icsolve.cams.curve import Body, Curve, Foot
-from icsolve.cams.pieces import TURN, Point
-from icsolve.errors import SceneError, Status
+from icsolve.cams.pieces import TURN, Point, unit
 from icsolve.numbers.roots import zero_between
 from icsolve.tuples import NamedTuple
 
@@ -184,11 +183,15 @@ class Meeting(NamedTuple):
     foot : where it is least
     normals : the unit normal from the profile into the follower; at a corner on which a knife edge stands
         two, and any between them will do
+    ties : feet elsewhere that are as near to the follower as far as doubles tell, with the ways to it
+    shared : what is said where these touch as well; empty where none of them seems to
     """
 
     gap: float
     foot: Foot
     normals: tuple[Point, ...]
+    ties: tuple[tuple[Foot, Point], ...] = ()
+    shared: str = ""
 
 
 def gap_of(curve: Curve, body: Body, side: float) -> tuple[float, Foot]:
@@ -207,21 +210,52 @@ def gap_of(curve: Curve, body: Body, side: float) -> tuple[float, Foot]:
     return height - body.radius, foot
 
 
-def meeting_of(curve: Curve, body: Body, side: float, what: str) -> Meeting:
+def meeting_of(curve: Curve, body: Body, side: float) -> Meeting:
     """The meeting of a profile and a follower that (nearly) touch.
 
-    Raises SceneError where the follower touches it at several places at once.
+    Of the ties those touch that are corners, or whose normal leads to the follower, too: beside the end of a
+    piece that of the next is nearly as near.
     """
     gap, foot = gap_of(curve, body, side)
     if body.kind == "flat face":
         way = (-side * body.face[1], side * body.face[0])
-        _refuse_edge(curve, way, what)
-        return Meeting(gap, foot, (way,))
+        first, *others = curve.farthest(way)
+        reach = way[0] * first.point[0] + way[1] * first.point[1]
+        ties = [o for o in others if abs(_dot(way, o.point) - reach) <= AT_ONE * curve.size]
+        return _shared(Meeting(gap, foot, (way,)), curve, ties, [way] * len(ties), ALONG)
     if foot.is_corner and math.dist(foot.point, body.at) <= AT_ONE * curve.size:
         return Meeting(gap, foot, foot.normals)
-    if body.kind == "roller":
-        _refuse_second(curve, body, foot, what)
-    return Meeting(gap, foot, (_toward(foot, body),))
+    met = Meeting(gap, foot, (_toward(foot, body),))
+    if body.kind != "roller":
+        return met
+    near = math.dist(foot.point, body.at) + AT_ONE * curve.size
+    ties = [o for o in curve.nearest(body.at)[1:] if math.dist(o.point, body.at) <= near]
+    ways = [unit(body.at[0] - o.point[0], body.at[1] - o.point[1]) for o in ties]
+    return _shared(met, curve, ties, ways, TWICE)
+
+
+ALONG = (
+    "the flat face lies on the profile along a line, or at two places, so no one point carries the force. "
+    "Give the contact its `at` and `normal`, or take a `slide` for a block on an edge."
+)
+TWICE = (
+    "the roller touches the profile at two places at once. Give the contact the `at` and the `normal` of the "
+    "one that carries."
+)
+
+
+def _shared(met: Meeting, curve: Curve, feet: list[Foot], ways: list[Point], said: str) -> Meeting:
+    """A meeting with its ties: those of some feet, with the ways to the follower, that lie elsewhere."""
+    away = [
+        (foot, way)
+        for foot, way in zip(feet, ways, strict=True)
+        if math.dist(foot.point, met.foot.point) > AT_ONE * curve.size
+    ]
+    touch = [
+        foot.is_corner or abs(foot.normals[0][0] * y - foot.normals[0][1] * x) <= AT_ONE
+        for foot, (x, y) in away
+    ]
+    return met._replace(ties=tuple(away), shared=said if any(touch) else "")
 
 
 def _toward(foot: Foot, body: Body) -> Point:
@@ -231,31 +265,3 @@ def _toward(foot: Foot, body: Body) -> Point:
     x, y = body.at[0] - foot.point[0], body.at[1] - foot.point[1]
     length = math.hypot(x, y) * (1.0 if foot.is_convex else -1.0)
     return (x / length, y / length)
-
-
-def _refuse_edge(curve: Curve, way: Point, what: str) -> None:
-    """A face flat on a straight edge, or on two corners."""
-    first, *others = curve.farthest(way)
-    reach = way[0] * first.point[0] + way[1] * first.point[1]
-    for foot in others:
-        level = abs(way[0] * foot.point[0] + way[1] * foot.point[1] - reach) <= AT_ONE * curve.size
-        if level and math.dist(foot.point, first.point) > AT_ONE * curve.size:
-            raise SceneError(
-                Status.UNSUPPORTED,
-                f"{what}: the flat face lies on the profile along a line, or at two places, so no one point "
-                "carries the force. Give the contact its `at` and `normal`, or take a `slide` for a block on "
-                "an edge.",
-            )
-
-
-def _refuse_second(curve: Curve, body: Body, foot: Foot, what: str) -> None:
-    """A roller in a hollow corner."""
-    near = math.dist(foot.point, body.at) + AT_ONE * curve.size
-    for other in curve.nearest(body.at)[1:]:
-        apart = math.dist(other.point, foot.point) > AT_ONE * curve.size
-        if apart and math.dist(other.point, body.at) <= near:
-            raise SceneError(
-                Status.UNSUPPORTED,
-                f"{what}: the roller touches the profile at two places at once. Give the contact the `at` "
-                "and the `normal` of the one that carries.",
-            )

@@ -7,10 +7,14 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
+from decimal import Decimal
 
 from icsolve.answer.contacts import Touching
 from icsolve.assembly import case_point, solve_figure
 from icsolve.cams.contact_candidates import (
+    ALONG,
+    AT_ONE,
+    TWICE,
     Candidate,
     Freedom,
     Meeting,
@@ -27,6 +31,8 @@ from icsolve.cams.enclosed_contact import (
     FollowerPlaces,
     LocusFinder,
     TouchingAbout,
+    Vector,
+    at_least,
     ball_places,
     enclosed_contact,
     exact_number,
@@ -102,8 +108,35 @@ class ContactSearch:
 
     def found(self, enclosed: bool) -> tuple[Case, Touching]:
         """The case with this contact, and what was found of it; ``enclosed`` where that can be shown."""
-        own = points_of(self.shape)
-        curve = placed(self.shape, places_of(self.case, own), self.where)
+        curve = self.curve()
+        meeting = self._meeting(curve)
+        if enclosed:
+            self.enclosed = self._enclosed(curve, meeting)
+        if self.enclosed is None:
+            self.refuse_shared(meeting)
+        freed = self.freed
+        if self.enclosed is not None and freed is not None:
+            value = self.enclosed.change + Balls(DIGITS).given(freed.number(0.0))
+            size = 360.0 if isinstance(freed.freedom, Turn) else curve.size
+            self.case = freed.datum.put(freed.case, exact_number(value, size, ""))
+        return self.contact(self.case, curve, meeting, self.guide())
+
+    def short(self) -> Decimal | None:
+        """How far the guide has still to take a follower whose place is given until it touches [case length,
+        or degrees]; None where that is not shown.
+
+        Raises SceneError where it is far from that.
+        """
+        curve, guide = self.curve(), guided(self.case, self.guided)
+        found = self._enclosed(curve, self._meeting(curve), guide) if guide is not None else None
+        return found and Decimal(exact_number(found.change, curve.size, "").digits)
+
+    def curve(self) -> Curve:
+        """The profile where its link is."""
+        return placed(self.shape, places_of(self.case, points_of(self.shape)), self.where)
+
+    def _meeting(self, curve: Curve) -> Meeting:
+        """Where the follower touches; one that is free is moved there."""
         try:
             body = self.body(places_of(self.case, points_of(self.follower)))
         except SceneError as refusal:
@@ -117,14 +150,52 @@ class ContactSearch:
         gap = gap_of(curve, body, side)[0]
         if abs(gap) > FITS * curve.size:
             raise SceneError(Status.CANNOT_ASSEMBLE, never_meets(self.what, body.kind, gap))
-        meeting = meeting_of(curve, body, side, self.what)
-        if enclosed and len(meeting.normals) == 1:
-            with suppress(MoreDigits, BelowZero, ZeroDivisionError):
-                self._enclose(curve, meeting)
-        return self.contact(self.case, curve, meeting, self.guide())
+        return meeting_of(curve, body, side)
 
-    def _enclose(self, curve: Curve, meeting: Meeting) -> None:
-        """Place the contact and its follower with all digits; MoreDigits where no one place is shown."""
+    def refuse_shared(self, meeting: Meeting) -> None:
+        """Raise SceneError where the follower seems to touch at several places at once."""
+        if meeting.shared:
+            raise SceneError(Status.UNSUPPORTED, f"{self.what}: {meeting.shared}")
+
+    def _enclosed(
+        self, curve: Curve, meeting: Meeting, guide: FollowerGuide | None = None
+    ) -> EnclosedContact | None:
+        """The contact with all digits: on the piece on which doubles see it, on the next beside its end, or
+        where another is as near; None where no one place is shown. A follower whose place is given moves by
+        a ``guide``, where one is named.
+
+        Raises SceneError where it touches at several places.
+        """
+        found: list[EnclosedContact] = []
+        feet = [(meeting.foot, meeting.normals[0]), *meeting.ties] if len(meeting.normals) == 1 else []
+        for foot, normal in ((one, normal) for own, normal in feet for one in curve.beside(own)):
+            known = found and math.dist(foot.point, tuple(map(float, found[-1].at))) <= AT_ONE * curve.size
+            if not known:
+                with suppress(MoreDigits, BelowZero, ZeroDivisionError):
+                    here = meeting._replace(foot=foot, normals=(normal,))
+                    found.append(self._enclosed_on(curve, here, guide))
+        outer = found[0] if found else None
+        for other in found[1:]:
+            assert outer is not None
+            ahead = (other.change - outer.change) * self._sense(meeting, guide)
+            if at_least(ahead) and at_least(0.0 - ahead):
+                said = ALONG if isinstance(self.follower, Flat) else TWICE
+                self.refuse_shared(meeting._replace(shared=said))
+            outer = other if at_least(ahead) else outer
+        return outer
+
+    def _sense(self, meeting: Meeting, guide: FollowerGuide | None) -> float:
+        """1 where a follower is the farther out the more it is moved, else -1; a gap is the widest that it
+        can be."""
+        moves = guide or self.freed
+        if moves is None:
+            return -1.0
+        nx, ny = meeting.normals[0]
+        x, y = moves.freedom.velocity(self.trace(meeting.foot.point, (nx, ny)))
+        return math.copysign(1.0, x * nx + y * ny)
+
+    def _enclosed_on(self, curve: Curve, meeting: Meeting, guide: FollowerGuide | None) -> EnclosedContact:
+        """The contact on the piece of the meeting's foot; MoreDigits where no one place is shown."""
         balls, freed, follower = Balls(DIGITS), self.freed, self.follower
         case = self.case if freed is None else freed.moved(0.0)
         own = points_of(follower)
@@ -132,7 +203,9 @@ class ContactSearch:
         face = direction_in_balls(follower.along, places, balls) if isinstance(follower, Flat) else None
         body = FollowerPlaces(follower, places[follower.at], face)
         by = meeting.gap
-        if freed is not None and isinstance(freed.freedom, Turn):
+        if guide is not None:
+            body, by = guide.moving(body, case, balls), 0.0
+        elif freed is not None and isinstance(freed.freedom, Turn):
             pivot = freed.datum.pivot
             body = body._replace(about=ball_places(self.case, (pivot,), balls)[pivot])
             by = freed.by
@@ -143,14 +216,7 @@ class ContactSearch:
             by = freed.by * freed.freedom.along[freed.datum.axis]
         finder = LocusFinder(self.shape, curve, places, balls)
         start = TouchingAbout(meeting.foot.point, meeting.normals[0], by)
-        self.enclosed = enclosed_contact(finder.locus(meeting.foot), body, start, finder.size, balls)
-        if freed is not None:
-            moved = self.enclosed.moved
-            change = balls.angle(*moved) if len(moved) == 2 else moved[0]
-            value = change + balls.given(freed.number(0.0))
-            self.case = freed.datum.put(
-                freed.case, exact_number(value, 360.0 if len(moved) == 2 else curve.size, "")
-            )
+        return enclosed_contact(finder.locus(meeting.foot), body, start, finder.size, balls)
 
     def guide(self) -> Freedom | None:
         """How the frame guides the follower; None where something else does."""
@@ -279,10 +345,28 @@ Places = dict[str, Point]
 
 
 class FollowerGuide(NamedTuple):
-    """A follower's freedom, and the link against which it has it."""
+    """A follower's freedom, the joint that leaves it, and the link against which it has it."""
 
     freedom: Freedom
+    joint: Joint
     against: str
+
+    def along(self, case: Case, balls: Balls) -> Vector:
+        """The unit vector along which a follower slides."""
+        guide = self.joint.guide
+        assert guide is not None
+        if guide.angle is not None:
+            return balls.turn(guide.angle)
+        assert guide.ends is not None
+        return direction_in_balls(guide.ends, ball_places(case, guide.ends, balls), balls)
+
+    def moving(self, body: FollowerPlaces, case: Case, balls: Balls) -> FollowerPlaces:
+        """A follower that moves so."""
+        if isinstance(self.freedom, Shift):
+            return body._replace(along=self.along(case, balls))
+        pivot = self.joint.at
+        assert pivot is not None
+        return body._replace(about=ball_places(case, (pivot,), balls)[pivot])
 
 
 def places_of(case: Case, names: tuple[str, ...]) -> Places:
@@ -315,7 +399,7 @@ def guided(case: Case, link: str) -> FollowerGuide | None:
             freedom = _freedom(case, joint)
         except SceneError:
             continue
-        return FollowerGuide(freedom, against)
+        return FollowerGuide(freedom, joint, against)
     return None
 
 

@@ -29,6 +29,8 @@ from icsolve.tuples import NamedTuple
 
 CORNER = 1e-9
 """Pieces whose tangents differ by less (sine) meet smoothly."""
+AT_END = 1e-9
+"""So near to the end of a piece (of its length) doubles leave open whether the next one is touched."""
 MEETING = 1e-9
 """Ends that are nearer than this fraction of the profile's size are one point."""
 
@@ -99,6 +101,15 @@ class Curve(NamedTuple):
         if abs(own[0] * beside[1] - own[1] * beside[0]) < CORNER and _dot(own, beside) > 0.0:
             return Foot(at, piece, u, (own,))
         return Foot(at, piece, u, (beside, own) if u <= 0.0 else (own, beside))
+
+    def beside(self, foot: Foot) -> Iterator[Foot]:
+        """A foot, and the end of the next piece where it lies at (or rounding beside) the end of its own."""
+        yield foot
+        if not foot.is_corner and not isinstance(self.pieces[foot.piece], PolarPiece):
+            if foot.u < AT_END:
+                yield self.foot((foot.piece - 1) % len(self.pieces), 1.0)
+            if foot.u > 1.0 - AT_END:
+                yield self.foot((foot.piece + 1) % len(self.pieces), 0.0)
 
     def normal(self, piece: int, u: float) -> Point:
         """Outward unit normal of a piece."""

@@ -100,13 +100,13 @@ class TouchingAbout(NamedTuple):
 
 class EnclosedContact(NamedTuple):
     """A contact in balls: the point [case length], the normal from the cam into the follower, the radius of
-    curvature of the profile there (None: straight), and how far its freedom has moved the follower: a
-    length, or cosine and sine of a turn."""
+    curvature of the profile there (None: straight), and how far its freedom has moved the follower [case
+    length, or degrees]."""
 
     at: Vector
     normal: Vector
     radius: Scalar | None
-    moved: tuple[Scalar, ...]
+    change: Scalar
 
 
 class FollowerPlaces(NamedTuple):
@@ -196,8 +196,8 @@ def enclosed_contact(
     far = any(abs(float(x) - b) > NEARBY for x, b in zip(found, begin, strict=True))
     if far or not locus.within(point, normal):
         raise MoreDigits
-    moved = tuple(found[first:]) if turns else (found[first] * size,)
-    return EnclosedContact(_times(point, size), normal, locus.radius(found[4]), moved)
+    change = balls.angle(*found[first:]) if turns else found[first] * size
+    return EnclosedContact(_times(point, size), normal, locus.radius(found[4]), change)
 
 
 def _times(v: Vector, factor: float) -> Vector:
@@ -274,7 +274,7 @@ class LocusFinder:
 
         def within(p: Vector, n: Vector) -> bool:
             before, after = ((x - p[0]) * tx + (y - p[1]) * ty for x, y in ((ax, ay), (bx, by)))
-            return _at_least(0.0 - before) and _at_least(after)
+            return at_least(0.0 - before) and at_least(after)
 
         def equations(p: Sequence[Derived], n: Sequence[Derived], own: Derived) -> list[Derived]:
             return [(p[0] - ax) * ty - (p[1] - ay) * tx, n[0] * tx + n[1] * ty]
@@ -293,7 +293,7 @@ class LocusFinder:
             (ax, ay), (bx, by) = ends if arc.turns == "ccw" else ends[::-1]
             x, y = n[0] * side, n[1] * side
             near_first = (foot.u <= NEARBY) is (piece.sweep > 0.0)
-            return _at_least(ax * y - ay * x if near_first else x * by - y * bx)
+            return at_least(ax * y - ay * x if near_first else x * by - y * bx)
 
         def equations(p: Sequence[Derived], n: Sequence[Derived], own: Derived) -> list[Derived]:
             return [p[k] - n[k] * (r * (side / self.size)) - centre[k] for k in (0, 1)]
@@ -353,7 +353,7 @@ class LocusFinder:
         return Locus(equations, foot.u * 360.0, lambda p, n: True, curvature)
 
 
-def _at_least(value: Scalar) -> bool:
+def at_least(value: Scalar) -> bool:
     """Whether a number is not known to be below zero."""
     return float(value) > 0.0 or type(value) is not Ball or value.holds_zero
 
@@ -368,7 +368,7 @@ def _spline_at(radius: Spline, at: Scalar) -> tuple[Scalar, Scalar, Scalar]:
     near = bisect_right([float(x) for x in radius.places], float(at)) - 1
     for k in (near - 1, near, near + 1):
         place = radius.places[k % count] + 360.0 * (k // count)
-        if _at_least(at - place) and _at_least(place + radius.step(k % count) - at):
+        if at_least(at - place) and at_least(place + radius.step(k % count) - at):
             found.append(radius.between(k % count, at - place))
     return (_hull([f[0] for f in found]), _hull([f[1] for f in found]), _hull([f[2] for f in found]))
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from decimal import Decimal
 from functools import lru_cache
 
 import numpy as np
@@ -28,16 +29,19 @@ from icsolve.cams.contact_candidates import (
     meeting_of,
     outermost,
 )
-from icsolve.cams.contact_search import ROUNDED, ContactSearch, Places, found, places_of
+from icsolve.cams.contact_search import ROUNDED, ContactSearch, FollowerGuide, found, guided, places_of
 from icsolve.cams.curve import Body, Curve, Foot, placed
+from icsolve.cams.enclosed_contact import DIGITS, Vector, ball_places, exact_number
 from icsolve.cams.pieces import Point
 from icsolve.cams.words import not_guided
 from icsolve.case import Case, Contact, Coordinates, Length, Number
 from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Radii, Roller, Shape, points_of
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.balls import Balls
 from icsolve.numbers.replay import Array
 from icsolve.scene.refusals import rubs
 from icsolve.sweep.branches import signs_of
+from icsolve.sweep.exact import CONTEXT, as_written
 from icsolve.sweep.first_contact import FirstContact, FirstContacts, Mask, Poses, Vectors
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recorded_scene import RestingContact
@@ -66,6 +70,7 @@ class Follow(NamedTuple):
     sense : 1 where the gap grows as the follower moves on
     driver : the link that a sweep turns, or the length that it varies from ``start``, to move the follower
     frame, written : names and places of two points of the cam
+    pivot : of a cam that is pinned to the frame [case length]; else not a number
     """
 
     seeking: ContactSearch
@@ -78,6 +83,7 @@ class Follow(NamedTuple):
     start: float
     frame: tuple[str, str]
     written: tuple[Point, Point]
+    pivot: Point
 
     def driven(self, by: Array) -> Array:
         """The driver's values, (n,) [degrees, or case length], for motions along the freedom, (n,) [rad, case
@@ -164,7 +170,8 @@ class Follow(NamedTuple):
 
     def contact(self, case: Case, pose: LinkPose, met: Candidate) -> tuple[Case, Touching]:
         """A row's case with this contact."""
-        meeting = meeting_of(self.curve, met.body, self.side, self.seeking.what)
+        meeting = meeting_of(self.curve, met.body, self.side)
+        self.seeking.refuse_shared(meeting)
         return self.seeking.contact(case, self.curve, pose.meeting(meeting), self.freedom, note=False)
 
 
@@ -193,19 +200,24 @@ class CamMotion:
         assert self.case.profiles is not None and self.whole.profiles is not None
         touch = self.case.profiles.touches[k]
         seeking = ContactSearch(self.case, self.whole.profiles, touch, self.whole)
-        freedom = seeking.guide()
-        if freedom is None:
+        guide = guided(self.whole, seeking.guided)
+        if guide is None or guide.against != self.whole.ground:
             raise SceneError(Status.UNSUPPORTED, not_guided(seeking.guided, seeking.cam))
+        freedom = guide.freedom
         own = points_of(seeking.shape)
         curve = placed(seeking.shape, places_of(self.whole, own), seeking.where)
         body = seeking.body(places_of(self.whole, points_of(seeking.follower)))
         side = min((1.0, -1.0), key=lambda side: abs(gap_of(curve, body, side)[0]))
-        normal = seeking.normal(meeting_of(curve, body, side, seeking.what))
+        normal = seeking.normal(meeting_of(curve, body, side))
         x, y = freedom.velocity(seeking.trace(self.touching[k].at, normal))
         sense = math.copysign(1.0, x * normal[0] + y * normal[1])
         frame, written = self._frame(seeking.cam, own[0])
-        driver, start = self._driver(seeking.guided, body.at, freedom)
-        return Follow(seeking, curve, body, freedom, side, sense, driver, start, frame, written)
+        driver, start = self._driver(seeking.guided, body.at, guide)
+        turns = guided(self.whole, seeking.cam)
+        pivot = (math.nan, math.nan)
+        if turns is not None and turns.against == self.whole.ground and isinstance(turns.freedom, Turn):
+            pivot = turns.freedom.about
+        return Follow(seeking, curve, body, freedom, side, sense, driver, start, frame, written, pivot)
 
     def _frame(self, cam: str, first: str) -> tuple[tuple[str, str], tuple[Point, Point]]:
         """Two points of a cam that tell its pose."""
@@ -215,12 +227,13 @@ class CamMotion:
         self._carry(cam, {name: second})
         return (first, name), ((x, y), second)
 
-    def _driver(self, link: str, at: Point, freedom: Freedom) -> tuple[str, float]:
+    def _driver(self, link: str, at: Point, guide: FollowerGuide) -> tuple[str, float]:
         """What a sweep varies to move a follower, and its value as written."""
-        if isinstance(freedom, Turn):
+        if isinstance(guide.freedom, Turn):
             return link, 0.0
         origin, carried, start = f"@origin.{link}", f"@follower.{link}", FAR * self._size()
-        away = (at[0] - start * freedom.along[0], at[1] - start * freedom.along[1])
+        x, y = guide.along(self.whole, Balls(DIGITS))
+        away = (at[0] - x * start, at[1] - y * start)
         self._carry(self.open.ground, {origin: away})
         self._carry(link, {carried: at})
         path = f"lengths.{origin}.{carried}"
@@ -228,7 +241,7 @@ class CamMotion:
         self.open = replace(self.open, lengths=(*self.open.lengths, length))
         return path, start
 
-    def _carry(self, link: str, places: Mapping[str, Point]) -> None:
+    def _carry(self, link: str, places: Mapping[str, Vector]) -> None:
         """Hidden points that a link carries."""
         points = {name: coordinates(name, place) for name, place in places.items()}
         carries = {**self.open.carries, link: (*self.open.carries.get(link, ()), *places)}
@@ -306,6 +319,15 @@ class Rows:
             self.contacts[k, row] = (pose, found) if found is not None else None
         return self.contacts[k, row]
 
+    @property
+    def dwelling(self) -> Mask:
+        """In which rows every follower rests on an arc about the pin on which its cam turns, (rows,)."""
+        resting = np.ones(self.columns.rows, dtype=bool)
+        for follow, rested in zip(self.course.follows, self.rested, strict=True):
+            with np.errstate(invalid="ignore"):
+                resting &= rested.sure & (rested.centre == follow.pivot).all(axis=1)
+        return resting
+
     def together(self, asked: RowRequest) -> tuple[dict[Key, Array], Mask]:
         """What is asked of the rows, from one record.
 
@@ -345,35 +367,34 @@ class Rows:
             sure[part.rows[found.doubtful]] = False
         return values, sure
 
-    def plain(self, row: int) -> tuple[Case, list[Touching]]:
-        """A row as a case with plain contacts, and the contacts.
-
-        Raises SceneError where there is no one contact.
-        """
-        return self._with_contacts(self.work.case_of(row), row)
-
-    def _with_contacts(self, case: Case, row: int) -> tuple[Case, list[Touching]]:
-        """A case with the contacts of a row."""
-        touching = []
-        for k, follow in enumerate(self.course.follows):
-            one = self._contact(k, row)
-            assert one is not None
-            case, touched = follow.contact(case, *one)
-            touching.append(touched)
-        return case, touching
-
     def touching(self, row: int) -> list[Touching]:
         """Where the links touch in a row.
 
         Raises SceneError where there is no one contact.
         """
-        return self._with_contacts(self.course.open, row)[1]
+        touching = []
+        for k, follow in enumerate(self.course.follows):
+            one = self._contact(k, row)
+            assert one is not None
+            touching.append(follow.contact(self.course.open, *one)[1])
+        return touching
 
     def case_of(self, row: int) -> Case:
-        """A row as a case whose contacts are to be found on its profiles."""
+        """A row as a case whose contacts are to be found on its profiles: its followers are brought to their
+        cams with all digits.
+
+        Raises SceneError where there is no one contact.
+        """
         profiles, touches = self.course.whole.profiles, self.course.case.profiles
         assert profiles is not None and touches is not None
-        case = self.work.case_of(row)
+        exact: dict[str, Decimal] = {}
+        for follow in self.course.follows:
+            seeking = follow.seeking
+            case = self.work.case_of(row, exact)
+            short = ContactSearch(self.course.case, profiles, seeking.touch, case).short()
+            if short is not None:
+                exact[follow.driver] = CONTEXT.add(as_written(self.drivers[follow.driver][row]), short)
+        case = self.work.case_of(row, exact)
         carries = {
             link: tuple(name for name in names if not name.startswith(MARKERS))
             for link, names in case.carries.items()
@@ -456,34 +477,35 @@ def anchored(case: Case) -> Case:
     assert case.profiles is not None
     shapes, points, carries = {}, dict(case.points), dict(case.carries)
     for link, shape in case.profiles.shapes.items():
-        own = _Anchors(link, places_of(case, points_of(shape)))
+        own = _Anchors(link, case, points_of(shape))
         shapes[link] = own.of(shape)
-        points |= {name: coordinates(name, place) for name, place in own.added.items()}
+        points |= own.added
         carries[link] = (*carries.get(link, ()), *own.added)
     profiles = case.profiles._replace(shapes=shapes)
     return replace(case, profiles=profiles, points=points, carries=carries)
 
 
-def coordinates(name: str, place: Point) -> Coordinates:
-    """A hidden point's place as it would be given."""
-    x, y = (Number(v, 0.0, f"points.{name}.{axis}", repr(v)) for v, axis in zip(place, "xy", strict=True))
+def coordinates(name: str, place: Vector, size: float = 1.0) -> Coordinates:
+    """A hidden point's place [case length], with as many digits of a size as a scene needs."""
+    x, y = (exact_number(v, size, f"points.{name}.{axis}") for v, axis in zip(place, "xy", strict=True))
     return Coordinates(x, y)
 
 
 class _Anchors:
     """The points that stand for the directions of one profile."""
 
-    def __init__(self, link: str, places: Places) -> None:
-        self.link, self.places = link, places
-        self.added: dict[str, Point] = {}
+    def __init__(self, link: str, case: Case, names: tuple[str, ...]) -> None:
+        self.link, self.balls = link, Balls(DIGITS)
+        self.places = ball_places(case, names, self.balls)
+        self.added: dict[str, Coordinates] = {}
 
     def of(self, shape: Shape | Follower) -> Shape | Follower:
         """The profile with points for directions."""
         match shape:
-            case Flat(at, Number(degrees)):
-                return Flat(at, (at, self.point(at, degrees, 1.0)))
-            case Radii(about, Number(degrees)):
-                return shape._replace(zero=(about, self.point(about, degrees, 1.0)))
+            case Flat(at, Number() as angle):
+                return Flat(at, (at, self.point(at, angle, 1.0)))
+            case Radii(about, Number() as angle):
+                return shape._replace(zero=(about, self.point(about, angle, 1.0)))
             case Arcs(arcs):
                 return Arcs(tuple(map(self.arc, arcs)))
         return shape
@@ -492,7 +514,7 @@ class _Anchors:
         """An arc whose ends are points of it."""
         radius = arc.radius.value if arc.radius is not None else self.distance(arc)
         start, stop = (
-            self.point(arc.centre, end.value, radius) if isinstance(end, Number) else end
+            self.point(arc.centre, end, radius) if isinstance(end, Number) else end
             for end in (arc.start, arc.stop)
         )
         return arc._replace(start=start, stop=stop)
@@ -500,11 +522,12 @@ class _Anchors:
     def distance(self, arc: Arc) -> float:
         """The radius of an arc that is given by a point of it."""
         ends = (end for end in (arc.start, arc.stop) if isinstance(end, str))
-        return max(math.dist(self.places[end], self.places[arc.centre]) for end in ends)
+        places = {name: (float(x), float(y)) for name, (x, y) in self.places.items()}
+        return max(math.dist(places[end], places[arc.centre]) for end in ends)
 
-    def point(self, at: str, degrees: float, away: float) -> str:
+    def point(self, at: str, angle: Number, away: float) -> str:
         """A new point, so far from another in a direction."""
-        (x, y), angle = self.places[at], math.radians(degrees)
+        (x, y), (c, s) = self.places[at], self.balls.turn(angle)
         name = f"@profile.{self.link}.{len(self.added)}"
-        self.added[name] = (x + away * math.cos(angle), y + away * math.sin(angle))
+        self.added[name] = coordinates(name, (x + c * away, y + s * away), away)
         return name

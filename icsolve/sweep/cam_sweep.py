@@ -13,7 +13,6 @@ import numpy as np
 from icsolve.answer import Answer
 from icsolve.answer.contacts import Touching
 from icsolve.cams.contact_candidates import Turn
-from icsolve.cams.solving import pressed
 from icsolve.cams.words import follower_driven, lost_rows, widest_pressure
 from icsolve.case import Case, Pin
 from icsolve.case.joints import Mesh
@@ -21,28 +20,33 @@ from icsolve.case.profiles import Flat, Knife, Roller
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
 from icsolve.scene import solve_scene
-from icsolve.statics.power import is_unknown
 from icsolve.sweep.cam_motion import CamMotion, Rows, cam_motion
 from icsolve.sweep.first_contact import Mask
 from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.program import RowRequest, setting_of
 from icsolve.sweep.request import Columns, SweepRequest
-from icsolve.sweep.runner import Progress
+from icsolve.sweep.runner import Key, Progress
 from icsolve.sweep.runner import Rows as Which
-from icsolve.sweep.table import KINDS, Sweep, Table, by_kind
+from icsolve.sweep.table import CODE, KINDS, Sweep, Table, by_kind
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed
 
 SAID = "in every row the contacts are found on the profiles."
+PROOFS = (0.0, 0.5, 1.0)
+"""Which of the rows of a dwell are solved as scenes: as shares of their number."""
+ONE_ANGLE = 1e-9
+"""Pressure angles nearer to each other than this [degrees] are one."""
 SHAPING = ("points", "lengths", "angles", "profile", "joints")
 
 
 class CamRows(NamedTuple):
-    """Rows of one figure: what they are run by; None where no link moves."""
+    """Rows of one figure: what they are run by, None where no link moves; and whether they differ in their
+    position alone."""
 
     case: Case
     rows: Which
     run: Rows | None
+    alike: bool
 
 
 class _Seen:
@@ -66,8 +70,10 @@ class _Seen:
         """
         self.at.setdefault(links, []).append((rows, at))
         if np.isfinite(angles).any():
-            k = int(np.nanargmax(angles))
-            if angles[k] > self.widest.get(links, (-1.0, 0))[0]:
+            k = int(np.flatnonzero(angles >= np.nanmax(angles) - ONE_ANGLE)[0])
+            widest, row = self.widest.get(links, (-1.0, 0))
+            wider = float(angles[k]) - widest
+            if wider > ONE_ANGLE or (wider > -ONE_ANGLE and rows[k] < row):
                 self.widest[links] = (float(angles[k]), int(rows[k]))
         if lost.any():
             self.lost.setdefault(links, []).extend(rows[lost].tolist())
@@ -145,7 +151,8 @@ def _parts(case: Case, columns: Columns, moving: set[str], table: Table) -> Iter
     for values, rows in _alike(columns, shaping):
         try:
             changed = with_numbers(case, values) if values else case
-            yield CamRows(changed, rows, _run(changed, columns, rows, moving, shaping))
+            alike = set(columns.paths) <= {*shaping, *moving}
+            yield CamRows(changed, rows, _run(changed, columns, rows, moving, shaping), alike)
         except SceneError as error:
             if not shaping:
                 raise
@@ -182,22 +189,46 @@ def _together(table: Table, part: CamRows, error: bool, seen: _Seen) -> Mask:
     """Fill in the rows of a part that one record solves all at once; which these are."""
     case, run = part.case, part.run
     teeth = any(isinstance(joint, Mesh) and joint.pressure_angle is not None for joint in case.joints)
-    if run is None or teeth or table.asked.in_motion:
+    if run is None or teeth or error or table.asked.in_motion:
         return np.zeros(len(part.rows), dtype=bool)
     values, done = run.together(table.asked)
+    if part.alike and table.asked.answers:
+        _dwell(run, values, done, table.asked)
     rows = part.rows[done]
     own = by_kind({key: array[done] for key, array in values.items() if key[0] in KINDS})
-    none = {kind: {n: np.full_like(a, np.nan) for n, a in arrays.items()} for kind, arrays in own.items()}
     codes = np.zeros(len(rows), dtype=np.int8)
-    arrays: dict[str, Any] = {**own, "errors": none if error else {}}
-    found = Sweep(case, {}, **arrays, codes=codes)
-    table.take(rows, found)
+    arrays: dict[str, Any] = {**own}
+    table.take(rows, Sweep(case, {}, **arrays, codes=codes))
     for follow, rested in zip(run.course.follows, run.rested, strict=True):
         force = values.get(("contact", follow.seeking.hidden))
         lost = force[done] < 0.0 if force is not None else np.zeros(len(rows), dtype=bool)
         at = rested.point[done]
         seen.take_all(follow.seeking.touch.links, rows, at, follow.pressure(at, rested.normal[done]), lost)
     return done
+
+
+def _dwell(run: Rows, values: dict[Key, Array], done: Mask, asked: RowRequest) -> None:
+    """Fill in doubtful rows in which every follower rests: what the first, the middle and the last of them
+    have as scenes, no answer or none but 0, they all have."""
+    rows = np.flatnonzero(run.dwelling & ~done)
+    if len(rows) <= len(PROOFS):
+        return
+    found: list[Answer] = []
+    refused: list[str] = []
+    for n in (int(share * (len(rows) - 1)) for share in PROOFS):
+        try:
+            found.append(solve_scene(run.case_of(int(rows[n])), **_options(asked)))
+        except SceneError as error:
+            refused.append(error.status)
+    if len(refused) == len(PROOFS) and len(set(refused)) == 1 and refused[0] in CODE:
+        run.codes[rows] = CODE[refused[0]]
+    elif not refused and not any(one.value for answer in found for one in answer.answers.values()):
+        rates = [answer.rates or {} for answer in found]
+        still = {link for link in run.course.case.links if all(one.get(link) == 0.0 for one in rates)}
+        for (kind, name), array in values.items():
+            if kind == "answers" or (kind == "rates" and name in still):
+                array[rows] = 0.0
+        done[rows] = True
 
 
 def _fill(table: Table, part: CamRows, n: int, row: int, columns: Columns, seen: _Seen) -> None:
@@ -207,34 +238,19 @@ def _fill(table: Table, part: CamRows, n: int, row: int, columns: Columns, seen:
         table.codes[row] = part.run.codes[n]
         return
     try:
-        if part.run is None:
-            answer = solve_scene(_written(part.case, columns, row), **_options(asked))
-            touching: Iterable[Touching] = answer.touching
-        else:
-            plain, found = part.run.plain(n)
-            answer = _solved(plain, asked)
-            touching = [pressed(one, plain, answer.reactions) for one in found]
+        case = part.run.case_of(n) if part.run is not None else _written(part.case, columns, row)
+        answer = solve_scene(case, **_options(asked))
     except SceneError as error:
         table.refuse(row, error)
         return
     table.fill(row, answer)
-    seen.take(row, touching)
+    seen.take(row, answer.touching)
 
 
 def _options(asked: RowRequest) -> Mapping[str, bool]:
     rates = asked.rates or asked.velocities
     more = {"all_centres": bool(asked.centres), "examine": bool(asked.points), "dynamic": asked.dynamic}
-    return {**more, "rates": rates, "bound": False}
-
-
-def _solved(case: Case, asked: RowRequest) -> Answer:
-    """A row's answer, with the reactions that tell whether a contact pulls."""
-    if any(map(is_unknown, case.loads)):
-        try:
-            return solve_scene(case, **_options(asked), reactions=True)
-        except SceneError:
-            pass
-    return solve_scene(case, **_options(asked))
+    return {**more, "rates": rates, "bound": True}
 
 
 STEP = 2.0

@@ -14,7 +14,7 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
-from icsolve.cams.curve import CORNER, Body, Curve
+from icsolve.cams.curve import AT_END, CORNER, Body, Curve
 from icsolve.cams.pieces import TURN, CircularArc, Piece, PolarPiece, Spline, Straight
 from icsolve.numbers.replay import Array
 from icsolve.tuples import NamedTuple
@@ -65,12 +65,14 @@ class FirstContacts(NamedTuple):
     point : where it touches, as the cam sees it, (n, 2) [case length]
     normal : unit normal there, from the cam into the follower, (n, 2)
     sure : in which rows this is decided, (n,); the others are left to `contact_candidates`
+    centre : of the arc well within which it touches, (n, 2) [case length]; not a number on other pieces
     """
 
     by: Array
     point: Array
     normal: Array
     sure: Mask
+    centre: Array
 
 
 class FirstContact:
@@ -149,10 +151,10 @@ class FirstContact:
                 return (x - px[k]) * dy[k] - (y - py[k]) * dx[k]
             return (x - qx[k]) ** 2 + (y - qy[k]) ** 2 - square[k]
 
-        x, y, nx, ny, closed = line.closed(chord, miss)
+        x, y, nx, ny, closed, centre = line.closed(chord, miss)
         by, _ = self._way(poses, every, x, y, nx, ny)
         point = np.stack([x - line.radius * nx, y - line.radius * ny], axis=1)
-        return FirstContacts(by, point, np.stack([nx, ny], axis=1), sure & closed)
+        return FirstContacts(by, point, np.stack([nx, ny], axis=1), sure & closed, centre)
 
     def _way(self, poses: Poses, row: Which, x: Array, y: Array, nx: Array, ny: Array) -> tuple[Array, Array]:
         """How far the follower is moved to places, and whether the gap grows there as it moves on."""
@@ -201,11 +203,11 @@ class FirstContact:
     def _face_shifted(self, poses: Poses) -> FirstContacts:
         (fx, fy), (dx, dy), (px, py) = poses.face, poses.along, poses.at
         wx, wy = -self.side * fy, self.side * fx
-        x, y, sure = self.line.farthest(wx, wy)
+        x, y, sure, centre = self.line.farthest(wx, wy)
         rate = wx * dx + wy * dy
         by = -((px - x) * wx + (py - y) * wy) / rate
         sure &= (np.sign(rate) == self.sense) & (np.abs(rate) > CLOSE)
-        return FirstContacts(by, np.stack([x, y], axis=1), np.stack([wx, wy], axis=1), sure)
+        return FirstContacts(by, np.stack([x, y], axis=1), np.stack([wx, wy], axis=1), sure, centre)
 
     def _face_turned(self, poses: Poses) -> FirstContacts:
         """A face on an arm: by the angle of its normal, the gap is the arm's less the profile's reach."""
@@ -223,14 +225,14 @@ class FirstContact:
         angle = angle[chosen] if len(angle) else np.full(rows, np.nan)
         for _ in range(NEWTON):
             c, s = np.cos(angle), np.sin(angle)
-            x, y, smooth = self.line.farthest(c, s)
+            x, y, smooth, centre = self.line.farthest(c, s)
             step = (own + c * (qx - x) + s * (qy - y)) / (c * (qy - y) - s * (qx - x))
             angle = angle - step
             if np.nanmax(np.abs(step), initial=0.0) <= AT_ONE:
                 break
         sure &= (np.abs(step) <= 1e3 * AT_ONE) & smooth
         normal = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        return FirstContacts(_wrapped(angle - start), np.stack([x, y], axis=1), normal, sure)
+        return FirstContacts(_wrapped(angle - start), np.stack([x, y], axis=1), normal, sure, centre)
 
 
 def _outer(a: Array, b: Array) -> Array:
@@ -281,9 +283,9 @@ class _Line:
 
     def closed(
         self, chord: Which, miss: Callable[[Which, Array, Array], Array]
-    ) -> tuple[Array, Array, Array, Array, Mask]:
+    ) -> tuple[Array, Array, Array, Array, Mask, Array]:
         """Where a function of the place vanishes on a chord of each row: x, y, nx, ny, and where it does,
-        (rows,) each [frame].
+        (rows,) each [frame]; and the centres of the arcs there, (rows, 2).
         """
         first = self.first[chord]
         pieces, every = self.piece[first], np.arange(len(chord))
@@ -293,11 +295,18 @@ class _Line:
             return miss(every, x, y)
 
         u, there = _zero(value, self.u[first], self.u[first + 1])
-        return (*self.at(pieces, u), there)
+        return (*self.at(pieces, u), there, self.centres(pieces, u))
 
-    def farthest(self, wx: Array, wy: Array) -> tuple[Array, Array, Mask]:
+    def centres(self, pieces: Which, u: Array) -> Array:
+        """The centres of the arcs well within which places lie, (rows, 2); not a number elsewhere."""
+        own = [piece.centre if isinstance(piece, CircularArc) else (np.nan, np.nan) for piece in self.pieces]
+        found = np.array(own)[pieces]
+        found[~((u > AT_END) & (u < 1.0 - AT_END))] = np.nan
+        return found
+
+    def farthest(self, wx: Array, wy: Array) -> tuple[Array, Array, Mask, Array]:
         """Where the profile reaches farthest in a direction, x and y [frame], and in which rows at one place
-        only, (rows,) each.
+        only, (rows,) each; and the centres of the arcs there, (rows, 2).
         """
         reach = _outer(wx, self.x) + _outer(wy, self.y)
         best = reach.argmax(axis=1)
@@ -309,7 +318,7 @@ class _Line:
         sure = there | (self.ends[best] & ~self.joined[best] & (self._aside(best, u, wx, wy) > CLOSE))
         far = (self.x - x[:, None]) ** 2 + (self.y - y[:, None]) ** 2 > (0.05 * self.size) ** 2
         level = reach > (reach.max(axis=1) - CLOSE**1.5 * self.size)[:, None]
-        return x, y, sure & ~(far & level).any(axis=1)
+        return x, y, sure & ~(far & level).any(axis=1), self.centres(self.piece[best], u)
 
     def _turned(self, best: Which, wx: Array, wy: Array) -> tuple[Array, Mask]:
         """Where the normal has a direction, near a sample of each row; the sample where it has not."""

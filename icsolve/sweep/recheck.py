@@ -8,7 +8,7 @@ row then has. Nothing here looks at another row.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from decimal import Decimal, localcontext
 
 import numpy as np
@@ -32,10 +32,13 @@ AROUND = 2.0**-10
 
 
 class Recheck:
-    """Rows of one part of a sweep, in high precision."""
+    """Rows of one part of a sweep, in high precision; ``exact`` are varied numbers, by path or link, of which
+    a row knows more than the arrays have."""
 
-    def __init__(self, parts: SweepParts, part: SweepPart) -> None:
-        self.parts, self.part = parts, part
+    def __init__(
+        self, parts: SweepParts, part: SweepPart, exact: Mapping[str, Decimal] | None = None
+    ) -> None:
+        self.parts, self.part, self.exact = parts, part, exact or {}
         self.compiled = part.runner.compiled
         self.scenes: RowScenes = part.runner.cases
         self.tracker = part.followed.tracker if part.followed else None
@@ -56,7 +59,9 @@ class Recheck:
         if not good.all():
             raise SceneError(Status.CANNOT_ASSEMBLE, APART)
         arrays = self.parts.arrays
-        varied = {k: as_written(arrays[n][row]) for n, k in self.compiled.inputs.items() if n in arrays}
+        inputs = self.compiled.inputs
+        varied = {k: as_written(arrays[n][row]) for n, k in inputs.items() if n in arrays}
+        varied |= {inputs[n]: value for n, value in self.exact.items()}
         given = {k: Decimal(float(np.ravel(v)[0])) for k, v in floats.items()} | varied
         if self.tracker is not None:
             (main,) = self.tracker.line.slope

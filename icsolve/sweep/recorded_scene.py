@@ -43,6 +43,10 @@ from icsolve.tuples import NamedTuple, replace
 
 Points = dict[str, Point]
 
+TILT = 40.0
+"""Degrees by which the normal of a contact is off where the record is made: nothing rests there, as in a
+dwell."""
+
 
 class RecordedScene(NamedTuple):
     """A case on a record.
@@ -229,7 +233,7 @@ def rested(scene: RecordedScene, contacts: Sequence[RestingContact], inputs: dic
     ox, oy, scale = scene.frame
     for contact in contacts:
         own = contact.joint
-        c, s = turn_of(own.normal.value)
+        c, s = turn_of(own.normal.value + TILT)
         at = contact.at
         if contact.roller is not None:  # the record is made beside the position as written
             (x, y), off = scene.points[contact.roller[0]], contact.roller[1]

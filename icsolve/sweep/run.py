@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from decimal import Decimal
+
 import numpy as np
 
 from icsolve.case import Case
@@ -123,13 +126,14 @@ class SweepRun:
             pair = (value[0], error[0]) if len(value) == 1 else (tuple(value), tuple(error))
             self.table.put(kind, name, row, *pair)
 
-    def case_of(self, row: int) -> Case:
-        """The case of a row: its points by coordinates (or, in a family, as if written so)."""
+    def case_of(self, row: int, exact: Mapping[str, Decimal] | None = None) -> Case:
+        """The case of a row: its points by coordinates (or, in a family, as if written so); ``exact`` as in
+        `Recheck`."""
         if not self.start.setting.moves:
             return with_numbers(self.start.case, {p: float(a[row]) for p, a in self.columns.paths.items()})
         for part in self.done:
             if (part.rows == row).any():
-                return Recheck(self.parts, part).case(row)
+                return Recheck(self.parts, part, exact).case(row)
         raise IndexError(row)
 
     def _bounds(self, part: SweepPart) -> None:

@@ -35,8 +35,8 @@ AGREED = 1e-9
 """Conditions that were not needed to place the links are met to this (normalised)."""
 NOTHING = 1e-13
 """An answer below this fraction of its terms where the record was made is nothing in every row."""
-DWELL = 1e-12
-"""Where contacts are told row by row, an answer below this part of what it is elsewhere is none: a dwell."""
+LEANING = 1e-4
+"""The same of an answer where contacts are told row by row: their places are rounded."""
 BATCH = 8
 """So many outputs are bounded at once: each takes a few megabytes."""
 
@@ -78,7 +78,6 @@ class Runner:
         nodes = record.nodes
         alive = [k for k in live(record, [*wanted, *self.rubs]) if nodes[k].op != Op.INPUT]
         answers = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
-        self.resting = [(n, DWELL * _usual(record, wanted[n])) for n in answers if compiled.rests]
         self.roots = [record.roots[k] for k in alive if k in record.roots]
         self.watched = [
             *(Watched(root.radicand, SHALLOW * _size_of(record, root)) for root in self.roots),
@@ -86,9 +85,10 @@ class Runner:
             *(Watched(k, CLOSE) for k in compiled.margins),
             *(Watched(k, -math.inf, AGREED, True) for k in _living(compiled, alive)),
         ]
-        for k in (wanted[n] for n in answers if not compiled.rests):
+        small = LEANING if compiled.rests else SMALL
+        for k in (wanted[n] for n in answers):
             usual = _usual(record, k)
-            self.watched += [Watched(k, SMALL * usual, usual / SMALL, True)] if usual else []
+            self.watched += [Watched(k, small * usual, usual / small, True)] if usual else []
         self.code = Code(record, [*wanted, *(one.node for one in self.watched), *self.rubs])
 
     @cached_property
@@ -203,8 +203,6 @@ class Runner:
             stop = min(start + BLOCK, rows)
             here = {k: v[start:stop] if v.ndim else v for k, v in given.items()}
             found = self.code.run(here, stop - start)
-            for n, least in self.resting:
-                np.copyto(found[n], 0.0, where=np.abs(found[n]) <= least)
             for (key, part, _), array in zip(self.moving, found, strict=False):
                 column(values[key], part)[start:stop] = array
             again = self._watch(found[len(self.moving) :], stop - start)

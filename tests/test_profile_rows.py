@@ -1,0 +1,107 @@
+"""Rows of cams beside the ends of strokes and dwells, and where pieces of a profile meet, are scenes.
+
+There the answer of a row passes zero, or a force infinity: a row has the status of `solve` with its angle
+written into the case, and its value to a unit of the last place. The cam is the tangent cam of Uicker,
+Pennock and Shigley, ch. 5: a base circle on which the follower dwells, a nose, and flanks.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from random import Random
+
+import numpy as np
+import pytest
+
+from cams import HEAD
+from icsolve.case import Case
+from icsolve.errors import SceneError
+from icsolve.read import load
+from icsolve.solve import solve
+from icsolve.sweep import sweep
+from icsolve.sweep.numbers import with_numbers
+from icsolve.tuples import replace
+
+FULL = bool(os.environ.get("ICSOLVE_FULL"))
+BASE, NOSE, APART = 40.0, 15.0, 40.0
+FLANK = math.degrees(math.acos((BASE - NOSE) / APART))
+FOLLOWERS = {
+    "roller": ("{roller: B, radius: 10}", 0.0),
+    "offset roller": ("{roller: B, radius: 10}", 6.0),
+    "flat face": ("{flat: B, along: 0}", 0.0),
+    "knife edge": ("{knife: B}", 3.0),
+    "roller on an arm": ("{roller: E, radius: 10}", None),
+    "face on an arm": ("{flat: D, along: [D, E]}", None),
+    "knife edge on an arm": ("{knife: E}", None),
+}
+
+
+def cam(follower: str, unknown: str, degrees: float) -> Case:
+    """The tangent cam, whose arcs end at points that turn with it, under a follower."""
+    shape, offset = FOLLOWERS[follower]
+    arm = offset is None
+    rest = ", DE: 100" if arm else ""
+    given, sought = ("100", "unknown") if unknown == "T" else ("unknown", "500")
+    push = f"{{torque: {given}, link: 3}}" if arm else f"{{force: {given}, link: 3, at: B, angle: -90}}"
+    return load(
+        f"{HEAD}points: {{A: [0, 0], {'D: [120, 0]' if arm else f'B: [{offset}, unknown]'}}}\n"
+        f"lengths: {{AC: {APART}, AP: {BASE}, AQ: {BASE}, CU: {NOSE}, CV: {NOSE}{rest}}}\n"
+        f"angles: {{AC: {degrees}, CAP: {FLANK}, CAQ: {-FLANK}, ACU: {180 - FLANK}, ACV: {FLANK - 180}}}\n"
+        f"near: {'{E: [40, 60]}' if arm else f'{{B: [{offset}, 60]}}'}\n"
+        "profile:\n"
+        f"  2: {{arcs: [{{centre: A, radius: {BASE}, from: P, to: Q}},"
+        f" {{centre: C, radius: {NOSE}, from: U, to: V}}]}}\n"
+        f"  3: {shape}\n"
+        "joints: [{pin: [1, 2], at: A}, {contact: [2, 3]},"
+        f" {'{pin: [3, 1], at: D}' if arm else '{slide: [3, 1], at: B, along: 90}'}]\n"
+        f"links: {{2: [C, P, Q, U, V]{', 3: [E]' if arm else ''}}}\n"
+        f"loads: {{P: {push}, T: {{torque: {sought}, link: 2}}}}\n"
+    )
+
+
+def edges(follower: str) -> tuple[float, float, float]:
+    """Directions of the nose at which the dwell ends, the follower turns back, and the dwell begins."""
+    shape, offset = FOLLOWERS[follower]
+    out = 10.0 if "roller" in follower else 0.0
+
+    def normal(reach: float) -> float:
+        """Direction from the axis to a follower at rest that far off, or of its face's normal."""
+        if offset is not None:
+            return 90.0 if "flat" in shape else math.degrees(math.acos(offset / reach))
+        cosine = reach / 120.0 if "flat" in shape else (reach**2 + 120.0**2 - 100.0**2) / (240.0 * reach)
+        return math.degrees(math.acos(cosine))
+
+    low, high = normal(BASE + out), normal(APART + NOSE + out)
+    return low - FLANK, high, low + FLANK
+
+
+def check(case: Case, unknown: str, at: float, offs: list[float]) -> None:
+    """Rows so far from a place against their scenes; beyond a thousandth of a degree they may be solved in
+    doubles, without bounds."""
+    rows = [at + off for off in offs]
+    found = sweep(case, {"angles.AC": np.array(rows)}, ("answers", "status", "points"))
+    for n, row in enumerate(rows):
+        near = {name: (float(at[n, 0]), float(at[n, 1])) for name, at in found.points.items()}
+        near = {name: at for name, at in near.items() if math.isfinite(at[0])} or case.near
+        status, value = "ok", math.nan
+        try:
+            answer = solve(replace(with_numbers(case, {"angles.AC": row}), near=near)).answers[unknown]
+            value = float(answer.value or 0.0)
+        except SceneError as refusal:
+            status = refusal.status
+        assert found.status[n] == status, row
+        error = 4.0 * math.ulp(value) if abs(offs[n]) < 1e-3 else 1e-11 * abs(value)
+        assert status != "ok" or abs(found.answers[unknown][n] - value) <= error, row
+
+
+KINDS = [(follower, unknown) for follower in FOLLOWERS for unknown in "TP"]
+
+
+@pytest.mark.parametrize(("follower", "unknown"), KINDS if FULL else Random("rows of cams").sample(KINDS, 3))
+def test_rows_beside_strokes_and_dwells_are_scenes(follower: str, unknown: str) -> None:
+    rng = Random(f"{follower} {unknown}")
+    case = cam(follower, unknown, rng.choice([60.0, -80.0]))  # written on the flank, or in the dwell
+    for at in edges(follower) if FULL else rng.sample(edges(follower), 1):
+        offs = [s * 10.0**-k * rng.uniform(0.3, 1.0) for k in range(2, 14) for s in (1.0, -1.0)]
+        check(case, unknown, at, offs if FULL else rng.sample(offs, 3))
