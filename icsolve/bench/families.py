@@ -425,7 +425,7 @@ FAMILIES: tuple[Family, ...] = (
     *(Family(f"parallel {delta:.0e}", nearly_parallel(delta)) for delta in DELTAS[2::4]),
     Family("parallel", nearly_parallel(0.0)),
     *(Family(f"offset {o:.0e}", moved(linkage(STEPHENSON), o, exact=True)) for o in (1e2, 1e6, 1e10)),
-    *(Family(f"size {s:.0e}", moved(linkage(STEPHENSON), scale=s)) for s in (1e-300, 1e-12, 1e12, 1e300)),
+    *(Family(f"size {s:.0e}", moved(linkage(STEPHENSON), scale=s)) for s in (1e-290, 1e-12, 1e12, 1e300)),
     Family("chain of 12", chain(12), 4),
     Family("chain of 50", chain(50), 20),
 )
