@@ -1000,6 +1000,14 @@ loads:
         positions(text.replace("{unknown: [0, 360], from: 0}", "unknown"))
 
 
+def test_a_load_point_by_coordinates_moves_with_its_link_from_where_the_figure_is_written() -> None:
+    """dV/du = 20 cos u + 2 sqrt(2) cos(u + 15) - 4, the second weight at (1, 1) while AB is at 30 degrees."""
+    loads = "M: {torque: 4, link: 2}\n  V: {weight: 2, link: 2, at: K}"
+    turned = map(math.radians, places(pendulum(loads, "{unknown: [0, 360], from: 30}", more=", K: [1, 1]")))
+    slopes = [20 * math.cos(u) + 2 * math.sqrt(2) * math.cos(u + math.radians(15)) - 4 for u in turned]
+    assert slopes == pytest.approx([0.0, 0.0], abs=1e-12)
+
+
 def test_a_coordinate_that_nothing_fixes_is_what_is_asked() -> None:
     text = SLIDER.format(angle=40).replace("angles: {AB: 40}\n", "").replace("near: {C: [0.5, 0]}", "")
     text = text.replace("G: {centroid: [A, B]}}", "G: {centroid: [A, B]}, C: [unknown, 0]}")

@@ -285,6 +285,8 @@ def test_an_end_of_a_linear_load_is_set_by_its_number() -> None:
     uniform = press(LOADS["linear"].replace("[20, -50]", "20"))
     there, here = (icsolve.solve(case).answers["T12"].value for case in (set_to, uniform))
     assert there == pytest.approx(here, rel=1e-13)
+    with pytest.raises(CaseError, match=r"P has several numbers; vary loads\.P\.0 or loads\.P\.1"):
+        icsolve.sweep(icsolve.load(text), vary={"loads.P": [1.0]})
 
 
 @pytest.mark.parametrize("angle", [0.0, 30.0, 1e-9])

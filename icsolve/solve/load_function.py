@@ -251,14 +251,15 @@ def placed_with_margins(
 
 
 def moving_function(
-    case: Case, path: str = "", link: str = "", span: tuple[float, float] | None = None
+    case: Case, path: str = "", link: str = "", span: tuple[float, float] | None = None, posing: bool = False
 ) -> LoadFunction:
     """The function of a mechanism that moves from the position as written, by a datum or by turning a link
-    (its input is then in degrees from that position); ``span`` has the values that will be asked for.
+    (its input is then in degrees from that position); ``span`` has the values that will be asked for,
+    ``posing`` says that the datum is known to pose the figure.
 
     Raises SceneError where it cannot be moved so, or has not one freedom.
     """
-    setting = setting_of(case, (path,) if path else (), (link,) if link else ())
+    setting = setting_of(case, (path,) if path else (), (link,) if link else (), posing=posing)
     if path and not setting.moves:
         raise SceneError(Status.UNSUPPORTED, f"{path} does not pose the figure: it moves nothing.")
     compiled = compile_sweep(setting, RowRequest(answers=False))

@@ -294,7 +294,8 @@ def _moving_from(
     """The mechanism moved from each way in which it assembles where it is written."""
     written = given_at(case, path, start)
     found = ways_of(written)
-    functions = [moving_function(replace(written, near=way.near), path, span=span) for way in found.ways]
+    ways = (replace(written, near=way.near) for way in found.ways)
+    functions = [moving_function(way, path, span=span, posing=True) for way in ways]
     return functions, found.complete
 
 

@@ -176,7 +176,7 @@ def _anew(case: Case, paths: Sequence[str], figure: Figure, order: Order) -> Sur
 
 
 def _moving(case: Case, paths: Sequence[str]) -> Surface:
-    compiled = compile_sweep(setting_of(case, paths, ()), RowRequest(answers=False))
+    compiled = compile_sweep(setting_of(case, paths, (), posing=True), RowRequest(answers=False))
     if compiled.motion is not None and compiled.motion.groups:
         raise SceneError(Status.UNSUPPORTED, TOGETHER)
     record = compiled.record
@@ -192,8 +192,8 @@ def _surface(compiled: CompiledSweep, paths: Sequence[str], margins: Sequence[Sc
     if motions.mobility != 2:
         raise SceneError(
             Status.MOBILITY,
-            f"two data of the figure are unknown, and the mechanism has {motions.mobility} degrees of "
-            "freedom.",
+            f"two data of the figure are unknown, and the mechanism is of mobility {motions.mobility}: as "
+            "many have to be.",
         )
     inputs = (compiled.inputs[paths[0]], compiled.inputs[paths[1]])
     balance = power.balance(

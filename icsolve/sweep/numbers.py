@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from icsolve.case import Case, ForceVector, Number
+from icsolve.case import Case, Number
 from icsolve.errors import CaseError, Problem
 from icsolve.read.names import parts, shown, suggestion
 from icsolve.scene.sensitivity import NUMBERED, numbers_of
@@ -97,8 +97,9 @@ def _missing(case: Case, known: Mapping[str, Number], path: str, section: str, r
             return f"the case gives {turned[0]}, which is another angle; vary that"
     if section == "loads" and any(load.name == rest for load in case.loads):
         load = next(load for load in case.loads if load.name == rest)
-        if isinstance(load, ForceVector):
-            return f"{rest} is given by components; vary loads.{rest}.x or loads.{rest}.y"
+        several = [own for own in (f"{path}.{part}" for part in "xy01") if own in known]
+        if several:
+            return f"{rest} has several numbers; vary {' or '.join(several)}"
         how = "is the unknown" if load.value is None else "is like another load"
         return f"{rest} {how}, so it has no number to vary"
     alike = [own for own in known if own.startswith(f"{section}.")]

@@ -111,8 +111,9 @@ class CompiledSweep(NamedTuple):
     """whether contacts are told row by row"""
 
 
-def setting_of(case: Case, paths: Sequence[str], links: Sequence[str]) -> Setting:
-    """Solve the position as written and find out what the varied numbers do.
+def setting_of(case: Case, paths: Sequence[str], links: Sequence[str], *, posing: bool = False) -> Setting:
+    """Solve the position as written and find out what the varied numbers do, unless all are known to pose
+    the figure.
 
     Raises CaseError for a path that the case does not have, SceneError where the case as written has
     no figure, or cannot be moved so.
@@ -124,7 +125,7 @@ def setting_of(case: Case, paths: Sequence[str], links: Sequence[str]) -> Settin
     refuse_misfit(case, top, figure.points, figure.frame.scale)
     drive = Drive((), (), ())
     if links or any(path.split(".")[0] in ("points", "lengths", "angles") for path in own):
-        drive = _drive(case, top, figure, own, links)
+        drive = _drive(case, top, figure, own, links, posing=posing)
     return Setting(case, top, figure, own, tuple(links), drive)
 
 
@@ -144,10 +145,12 @@ def wanted_points(case: Case) -> tuple[list[str], list[str]]:
     return wanted, [p for p in wanted if p in needed]
 
 
-def _drive(case: Case, top: Topology, figure: Figure, paths: Sequence[str], links: Sequence[str]) -> Drive:
+def _drive(
+    case: Case, top: Topology, figure: Figure, paths: Sequence[str], links: Sequence[str], *, posing: bool
+) -> Drive:
     """What moves, found on a record that is thrown away."""
     scratch = mechanism(case, top, figure.frame, Record(), figure.points)
-    poses = [path for path in paths if _poses(case, figure, scratch, path)]
+    poses = [path for path in paths if posing or _poses(case, figure, scratch, path)]
     return drive_of(scratch, poses, links)
 
 
