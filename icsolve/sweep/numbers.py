@@ -100,7 +100,7 @@ def _missing(case: Case, known: Mapping[str, Number], path: str, section: str, r
         several = [own for own in (f"{path}.{part}" for part in "xy01") if own in known]
         if several:
             return f"{rest} has several numbers; vary {' or '.join(several)}"
-        how = "is the unknown" if load.value is None else "is like another load"
+        how = "is the unknown" if getattr(load, "value", None) is None else "is like another load"
         return f"{rest} {how}, so it has no number to vary"
     alike = [own for own in known if own.startswith(f"{section}.")]
     return f"the case has no number there{suggestion(path, alike)}"
