@@ -11,6 +11,7 @@ import math
 
 import pytest
 
+import icsolve
 from icsolve.answer import Answer
 from icsolve.case import Guide, Pin, Slide, Weld
 from icsolve.report.mechanism import (
@@ -51,6 +52,54 @@ def test_grashof_kinds(lengths: tuple[float, float, float, float], kind: str) ->
     (loop,) = of_lengths(*lengths).loops
     assert loop.kind == kind
     assert loop.lengths == pytest.approx(lengths)
+
+
+CLOSE = """\
+icsolve: 1
+points: {{A: [0, 0], D: [4, 0]}}
+lengths: {{AB: {crank}, BC: 3.5, CD: 2.5}}
+angles: {{AB: 40}}
+near: {{C: [3, 2.4]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
+loads: {{M: {{torque: 5, link: 4}}, T: {{torque: unknown, link: 2}}}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("crank", "kind"),
+    [
+        ("2", "change point"),
+        ("1.999999999999999999999999", "Grashof crank-rocker: link 2 turns fully"),
+        ("2.000000000000000000000001", "triple-rocker, not Grashof"),
+    ],
+)
+def test_a_kind_is_that_of_the_decimals_as_written(crank: str, kind: str) -> None:
+    """Shortest and longest link together are 2 + 4, the other two 3.5 + 2.5."""
+    (loop,) = report(icsolve.solve(icsolve.load(CLOSE.format(crank=crank)), examine=True)).loops
+    assert loop.kind.startswith(kind)
+    assert bool(loop.inputs[0].limits) == kind.startswith("triple")
+
+
+SLIDER = """\
+icsolve: 1
+points: {{A: [0, 0], C: [unknown, 1]}}
+lengths: {{AB: 2, BC: {rod}}}
+angles: {{AB: 20}}
+near: {{C: [5, 1]}}
+joints:
+  [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{slide: [4, 1], at: C, along: 0}}]
+loads: {{P: {{force: 5, link: 4, at: C, angle: 180}}, T: {{torque: unknown, link: 2}}}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("rod", "turns"), [("3.0000000000000001", True), ("3", True), ("2.9999999999999999", False)]
+)
+def test_whether_a_crank_turns_is_decided_by_the_decimals(rod: str, turns: bool) -> None:
+    """It does where the rod is no shorter than crank and offset together: 2 + 1."""
+    (loop,) = report(icsolve.solve(icsolve.load(SLIDER.format(rod=rod)), examine=True)).loops
+    assert (loop.kind == "link 2 turns fully") == turns == (loop.stroke is not None)
+    assert bool(loop.inputs[0].limits) != turns
 
 
 def test_transmission_angle_of_a_crank_rocker_is_extreme_with_the_crank_in_line_with_the_base() -> None:

@@ -2,26 +2,27 @@
 
 Of four-bars and slider-cranks by their lengths: who turns fully, where the input stops, how well it drives.
 Formulas: K. J. Waldron, G. L. Kinzel and S. K. Agrawal, Kinematics, Dynamics, and Design of Machinery, 3rd
-ed., chapters 1 and 6; each is the law of cosines on the diagonal of the loop.
+ed., chapters 1 and 6; each is the law of cosines on the diagonal of the loop. Which sum of lengths is the
+longer is decided in as many digits as that needs.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer
 from icsolve.case import Case, Pin
 from icsolve.case.joints import Guided
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing, size_of
+from icsolve.scene.parts import scene_of
+from icsolve.scene.program import places_in
+from icsolve.structure.topology import topology
 from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.sweep.cam_sweep import Pressure
-
-
-_EVEN = 1e-9
-"""Relative to the sum of the lengths: closer than this, two sums of lengths are equal."""
 
 
 class AngleRange(NamedTuple):
@@ -33,15 +34,15 @@ class AngleRange(NamedTuple):
 
 
 class Side(NamedTuple):
-    """A four-bar seen from its input: lengths of input, coupler, output and base.
+    """A four-bar seen from its input: lengths of input, coupler, output and base, in any arithmetic.
 
     ``turned`` is the direction of the input less that of the base (from the input's pivot), degrees.
     """
 
-    driver: float
-    coupler: float
-    output: float
-    base: float
+    driver: Scalar
+    coupler: Scalar
+    output: Scalar
+    base: Scalar
     turned: float
 
 
@@ -51,83 +52,99 @@ class Crank(NamedTuple):
     ``turned`` is the direction of the crank less that of the path, degrees.
     """
 
-    radius: float
-    rod: float
-    offset: float
+    radius: Scalar
+    rod: Scalar
+    offset: Scalar
     turned: float
 
 
-def grashof_excess(lengths: tuple[float, float, float, float]) -> float:
-    """Shortest plus longest less the other two; 0 where they are equal within rounding (change point)."""
-    ordered = sorted(lengths)
-    excess = ordered[0] + ordered[3] - ordered[1] - ordered[2]
-    return 0.0 if abs(excess) <= _EVEN * sum(lengths) else excess
+def _sign(a: Arithmetic, difference: Scalar, size: float) -> int:
+    """-1, 0 or 1: of a difference of lengths whose sum is ``size``."""
+    return 0 if a.vanishes(difference, size) else 1 if float(difference) > 0.0 else -1
 
 
-def transmission_of(side: Side) -> AngleRange:
+def _in_line(side: Side, a: Arithmetic) -> tuple[int, int]:
+    """Whether the input brings coupler and output in line, stretched out and folded: 1 where it stops there,
+    0 where it goes on, -1 where it does not come so far."""
+    size = sum(map(float, side[:4]))
+    stretched = side.driver + side.base - side.coupler - side.output
+    folded = size_of(side.coupler - side.output) - size_of(side.driver - side.base)
+    return _sign(a, stretched, size), _sign(a, folded, size)
+
+
+def transmission_of(side: Side, arithmetic: Arithmetic = FLOATS) -> AngleRange:
     """Angle between coupler and output: the diagonal opposite to it is longest with the input stretched out.
 
     cos mu = (b^2 + c^2 - f^2) / 2bc, with f^2 = a^2 + d^2 - 2ad cos(turned).
     """
-    a, b, c, d, turned = side
+    stretched, folded = _in_line(side, arithmetic)
+    a, b, c, d, turned = map(float, side)
     diagonal = math.sqrt(max(a * a + d * d - 2.0 * a * d * math.cos(math.radians(turned)), 0.0))
-    least, greatest = max(abs(d - a), abs(b - c)), min(d + a, b + c)
-    return AngleRange(*(_angle_opposite(f, b, c) for f in (diagonal, least, greatest)))
+    least = 0.0 if folded >= 0 else _angle_opposite(abs(d - a), b, c)
+    greatest = 180.0 if stretched >= 0 else _angle_opposite(d + a, b, c)
+    return AngleRange(_angle_opposite(diagonal, b, c), least, greatest)
 
 
-def limits_of(side: Side) -> tuple[float, ...]:
+def limits_of(side: Side, arithmetic: Arithmetic = FLOATS) -> tuple[float, ...]:
     """Where the input stops, as degrees from the base, the two ends of its range; empty if it turns fully.
 
     It stops where coupler and output lie in line: stretched out (f = b + c) or folded (f = |b - c|).
     """
-    a, b, c, d, turned = side
-    far = _angle_opposite(b + c, a, d) if b + c < (a + d) * (1.0 - _EVEN) else None
-    near = _angle_opposite(abs(b - c), a, d) if abs(b - c) > abs(a - d) + _EVEN * (a + d) else None
-    if far is not None and near is not None:
+    stretched, folded = (sign > 0 for sign in _in_line(side, arithmetic))
+    a, b, c, d, turned = map(float, side)
+    far, near = _angle_opposite(b + c, a, d), _angle_opposite(abs(b - c), a, d)
+    if stretched and folded:
         return (near, far) if math.sin(math.radians(turned)) >= 0.0 else (-far, -near)
-    if far is not None:
+    if stretched:
         return (-far, far)
-    return () if near is None else (near, 360.0 - near)
+    return (near, 360.0 - near) if folded else ()
 
 
 def transmission_in_slider_crank(crank: Crank) -> AngleRange:
     """Angle between the rod and the normal of the guide: cos mu = |e - r sin(turned)| / l."""
-    r, rod, e, turned = crank
+    r, rod, e, turned = map(float, crank)
     now = abs(e - r * math.sin(math.radians(turned)))
     most, fewest = min(r + abs(e), rod), max(abs(e) - r, 0.0)
     return AngleRange(*(_arccos(height / rod) for height in (now, most, fewest)))
 
 
-def limits_in_slider_crank(crank: Crank) -> tuple[float, ...]:
+def limits_in_slider_crank(crank: Crank, arithmetic: Arithmetic = FLOATS) -> tuple[float, ...]:
     """Where the crank stops, degrees from the guide, the two ends of its range; empty if it turns fully.
 
     It stops where the rod is square to the guide: r sin(turned) = e - l or e + l.
     """
     r, rod, e, turned = crank
-    high = _arcsin((e + rod) / r) if (e + rod) / r < 1.0 - _EVEN else None
-    low = _arcsin((e - rod) / r) if (e - rod) / r > _EVEN - 1.0 else None
-    if high is not None and low is not None:
+    size = float(r + rod + size_of(e))
+    above, below = (_sign(arithmetic, r - rod - e, size) > 0, _sign(arithmetic, r - rod + e, size) > 0)
+    r, rod, e = map(float, (r, rod, e))
+    high, low = _arcsin((e + rod) / r), _arcsin((e - rod) / r)
+    if above and below:
         return (low, high) if math.cos(math.radians(turned)) >= 0.0 else (180.0 - high, 180.0 - low)
-    if high is not None:
+    if above:
         return (180.0 - high, 360.0 + high)
-    return () if low is None else (low, 180.0 - low)
+    return (low, 180.0 - low) if below else ()
 
 
-def stroke_of(crank: Crank) -> tuple[float, float] | None:
+def stroke_of(crank: Crank, a: Arithmetic = FLOATS) -> tuple[Scalar, ...]:
     """Where the slider turns back, along its path from the foot of the crank's pivot.
 
-    There crank and rod lie in line, folded and stretched out. None if the crank does not turn fully.
+    There crank and rod lie in line, folded and stretched out: sqrt((l -+ r)^2 - e^2). Empty if the crank
+    does not turn fully.
     """
     r, rod, e, _ = crank
-    if r + abs(e) > rod * (1.0 + _EVEN):
-        return None
-    folded, stretched = (math.sqrt(max(sum_ * sum_ - e * e, 0.0)) for sum_ in (rod - r, rod + r))
-    return folded, stretched
+    size = float(r + rod + size_of(e))
+    if _sign(a, r + size_of(e) - rod, size) > 0:
+        return ()
+    squares = [(both - e) * (both + e) for both in (rod - r, rod + r)]
+    return tuple(0.0 if a.vanishes(square, size * size) else a.sqrt(square) for square in squares)
 
 
 def _angle_opposite(side: float, b: float, c: float) -> float:
-    """Angle of a triangle opposite to a side, degrees, by the other two (law of cosines)."""
-    return _arccos((b * b + c * c - side * side) / (2.0 * b * c))
+    """Angle of a triangle opposite to a side, degrees, by the other two: tan^2 of its half, which keeps its
+    digits where the triangle is flat.
+    """
+    folded, stretched = (side - b + c) * (side + b - c), (b + c - side) * (b + c + side)
+    return math.degrees(2.0 * math.atan2(math.sqrt(max(folded, 0.0)), math.sqrt(max(stretched, 0.0))))
 
 
 def _arccos(value: float) -> float:
@@ -138,7 +155,7 @@ def _arcsin(value: float) -> float:
     return math.degrees(math.asin(min(max(value, -1.0), 1.0)))
 
 
-Place = tuple[float, float]
+Place = tuple[Scalar, Scalar]
 
 
 class Input(NamedTuple):
@@ -164,7 +181,7 @@ class Loop(NamedTuple):
     lengths: tuple[float, ...]
     kind: str
     inputs: tuple[Input, ...] = ()
-    stroke: tuple[Place, Place] | None = None
+    stroke: tuple[tuple[float, ...], ...] | None = None
 
 
 class Report(NamedTuple):
@@ -200,7 +217,11 @@ class Report(NamedTuple):
 
 def report(answer: Answer) -> Report:
     """The report of an answer whose points are all known (solved with ``examine``)."""
-    loops = (*_four_bars(answer), *_slider_cranks(answer))
+    scene = scene_of(answer)
+    if scene is None:  # of a case in space, or one that asks for a position, there are none
+        loops = _loops(answer.case, answer.points, FLOATS) if answer.points else ()
+    else:
+        loops = scene.scene.ask(lambda found: _loops(scene.case, places_in(found), found.arithmetic))
     return Report(answer.mobility, answer.advantage, loops, answer.case.units.length, _contacts(answer))
 
 
@@ -246,14 +267,10 @@ def _stops(each: Input, digits: int) -> str:
 
 def _bodies(case: Case) -> dict[str, str]:
     """Each link's body: links that are welded count as one, the frame by its own name."""
-    body = {link: link for link in case.links}
-    for joint in case.joints:
-        if not joint.freedom:
-            kept, gone = (body[link] for link in joint.links)
-            if gone == body.get(case.ground):
-                kept, gone = gone, kept
-            body = {link: kept if its == gone else its for link, its in body.items()}
-    return body
+    bodies = topology(case)
+    names = [members[0] for members in bodies.members]
+    names[bodies.ground] = case.ground
+    return {link: names[body] for link, body in bodies.body_of.items()}
 
 
 Pivots = dict[str, list[tuple[str, str]]]
@@ -284,39 +301,61 @@ def _chains(pivots: Pivots, start: str, pins: int) -> Iterator[tuple[tuple[str, 
     yield from chains
 
 
-def _four_bars(answer: Answer) -> Iterator[Loop]:
-    pivots = _pivots(answer.case)
-    ground = _bodies(answer.case).get(answer.case.ground, "")
+Places = Mapping[str, tuple[Scalar, Scalar]]
+
+
+def _loops(case: Case, places: Places, a: Showing) -> tuple[Loop, ...]:
+    """The loops of a case with its points in an arithmetic, case units."""
+    return (*_four_bars(case, places, a), *_slider_cranks(case, places, a))
+
+
+def _four_bars(case: Case, places: Places, a: Showing) -> Iterator[Loop]:
+    pivots = _pivots(case)
+    ground = _bodies(case).get(case.ground, "")
     seen: set[frozenset[str]] = set()
     for base in sorted(pivots, key=lambda link: link != ground):
         for bodies, points in _chains(pivots, base, 4):
-            placed = all(point in answer.points for point in points)
+            placed = all(point in places for point in points)
             if placed and bodies[-1] == base and frozenset(points) not in seen:
                 seen.add(frozenset(points))
-                yield _four_bar(answer, bodies[:4], points, base == ground)
+                at = tuple(places[point] for point in points)
+                yield _four_bar(a, bodies[:4], points, at, base == ground)
 
 
-def _four_bar(answer: Answer, links: tuple[str, ...], points: tuple[str, ...], grounded: bool) -> Loop:
-    a, b, c, d = (answer.points[point] for point in points)
-    lengths = (math.dist(d, a), math.dist(a, b), math.dist(b, c), math.dist(c, d))
-    kind = _grashof_kind(links, lengths, grounded)
-    if not grounded or min(lengths) == 0.0:
-        return Loop("four-bar", links, points, lengths, kind)
+def _four_bar(
+    a: Showing, links: tuple[str, ...], points: tuple[str, ...], at: tuple[Place, ...], grounded: bool
+) -> Loop:
+    driver, coupler, output, base = (_distance(a, p, q) for p, q in zip(at, (*at[1:], at[0]), strict=True))
+    lengths = (base, driver, coupler, output)
+    size = sum(map(float, lengths))
+    shown = tuple(a.rounded(length, size)[0] for length in lengths)
+    kind = _grashof_kind(links, lengths, grounded, a)
+    if not grounded or any(a.vanishes(length, size) for length in lengths):
+        return Loop("four-bar", links, points, shown, kind)
+    p, q, r, s = at
+    toward = _direction(p, s)
     inputs = (
-        _side(links[1], points[2], (a, b, c, d)),
-        _side(links[3], points[1], (d, c, b, a)),
+        _side(links[1], points[2], Side(driver, coupler, output, base, _direction(p, q) - toward), toward, a),
+        _side(
+            links[3],
+            points[1],
+            Side(output, coupler, driver, base, _direction(s, r) - toward - 180.0),
+            toward + 180.0,
+            a,
+        ),
     )
-    return Loop("four-bar", links, points, lengths, kind, inputs)
+    return Loop("four-bar", links, points, shown, kind, inputs)
 
 
-def _grashof_kind(links: tuple[str, ...], lengths: tuple[float, ...], grounded: bool) -> str:
-    base, driver, coupler, output = lengths
-    excess = grashof_excess((base, driver, coupler, output))
-    if excess == 0.0:
+def _grashof_kind(links: tuple[str, ...], lengths: tuple[Scalar, ...], grounded: bool, a: Arithmetic) -> str:
+    order = sorted(range(4), key=lambda n: float(lengths[n] - lengths[0]))
+    shortest, one, other, longest = order
+    excess = lengths[shortest] + lengths[longest] - lengths[one] - lengths[other]
+    sign = _sign(a, excess, sum(map(float, lengths)))
+    if sign == 0:
         return "change point (shortest + longest = the other two)"
-    if excess > 0.0:
+    if sign > 0:
         return "triple-rocker, not Grashof: no link turns fully"
-    shortest = lengths.index(min(lengths))
     if not grounded:
         return f"Grashof: link {links[shortest]} turns fully against the others"
     return (
@@ -327,24 +366,25 @@ def _grashof_kind(links: tuple[str, ...], lengths: tuple[float, ...], grounded: 
     )[shortest]
 
 
-def _side(link: str, at: str, places: tuple[Place, Place, Place, Place]) -> Input:
-    """A link as input: pivot of the input, crank pin, output pin, pivot of the output."""
-    a, b, c, d = places
-    base = _direction(a, d)
-    side = Side(math.dist(a, b), math.dist(b, c), math.dist(c, d), math.dist(d, a), _direction(a, b) - base)
-    return Input(link, at, transmission_of(side), _turned(limits_of(side), base))
+def _side(link: str, at: str, side: Side, base: float, a: Arithmetic) -> Input:
+    """A link as input, by the direction of the base from its pivot [degrees]."""
+    return Input(link, at, transmission_of(side, a), _turned(limits_of(side, a), base))
+
+
+def _distance(a: Arithmetic, p: Place, q: Place) -> Scalar:
+    x, y = q[0] - p[0], q[1] - p[1]
+    return a.sqrt(x * x + y * y)
 
 
 def _direction(a: Place, b: Place) -> float:
-    return math.degrees(math.atan2(b[1] - a[1], b[0] - a[0]))
+    return math.degrees(math.atan2(float(b[1] - a[1]), float(b[0] - a[0])))
 
 
 def _turned(angles: tuple[float, ...], by: float) -> tuple[float, ...]:
     return tuple((angle + by) % 360.0 for angle in angles)
 
 
-def _slider_cranks(answer: Answer) -> Iterator[Loop]:
-    case = answer.case
+def _slider_cranks(case: Case, places: Places, a: Showing) -> Iterator[Loop]:
     body = _bodies(case)
     ground = body.get(case.ground, "")
     pivots = _pivots(case)
@@ -352,45 +392,42 @@ def _slider_cranks(answer: Answer) -> Iterator[Loop]:
         block, guide = (body[link] for link in slide.links)
         if guide == ground != block:
             for bodies, points in _chains(pivots, ground, 3):
-                if bodies[-1] == block and _has_extent(answer, points):
-                    yield _slider_crank(answer, slide, bodies, points)
+                if bodies[-1] == block and all(point in places for point in points):
+                    yield from _slider_crank(a, slide, bodies, points, places)
 
 
-def _slider_crank(answer: Answer, slide: Guided, links: tuple[str, ...], points: tuple[str, ...]) -> Loop:
-    a, b, c = (answer.points[point] for point in points)
-    path = _path(answer, slide)
-    ux, uy = math.cos(math.radians(path)), math.sin(math.radians(path))
-    offset = ux * (c[1] - a[1]) - uy * (c[0] - a[0])
-    crank = Crank(math.dist(a, b), math.dist(b, c), offset, _direction(a, b) - path)
-    lengths = (crank.radius, crank.rod, abs(offset))
-    limits = _turned(limits_in_slider_crank(crank), path)
+def _slider_crank(
+    a: Showing, slide: Guided, links: tuple[str, ...], points: tuple[str, ...], places: Places
+) -> Iterator[Loop]:
+    """The loop, where crank and rod have a length."""
+    pivot, pin, slider = (places[point] for point in points)
+    ux, uy = _along(a, slide, places)
+    path = math.degrees(math.atan2(float(uy), float(ux)))
+    offset = ux * (slider[1] - pivot[1]) - uy * (slider[0] - pivot[0])
+    radius, rod = _distance(a, pivot, pin), _distance(a, pin, slider)
+    crank = Crank(radius, rod, offset, _direction(pivot, pin) - path)
+    size = float(radius + rod + size_of(offset))
+    if a.vanishes(radius, size) or a.vanishes(rod, size):
+        return
+    lengths = tuple(a.rounded(length, size)[0] for length in (radius, rod, size_of(offset)))
+    limits = _turned(limits_in_slider_crank(crank, a), path)
     kind = f"link {links[1]} {'does not turn' if limits else 'turns'} fully"
-    name = "in-line slider-crank" if abs(offset) <= 1e-9 * sum(lengths) else "offset slider-crank"
+    name = "in-line slider-crank" if a.vanishes(offset, size) else "offset slider-crank"
     inputs = (Input(links[1], points[2], transmission_in_slider_crank(crank), limits),)
-    return Loop(name, links, points, lengths, kind, inputs, _stroke(crank, a, b, c, (ux, uy)))
+    ahead = float(ux * (slider[0] - pin[0]) + uy * (slider[1] - pin[1])) >= 0.0
+    foot = (pivot[0] - uy * offset, pivot[1] + ux * offset)
+    ends = [
+        tuple(a.rounded(f + (s if ahead else -s) * u, size)[0] for f, u in zip(foot, (ux, uy), strict=True))
+        for s in stroke_of(crank, a)
+    ]
+    yield Loop(name, links, points, lengths, kind, inputs, tuple(ends) or None)
 
 
-def _has_extent(answer: Answer, points: tuple[str, ...]) -> bool:
-    """Whether the crank and the rod have a length, with all their ends placed."""
-    a, b, c = (answer.points.get(point) for point in points)
-    return None not in (a, b, c) and a != b != c
-
-
-def _path(answer: Answer, slide: Guided) -> float:
-    """Direction of a slide's guide, degrees."""
+def _along(a: Arithmetic, slide: Guided, places: Places) -> Place:
+    """Unit vector of a slide's guide."""
     if slide.guide.angle is not None:
-        return slide.guide.angle.value
+        return a.turn(slide.guide.angle)
     assert slide.guide.ends is not None
-    a, b = (answer.points[end] for end in slide.guide.ends)
-    return _direction(a, b)
-
-
-def _stroke(crank: Crank, a: Place, b: Place, c: Place, u: Place) -> tuple[Place, Place] | None:
-    """Where the slider turns back, on the side of the crank on which it is now."""
-    ends = stroke_of(crank)
-    if ends is None:
-        return None
-    side = math.copysign(1.0, u[0] * (c[0] - b[0]) + u[1] * (c[1] - b[1]))
-    foot = (a[0] - u[1] * crank.offset, a[1] + u[0] * crank.offset)
-    first, second = ((foot[0] + side * s * u[0], foot[1] + side * s * u[1]) for s in ends)
-    return first, second
+    one, other = (places[end] for end in slide.guide.ends)
+    length = _distance(a, one, other)
+    return (other[0] - one[0]) / length, (other[1] - one[1]) / length

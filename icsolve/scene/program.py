@@ -21,7 +21,7 @@ from icsolve.case import Case
 from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics import motion, speeds
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Showing
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing
 from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, HalfUnits, MoreDigits
 from icsolve.numbers.tape import Tape
 from icsolve.scene import refusals
@@ -255,15 +255,21 @@ def _arithmetics(program: Program) -> list[Callable[[], Showing]]:
     return [partial(Balls, p + extra, highest=p == last) for p in PRECISIONS]
 
 
+def places_in(found: Evaluation) -> dict[str, tuple[Scalar, Scalar]]:
+    """The points that have a name in the case, in case units and the arithmetic of the evaluation."""
+    ox, oy, scale = found.program.figure.frame
+    named = {name: at for name, at in found.outcome.points.items() if not name.startswith("@")}
+    return {name: (x / scale + ox, y / scale + oy) for name, (x, y) in named.items()}
+
+
 def points_shown(found: Evaluation) -> dict[str, tuple[float, float]]:
-    """The points that have a name in the case, in case units."""
+    """The points that have a name in the case, in case units, each coordinate rounded once."""
     a, (ox, oy, scale) = found.arithmetic, found.program.figure.frame
+    sizes = (1.0 / scale + abs(ox), 1.0 / scale + abs(oy))
     shown = {}
-    for name, (x, y) in found.outcome.points.items():
-        if not name.startswith("@"):
-            px, _ = a.rounded(x / scale + ox, 1.0 / scale + abs(ox))
-            py, _ = a.rounded(y / scale + oy, 1.0 / scale + abs(oy))
-            shown[name] = (px, py)
+    for name, at in places_in(found).items():
+        (x, _), (y, _) = (a.rounded(c, size) for c, size in zip(at, sizes, strict=True))
+        shown[name] = (x, y)
     return shown
 
 
