@@ -232,14 +232,15 @@ def calls_of(copy: Path, kept: Path) -> dict[str, tuple[float, list[str]]]:
 
 
 def tests_of(mutant: Mutant, calls: dict[str, tuple[float, list[str]]]) -> list[str]:
-    """The tests that call the mutated function (of the module itself and its classes: any there), quick and
-    special ones first, as many as the budget has time for."""
+    """The tests that call the mutated function (of the module itself, of its classes and of a class without
+    functions: any there), quick and special ones first, as many as the budget has time for."""
     own = f"{mutant.file} {mutant.function}"
     inside = not mutant.function or mutant.function.split(".")[-1][:1].lstrip("_").isupper()
     near = []
-    for test, (spent, names) in calls.items():
-        if own in names or (inside and any(name.startswith(own) for name in names)):
-            near.append((spent * len(names), spent, test))
+    for wanted in (own, f"{mutant.file} "):
+        for test, (spent, names) in calls.items() if not near else ():
+            if own in names or (inside and any(name.startswith(wanted) for name in names)):
+                near.append((spent * len(names), spent, test))
     taken, total = [], 0.0
     for _, spent, test in sorted(near):
         total += spent

@@ -14,6 +14,7 @@ import pytest
 from mpmath import mp
 
 from icsolve.case import Number
+from icsolve.numbers.adjoint import still_noise
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.jets import BallArray, Jet
 from icsolve.numbers.record import Record
@@ -60,11 +61,6 @@ OPERATIONS: dict[str, tuple[list[Ends], Callable[..., Any], Callable[..., Any]]]
     "square": ([SIGNED], lambda x: x * x, lambda x: x * x),
     "root": ([POSITIVE], lambda x: x.record.sqrt(x), many.sqrt),
     "nearest": ([SIGNED], lambda x: x.record.nearest(x), many.nint),
-    "direction": (
-        [(0.2, 5.0), SIGNED],
-        lambda x, y: x.record.angle(x, y),
-        lambda x, y: many.degrees(many.atan2(y, x)),
-    ),
     "cosine": ([DEGREES], lambda x: x.record.turned(x)[0], turned(many.cos)),
     "sine": ([DEGREES], lambda x: x.record.turned(x)[1], turned(many.sin)),
 }
@@ -99,9 +95,35 @@ def test_an_interval_holds_the_range_of_an_operation_and_a_few_ulps_more(name: s
         ]
         low, high = enclosed(ends, make)
         least, most = min(values), max(values)
-        slack = 16.0 * 2.0**-52 * (180.0 if name == "direction" else max(1.0, abs(least), abs(most)))
+        slack = 16.0 * 2.0**-52 * max(1.0, abs(least), abs(most))
         assert least - slack <= low <= least, ends
         assert most <= high <= most + slack, ends
+
+
+def test_the_directions_of_a_box_are_those_of_its_corners_and_all_about_the_origin() -> None:
+    """But for whole turns; a box that does not hold the origin is seen from it within half a turn."""
+    draw = Random("direction")
+    for most in (0.5, 2.0) * 50:
+        xs, ys = drawn(draw, -2.0, 2.0), drawn(draw, -most, most)
+        low, high = enclosed([xs, ys], lambda x, y: x.record.angle(x, y))
+        if xs[0] <= 0.0 <= xs[1] and ys[0] <= 0.0 <= ys[1]:
+            assert (low, high) == (-180.0, 180.0)
+            continue
+        seen = [many.degrees(many.atan2(y, x)) for x in xs for y in ys]
+        offs = [(one - seen[0] + 180) % 360 - 180 for one in seen]
+        first = seen[0] + 360 * round((low - float(seen[0] + min(offs))) / 360)
+        assert min(offs) - 3e-13 <= low - first <= min(offs), (xs, ys)
+        assert max(offs) <= high - first <= max(offs) + 3e-13, (xs, ys)
+
+
+def test_a_direction_that_is_the_same_in_all_rows_is_known_to_three_units_of_half_a_turn() -> None:
+    draw = Random("still direction")
+    for _ in range(30):
+        x, y = draw.uniform(-1.0, 1.0), draw.uniform(-1.0, 1.0)
+        record = Record()
+        found = record.angle(record.about(x, 0.0), record.about(y, 0.0))
+        off = abs(many.degrees(many.atan2(y, x)) - found.value)
+        assert off <= still_noise(record, found.index) <= 3.0 * math.ulp(180.0)
 
 
 def test_what_is_divided_by_a_range_with_zero_in_it_or_by_a_constant_that_is_zero_is_unbounded() -> None:

@@ -17,7 +17,9 @@ from icsolve.numbers.replay import Array
 from icsolve.tuples import NamedTuple
 
 ROUNDED = 2.0**-51
-"""Relative rounding of an operation on a midpoint, and of a radius."""
+"""Relative rounding of an operation on a midpoint."""
+UP = 1.0 + 2.0**-49
+"""Makes up for the roundings of a radius."""
 RADIAN = float(np.pi / 180.0)
 
 
@@ -34,42 +36,34 @@ class BallArray(NamedTuple):
     rad: Array
 
     def __add__(self, other: BallArray) -> BallArray:  # type: ignore[override]
-        mid = self.mid + other.mid
-        return BallArray(mid, self.rad + other.rad + ROUNDED * np.abs(mid))
+        return _rounded(self.mid + other.mid, self.rad + other.rad)
 
     def __sub__(self, other: BallArray) -> BallArray:
-        mid = self.mid - other.mid
-        return BallArray(mid, self.rad + other.rad + ROUNDED * np.abs(mid))
+        return _rounded(self.mid - other.mid, self.rad + other.rad)
 
     def __mul__(self, other: BallArray) -> BallArray:  # type: ignore[override]
-        mid, one, two = self.mid * other.mid, np.abs(self.mid), np.abs(other.mid)
-        rad = one * other.rad + self.rad * (two + other.rad)
-        return BallArray(mid, rad * (1.0 + ROUNDED) + ROUNDED * np.abs(mid))
+        one, two = np.abs(self.mid), np.abs(other.mid)
+        return _rounded(self.mid * other.mid, one * other.rad + self.rad * (two + other.rad))
 
     def __neg__(self) -> BallArray:
         return BallArray(-self.mid, self.rad)
 
     def times(self, factor: float) -> BallArray:
         """A multiple by an exact factor, (cells,)."""
-        mid = self.mid * factor
-        return BallArray(mid, self.rad * abs(factor) * (1.0 + ROUNDED) + ROUNDED * np.abs(mid))
+        return _rounded(self.mid * factor, self.rad * abs(factor))
 
     def inverse(self) -> BallArray:
         """1 over the numbers, (cells,); radius infinite where zero is among them."""
         size = np.abs(self.mid)
         low = size - self.rad
-        mid = 1.0 / self.mid
-        rad = self.rad / (size * low)
-        return BallArray(
-            mid, np.where(low > 0.0, rad * (1.0 + 4.0 * ROUNDED) + ROUNDED * np.abs(mid), np.inf)
-        )
+        return _rounded(1.0 / self.mid, np.where(low > 0.0, self.rad / (size * low), np.inf))
 
     def root(self) -> BallArray:
         """Square root of those that are not negative, (cells,); 0 where all are negative."""
         high = np.sqrt(np.maximum(self.mid + self.rad, 0.0))
         low = np.sqrt(np.maximum(self.mid - self.rad, 0.0))
         mid = 0.5 * (high + low)
-        return BallArray(mid, 0.5 * (high - low) + 4.0 * ROUNDED * mid)
+        return _rounded(mid, 0.5 * (high - low) + ROUNDED * mid)
 
     def narrower(self, other: BallArray) -> BallArray:
         """Of each two that hold the same number, the narrower, (cells,)."""
@@ -80,6 +74,11 @@ class BallArray(NamedTuple):
     def excludes_zero(self) -> np.typing.NDArray[np.bool_]:
         """Where none of the numbers is zero, (cells,)."""
         return np.asarray(np.abs(self.mid) > self.rad)
+
+
+def _rounded(mid: Array, rad: Array) -> BallArray:
+    """What an operation makes, with room for its roundings."""
+    return BallArray(mid, (rad + ROUNDED * np.abs(mid)) * UP)
 
 
 class Jet(NamedTuple):
@@ -127,8 +126,8 @@ class Jet(NamedTuple):
         """
         bend = np.abs(self.second.mid) + self.second.rad
         slope = np.abs(middle.first.mid) + middle.first.rad
-        value = BallArray(middle.value.mid, middle.value.rad + slope * half + bend * half * half)
-        first = BallArray(middle.first.mid, middle.first.rad + bend * half * (1.0 + ROUNDED))
+        value = BallArray(middle.value.mid, (middle.value.rad + slope * half + bend * half * half) * UP)
+        first = BallArray(middle.first.mid, (middle.first.rad + bend * half) * UP)
         return Jet(self.value.narrower(value), self.first.narrower(first), self.second)
 
     def root(self) -> Jet:
