@@ -167,7 +167,7 @@ def _slipping(known: Known, figures: Figures, rope: Rope) -> Iterable[Block]:
     for k, mu in enumerate(rope.mu):
         if mu is None or not 0 < k < len(parts):
             continue
-        angle, wrap = wrap_angle(rope, k, parts), Name("beta", rope.points[k])
+        angle, wrap = max(wrap_angle(rope, k, parts[k - 1], parts[k]), 0.0), Name("beta", rope.points[k])
         turn = figures.quantity(math.degrees(angle), "deg")
         yield words(
             f"On {rope.points[k]} the rope lies over ", wrap, " = ", turn, " = ",

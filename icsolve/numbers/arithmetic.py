@@ -114,6 +114,11 @@ def decider(a: Arithmetic) -> Callable[[Scalar, float], bool] | None:
     return a.vanishes if getattr(a, "certain", False) else None
 
 
+def exponential(value: Scalar) -> Scalar:
+    """e to the power of a float, a ball or a number on a tape."""
+    return value.exp() if hasattr(value, "exp") else math.exp(value)
+
+
 def size_of(value: Scalar) -> Scalar:
     """The absolute value, as a number of its arithmetic."""
     return value if float(value) >= 0.0 else 0.0 - value

@@ -216,6 +216,13 @@ class Ball:
             raise MoreDigits
         return -1 if self.value.is_signed() else 1
 
+    def exp(self) -> "Ball":
+        """e to its power: the value's is the nearest decimal, and e^d - 1 bounds what a change by d adds."""
+        a, value = self.arithmetic, self.arithmetic.power(self.value)
+        size = float(value) * UP + TINY
+        radius = math.expm1(self.radius) * size * UP * UP
+        return Ball(a, value, (radius * a.carried + a.unit * size) * UP + TINY, size, INEXACT)
+
     def as_zero(self) -> "Ball":
         """The zero that this was found to be, with the distance that it may lie off."""
         radius = (abs(float(self.value)) + self.radius) * UP
@@ -273,6 +280,7 @@ class Balls:
         context = _context(digits)
         self.add, self.subtract = context.add, context.subtract
         self.multiply, self.divide, self.root = context.multiply, context.divide, context.sqrt
+        self.power = context.exp
         self.unit = max(float(f"1e-{digits}"), TINY) * UP * 5.0
         """half a unit of the last digit, over the value: at most 5 in the digit after it"""
         self.up = UP * (1.0 + self.unit)

@@ -134,6 +134,11 @@ class Taped:
     def __float__(self) -> float:
         return self.value
 
+    def exp(self) -> Taped:
+        """e to its power."""
+        value = math.exp(self.value)
+        return Taped(self.tape, (self.index, value, 0, 0.0, 2.0 * UNIT * value), value, value)
+
     def as_zero(self) -> Taped:
         """The zero that this was found to be, with its derivatives."""
         return self - self.value

@@ -16,12 +16,14 @@ from itertools import pairwise
 
 from icsolve.case import Rope
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import RADIAN, Arithmetic, Scalar
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, exponential
 from icsolve.screws.plane import Point, Triple, force_wrench, pairing, velocity
 from icsolve.tuples import NamedTuple
 
-TOUCHING = 1e-9
-"""A rope that turns by less (rad) on a pulley, in either sense, passes it: it does not go all round."""
+TOUCHING = 5e-8
+"""A rope that turns by less (degrees) on a pulley, in either sense, passes it: it does not go all round."""
+RADIANS = (1, 180, 1)
+"""A degree, in radians: an exact ratio."""
 MOST_GROWN = 300.0
 """Exponents of a pull beyond this leave no room for the loads beside it."""
 
@@ -132,11 +134,8 @@ def rope_length(
             part = part_between(rope, k, (one, radius), (two, next_radius), scale, arithmetic)
             total = total + part.length
         if before is not None and part is not None and rope.radii[k] is not None:
-            (ax, ay), (bx, by) = before.along, part.along
-            turned = arithmetic.angle(ax * bx + ay * by, ax * by - ay * bx)
-            signed = turned if rope.wraps[k] == "ccw" else 0.0 - turned
-            round_it = signed + 360.0 if float(signed) * RADIAN < -TOUCHING else signed
-            total = total + abs(radius) * (round_it + 360.0 * rope.whole_turns(k)) * RADIAN
+            size = radius if rope.wraps[k] == "ccw" else 0.0 - radius
+            total = total + size * wrap_angle(rope, k, before, part, arithmetic)
         before = part
     return total
 
@@ -169,13 +168,15 @@ def part_changes(part: RopePart, centre: Point, twists: Mapping[str, Triple], ot
     return (a, b, moved + turned)
 
 
-def wrap_angle(rope: Rope, k: int, parts: tuple[RopePart, ...]) -> float:
-    """The angle (rad) over which a rope lies on a pulley: in [0, 2 pi) without whole turns."""
-    (ax, ay), (bx, by) = parts[k - 1].along, parts[k].along
-    turned = math.atan2(float(ax * by - ay * bx), float(ax * bx + ay * by))
-    sense = 1.0 if rope.wraps[k] == "ccw" else -1.0
-    shown = (sense * turned + TOUCHING) % (2.0 * math.pi) - TOUCHING
-    return max(shown, 0.0) + 2.0 * math.pi * rope.whole_turns(k)
+def wrap_angle(
+    rope: Rope, k: int, before: RopePart, after: RopePart, arithmetic: Arithmetic = FLOATS
+) -> Scalar:
+    """The angle (rad) over which a rope lies on a pulley between two parts: of one turn, and its `turns`."""
+    (ax, ay), (bx, by) = before.along, after.along
+    turned = arithmetic.angle(ax * bx + ay * by, ax * by - ay * bx)
+    signed = turned if rope.wraps[k] == "ccw" else 0.0 - turned
+    round_it = signed + 360.0 if float(signed) < -TOUCHING else signed
+    return (round_it + 360.0 * rope.whole_turns(k)) * arithmetic.ratio(RADIANS)
 
 
 def slip_rates(parts: tuple[RopePart, ...], twists: Mapping[str, Triple]) -> tuple[Scalar, ...]:
@@ -189,21 +190,29 @@ def slip_rates(parts: tuple[RopePart, ...], twists: Mapping[str, Triple]) -> tup
     return tuple(found)
 
 
-def tension_ratios(rope: Rope, parts: tuple[RopePart, ...], senses: Sequence[float]) -> tuple[float, ...]:
+def tension_ratios(
+    rope: Rope, parts: tuple[RopePart, ...], senses: Sequence[float], arithmetic: Arithmetic
+) -> tuple[Scalar, ...]:
     """The tension of each part over that of the first, where the rope slips in these senses.
 
     The pull grows in the sense in which the rope runs on by exp(mu beta), with the angle of wrap beta
-    (Euler's and Eytelwein's formula). Raises SceneError where no number holds that.
+    (Euler's and Eytelwein's formula); sense 0: it does not slip there. Raises SceneError where no number
+    holds that.
     """
-    ratios = [1.0]
+    ratios: list[Scalar] = [1.0]
     for k, sense in enumerate(senses, start=1):
         mu = rope.mu[k]
-        grown = 0.0 if mu is None else sense * mu.value * wrap_angle(rope, k, parts)
+        if mu is None or not sense:
+            ratios.append(ratios[-1])
+            continue
+        angle = wrap_angle(rope, k, parts[k - 1], parts[k], arithmetic)
+        exponent = sense * arithmetic.given(mu) * angle
+        grown = float(exponent)
         if grown > MOST_GROWN:
             raise SceneError(
                 Status.UNSUPPORTED,
                 f"the rope {rope.name} slips at {rope.points[k]}, where its pull grows by exp({grown:.4g}): "
                 "no number holds that. Look at its mu.",
             )
-        ratios.append(ratios[-1] * math.exp(grown))
+        ratios.append(ratios[-1] * exponential(exponent))
     return tuple(ratios)

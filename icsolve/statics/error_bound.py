@@ -31,9 +31,9 @@ from icsolve.screws.plane import Point
 from icsolve.statics.equilibrium import Components, Rub, Statics, actions_of, equilibrium
 from icsolve.statics.free_bodies import Solved, carrying_flanks
 from icsolve.statics.friction_equations import forces_of
-from icsolve.statics.friction_interface import rates_of, rubs_of
+from icsolve.statics.friction_interface import rubbing_rates, rubs_of
 from icsolve.statics.power import Balance, Bounded, Wrench
-from icsolve.statics.reaction_basis import Force, Position, rope_ties, ties_of, with_flanks
+from icsolve.statics.reaction_basis import Force, Position, rope_ties, slipping, ties_of, with_flanks
 from icsolve.statics.witness import independent
 from icsolve.tuples import NamedTuple
 
@@ -78,7 +78,7 @@ def error_bounds(
     if weights is None or why:
         return ErrorBounds({}, {}, why or UNSURE)
     exact = _exact(position, solved, found, traced)
-    if not _senses_are_sure(position, exact, senses, traced, speed):
+    if not _senses_are_sure(exact, senses, traced, speed):
         return ErrorBounds({}, {}, TOO_CLOSE)
     return _judged(solved, *_swept(found, solved, weights, exact, traced))
 
@@ -119,8 +119,6 @@ def _doubt(position: Position, traced: Bounded) -> str:
     """Why a bound of first order would not do."""
     if position.case.screws:
         return f"{UNSURE} with screws"
-    if any(rope.slips for rope in position.case.ropes):
-        return f"{UNSURE} with ropes that slip"
     if position.slack:
         return MISSED
     if any(isinstance(joint, Mesh) and joint.helix is not None for joint in position.case.joints):
@@ -135,23 +133,25 @@ def _exact(position: Position, solved: Solved, found: SlidingSolution, traced: B
     flanks = carrying_flanks(position, solved.statics.ties, solved)
     ties = with_flanks(placed, ties_of(placed), flanks)
     values = {column: tape.constant(value) for column, value in found.values.items()}
-    ropes = rope_ties(position.case, placed.points, position.scale, tape)
+    ropes = slipping(
+        placed._replace(ropes=rope_ties(position.case, placed.points, position.scale, tape)),
+        [tie.senses for tie in found.statics.ropes],
+    ).ropes
     statics = found.statics._replace(ties=ties, rubs=rubs_of(placed, ties), ropes=ropes, arithmetic=tape)
     return Exact(statics, placed, outcome.balance.wrenches, values)
 
 
-def _senses_are_sure(
-    position: Position, exact: Exact, senses: Sequence[float], traced: Bounded, speed: Speed
-) -> bool:
+def _senses_are_sure(exact: Exact, senses: Sequence[float], traced: Bounded, speed: Speed) -> bool:
     """Whether no rate that gave a sense lies within its own bound of zero."""
-    moving = position._replace(points=traced.outcome.points, twists=traced.outcome.motions.twists)
-    ties, rubs = exact.statics.ties, exact.statics.rubs
-    by_motion = [rates_of(moving, ties, rubs, m) for m in range(position.mobility)]
-    for k, sense in enumerate(senses):
-        rate = sum(part * row[k] for part, row in zip(speed.particular, by_motion, strict=True))
-        if sense and abs(rate) <= traced.of(rate):
-            return False
-    return True
+    twists = traced.outcome.motions.twists
+    rates = rubbing_rates(exact.position._replace(twists=twists, ropes=exact.statics.ropes), speed)
+    own = zip(senses, rates.rubs, strict=True)
+    ropes = (
+        (s, r)
+        for tie, row in zip(exact.statics.ropes, rates.ropes, strict=True)
+        for s, r in zip(tie.senses, row, strict=True)
+    )
+    return all(rate is not None and abs(rate) > traced.of(rate) for sense, rate in (*own, *ropes) if sense)
 
 
 KINK = 1e-6
@@ -356,16 +356,14 @@ def enclosed(scene: SceneOnBalls, solved: Solved, senses: Sequence[float]) -> So
     None where a sense, or the flank of a tooth, is another than the balls say. Raises MoreDigits where they
     leave that open, and where no solution is shown.
     """
-    position, a = scene.position, scene.arithmetic
+    a = scene.arithmetic
     assert isinstance(a, Balls)
+    rope_senses = [tie.senses for tie in solved.statics.ropes]
+    if not _moves_so(scene, senses, rope_senses):
+        return None
+    position = slipping(scene.position, rope_senses)
     ties = with_flanks(position, ties_of(position), carrying_flanks(position, solved.statics.ties, solved))
     rubs = rubs_of(position, ties)
-    rates = [rates_of(position, ties, rubs, m) for m in range(position.mobility)]
-    particular = scene.speed.particular
-    for k, sense in enumerate(senses):
-        rate = sum((part * row[k] for part, row in zip(particular, rates, strict=True)), 0.0)
-        if a.vanishes(rate, max(map(abs, particular))) == bool(sense):
-            return None
     statics = equilibrium(position, ties, scene.balance, rubs)
     slides = [k for k, sense in enumerate(senses) if sense]
     columns = [statics.root(n) for n in range(len(statics.roots))] + [statics.rub(k) for k in slides]
@@ -375,6 +373,14 @@ def enclosed(scene: SceneOnBalls, solved: Solved, senses: Sequence[float]) -> So
     unknowns = {root: x / statics.scale for root, x in zip(statics.roots, found, strict=False)}
     sliding = dict(zip(slides, found[len(statics.roots) :], strict=True))
     return Solved(statics, unknowns, tuple(sliding.get(k, 0.0) for k in range(len(rubs))))
+
+
+def _moves_so(scene: SceneOnBalls, senses: Sequence[float], rope_senses: Sequence[Sequence[float]]) -> bool:
+    """Whether everything rubs in these senses; where no motion is given, perhaps in all the opposite ones."""
+    moving = rubbing_rates(scene.position, scene.speed).in_floats.senses
+    asked = [sense for row in (senses, *rope_senses) for sense in row]
+    opposite = [-sense for sense in asked]
+    return moving.every == asked or (not scene.position.case.motion and moving.every == opposite)
 
 
 class _FrictionSystem:
@@ -416,15 +422,12 @@ class _FrictionSystem:
 
 
 def is_smooth(position: Position, solved: Solved) -> bool:
-    """Whether the equations are smooth at a solution, and all of them algebraic, so that it can be enclosed.
+    """Whether the equations are smooth at a solution, so that it can be enclosed.
 
-    Not where next to no force presses, where ropes slip (by an exponential), or where given centres miss the
-    motion.
+    Not where next to no force presses, or where given centres miss the motion.
     """
     frictions = [abs(f) for f in solved.friction]
     if len(frictions) != len(solved.statics.rubs) or position.slack:
-        return False
-    if any(rope.slips for rope in position.case.ropes):
         return False
     largest = max(map(abs, solved.statics.filled(solved.parameters).values()), default=0.0)
     return all(f > KINK * largest for f in frictions if f) and math.isfinite(largest)

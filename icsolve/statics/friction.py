@@ -13,17 +13,14 @@ from typing import Protocol, TypeVar
 from icsolve.answer import Answer, Deferred, Found
 from icsolve.answer.bodies import FrictionFound, Reactions, Rubbing, Tension
 from icsolve.assembly import Frame
-from icsolve.case import Rope
 from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
-from icsolve.kinematics.speeds import STILL, Speed
-from icsolve.numbers.arithmetic import FLOATS, Scalar
-from icsolve.screws.ropes import slip_rates, tension_ratios
+from icsolve.kinematics.speeds import Speed, fastest
+from icsolve.numbers.arithmetic import FLOATS
 from icsolve.statics import reaction_basis
-from icsolve.statics.equilibrium import Rub, Statics, equilibrium
+from icsolve.statics.equilibrium import Statics, equilibrium
 from icsolve.statics.error_bound import (
     TOO_CLOSE,
-    UNSURE,
     ErrorBounds,
     SceneOnBalls,
     enclosed,
@@ -32,7 +29,13 @@ from icsolve.statics.error_bound import (
 )
 from icsolve.statics.free_bodies import FreeBodies, Solved, carrying_flanks, frictionless, on_flanks, told
 from icsolve.statics.friction_equations import forces_of
-from icsolve.statics.friction_interface import rates_of, rubs_of, unknowns_by_power
+from icsolve.statics.friction_interface import (
+    RubbingRates,
+    place_of,
+    rubbing_rates,
+    rubs_of,
+    unknowns_by_power,
+)
 from icsolve.statics.friction_limits import (
     End,
     Slid,
@@ -46,7 +49,7 @@ from icsolve.statics.friction_limits import (
 )
 from icsolve.statics.power import Balance, Bounded, Solution, Value, is_unknown
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
-from icsolve.statics.reactions import names_by_tie, reactions_of
+from icsolve.statics.reactions import names_by_tie, reactions_of, tensions_of
 from icsolve.statics.witness import refuse_doubt, residual, terms_of
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed, plural
@@ -67,34 +70,37 @@ def in_motion(
     SceneError
         Where no value does, where several do without one to prefer, and where the sense of a rub is open.
     """
-    scene = slipping(scene)
+    rates = rates_of_motion(scene)
+    scene, senses = _slipping(scene, rates), rates.senses.rubs
     ties, workless = ties_of(scene.position), _is_workless(scene)
     slides: list[Slid] = []
 
     def solve(flanked: Sequence[Tie]) -> Solved:
         statics = _statics(scene, flanked)
-        slides.append(slid(statics, senses_of(scene, statics).signs, workless))
+        slides.append(slid(statics, senses, workless))
         return Solved(statics, slides[-1].unknowns, slides[-1].friction)
 
     first = _flanks(scene, ties, workless)
     solved = on_flanks(first, lambda flanks: solve(reaction_basis.with_flanks(scene.position, ties, flanks)))
-    senses = senses_of(scene, solved.statics).signs
-    sure, bodies = _certain(scene, solved, senses), _bodies(scene, solved, slides[-1])
+    sure, bodies = _certain(scene, solved, senses), _bodies(scene, solved, slides[-1], rates)
     if reactions and sure.values and scene.enclose is not None:
         with suppress(SceneError):
-            exact = scene.enclose(lambda placed: _enclosed_reactions(scene, placed, solved, senses))
-            bodies = bodies._replace(reactions=exact or bodies.reactions)
+            exact = scene.enclose(lambda placed: _enclosed_bodies(scene, placed, solved, senses))
+            if exact is not None:
+                bodies = bodies._replace(reactions=exact[0], tensions=exact[1])
     return {**solved.unknowns, **sure.values}, bodies, sure
 
 
-def _enclosed_reactions(
+def _enclosed_bodies(
     scene: FrictionScene, placed: SceneOnBalls, solved: Solved, senses: Sequence[float]
-) -> Reactions | None:
-    """The reactions of a solution, each number rounded once."""
+) -> tuple[Reactions, tuple[Tension, ...]] | None:
+    """The reactions of a solution and the pulls of its ropes, each number rounded once."""
     found = enclosed(placed, solved, senses)
     if found is None:
         return None
-    return reactions_of(placed.position, scene.frame, found.statics, found.parameters, placed.arithmetic)
+    statics, parameters, a = found.statics, found.parameters, placed.arithmetic
+    reactions = reactions_of(placed.position, scene.frame, statics, parameters, a)
+    return reactions, tensions_of(statics, parameters, a, placed.position.case.units.force)
 
 
 def _enclosed_loads(
@@ -139,14 +145,15 @@ def at_rest(scene: FrictionScene) -> tuple[StaticRange, float | None, str]:
             "each: without it each unknown load has a range that depends on the others."
         )
         raise SceneError(Status.MOBILITY, message)
+    rates = rates_of_motion(scene)
     if any(rope.slips for rope in scene.position.case.ropes):
-        return _range_with_ropes(scene), None, f"{UNSURE} with ropes that slip"
-    ties, workless = ties_of(scene.position), _is_workless(scene)
-    flanks = _flanks(scene, ties, workless)
-    statics = _statics(scene, reaction_basis.with_flanks(scene.position, ties, flanks))
-    senses = senses_of(scene, statics).signs
-    found = pressed(statics, senses) if workless else static_range(statics, senses)
-    sure = [_certain_end(scene, statics, end) for end in found.ends]
+        found, sure = _range_with_ropes(scene, rates)
+    else:
+        ties, workless, senses = ties_of(scene.position), _is_workless(scene), rates.senses.rubs
+        flanks = _flanks(scene, ties, workless)
+        statics = _statics(scene, reaction_basis.with_flanks(scene.position, ties, flanks))
+        found = pressed(statics, senses) if workless else static_range(statics, senses)
+        sure = [_certain_end(scene, statics, end) for end in found.ends]
     bounds = [bound for each in sure for bound in each.bounds.values()]
     why = next((each.why for each in sure if not each.bounds), "" if bounds else PRESSED)
     both = zip(found.ends, sure, strict=True)
@@ -156,68 +163,50 @@ def at_rest(scene: FrictionScene) -> tuple[StaticRange, float | None, str]:
     return found, None if why else max(bounds), why
 
 
-def slipping(scene: FrictionScene, direction: float = 1.0) -> FrictionScene:
+def _slipping(scene: FrictionScene, rates: RubbingRates, direction: float = 1.0) -> FrictionScene:
     """The scene with the pulls of its ropes as they slip in the motion that is meant, or in its opposite."""
-    if not any(rope.slips for rope in scene.position.case.ropes):
-        return scene
-    ropes = [
-        tie._replace(ratios=tension_ratios(tie.rope, tie.parts, [direction * s for s in _signs(rates)]))
-        for tie, rates in zip(scene.position.ropes, rope_rates(scene), strict=True)
-    ]
-    return scene._replace(position=scene.position._replace(ropes=tuple(ropes)))
+    senses = (tuple([direction * sense for sense in row]) for row in rates.senses.ropes)
+    return scene._replace(position=reaction_basis.slipping(scene.position, senses))
 
 
-def _signs(rates: Sequence[float]) -> list[float]:
-    return [math.copysign(1.0, rate) if rate else 0.0 for rate in rates]
+def rates_of_motion(scene: FrictionScene) -> RubbingRates:
+    """How fast everything rubs in the motion that is meant, zero only where it does not.
 
-
-def rope_rates(scene: FrictionScene) -> list[tuple[float, ...]]:
-    """How fast each rope runs on over what it goes round, in the motion that is meant (normalised).
-
-    Raises SceneError where a freedom that no motion fixes moves one that slips.
+    Raises SceneError where a freedom that no motion fixes moves it.
     """
-    position, found = scene.position, []
-    fastest = max((abs(x) for ts in position.twists.values() for t in ts for x in t), default=0.0)
-    for tie in position.ropes:
-        each = [
-            slip_rates(tie.parts, {link: ts[m] for link, ts in position.twists.items()})
-            for m in range(position.mobility)
-        ]
-        rates = []
-        for k, by_motion in enumerate(zip(*each, strict=True), start=1):
-            rate = scene.speed.of([float(one) for one in by_motion], fastest)
-            if rate is None and tie.rope.mu[k] is not None:
-                raise SceneError(Status.MOBILITY, _open_rope(tie.rope))
-            rate = 0.0 if rate is None else rate
-            rates.append(rate if abs(rate * scene.speed.divisor) > STILL * fastest else 0.0)
-        found.append(tuple(rates))
+    found = rubbing_rates(scene.position, scene.speed)
+    size = fastest(scene.position.twists) * max(map(abs, scene.speed.particular))
+    if any(abs(rate * scene.speed.divisor) <= SLOW * size for rate in found.every) and scene.enclose:
+        with suppress(SceneError):  # where balls leave it open, rounding alone would say more
+            found = scene.enclose(lambda placed: rubbing_rates(placed.position, placed.speed).in_floats)
     return found
 
 
-def _open_rope(rope: Rope) -> str:
-    return (
-        f"the sense in which the rope {rope.name} slips is open: a freedom that no given motion fixes moves "
-        "it. Give its `motion` too, or weld what does not turn."
-    )
+SLOW = 1e-7
+"""Rates below this fraction of the fastest are looked at on balls."""
 
 
-def _range_with_ropes(scene: FrictionScene) -> StaticRange:
-    """The range where ropes slip: about to move one way and the other, with the pulls that go with each.
+def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[StaticRange, list[ErrorBounds]]:
+    """The range where ropes slip: about to move one way and the other, with the pulls that go with each; and
+    the bounds of its finite ends.
 
     Where a rope would have to push, the mechanism never moves that way: the range has no end there, on the
     side on which the unknown load draws the ropes tighter.
     """
     ends: list[End] = []
+    sure: list[ErrorBounds] = []
     for direction in (1.0, -1.0):
-        one = slipping(scene, direction)
+        one = _slipping(scene, rates, direction)
         ties = ties_of(one.position)
         flanks = _flanks(one, ties, False)
         statics = _statics(one, reaction_basis.with_flanks(one.position, ties, flanks))
-        end = end_of(statics, [direction * s for s in senses_of(one, statics).signs])
+        end = end_of(statics, [direction * sense for sense in rates.senses.rubs])
         if end is None:
             raise SceneError(Status.NO_VALUE, nothing_rubs(statics))
         ends.append(_pulling(statics, end))
-    return range_of(ends)
+        if math.isfinite(ends[-1].value):
+            sure.append(_certain_end(one, statics, ends[-1]))
+    return range_of(ends), sure
 
 
 def _pulling(statics: Statics, end: End) -> End:
@@ -296,25 +285,27 @@ def _shared(tie: Tie, ties: Sequence[Tie]) -> str:
     )
 
 
-def _bodies(scene: FrictionScene, solved: Solved, found: Slid) -> FreeBodies:
+def _bodies(scene: FrictionScene, solved: Solved, found: Slid, rates: RubbingRates) -> FreeBodies:
     """What the free bodies say, and what rubs."""
     statics, by_power = solved.statics, None
     if scene.solution.verdict not in ("no value", "any value"):
         by_power = {q: (value, 0.0) for q, value in _by_power(scene, solved).items()}
     bodies = told(scene.position, scene.frame, scene.balance, solved, by_power, FLOATS)
-    senses = senses_of(scene, statics)
-    rubbing = (*rubbing_of(scene, solved, found, senses), *_ropes_rubbing(scene, statics, bodies.tensions))
+    of_ropes = _ropes_rubbing(scene, statics, bodies.tensions, rates)
+    rubbing = (*rubbing_of(scene, solved, found, rates.rubs), *of_ropes)
     refuse_power(rubbing)
     error, losses = found.error if math.isfinite(found.error) else None, sum(r.loss for r in rubbing)
     left = residual(terms_of(statics, solved.parameters))
     friction = FrictionFound(rubbing, left, error, found.unique, losses)
-    notes = (*bodies.notes, *notes_in_motion(statics, found, senses))
+    notes = (*bodies.notes, *notes_in_motion(statics, found, rates.rubs))
     return bodies._replace(notes=notes, friction=friction)
 
 
-def _ropes_rubbing(scene: FrictionScene, statics: Statics, pulls: Sequence[Tension]) -> Iterator[Rubbing]:
+def _ropes_rubbing(
+    scene: FrictionScene, statics: Statics, pulls: Sequence[Tension], found: RubbingRates
+) -> Iterator[Rubbing]:
     """Where ropes slip: the difference of the two pulls, and the power that it takes."""
-    for tie, rates, pull in zip(statics.ropes, rope_rates(scene), pulls, strict=True):
+    for tie, rates, pull in zip(statics.ropes, found.ropes, pulls, strict=True):
         for k, rate in enumerate(rates, start=1):
             if tie.rope.mu[k] is None or not pull.parts:
                 continue
@@ -413,71 +404,9 @@ class FrictionScene(NamedTuple):
     """the same on balls, of as many digits as that takes"""
 
 
-class Sense(NamedTuple):
-    """Of each rub the rate in the motion that is meant, 0.0 where it is at rest."""
-
-    rates: tuple[float, ...]
-
-    @property
-    def signs(self) -> tuple[float, ...]:
-        """1, -1, or 0."""
-        return tuple(math.copysign(1.0, rate) if rate else 0.0 for rate in self.rates)
-
-
-def senses_of(scene: FrictionScene, statics: Statics) -> Sense:
-    """Rates of all rubs in the motion that is meant.
-
-    Raises SceneError where a freedom that no motion fixes moves one.
-    """
-    found, near = [], False
-    fastest = _fastest(scene.position)
-    for k, rate in enumerate(_rates(scene.position, scene.speed, statics.ties, statics.rubs)):
-        if rate is None:
-            raise SceneError(Status.MOBILITY, _open(statics.ties[statics.rubs[k].tie]))
-        size = abs(rate * scene.speed.divisor)
-        near = near or size <= SLOW * fastest
-        found.append(rate if size > STILL * fastest else 0.0)
-    if near and scene.enclose is not None:
-        with suppress(SceneError):  # where balls leave it open, rounding alone would say more
-            return scene.enclose(_sense_on_balls)
-    return Sense(tuple(found))
-
-
-SLOW = 1e-7
-"""Rates below this fraction of the fastest are looked at on balls."""
-
-
-def _rates(position: Position, speed: Speed, ties: Sequence[Tie], rubs: Sequence[Rub]) -> list[Scalar | None]:
-    """Rates of rubs in the motion that is meant; None where another freedom moves one."""
-    by_motion = [rates_of(position, ties, rubs, m) for m in range(position.mobility)]
-    fastest = _fastest(position)
-    return [speed.of([row[k] for row in by_motion], fastest) for k in range(len(rubs))]
-
-
-def _fastest(position: Position) -> float:
-    return max((abs(x) for ts in position.twists.values() for t in ts for x in t), default=0.0)
-
-
-def _sense_on_balls(placed: SceneOnBalls) -> Sense:
-    """The rates, each zero only where it is one."""
-    ties = ties_of(placed.position)
-    rates = _rates(placed.position, placed.speed, ties, rubs_of(placed.position, ties))
-    return Sense(tuple([0.0 if rate is None else float(rate) for rate in rates]))
-
-
-def _open(tie: Tie) -> str:
-    return (
-        f"the sense of the friction of links {tie.by} and {tie.on}{place_of(tie)} is open: a freedom that no "
-        "given motion fixes moves them. Give its `motion` too, or weld what does not turn."
-    )
-
-
-def place_of(tie: Tie) -> str:
-    """`` at B``; nothing where the joint's point has no name."""
-    return f" at {tie.where}" if tie.where else ""
-
-
-def rubbing_of(scene: FrictionScene, solved: Solved, found: Slid, senses: Sense) -> tuple[Rubbing, ...]:
+def rubbing_of(
+    scene: FrictionScene, solved: Solved, found: Slid, rates: Sequence[float]
+) -> tuple[Rubbing, ...]:
     """Friction, its limit, rate and loss at every rub, case units."""
     statics, case = solved.statics, scene.position.case
     names = names_by_tie(case, statics.ties)
@@ -486,8 +415,8 @@ def rubbing_of(scene: FrictionScene, solved: Solved, found: Slid, senses: Sense)
         tie, kind = statics.ties[rub.tie], statics.ties[rub.tie].kind
         turns = kind == "pin"
         per_unit = statics.scale * (scene.frame.scale / case.units.torque_per_force_length if turns else 1.0)
-        rate = senses.rates[k] / (1.0 if turns else scene.frame.scale)
-        loss = 0.0 - solved.friction[k] / statics.scale * (senses.rates[k] / scene.frame.scale)
+        rate = rates[k] / (1.0 if turns else scene.frame.scale)
+        loss = 0.0 - solved.friction[k] / statics.scale * (rates[k] / scene.frame.scale)
         value, limit = solved.friction[k] / per_unit + 0.0, found.limits[k] / per_unit
         radius = rub.limit / scene.frame.scale if turns else None
         rows.append(Rubbing(names[rub.tie], tie.where, kind, value, limit, rate, loss, radius))
@@ -501,10 +430,10 @@ def refuse_power(rubbing: Sequence[Rubbing]) -> None:
             raise AssertionError(f"friction at {rub.joint} gives power")
 
 
-def notes_in_motion(statics: Statics, found: Slid, senses: Sense) -> Sequence[str]:
+def notes_in_motion(statics: Statics, found: Slid, rates: Sequence[float]) -> Sequence[str]:
     """Sentences about what does not rub, and about other solutions."""
     notes = []
-    still = [statics.ties[rub.tie] for rub, rate in zip(statics.rubs, senses.rates, strict=True) if not rate]
+    still = [statics.ties[rub.tie] for rub, rate in zip(statics.rubs, rates, strict=True) if not rate]
     if still:
         places = listed(dict.fromkeys(f"{tie.by}-{tie.on}{place_of(tie)}" for tie in still))
         notes.append(f"{places} does not rub in this motion: its friction has no sense and is left out.")

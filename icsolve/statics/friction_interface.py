@@ -9,18 +9,24 @@ The sums of power with the losses of friction counted, apart from the equilibriu
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import math
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 
 from icsolve.answer import Term, bodies
-from icsolve.case import Case, Friction, Number, Screw
+from icsolve.case import Case, Friction, Number, Rope, Screw
+from icsolve.errors import SceneError, Status
+from icsolve.kinematics.speeds import Speed, fastest
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.numbers.linear import solve_square
 from icsolve.screws.joints import guide_direction
 from icsolve.screws.plane import pairing, subtract, velocity
+from icsolve.screws.ropes import slip_rates
 from icsolve.statics.equilibrium import Rub, Statics
 from icsolve.statics.power import Balance, force_scale, friction_of, known_power
-from icsolve.statics.reaction_basis import COUPLE, Force, Position, RopeTie, Tie, thread
+from icsolve.statics.reaction_basis import COUPLE, Force, Position, RopeTie, Tie, thread, ties_of
 from icsolve.statics.witness import independent, powers_of
+from icsolve.tuples import NamedTuple
 
 
 def rubs_of(position: Position, ties: Sequence[Tie]) -> tuple[Rub, ...]:
@@ -97,6 +103,84 @@ def _rate(position: Position, tie: Tie, rub: Rub, motion: int) -> Scalar:
     vx, vy = velocity(twist, tie.at)
     rate = rub.unit[0] * vx + rub.unit[1] * vy + rub.unit[2] * twist[2]
     return rate if tie.screw is None else rate + rub.spin * position.twists[tie.screw.rotor][motion][2]
+
+
+class RubbingRates(NamedTuple):
+    """How fast what can rub does in the motion that is meant, each zero where it does not.
+
+    Attributes
+    ----------
+    rubs : of the second link of every rub [frame length/s, of a pin rad/s]
+    ropes : of every rope over each place between its parts [frame length/s]; 0.0 where it has no friction
+    """
+
+    rubs: tuple[Scalar, ...]
+    ropes: tuple[tuple[Scalar, ...], ...]
+
+    @property
+    def in_floats(self) -> RubbingRates:
+        """Each rounded."""
+        return self._each(float)
+
+    @property
+    def senses(self) -> RubbingRates:
+        """1, -1, or 0 in place of each rate."""
+        return self._each(lambda rate: math.copysign(1.0, rate) if rate else 0.0)
+
+    def _each(self, change: Callable[[Scalar], float]) -> RubbingRates:
+        return RubbingRates(
+            tuple(map(change, self.rubs)), tuple(tuple(map(change, row)) for row in self.ropes)
+        )
+
+    @property
+    def every(self) -> list[Scalar]:
+        """All of them."""
+        return [rate for row in (self.rubs, *self.ropes) for rate in row]
+
+
+def rubbing_rates(position: Position, speed: Speed) -> RubbingRates:
+    """The rates of all rubs and ropes.
+
+    Raises SceneError where a freedom that no given motion fixes moves one.
+    """
+    ties = ties_of(position)
+    rubs, motions = rubs_of(position, ties), range(position.mobility)
+    largest = fastest(position.twists)
+
+    def rate(by_motion: Sequence[Scalar], refusal: Callable[[], str]) -> Scalar:
+        found = speed.of(by_motion, largest)
+        if found is None:
+            raise SceneError(Status.MOBILITY, refusal())
+        return found
+
+    by_motion = zip(*(rates_of(position, ties, rubs, m) for m in motions), strict=True)
+    own = [rate(rates, partial(_open, ties[rub.tie])) for rub, rates in zip(rubs, by_motion, strict=True)]
+    ropes = []
+    for tie in position.ropes:
+        runs = [slip_rates(tie.parts, {link: ts[m] for link, ts in position.twists.items()}) for m in motions]
+        places = zip(tie.rope.mu[1:-1], zip(*runs, strict=True), strict=True)
+        refusal = partial(_open_rope, tie.rope)
+        ropes.append(tuple([0.0 if mu is None else rate(rates, refusal) for mu, rates in places]))
+    return RubbingRates(tuple(own), tuple(ropes))
+
+
+def _open_rope(rope: Rope) -> str:
+    return (
+        f"the sense in which the rope {rope.name} slips is open: a freedom that no given motion fixes moves "
+        "it. Give its `motion` too, or weld what does not turn."
+    )
+
+
+def _open(tie: Tie) -> str:
+    return (
+        f"the sense of the friction of links {tie.by} and {tie.on}{place_of(tie)} is open: a freedom that no "
+        "given motion fixes moves them. Give its `motion` too, or weld what does not turn."
+    )
+
+
+def place_of(tie: Tie) -> str:
+    """`` at B``; nothing where the joint's point has no name."""
+    return f" at {tie.where}" if tie.where else ""
 
 
 def unknowns_by_power(

@@ -10,7 +10,7 @@ pressure angle, pushes each externally toothed gear toward its own pivot, whiche
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.case import Case, Guide, Joint, Pin, Rope, Screw, Slide, Thread
 from icsolve.case.joints import Guided, Mesh, Rolling
@@ -19,7 +19,7 @@ from icsolve.kinematics.motion import TURN
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.screws.joints import Points, at_radius, freedoms, guide_direction, pitch_point, transmitted
 from icsolve.screws.plane import Point, Triple, shift, subtract
-from icsolve.screws.ropes import RopePart, rope_parts
+from icsolve.screws.ropes import RopePart, rope_parts, tension_ratios
 from icsolve.structure.topology import Bond, Topology, pairs_of
 from icsolve.tuples import NamedTuple
 
@@ -66,11 +66,16 @@ class Tie(NamedTuple):
 
 
 class RopeTie(NamedTuple):
-    """A rope between links: the tension of part k is ``ratios[k]`` times that of the first."""
+    """A rope between links: the tension of part k is ``ratios[k]`` times that of the first.
+
+    ``senses`` are those in which it slips on what it goes round between its parts: 1 (it runs toward its last
+    end), -1, or 0.
+    """
 
     rope: Rope
     parts: tuple[RopePart, ...]
-    ratios: tuple[float, ...]
+    ratios: tuple[Scalar, ...]
+    senses: tuple[float, ...]
 
     def unit(self, k: int) -> tuple[Point, Force]:
         """What a unit of tension in the first part does on the first link of a part: a force at a point."""
@@ -138,8 +143,20 @@ def rope_ties(
     found = []
     for rope in case.ropes:
         parts = rope_parts(rope, points, scale, arithmetic)
-        found.append(RopeTie(rope, parts, (1.0,) * len(parts)))
+        found.append(RopeTie(rope, parts, (1.0,) * len(parts), (0.0,) * (len(parts) - 1)))
     return tuple(found)
+
+
+def slipping(position: Position, senses: Iterable[tuple[float, ...]]) -> Position:
+    """A position whose ropes slip in these senses.
+
+    Raises SceneError where no number holds how much the pull of one grows.
+    """
+    ropes = [
+        tie._replace(ratios=tension_ratios(tie.rope, tie.parts, own, position.arithmetic), senses=own)
+        for tie, own in zip(position.ropes, senses, strict=True)
+    ]
+    return position._replace(ropes=tuple(ropes))
 
 
 def _end_tie(position: Position, tie: RopeTie) -> Tie:

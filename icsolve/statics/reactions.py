@@ -88,7 +88,7 @@ def tensions_of(
         if pull < 0.0:
             raise SceneError(Status.SLACK, _slack(tie.rope, pull, unit))
         slips = any(mu is not None for mu in tie.rope.mu)
-        parts = tuple(pull * r for r in tie.ratios) if slips else ()
+        parts = tuple(a.rounded(value * r / statics.scale)[0] for r in tie.ratios) if slips else ()
         found.append(Tension(tie.rope.name, pull, parts, error=error if math.isfinite(error) else None))
     return tuple(found)
 

@@ -416,7 +416,8 @@ def _ropes(rope: Rope, answer: Answer) -> Iterator[tuple[str, Rope]]:
     for k, mu in enumerate(rope.mu):
         if mu is None or not all(p in answer.points for p in rope.points):
             continue
-        beta = wrap_angle(rope, k, rope_parts(rope, answer.points, 1.0, FLOATS))
+        parts = rope_parts(rope, answer.points, 1.0, FLOATS)
+        beta = wrap_angle(rope, k, parts[k - 1], parts[k])
         whole = TURN * rope.whole_turns(k)
         angles = [TURN - beta + 2.0 * whole, math.pi - beta, 1.0]  # the other side, its supplement
         angles += [beta - whole, beta - TURN, beta + TURN] if whole else []

@@ -1,0 +1,211 @@
+"""Ropes that slip, every digit: capstans, band brakes and lengths, against sixty digits of closed forms.
+
+Euler and Eytelwein: the pull grows by exp(mu beta) in the sense in which the rope runs over what it lies on.
+With D from a point to the centre of a circle, the line that touches it leans from D by asin(r / |D|).
+"""
+
+from __future__ import annotations
+
+import math
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+
+import icsolve
+from icsolve.scene.sensitivity import influences
+from sizes import MORE
+
+mp.dps = 60
+Vector = tuple[Any, Any]
+
+
+def number(rng: Random, low: float, high: float) -> str:
+    return f"{rng.uniform(low, high):.4f}"
+
+
+def exact(*written: str) -> list[Any]:
+    return [mpf(one) for one in written]
+
+
+def toward(degrees: str) -> Vector:
+    angle = mpf(degrees) * mp.pi / 180
+    return mp.cos(angle), mp.sin(angle)
+
+
+def cross(a: Vector, b: Vector) -> Any:
+    return a[0] * b[1] - a[1] * b[0]
+
+
+class Lying:
+    """A rope from a point over a circle about the origin to another point: its directions and wrap."""
+
+    def __init__(self, first: Vector, last: Vector, radius: Any, wrap: str) -> None:
+        side = 1 if wrap == "ccw" else -1
+        one = mp.atan2(-first[1], -first[0]) - mp.asin(side * radius / mp.hypot(*first))
+        two = mp.atan2(last[1], last[0]) + mp.asin(side * radius / mp.hypot(*last))
+        self.side = side
+        self.wrap = side * (two - one) % (2 * mp.pi)
+        self.onto, self.off = (mp.cos(one), mp.sin(one)), (mp.cos(two), mp.sin(two))
+        straight = [mp.sqrt(p[0] ** 2 + p[1] ** 2 - radius**2) for p in (first, last)]
+        self.length = sum(straight) + radius * self.wrap
+
+
+def agrees(value: float, error: float | None, true: Any, what: str) -> None:
+    """Rounded once, and the bound holds and is at most two units in the last place."""
+    assert error is not None, what
+    assert error <= 2 * math.ulp(value), what
+    assert abs(mpf(value) - true) <= error, what
+
+
+def capstan(rng: Random) -> tuple[str, dict[float, Any]]:
+    """A block on a guide, a rope from it over a post to a hand; and the pull by the block's sense."""
+    a, b = ((number(rng, -4, -1), number(rng, -4, 4)) for _ in "ab")
+    r, mu, along, w, lean = (
+        number(rng, *ends) for ends in ((0.1, 0.9), (0.05, 0.8), (-60, 60), (10, 200), (100, 250))
+    )
+    wrap = rng.choice(["cw", "ccw"])
+    rope = Lying((mpf(a[0]), mpf(a[1])), (mpf(b[0]), mpf(b[1])), mpf(r), wrap)
+    d, f = toward(along), toward(lean)
+    first = -mpf(w) * (f[0] * d[0] + f[1] * d[1]) / (rope.onto[0] * d[0] + rope.onto[1] * d[1])
+    running = 1 if rope.onto[0] * d[0] + rope.onto[1] * d[1] > 0 else -1
+    pulls = {sense: first * mp.exp(sense * running * mpf(mu) * rope.wrap) for sense in (1.0, -1.0)}
+    return (
+        f"""icsolve: 1
+points: {{A: [{a[0]}, {a[1]}], O: [0, 0], B: [{b[0]}, {b[1]}]}}
+joints:
+  - {{slide: [2, 1], at: A, along: {along}}}
+  - {{rope: [A, O, B], on: [2, 1], radii: {{O: {r}}}, wraps: {{O: {wrap}}}, mu: {{O: {mu}}}}}
+loads:
+  W: {{force: {w}, link: 2, at: A, angle: {lean}}}
+  U: {{force: unknown, at: B}}
+""",
+        pulls,
+    )
+
+
+def brake(rng: Random) -> tuple[str, dict[float, Any]]:
+    """A band from the frame over a drum on a rough pin to a lever; and its load by the drum's sense."""
+    e, c = ((number(rng, -3, 3), number(rng, -4, -1)) for _ in "ec")
+    a, at = ((number(rng, -3, 3), number(rng, -4, 4)) for _ in "al")
+    r, mu, torque, lean, rough, pin = (
+        number(rng, *ends) for ends in ((0.1, 0.9), (0.05, 0.8), (5, 50), (0, 360), (0.05, 0.5), (0.01, 0.05))
+    )
+    wrap = rng.choice(["cw", "ccw"])
+    (ex, ey, cx, cy, ax, ay, lx, ly) = exact(*e, *c, *a, *at)
+    rope = Lying((ex, ey), (cx, cy), mpf(r), wrap)
+    circle = mpf(pin) * mp.sin(mp.atan(mpf(rough)))
+    loads = {}
+    for sense in (1.0, -1.0):
+        grown = mp.exp(-sense * rope.side * mpf(mu) * rope.wrap)
+        rest = mp.hypot(*(grown * x - y for x, y in zip(rope.off, rope.onto, strict=True)))
+        first = -mpf(torque) / (rope.side * mpf(r) * (grown - 1) - sense * circle * rest)
+        lever = cross((lx - ax, ly - ay), toward(lean))
+        loads[sense] = first * grown * cross((cx - ax, cy - ay), rope.off) / lever if first > 0 else None
+    return (
+        f"""icsolve: 1
+points: {{O: [0, 0], E: [{e[0]}, {e[1]}], A: [{a[0]}, {a[1]}], C: [{c[0]}, {c[1]}], L: [{at[0]}, {at[1]}]}}
+joints:
+  - {{pin: [1, 2], at: O, mu: {rough}, radius: {pin}}}
+  - {{pin: [1, 3], at: A}}
+  - {{rope: [E, O, C], on: [1, 2, 3], radii: {{O: {r}}}, wraps: {{O: {wrap}}}, mu: {{O: {mu}}}}}
+loads:
+  M: {{torque: {torque}, link: 2}}
+  U: {{force: unknown, link: 3, at: L, angle: {lean}}}
+""",
+        loads,
+    )
+
+
+def motion(text: str, sense: float) -> str:
+    if "slide" in text:
+        along = float(text.partition("along: ")[2].partition("}")[0])
+        return f"motion: {{point: A, link: 2, speed: 1, angle: {along + (0 if sense > 0 else 180)!r}}}\n"
+    return f"motion: {{link: 2, turns: {'ccw' if sense > 0 else 'cw'}}}\n"
+
+
+@pytest.mark.parametrize("kind", [capstan, brake])
+def test_what_slips_is_the_closed_form_rounded_once(kind: Any) -> None:
+    compared = 0
+    for seed in range(12 * MORE):
+        text, truths = kind(Random(seed))
+        for sense, true in truths.items():
+            if true is None or (kind is capstan and true <= 0):
+                continue
+            answer = icsolve.solve(icsolve.load(text + motion(text, sense)), reactions=True)
+            found = answer.answers["U"]
+            agrees(found.value, found.error, true, f"{kind.__name__} {seed} {sense}")
+            compared += 1
+    assert compared >= 8
+
+
+def test_the_range_that_a_capstan_holds_has_proven_ends() -> None:
+    compared = 0
+    for seed in range(10 * MORE):
+        text, truths = capstan(Random(seed))
+        if min(truths.values()) > 0:
+            found = icsolve.solve(icsolve.load(text)).answers["U"]
+            assert found.holds is not None
+            assert found.error is not None
+            for end, true in zip(found.holds, sorted(truths.values()), strict=True):
+                assert abs(mpf(end) - true) <= found.error <= 2 * math.ulp(found.holds[1]), seed
+            compared += 1
+    assert compared >= 4
+
+
+def test_tensions_of_the_parts_are_rounded_once() -> None:
+    for seed in range(6 * MORE):
+        text, truths = capstan(Random(seed))
+        if truths[1.0] > 0:
+            answer = icsolve.solve(icsolve.load(text + motion(text, 1.0)), reactions=True)
+            (pull,) = answer.tensions
+            assert abs(mpf(pull.parts[1]) - truths[1.0]) <= math.ulp(pull.parts[1])
+            assert pull.error is not None
+
+
+def test_rows_of_a_rope_that_slips_are_proven_too() -> None:
+    text, truths = next(
+        (text, truths)
+        for seed in range(20)
+        if min((made := capstan(Random(seed)))[1].values()) > 0
+        for text, truths in [made]
+    )
+    mu = float(text.partition("mu: {O: ")[2].partition("}")[0])
+    case = icsolve.load(text + motion(text, 1.0))
+    rows = icsolve.sweep(case, {"joints.O.mu": np.array([mu, mu + 0.1])}, ("answers", "error"))
+    agrees(float(rows.answers["U"][0]), float(rows.error["U"][0]), truths[1.0], "row")
+
+
+def test_what_a_rope_of_given_length_places_is_rounded_once() -> None:
+    """A block on an upright guide hangs by a rope over a pulley with a radius."""
+    for seed in range(4 * MORE):
+        rng = Random(seed)
+        x, r, bx, by = (number(rng, *ends) for ends in ((0.5, 0.9), (0.1, 0.3), (-0.9, -0.5), (-1.9, -1.1)))
+        text = f"""icsolve: 1
+points: {{A: [-1, -2], P: [0, 0], B: [{bx}, {by}], C: [{x}, unknown]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{slide: [3, 1], at: C, along: 90}}
+  - {{rope: [B, P, C], on: [2, 1, 3], length: 4, radii: {{P: {r}}}, wraps: {{P: cw}}}}
+near: {{C: [{x}, -1.6]}}
+loads: {{W: {{weight: 100, link: 3, at: C}}, T: {{torque: unknown, link: 2}}}}
+"""
+        first = (mpf(bx), mpf(by))
+
+        def left(y: Any, first: Vector = first, x: str = x, r: str = r) -> Any:
+            return Lying(first, (mpf(x), y), mpf(r), "cw").length - 4
+
+        true = mp.findroot(left, mpf("-1.6"))
+        found = icsolve.solve(icsolve.load(text)).points["C"][1]
+        assert abs(mpf(found) - true) <= math.ulp(found), seed
+
+
+def test_the_slope_by_the_coefficient_of_a_rope_is_that_of_the_exponential() -> None:
+    text, truths = capstan(Random(3))
+    answer = icsolve.solve(icsolve.load(text + motion(text, 1.0)))
+    (slope,) = (one.per_unit for one in influences(answer, "U") if one.path == "joints.A-O-B.mu.O")
+    grown = mp.log(truths[1.0] / truths[-1.0]) / 2  # mu beta, with the sense
+    mu = mpf(text.partition("mu: {O: ")[2].partition("}")[0])
+    assert slope == pytest.approx(float(truths[1.0] * grown / mu), rel=1e-12)
