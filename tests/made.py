@@ -63,7 +63,7 @@ def four_bar_answer(case: Case | None = None, **changes: Any) -> Answer:
             ("2", "4"): Centre(
                 ("2", "4"),
                 "at",
-                (-1.5139, 1e-17),
+                (-1.5139, 0.0),
                 "construction",
                 ((("2", "3"), ("3", "4")), (("1", "2"), ("1", "4"))),
                 error=3e-16,

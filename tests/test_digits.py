@@ -26,6 +26,7 @@ from icsolve.bench.digits import every_row, shown
 from icsolve.bench.families import EXACT, Family
 from icsolve.errors import SceneError
 from icsolve.manual import template
+from icsolve.report.derivation import known_of
 from sizes import FULL
 
 
@@ -281,3 +282,24 @@ def test_two_points_that_the_decimals_make_one_give_no_direction(load: str, seed
     with pytest.raises(SceneError, match="lie at one place") as refusal:
         icsolve.solve(case)
     assert refusal.value.status == "inconsistent"
+
+
+NEAR_REST = """\
+icsolve: 1
+points: {{A: [0, 0], B: [3, {off}], C: [9, 0], D: [7, -4]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
+loads: {{M: {{torque: 5, link: 4}}, T: {{torque: unknown, link: 2}}}}
+motion: {{link: 2, speed: 1 rad/s}}
+"""
+
+
+@pytest.mark.parametrize("off", ["0", "1e-13", "-1e-25"])
+def test_a_slow_link_is_not_told_to_rest(off: str) -> None:
+    """Explanations and pictures have the rates of the answer, however slow a link is: a rocker where
+    crank and coupler are in line, and beside that."""
+    known = known_of(icsolve.load(NEAR_REST.format(off=off)))
+    rates = icsolve.solve(known.case, rates=True).rates
+    assert rates is not None
+    for link, (_, _, rate) in known.twists.items():
+        assert rate == pytest.approx(rates[link], rel=1e-15, abs=0.0)
+    assert known.turns("4") == (float(off) != 0.0)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from icsolve.answer import Answer, Centre, Found, Term
 from icsolve.case import Case, Coordinates, Pair, Torque
 from icsolve.case.names import link_order, pair_name
+from icsolve.scene.parts import scene_of
 from icsolve.wording.senses import SPELT, holding, spelt
 
 if TYPE_CHECKING:
@@ -162,25 +163,19 @@ def _centres(answer: Answer, digits: int) -> list[str]:
         return []
     case = answer.case
     names = [f"I{pair_name(case, pair)}" for pair in answer.centres]
-    places = [_place(answer, centre, digits) for centre in answer.centres.values()]
+    places = [_place(centre, digits) for centre in answer.centres.values()]
     hows = [_how(case, centre) for centre in answer.centres.values()]
     return ["Instant centres", *_table(names, places, hows)]
 
 
-def _place(answer: Answer, centre: Centre, digits: int) -> str:
+def _place(centre: Centre, digits: int) -> str:
     if centre.kind == "at":
         shows = [_formatter(_certain(value, centre.error, digits)) for value in centre.place]
-        x, y = (_coordinate(answer, value, show) for value, show in zip(centre.place, shows, strict=True))
+        x, y = (show(value) for value, show in zip(centre.place, shows, strict=True))
         return f"({x}, {y})"
     if centre.kind == "toward":
         return f"at infinity, toward {_shown(centre.place[0], centre.error, digits)} deg"
     return f"{centre.kind}: {centre.why}"
-
-
-def _coordinate(answer: Answer, value: float, show: Format) -> str:
-    """A coordinate; rounding noise beside the size of the figure is shown as 0."""
-    size = max((abs(c) for place in answer.points.values() for c in place), default=0.0)
-    return "0" if abs(value) < 1e-13 * size else show(value)
 
 
 def _how(case: Case, centre: Centre) -> str:
@@ -217,13 +212,14 @@ def _power_error(answer: Answer) -> float:
 
 def _sum_of_powers(answer: Answer, show: Format) -> str:
     """What the terms add up to: zero where an unknown balances them; else it shows whether known loads do."""
+    scene, unit = scene_of(answer), answer.case.units.torque_per_force_length
     if answer.answers:
         return "the terms add up to zero"
-    powers = [term.power * answer.case.units.torque_per_force_length for term in answer.terms]
-    total = math.fsum(powers)
-    if abs(total) <= 1e-12 * max(map(abs, powers)):
+    if scene is None:
+        return f"the terms add up to {show(math.fsum(term.power for term in answer.terms) * unit)}"
+    if scene.in_equilibrium:
         return "the terms add up to zero, the loads are in equilibrium"
-    return f"the terms add up to {show(total)}, the loads are not in equilibrium"
+    return f"the terms add up to {show(scene.sum_of_powers() * unit)}, the loads are not in equilibrium"
 
 
 def _term(answer: Answer, term: Term, certain: int, digits: int) -> tuple[str, str, str]:
@@ -311,7 +307,7 @@ def _points(answer: Answer, show: Format) -> list[str]:
     points = {name: place for name, place in answer.shown_points.items() if name not in given}
     if not points:
         return []
-    places = [", ".join(_coordinate(answer, c, show) for c in place) for place in points.values()]
+    places = [", ".join(map(show, place)) for place in points.values()]
     return [f"Points found, {answer.case.units.length}", *_table(list(points), [f"({p})" for p in places])]
 
 

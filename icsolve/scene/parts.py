@@ -16,7 +16,7 @@ from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
 from icsolve.kinematics.motion import Motions
 from icsolve.kinematics.speeds import Speed
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.arithmetic import Scalar, magnitude, zero_of
 from icsolve.numbers.balls import PRECISIONS, BelowZero, MoreDigits, MovedBalls
 from icsolve.scene.program import (
     EvaluatedScene,
@@ -35,24 +35,40 @@ from icsolve.scene.sensitivity import numbers_of, unsettled
 from icsolve.screws.plane import Triple
 from icsolve.statics import power
 from icsolve.statics.power import Bounded, Outcome, Value, Wrench, known_value, load_value
-from icsolve.tuples import replace
+from icsolve.tuples import NamedTuple, replace
 from icsolve.wording import sentences
 from icsolve.wording.senses import sense_of, unit_of
 from icsolve.wording.sentences import link_words
 
 
-def power_terms(found: Evaluation, values: Mapping[str, Scalar], speed: Speed) -> Iterable[Term]:
-    """One term a load, for the motion that is printed."""
-    case, frame, balance = found.program.case, found.program.figure.frame, found.outcome.balance
+class Power(NamedTuple):
+    """A load's number times its factor is its power; ``size`` is what that is summed from."""
+
+    wrench: Wrench
+    value: Scalar
+    factor: Scalar
+    size: float
+
+
+def _powers(found: Evaluation, values: Mapping[str, Scalar], speed: Speed) -> Iterable[Power]:
+    """The power of each load in the motion that is printed [force units times case length, a second]."""
+    frame, balance = found.program.figure.frame, found.outcome.balance
     a, motions = found.arithmetic, range(len(balance.factors))
     for n, w in enumerate(balance.wrenches):
         row = [balance.factors[m][n] for m in motions]
         per = w.measure / frame.scale
         size = max(balance.sizes[m][n] for m in motions)
-        factor = speed.particular_of(row, size) * per
         value = load_value(w, values, a)
+        factor = speed.particular_of(row, size) * per
+        yield Power(w, value, factor, abs(value) * size * per / abs(speed.divisor))
+
+
+def power_terms(found: Evaluation, values: Mapping[str, Scalar], speed: Speed) -> Iterable[Term]:
+    """One term a load, for the motion that is printed."""
+    case, a = found.program.case, found.arithmetic
+    for w, value, factor, size in _powers(found, values, speed):
         unknown = known_value(w) is None
-        power, _ = a.rounded(value * factor, abs(value) * size * per / abs(speed.divisor))
+        power, _ = a.rounded(value * factor, size)
         numbers = a.rounded(value)[0], unit_of(w.load, case), a.rounded(factor)[0], power
         yield Term(w.load.name, w.load.link, *numbers, unknown, _where(case, w))
 
@@ -165,16 +181,7 @@ class AnswerBuilder:
     @cached_property
     def twists(self) -> dict[str, Triple]:
         """The motion of every link as ``omega * (x, y, 1)`` in case units, where it is determined."""
-        motions, frame, speed = self.outcome.motions.twists, self.figure.frame, self.speed
-        meant = {link: speeds.meant(motions, speed, link) for link in motions}
-        known = {
-            link: first
-            for link, (first, *rest) in meant.items()
-            if all(_extent(t) <= STILL * _extent(first) for t in rest)
-        }
-        least = STILL * max(map(_extent, known.values()), default=0.0)
-        cleaned = {link: _without_rounding(t, least) for link, t in known.items()}
-        return {link: frame.twist_shown(t, speed.divisor) for link, t in cleaned.items()}
+        return self.scene.ask(_twists)
 
     def _notes(self, answers: Mapping[str, Found]) -> list[str]:
         notes = [sentences.EXPLAINED] if self.scene.explained else []
@@ -244,6 +251,23 @@ class AnswerBuilder:
                     reach[load] = max(reach.get(load, 0.0), far if change > own else near)
         return reach
 
+    @property
+    def in_equilibrium(self) -> bool:
+        """Whether the powers of the loads add up to zero in every motion."""
+        return self.first.outcome.solution.verdict == "balanced"
+
+    def sum_of_powers(self) -> float:
+        """What the powers of all loads add up to in the motion that is printed [force times case length]."""
+
+        def summed(found: Evaluation) -> float:
+            powers = list(_powers(found, self._values(found), speed_of(found)))
+            total: Scalar = 0.0
+            for one in powers:
+                total = total + one.value * one.factor
+            return found.arithmetic.rounded(total, sum(one.size for one in powers))[0]
+
+        return self.scene.ask(summed)
+
     def _advantage(self, found: Evaluation) -> float | None:
         return power.advantage(found.outcome.balance.wrenches, self._values(found), found.arithmetic)
 
@@ -298,19 +322,20 @@ def _centres(found: Evaluation) -> dict[Pair, Centre]:
 
 NOTHING = 1e-60
 """A change by less than this fraction of the value is what a difference of second order leaves."""
-STILL = 1e-12
-"""A velocity below this fraction of the fastest is shown as none (rounding)."""
-
-
-def _extent(t: Triple) -> float:
-    return float(max(map(abs, t)))
-
-
-def _without_rounding(t: Triple, least: float) -> Triple:
-    """A twist without what rounding left of a rest or of a turning."""
-    if _extent(t) <= least:
-        return (0.0, 0.0, 0.0)
-    return (t[0], t[1], 0.0 if abs(t[2]) <= least else t[2])
+def _twists(found: Evaluation) -> dict[str, Triple]:
+    """The motions that are meant, each number rounded once: a rest is a rest, however slow others are."""
+    motions, frame, a = found.outcome.motions.twists, found.program.figure.frame, found.arithmetic
+    speed = speed_of(found)
+    fastest = max((magnitude(value) for ts in motions.values() for t in ts for value in t), default=0.0)
+    shown: dict[str, Triple] = {}
+    for link in motions:
+        first, *rest = speeds.meant(motions, speed, link)
+        if all(a.vanishes(value, fastest) for t in rest for value in t):
+            x, y, w = (zero_of(v) if a.vanishes(v, fastest) else v for v in first)
+            own = frame.twist_shown((x, y, w), speed.divisor)
+            (u, _), (v, _), (rate, _) = (a.rounded(value, fastest) for value in own)
+            shown[link] = (u, v, rate)
+    return shown
 
 
 def _found(case: Case, balance: power.Balance, unknowns: Mapping[str, Value]) -> dict[str, Found]:
