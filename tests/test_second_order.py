@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from decimal import Decimal
+from fractions import Fraction
 from random import Random
 
 import pytest
 
 import icsolve
-from icsolve.kinematics.motion import BINDS as WORK
-from icsolve.kinematics.motion import _idle, bracket
+from icsolve.kinematics.motion import _work, bracket
 from icsolve.screws.plane import Triple, add
 
 MOVES, BINDS = "goes on moving to second order", "only for an instant"
@@ -72,6 +73,18 @@ def test_cranks_parallel_but_unequal_bind() -> None:
     assert BINDS in note(pinned("0, 0; 2, 0; 5, -1; 1, 2; 3, 2; 6.5, 2", "12 13 14 25 35 45"))
 
 
+@pytest.mark.parametrize("off", ["1e-10", "-1e-18"])
+def test_cranks_as_good_as_equal_bind_by_their_decimals(off: str) -> None:
+    """The third of three parallel cranks is longer or shorter by that much, of sqrt(5)."""
+    x, y = (Fraction(off) * k for k in (1, 2))
+    end = f"{_decimal(6 + x)}, {_decimal(2 + y)}"
+    assert BINDS in note(pinned(f"0, 0; 2, 0; 5, 0; 1, 2; 3, 2; {end}", "12 13 14 25 35 45"))
+
+
+def _decimal(value: Fraction) -> str:
+    return f"{Decimal(value.numerator) / Decimal(value.denominator)}"
+
+
 def test_the_bracket_of_three_twists_keeps_jacobis_identity() -> None:
     rng = Random(1)
     a, b, c = ((rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)) for _ in range(3))
@@ -87,5 +100,5 @@ def test_the_bracket_of_three_twists_keeps_jacobis_identity() -> None:
 def test_whether_a_stress_does_work_is_no_question_of_speed(fast: float) -> None:
     """Misfits of second order grow as the square of the rates, and the work with the stress."""
     for stress in (1e-3, 1e3):
-        for share, idle in ((0.1, True), (10.0, False)):
-            assert _idle([stress], [share * WORK * fast * fast], [fast, -0.5 * fast]) is idle
+        work, size = _work([stress, -stress], [3.0 * fast * fast, fast * fast], [fast, -0.5 * fast])
+        assert work / size == pytest.approx(2.0)

@@ -28,7 +28,7 @@ from icsolve.kinematics.twists import (
     run,
     span,
 )
-from icsolve.numbers.arithmetic import Arithmetic, decider
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, all_vanish, decider
 from icsolve.numbers.given import Number
 from icsolve.numbers.null_space import null_space
 from icsolve.screws.joints import Points, freedoms, guide_direction, points_of, transmitted
@@ -221,22 +221,24 @@ def _off_place(top: Topology, bases: Bases, k: int, arithmetic: Arithmetic) -> f
     return None if arithmetic.vanishes(w, max(abs(x), abs(y))) else math.hypot(x / w - px, y / w - py)
 
 
-BINDS = 1e-9
-"""Work of a self-stress on the second-order misfit, over the products that it is summed from."""
-
-
-def goes_on(top: Topology, bases: Bases) -> bool | None:
+def goes_on(top: Topology, bases: Bases, arithmetic: Arithmetic) -> bool | None:
     """Whether the one motion of a redundant scene extends to second order.
 
     Parameters
     ----------
     top : bodies and bonds
-    bases : by bond, its basis twists [frame of size 1], floats
+    bases : by bond, its basis twists [frame of size 1]
+    arithmetic : of the bases
 
     Returns
     -------
     bool | None
         None where a joint has not one centre that goes with its links, or there is not one motion.
+
+    Raises
+    ------
+    MoreDigits
+        Of balls, where it is open.
     """
     if any(top.bonds[k].joint.freedom > 1 or not top.bonds[k].joint.stays_known for k in bases):
         return None
@@ -244,21 +246,23 @@ def goes_on(top: Topology, bases: Bases) -> bool | None:
     if any(body not in tree.branches for k in bases for body in (top.bonds[k].a, top.bonds[k].b)):
         return None  # what no joint ties to the frame floats: more motions than one
     rows = [row[:-1] for row in loop_rows(top, tree, bases, {top.ground: ORIGIN})]
-    motion = null_space(rows, tree.columns, unit=1.0).basis
+    vanishes = decider(arithmetic)
+    motion = null_space(rows, tree.columns, unit=1.0, vanishes=vanishes).basis
     if len(motion) != 1:
         return None
-    misfits: list[float] = []
+    misfits: list[Scalar] = []
     for k in tree.closing:
         (one, ba), (two, bb) = (
             _second(tree.branches[body], motion[0]) for body in (top.bonds[k].a, top.bonds[k].b)
         )
         misfit = subtract(subtract(bb, ba), bracket(one, two))
         misfits += [pairing(wrench, misfit) for wrench in transmitted(bases[k])]
-    stresses = null_space([list(column) for column in zip(*rows, strict=True)], len(rows), unit=1.0).basis
-    return all(_idle(stress, misfits, motion[0]) for stress in stresses)
+    columns = [list(column) for column in zip(*rows, strict=True)]
+    stresses = null_space(columns, len(rows), unit=1.0, vanishes=vanishes).basis
+    return all_vanish(arithmetic, (_work(stress, misfits, motion[0]) for stress in stresses))
 
 
-def _second(branch: Branch, rates: Sequence[float]) -> tuple[Triple, Triple]:
+def _second(branch: Branch, rates: Sequence[Scalar]) -> tuple[Triple, Triple]:
     """Twist of a body, and the brackets of the joint rates on its path."""
     twist, brackets = ORIGIN, ORIGIN
     for column, basis in branch.path:
@@ -276,7 +280,11 @@ def bracket(a: Triple, b: Triple) -> Triple:
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], 0.0)
 
 
-def _idle(stress: Sequence[float], misfits: Sequence[float], rates: Sequence[float]) -> bool:
-    work = sum(s * m for s, m in zip(stress, misfits, strict=True))
-    size = max(map(abs, stress)) * max(map(abs, rates)) ** 2
-    return bool(abs(work) <= BINDS * size)
+def _work(
+    stress: Sequence[Scalar], misfits: Sequence[Scalar], rates: Sequence[Scalar]
+) -> tuple[Scalar, float]:
+    """Work of a self-stress on the second-order misfit, and the size of what it is summed from."""
+    work: Scalar = 0.0
+    for s, misfit in zip(stress, misfits, strict=True):
+        work = work + s * misfit
+    return work, max(map(abs, stress)) * max(map(abs, rates)) ** 2

@@ -16,7 +16,7 @@ from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
 from icsolve.kinematics.motion import Motions
 from icsolve.kinematics.speeds import Speed
-from icsolve.numbers.arithmetic import Scalar, magnitude, zero_of
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, magnitude, zero_of
 from icsolve.numbers.balls import PRECISIONS, BelowZero, MoreDigits, MovedBalls
 from icsolve.scene.program import (
     EvaluatedScene,
@@ -25,7 +25,6 @@ from icsolve.scene.program import (
     Want,
     evaluate,
     evaluate_bounded,
-    floats,
     plain,
     points_shown,
     slopes,
@@ -185,7 +184,7 @@ class AnswerBuilder:
 
     def _notes(self, answers: Mapping[str, Found]) -> list[str]:
         notes = [sentences.EXPLAINED] if self.scene.explained else []
-        notes += _notes(self.program, self.first.outcome)
+        notes += self.scene.ask(_notes)
         if self.scene.certain and self.given is None and self.case.profiles is None:
             notes += unsettled(self.case, answers, self._change())
         return notes
@@ -380,12 +379,12 @@ def wanted_pairs(case: Case, want: Want) -> list[Pair]:
     return [pair for pair in pairs if {*pair} <= loaded or frozenset(pair) in against]
 
 
-def _notes(program: Program, outcome: Outcome) -> list[str]:
+def _notes(found: Evaluation) -> list[str]:
     """Sentences about the mechanism that a reader of the answer should know."""
+    program, (_, motions, _, solution) = found.program, found.outcome
     notes = [*program.case.noticed]
-    motions, solution = outcome.motions, outcome.solution
     if motions.redundant and not motions.notes:
-        notes.append(_redundancy(program, motions))
+        notes.append(_redundancy(program, motions, found.arithmetic))
     if solution.idle and solution.values:
         count = sentences.plural(len(solution.idle), "passive freedom")
         ends = sentences.free_ends(program.top, program.case)
@@ -393,13 +392,13 @@ def _notes(program: Program, outcome: Outcome) -> list[str]:
     return notes
 
 
-def _redundancy(program: Program, motions: Motions) -> str:
+def _redundancy(program: Program, motions: Motions, a: Arithmetic) -> str:
     """What becomes of a motion that redundant constraints allow in this position."""
     from icsolve.kinematics.motion import goes_on
 
-    bases = {k: tuple(map(floats, basis)) for k, basis in motions.bases.items()}
     top, want = program.top, program.want
-    return sentences.redundant(motions.redundant, goes_on(top, bases), want.bodies, top.wedges)
+    onward = goes_on(top, motions.bases, a)
+    return sentences.redundant(motions.redundant, onward, want.bodies, top.wedges)
 
 
 def _skipped(program: Program, outcome: Outcome) -> tuple[str, ...]:
