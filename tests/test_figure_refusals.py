@@ -160,6 +160,21 @@ def test_one_datum_too_few() -> None:
     assert_refused(text, Status.UNDERDETERMINED, "point C: one more length, angle or coordinate is needed")
 
 
+def test_a_direction_that_is_found_late_places_what_it_guides() -> None:
+    """Corners carry the direction of the guide CE on from AB, once B is in place: P has its two lines."""
+    text = (
+        "points: {A: [0, 0], D: [5, 0], Q: [1, 1.5], F: [1, -1]}\nlengths: {AB: 3, DB: 4}\n"
+        "angles: {ABC: 70, BCE: 100}\nnear: {B: [1.8, 2.4]}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [1, 3], at: D}, {pin: [2, 3], at: B}, "
+        "{slide: [5, 2], at: P, along: [C, E], through: Q}, {slide: [5, 1], at: P, along: 20, through: F}]\n"
+    )
+    status, message = refused(text)
+    assert (status, message) == (
+        Status.UNDERDETERMINED,
+        "points C and E: one more length, angle or coordinate is needed",
+    )
+
+
 def test_a_figure_that_may_turn() -> None:
     text = "points: {A: [0, 0]}\nlengths: {AB: 1, BC: 3, CA: 3}\n" + PINS
     assert_refused(text, Status.UNDERDETERMINED, "points B and C", "nothing fixes how it is turned about A")

@@ -26,6 +26,7 @@ from icsolve.scene.program import Want, evaluate, prepare
 from icsolve.scene.sensitivity import influences
 from icsolve.statics import error_bound
 from icsolve.statics.error_bound import Exact, SlidingSolution, Weights, step
+from icsolve.statics.friction_equations import Lengths, error_of
 from icsolve.statics.friction_interface import rubs_of
 from icsolve.statics.reaction_basis import Position, ties_of
 from icsolve.statics.reactions import names_by_tie
@@ -344,3 +345,12 @@ def test_friction_turns_round_where_the_slider_does_and_not_a_hair_before(gap: s
         found = icsolve.solve(icsolve.load(text)).answers["T"]
         assert abs(true - found.value) <= math.ulp(found.value)
         assert found.error is not None and abs(true - found.value) <= found.error <= 2 * math.ulp(found.value)
+
+
+@pytest.mark.parametrize(("own", "most"), [(1.0, 1.0), (2.0, 2.0)])
+def test_the_error_of_rubs_is_how_far_they_are_off_and_at_most_twice_that(own: float, most: float) -> None:
+    """own y = |3 + 0.3 y| beside its solution: where y is the length itself (it contracts), and where not."""
+    for off in (1e-3, 1e-6, -1e-9):
+        at = 3.0 / (own - 0.3) * (1.0 + off)
+        found = error_of(Lengths(((0.0, own),), (((3.0, 0.3),),), (False,)), [at])
+        assert abs(off) * 0.99 <= found <= 1.01 * most * abs(off)

@@ -222,12 +222,13 @@ def test_where_no_link_turns_the_first_that_moves_does_so_at_unit_speed_to_the_r
 def test_a_centre_off_the_line_of_two_others_is_refused_with_its_distance(
     place: tuple[float, float], miss: float
 ) -> None:
-    """From the line through (1, 1) and (4, 5); the figure's origin, the first joint, lies apart from it."""
+    """From the line through (1, 1) and (4, 5); the figure's origin, the first joint, lies apart from both."""
     with pytest.raises(SceneError, match=f"centre 1-3 lies {miss} m") as refused:
         icsolve.solve(
             icsolve.load(
-                f"icsolve: 1\npoints: {{A: [1, 1], B: [4, 5], C: {list(place)}}}\n"
-                "joints: [{centre: [1, 3], at: C}, {pin: [1, 2], at: A}, {pin: [2, 3], at: B}]\n"
+                f"icsolve: 1\npoints: {{A: [1, 1], B: [4, 5], C: {list(place)}, D: [7, -3]}}\n"
+                "joints: [{weld: [1, 4], at: D}, {centre: [1, 3], at: C}, {pin: [1, 2], at: A}, "
+                "{pin: [2, 3], at: B}]\n"
                 "loads: {T: {torque: 1, link: 2}, U: {torque: unknown, link: 3}}\n"
             )
         )

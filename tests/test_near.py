@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 from figure_drafts import Draft, Place, framework
-from icsolve.assembly import case_point, newton, solve_figure
+from icsolve.assembly import case_point, modes, newton, solve_figure
 from icsolve.assembly.steps import Group
 from icsolve.assembly.workspace import Workspace
 from icsolve.case import Case
@@ -135,6 +135,27 @@ joints: [{{pin: [1, 2], at: A}}, {{pin: [1, 3], at: B}}, {{pin: [1, 4], at: C}}]
     assert len(ends) == 12 * MORE
     for (before, steep), (after, flat) in zip(ends[::2], ends[1::2], strict=True):
         assert after < before and flat < 1e-3 * steep
+
+
+@pytest.mark.parametrize("unit", [1e-3, 1.0, 1e3])
+def test_of_two_placements_one_is_nearer_by_a_share_of_how_far_off_both_are(unit: float) -> None:
+    """Whatever the unit; (-1, 0) and (1, 0) seen from a place a little left of the line midway."""
+    ours, theirs = [(-unit, 0.0)], [(unit, 0.0)]
+    for height in (20.0, 50.0):
+        both = modes.SIDEWAYS * math.hypot(1.0, height)
+        for left, clear in ((0.95 * both, False), (1.05 * both, True)):
+            assert modes.nearer(ours, theirs, [(-left * unit, height * unit)]) == clear
+            assert not modes.nearer(theirs, ours, [(-left * unit, height * unit)])
+
+
+def test_starts_are_spread_evenly_over_a_square() -> None:
+    """Of 400 places a hundred in each quarter, a few more or less, for every point of a group."""
+    for j in range(3):
+        places = [newton.even(k, j, (5.0, -2.0), 0.5) for k in range(1, 401)]
+        assert all(max(abs(x - 5.0), abs(y + 2.0)) <= 0.5 for x, y in places)
+        for east in (False, True):
+            for north in (False, True):
+                assert 90 <= sum((x > 5.0, y > -2.0) == (east, north) for x, y in places) <= 110
 
 
 SIX = """

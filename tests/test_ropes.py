@@ -222,6 +222,19 @@ def test_a_rope_round_a_post_pulls_with_the_exponential_of_its_wrap(angle: float
     assert answer.friction.losses == exactly(abs(pull - 100))
 
 
+def test_where_a_post_has_no_mu_nothing_rubs() -> None:
+    text = CAPSTAN.replace("B: [-3, 0.5]", "B: [-3, -1], P: [-2.5, 0]").replace(
+        "[A, O, B], on: [2, 1]", "[A, O, P, B], on: [2, 1, 1]"
+    )
+    text = text.replace(
+        "radii: {O: 0.5}, wraps: {O: ccw}", "radii: {O: 0.5, P: 0.5}, wraps: {O: ccw, P: ccw}"
+    )
+    answer = solved(text + "motion: {point: A, link: 2, speed: 1, angle: 90}\n")
+    assert answer.answers["F"].value == exactly(100 * HAULED)
+    assert answer.friction is not None
+    assert [rubs.where for rubs in answer.friction.rubbing] == ["O"]
+
+
 def test_without_a_motion_the_pull_on_a_capstan_holds_over_a_range() -> None:
     answer = icsolve.solve(icsolve.load("icsolve: 1\n" + CAPSTAN))
     assert answer.answers["F"].holds == (exactly(100 / HAULED), exactly(100 * HAULED))

@@ -184,17 +184,14 @@ def _about(near: Mapping[str, Spot], end: Start) -> Iterator[Start]:
     }
     radius = max(math.dist(near[t], end[t]) for t in held)
     for k in range(1, SPREAD // 2 + 1):
-        start = {}
-        for j, t in enumerate(end):
-            x, y = near.get(t, end[t])
-            u, v = _even(k, j)
-            start[t] = (x + (2.0 * u - 1.0) * radius, y + (2.0 * v - 1.0) * radius)
-        yield start
+        yield {t: even(k, j, near.get(t, end[t]), radius) for j, t in enumerate(end)}
 
 
-def _even(k: int, j: int) -> Spot:
-    """The k-th of numbers spread evenly over a square: multiples of irrational numbers, modulo one."""
-    return math.fmod(k * math.sqrt(3 + 8 * j), 1.0), math.fmod(k * math.sqrt(5 + 8 * j), 1.0)
+def even(k: int, j: int, about: Spot, reach: float) -> Spot:
+    """The k-th of places spread evenly over a square about one, `reach` to each side: multiples of irrational
+    numbers, modulo one, others for each ``j``."""
+    u, v = (math.fmod(k * math.sqrt(n + 8 * j), 1.0) for n in (3, 5))
+    return about[0] + (2.0 * u - 1.0) * reach, about[1] + (2.0 * v - 1.0) * reach
 
 
 STEEPEST = {LENGTH: 2.0, CORNER: 4.0, LINE: 4.0, ROPE: math.inf}
@@ -367,11 +364,7 @@ def _run(steps: list[Step], signs: dict[int, int], workspace: Workspace, held: S
 def _spread(group: Group, about: Spot, reach: float) -> Iterator[Start]:
     """Points spread evenly over a square about one."""
     for k in range(1, SPREAD + 1):
-        start = {}
-        for j, target in enumerate(group.targets):
-            u, v = _even(k, j)
-            start[target] = (about[0] + (2.0 * u - 1.0) * reach, about[1] + (2.0 * v - 1.0) * reach)
-        yield start
+        yield {target: even(k, j, about, reach) for j, target in enumerate(group.targets)}
 
 
 def _unreached(group: Group, workspace: Workspace, closest: Start) -> Miss:

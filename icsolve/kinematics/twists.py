@@ -401,7 +401,7 @@ def _wheel(group: Group, mesh: Bond, bases: Bases, weights: tuple[Scalar, Scalar
     spin = pool.now(c, o)[2] - ta[2]
     p, q = weights if body == mesh.b else weights[::-1]
     d, s = p, -(q * spin)
-    columns: tuple[Triple, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, d), (0.0, 0.0, s))
+    columns = (*FREE[:2], (0.0, 0.0, d), (0.0, 0.0, s))
     return Closure(group, d, (s,), columns), {body: blend(d, ta, s, here)}, o
 
 

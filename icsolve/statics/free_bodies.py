@@ -15,6 +15,7 @@ from icsolve.assembly import Frame
 from icsolve.case import ForceVector, Number
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
+from icsolve.kinematics.twists import FRAME
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing
 from icsolve.numbers.sparse import Row
 from icsolve.screws.plane import velocity
@@ -295,7 +296,7 @@ def _left(position: Position, motion: int, drive: float) -> str:
     if rate:
         torque = drive / rate / position.scale * units.torque_per_force_length
         return f"{abs(torque):.6g} {units.torque} {'ccw' if torque > 0.0 else 'cw'} on link {link}"
-    x, y = velocity(position.twists[link][motion], (0.0, 0.0))
+    x, y = velocity(position.twists[link][motion], FRAME)
     force = drive / math.hypot(x, y)
     toward = math.degrees(math.atan2(y * force, x * force)) % 360.0
     return f"{abs(force):.6g} {units.force} at {toward:.6g} deg on link {link}"

@@ -84,8 +84,6 @@ def rolling(joint: Rolling, sides: tuple[RollingSide, RollingSide], ref: Mapping
     Raises SceneError where the radii are not given, or no point lies at a radius from the contact.
     """
     a, b = sides
-    if joint.radii is None:
-        raise _refusal(joint, "without `radii` nothing says how the contact moves on. Add them")
     if float(a.radius) == 0.0 and float(b.radius) == 0.0:
         raise _refusal(
             joint, "both `radii` are 0, and straight links cannot roll on one another. Correct them"
@@ -389,12 +387,14 @@ def _conditions(
 def _sides(
     joint: Rolling, case: Case, top: Topology, frame: Frame, record: Record
 ) -> tuple[RollingSide, RollingSide]:
+    if joint.radii is None:
+        raise _refusal(joint, "without `radii` nothing says how the contact moves on. Add them")
     pins = frozenset(pin.at for pin in case.joints if isinstance(pin, Pin))
     sides = []
     for k, link in enumerate(joint.links):
         body = top.body_of[link]
         points = tuple(dict.fromkeys(p for name in top.members[body] for p in case.carries.get(name, ())))
-        radius = record.given(joint.radii[k]) * frame.scale if joint.radii else 0.0
+        radius = record.given(joint.radii[k]) * frame.scale
         sides.append(RollingSide(link, body, radius, points, pins))
     return sides[0], sides[1]
 
