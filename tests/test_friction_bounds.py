@@ -354,3 +354,21 @@ def test_the_error_of_rubs_is_how_far_they_are_off_and_at_most_twice_that(own: f
         at = 3.0 / (own - 0.3) * (1.0 + off)
         found = error_of(Lengths(((0.0, own),), (((3.0, 0.3),),), (False,)), [at])
         assert abs(off) * 0.99 <= found <= 1.01 * most * abs(off)
+
+
+def test_a_pin_that_does_not_rub_leaves_all_as_it_is_without_friction() -> None:
+    """A block on the coupler of a parallelogram, which a guide keeps level: its pin does not turn."""
+    text = """icsolve: 1
+points: {A: [0, 0], B: [1, 2], C: [5, 2], D: [4, 0], E: [3, 2.5]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B, mu: 0.2, radius: 0.1}, {pin: [3, 4], at: C},
+  {pin: [4, 1], at: D}, {pin: [3, 5], at: E%s}, {slide: [5, 6], at: E, along: 0},
+  {slide: [6, 1], at: E, along: 90}]
+loads: {P: {force: 10, link: 5, at: E, angle: 200}, T: {torque: unknown, link: 2}}
+motion: {link: 2, turns: cw}
+"""
+    with_mu, without = (
+        icsolve.solve(icsolve.load(text % mu), reactions=True) for mu in (", mu: 0.3, radius: 0.1", "")
+    )
+    assert with_mu.answers == without.answers
+    assert with_mu.reactions == without.reactions
+    assert with_mu.notes[0].startswith("3-5 at E does not rub in this motion")

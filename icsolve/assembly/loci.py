@@ -88,9 +88,9 @@ def _of_circles(one: PlacedCircle, two: PlacedCircle) -> Intersection:
 def _of_line_and_circle(line: PlacedLine, circle: PlacedCircle) -> Intersection:
     (px, py), (vx, vy), (cx, cy), r = *line, *circle
     wx, wy = cx - px, cy - py
-    off, along, reach = vx * wy - vy * wx, vx * wx + vy * wy, wx * wx + wy * wy
+    off, along = vx * wy - vy * wx, vx * wx + vy * wy
     middle = (px + along * vx, py + along * vy)
-    return Intersection(middle, (vx, vy), ((r - off, r + reach), (r + off, r + reach)))
+    return Intersection(middle, (vx, vy), ((r - off, r), (r + off, r)))  # off is r where they touch
 
 
 def _of_lines(one: PlacedLine, two: PlacedLine) -> Intersection:
