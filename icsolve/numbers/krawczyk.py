@@ -11,6 +11,7 @@ for every system that they hold.
 
 from __future__ import annotations
 
+import math
 import operator
 from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
@@ -29,14 +30,14 @@ WIDEST = 1e-6
 """A box that is wider says nothing of a root near the start (which lies in a frame of size 1)."""
 
 
-def enclosed_root(system: System, start: Sequence[float], balls: Balls) -> list[Ball]:
+def enclosed_root(system: System, start: Sequence[float | Decimal], balls: Balls) -> list[Ball]:
     """Balls that hold the one root near a start.
 
     Parameters
     ----------
     system : at n balls, the values of n equations and, a row each, their derivatives by the unknowns that
         bear on it (by index); derivatives over a box have to hold all those in it
-    start : (n,) [frame of size 1]: near enough that Newton steps with the inverse held close in on the root
+    start : (n,) [frame of size 1]: near enough that Newton steps close in on the root
     balls : the arithmetic, whose digits say how narrow the enclosure becomes
 
     Returns
@@ -51,12 +52,22 @@ def enclosed_root(system: System, start: Sequence[float], balls: Balls) -> list[
         data are too wide. It does not say that there is no root.
     """
     middle = [Decimal(x) for x in start]
-    rows = system([balls.exactly(x) for x in middle])[1]
-    for inverse in (_in_floats, _in_decimals):
-        near = inverse(rows, balls)
+    longest = math.inf
+    for n in range(MOST_STEPS):
+        values, rows = system([balls.exactly(x) for x in middle])
+        near = _in_decimals(rows, balls) if n else _in_floats(rows, balls)
         found = None if near is None else _enclosed(system, middle, near, balls)
         if found is not None:
             return found
+        if n == 0:
+            continue
+        if near is None:
+            break
+        step = [_product(row, values, balls)[0] for row in near]
+        before, longest = longest, max(abs(float(x)) for x in step)
+        if not longest < 0.5 * before:
+            break
+        middle = [balls.subtract(x, d) for x, d in zip(middle, step, strict=True)]
     raise MoreDigits
 
 

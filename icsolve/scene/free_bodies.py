@@ -46,7 +46,9 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     outcome = parts.outcome
     position = _position(parts.first._replace(outcome=outcome, arithmetic=FLOATS))
     scene = FrictionScene(position, parts.figure.frame, outcome.balance, outcome.solution, parts.speed)
-    return solved(scene._replace(traced=parts.traced, enclose=_enclose(parts)), answer_with, reactions)
+    if parts.scene.certain:
+        scene = scene._replace(enclose=_enclose(parts), trace=lambda: parts.traced)
+    return solved(scene, answer_with, reactions)
 
 
 def _enclose(parts: AnswerBuilder) -> Enclose:

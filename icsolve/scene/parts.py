@@ -321,6 +321,8 @@ def _centres(found: Evaluation) -> dict[Pair, Centre]:
 
 NOTHING = 1e-60
 """A change by less than this fraction of the value is what a difference of second order leaves."""
+
+
 def _twists(found: Evaluation) -> dict[str, Triple]:
     """The motions that are meant, each number rounded once: a rest is a rest, however slow others are."""
     motions, frame, a = found.outcome.motions.twists, found.program.figure.frame, found.arithmetic

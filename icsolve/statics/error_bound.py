@@ -1,29 +1,26 @@
-"""The bound of an unknown load that was found with friction, or why none is proven; its slopes.
+"""The solution with friction enclosed, and the slopes of its loads by every number of the case.
 
-To first order: in the solution the equilibrium of every link and the friction of every rub leave a residual.
-Each unknown load has weights, one an equation (the adjoint solution): their sum over the residuals is a step
-of Newton's method for that load. Evaluated on a tape, the sum carries the rounding of the figure, of the
-file's decimals and of every term into the load, and gives its slope by every number of the case.
+Enclosed: that the equations have one solution near the one that floats found, and how far from it
+(Krawczyk's operator on balls). The unknowns are the loads to find and the friction f of every rub that
+slides: the sums of power are linear in them, and f^2 = limit^2 |N|^2 with the force N that presses there,
+linear too. Where N vanishes f does, and that is all that there is to solve. The sense of each rub is that of
+its rate in the motion, of which the ball has to say it.
 
-Where next to no force presses, its size has a kink: there the friction is left out of the derivatives and
-counted as open between its limits, for as large a force as rounding can make of it.
-
-Enclosed, where the equations are smooth: that they have one solution near the one that floats found, and how
-far from it (Krawczyk's operator on balls). The unknowns are the loads to find and the friction f of every rub
-that slides: the sums of power are linear in them, and f^2 = limit^2 |N|^2 with the force N that presses
-there, linear too. The sense of each rub is that of its rate in the motion, of which the ball has to say it.
+Slopes: in the solution the equilibrium of every link and the friction of every rub leave a residual. Each
+unknown load has weights, one an equation (the adjoint solution): their sum over the residuals is a step of
+Newton's method for that load. Evaluated on a tape, the sum gives its slope by every number of the case.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from decimal import Decimal
 from types import MappingProxyType
 
-from icsolve.case.joints import Mesh
 from icsolve.kinematics.speeds import Speed
-from icsolve.numbers.arithmetic import Scalar, Showing
-from icsolve.numbers.balls import Balls
+from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish
+from icsolve.numbers.balls import Balls, MoreDigits
 from icsolve.numbers.krawczyk import enclosed_root
 from icsolve.numbers.sparse import Row, eliminate
 from icsolve.numbers.tape import SMALL
@@ -39,91 +36,46 @@ from icsolve.tuples import NamedTuple
 
 UNBOUND = "no bound was asked for"
 UNSURE = "with friction no bound of the rounding error is proven"
-AT_KINK = "next to no force presses at a joint that rubs, and there its friction has no slope"
-HELICAL = f"{UNSURE} with helical teeth"
+AT_KINK = "nothing presses at a joint that rubs, and there its friction has no slope"
 MISSED = f"{UNSURE} where given centres or contacts miss the motion"
 TOO_CLOSE = f"{UNSURE} so near to a dead centre or a jam"
 
 
-class ErrorBounds(NamedTuple):
-    """What is proven of the loads of a solution with friction.
+class Proven(NamedTuple):
+    """What is proven of a solution with friction.
 
     Attributes
     ----------
-    bounds : by load, of the absolute error [case units]; empty where none is proven, and ``why``
-    slopes : by load and by the path of a number, the derivative [case units]
-    values : the loads themselves, where they were enclosed
+    why : why nothing is
+    bounds, values : by load, the number rounded once and the bound of its error [case units]
+    friction : (rubs,), rounded once [scaled]
     """
 
-    bounds: Mapping[str, float]
-    slopes: Mapping[str, Mapping[str, float]]
     why: str = ""
+    bounds: Mapping[str, float] = MappingProxyType({})
     values: Mapping[str, float] = MappingProxyType({})
-    """the loads themselves, where they were enclosed"""
+    friction: tuple[float, ...] = ()
 
 
-def error_bounds(
-    position: Position,
-    solved: Solved,
-    senses: Sequence[float],
-    traced: Bounded | None,
-    speed: Speed,
-) -> ErrorBounds:
-    """Bounds of the loads of a solution, whose rubs all have these senses."""
-    if traced is None:
-        return ErrorBounds({}, {}, UNBOUND)
+def slopes(
+    position: Position, solved: Solved, senses: Sequence[float], traced: Bounded
+) -> dict[str, dict[str, float]]:
+    """By load and by the path of a number, the derivative [case units].
+
+    Raises LookupError, with the reason, where it has none, and so near a singular position that the tape does
+    not tell.
+    """
+    if any(sense and not friction for sense, friction in zip(senses, solved.friction, strict=True)):
+        raise LookupError(AT_KINK)
     found = SlidingSolution(solved.statics, solved.statics.filled(solved.parameters), tuple(senses))
-    weights = weights_of(found, outputs_of(found))
-    why = _doubt(position, traced)
-    if weights is None or why:
-        return ErrorBounds({}, {}, why or UNSURE)
+    weights = weights_of(found)
+    if weights is None or max(traced.tape.doubts(SMALL), default=0.0):
+        raise LookupError(TOO_CLOSE)
     exact = _exact(position, solved, found, traced)
-    if not _senses_are_sure(exact, senses, traced, speed):
-        return ErrorBounds({}, {}, TOO_CLOSE)
-    return _judged(solved, *_swept(found, solved, weights, exact, traced))
-
-
-def _swept(
-    found: SlidingSolution, solved: Solved, weights: Sequence[Weights], exact: Exact, traced: Bounded
-) -> tuple[list[float] | None, dict[str, dict[str, float]]]:
-    """Bounds of the unknown loads (scaled; None: without limit), and slopes where nothing has a kink."""
-    rests = [step(found, by, exact) for by in weights]
-    passes = [traced.tape.back(rest) for rest in rests]
-    bounds = [abs(rest) + swept.bound for rest, swept in zip(rests, passes, strict=True)]
-    roots, scale = solved.statics.roots, solved.statics.scale
-    count = len(roots)
-    by_root = zip(roots, passes, strict=False)
-    slopes = {q: {path: -slope / scale for path, slope in swept.by_path.items()} for q, swept in by_root}
-    if not found.kinks:
-        return bounds, slopes
-    most = open_frictions(found, weights[count:], bounds[count:])
-    if most is None:
-        return None, {}
-    for n in range(count):
-        bounds[n] += sum(abs(weights[n].rubs[k]) * f for k, f in zip(found.kinks, most, strict=True))
-    return bounds[:count], {}
-
-
-def _judged(solved: Solved, scaled: list[float] | None, slopes: dict[str, dict[str, float]]) -> ErrorBounds:
-    """Bounds that are small beside their loads."""
-    if scaled is None:
-        return ErrorBounds({}, {}, AT_KINK)
-    bounds = {q: bound / solved.statics.scale for q, bound in zip(solved.statics.roots, scaled, strict=False)}
-    sizes = {root: abs(solved.unknowns[root]) for root in bounds}
-    if any(SMALL * sizes[root] < bound < sizes[root] for root, bound in bounds.items()):
-        return ErrorBounds({}, slopes, TOO_CLOSE)
-    return ErrorBounds(bounds, slopes, "" if slopes else AT_KINK)
-
-
-def _doubt(position: Position, traced: Bounded) -> str:
-    """Why a bound of first order would not do."""
-    if position.case.screws:
-        return f"{UNSURE} with screws"
-    if position.slack:
-        return MISSED
-    if any(isinstance(joint, Mesh) and joint.helix is not None for joint in position.case.joints):
-        return HELICAL
-    return TOO_CLOSE if max(traced.tape.doubts(SMALL), default=0.0) else ""
+    passes = [traced.tape.back(step(found, by, exact)).by_path for by in weights]
+    scale = solved.statics.scale
+    by_root = zip(solved.statics.roots, passes, strict=True)
+    return {q: {path: -slope / scale for path, slope in swept.items()} for q, swept in by_root}
 
 
 def _exact(position: Position, solved: Solved, found: SlidingSolution, traced: Bounded) -> Exact:
@@ -141,21 +93,6 @@ def _exact(position: Position, solved: Solved, found: SlidingSolution, traced: B
     return Exact(statics, placed, outcome.balance.wrenches, values)
 
 
-def _senses_are_sure(exact: Exact, senses: Sequence[float], traced: Bounded, speed: Speed) -> bool:
-    """Whether no rate that gave a sense lies within its own bound of zero."""
-    twists = traced.outcome.motions.twists
-    rates = rubbing_rates(exact.position._replace(twists=twists, ropes=exact.statics.ropes), speed)
-    own = zip(senses, rates.rubs, strict=True)
-    ropes = (
-        (s, r)
-        for tie, row in zip(exact.statics.ropes, rates.ropes, strict=True)
-        for s, r in zip(tie.senses, row, strict=True)
-    )
-    return all(rate is not None and abs(rate) > traced.of(rate) for sense, rate in (*own, *ropes) if sense)
-
-
-KINK = 1e-6
-"""A force that presses where links rub has a slope only well above zero: this fraction of the largest."""
 OPEN = 1e-9
 """What is left of a unit of an unknown load below this is rounding."""
 
@@ -166,13 +103,6 @@ class SlidingSolution(NamedTuple):
     statics: Statics
     values: Row
     senses: tuple[float, ...]
-
-    @property
-    def kinks(self) -> tuple[int, ...]:
-        """The rubs at which next to no force presses."""
-        least = KINK * max(map(abs, self.values.values()))
-        sizes = [math.hypot(*pressing(self.statics, rub, self.values)) for rub in self.statics.rubs]
-        return tuple(k for k, size in enumerate(sizes) if self.senses[k] and size <= least)
 
 
 class Weights(NamedTuple):
@@ -202,22 +132,8 @@ class Exact(NamedTuple):
     values: Mapping[int, Scalar]
 
 
-Output = dict[int, float]
-"""A combination of columns whose error is asked for."""
-
-
-def outputs_of(found: SlidingSolution) -> list[Output]:
-    """The unknown loads, then the components of the forces that press at kinks."""
-    statics = found.statics
-    loads: list[Output] = [{statics.root(q): 1.0} for q in range(len(statics.roots))]
-    for k in found.kinks:
-        rub = statics.rubs[k]
-        loads += [{statics.first[rub.tie] + n: a for n, a in enumerate(row)} for row in rub.normal]
-    return loads
-
-
-def weights_of(found: SlidingSolution, outputs: Sequence[Output]) -> list[Weights] | None:
-    """The weights of every output; None where the equations do not determine one."""
+def weights_of(found: SlidingSolution) -> list[Weights] | None:
+    """The weights of every unknown load; None where the equations do not determine one."""
     equations = found.statics.equations
     rows = [row for _, three in equations.values() for row in three] + _frictions(found)
     by_column: dict[int, Row] = {}
@@ -225,15 +141,15 @@ def weights_of(found: SlidingSolution, outputs: Sequence[Output]) -> list[Weight
         for column, a in row.items():
             if column != found.statics.known:
                 by_column.setdefault(column, {})[n] = a
-    for q, output in enumerate(outputs):
-        for column, a in output.items():
-            by_column.setdefault(column, {})[len(rows) + q] = -a
+    count = len(found.statics.roots)
+    for q in range(count):
+        by_column.setdefault(found.statics.root(q), {})[len(rows) + q] = -1.0
     general = eliminate([by_column[c] for c in sorted(by_column)], len(rows))
     if any(abs(a) > OPEN for left in general.left for a in left.values()):
         return None
     return [
         _weights({link: about for link, (about, _) in equations.items()}, all_weights)
-        for q in range(len(outputs))
+        for q in range(count)
         if (all_weights := [general.of(n).get(len(rows) + q, 0.0) for n in range(len(rows))])
     ]
 
@@ -247,12 +163,12 @@ def _weights(about: Mapping[str, Components], values: Sequence[float]) -> Weight
 
 def _frictions(found: SlidingSolution) -> list[Row]:
     """Derivatives of each friction's residual: itself, and its coefficient times the size of its force."""
-    rows, kinks = [], found.kinks
+    rows = []
     for k, rub in enumerate(found.statics.rubs):
         force = pressing(found.statics, rub, found.values)
         size = math.hypot(*force) or 1.0
         row: Row = {found.statics.rub(k): 1.0}
-        for n in range(len(rub.normal[0]) if k not in kinks else 0):
+        for n in range(len(rub.normal[0])):
             share = sum(f * part[n] for f, part in zip(force, rub.normal, strict=True)) / size
             row[found.statics.first[rub.tie] + n] = found.senses[k] * rub.limit * share
         rows.append(row)
@@ -284,8 +200,6 @@ def step(found: SlidingSolution, weights: Weights, exact: Exact) -> Scalar:
 def _of_rub(found: SlidingSolution, weights: Weights, exact: Exact, k: int) -> Scalar:
     """A friction, which is against its sense and as large as its coefficient makes it."""
     rub = exact.statics.rubs[k]
-    if k in found.kinks:
-        return weights.rubs[k] * exact.values[found.statics.rub(k)]
     force = pressing(found.statics, rub, exact.values)
     if len(force) == 1:
         size = force[0] if float(force[0]) >= 0.0 else -force[0]
@@ -312,35 +226,6 @@ def _pairing(force: Components, apart: Components) -> Scalar:
     return _sum(f * a for f, a in zip(force, apart, strict=True))
 
 
-def open_frictions(
-    found: SlidingSolution, outputs: Sequence[Weights], bounds: Sequence[float]
-) -> list[float] | None:
-    """What the frictions at kinks can be at most (scaled), in the order of the kinks; None without a limit.
-
-    ``outputs`` and ``bounds`` are the weights and the errors of the forces that press there, without
-    these frictions, which can press too.
-    """
-    places: list[tuple[int, int]] = []
-    for k in found.kinks:
-        places += [(k, n) for n in range(len(found.statics.rubs[k].normal))]
-    most = dict.fromkeys(found.kinks, 2.0**-60 * max(map(abs, found.values.values())))
-    for _ in range(ROUNDS):
-        before = dict(most)
-        for k in found.kinks:
-            rub = found.statics.rubs[k]
-            force = pressing(found.statics, rub, found.values)
-            rows = [m for m, (at, _) in enumerate(places) if at == k]
-            off = [bounds[m] + sum(abs(outputs[m].rubs[j]) * most[j] for j in most) for m in rows]
-            most[k] = rub.limit * math.hypot(*(abs(f) + b for f, b in zip(force, off, strict=True)))
-        if all(most[k] <= before[k] * (1.0 + 1e-9) for k in most):
-            return [2.0 * most[k] for k in found.kinks]
-    return None
-
-
-ROUNDS = 60
-"""More often than this the frictions at kinks press each other without limit."""
-
-
 class SceneOnBalls(NamedTuple):
     """A scene on balls, and which of its motions is meant."""
 
@@ -365,14 +250,28 @@ def enclosed(scene: SceneOnBalls, solved: Solved, senses: Sequence[float]) -> So
     ties = with_flanks(position, ties_of(position), carrying_flanks(position, solved.statics.ties, solved))
     rubs = rubs_of(position, ties)
     statics = equilibrium(position, ties, scene.balance, rubs)
-    slides = [k for k, sense in enumerate(senses) if sense]
-    columns = [statics.root(n) for n in range(len(statics.roots))] + [statics.rub(k) for k in slides]
-    start = [solved.unknowns[root] * statics.scale for root in statics.roots]
-    start += [solved.friction[k] for k in slides]
-    found = enclosed_root(_FrictionSystem(statics, columns, slides), start, a)
-    unknowns = {root: x / statics.scale for root, x in zip(statics.roots, found, strict=False)}
-    sliding = dict(zip(slides, found[len(statics.roots) :], strict=True))
-    return Solved(statics, unknowns, tuple(sliding.get(k, 0.0) for k in range(len(rubs))))
+    roots = {statics.root(n): solved.unknowns[q] * statics.scale for n, q in enumerate(statics.roots)}
+    largest = max(map(abs, solved.statics.filled(solved.parameters).values()))
+    every = {statics.rub(k): f for k, f in enumerate(solved.friction) if senses[k]}
+    begun = {column: f for column, f in every.items() if abs(f) > SLIGHT * largest}
+    start = {column: Decimal(x) for column, x in {**roots, **begun}.items()}
+    while True:
+        system = _FrictionSystem(statics, list(start), senses)
+        found = dict(zip(start, enclosed_root(system, list(start.values()), a), strict=True))
+        start = {column: x.value for column, x in found.items()}
+        for k, rub in enumerate(rubs):
+            if senses[k] and statics.rub(k) not in found and (size := system.pressed(k, found, a)):
+                start[statics.rub(k)] = Decimal(-senses[k] * float(rub.limit) * size)
+        if len(start) == len(found):
+            break
+    if any(found[statics.rub(k)].sign != -senses[k] for k in system.slides):
+        raise MoreDigits
+    unknowns = {q: found[statics.root(n)] / statics.scale for n, q in enumerate(statics.roots)}
+    return Solved(statics, unknowns, tuple(found.get(statics.rub(k), 0.0) for k in range(len(rubs))))
+
+
+SLIGHT = 1e-6
+"""Of a friction below this fraction of the largest force it is asked first whether anything presses there."""
 
 
 def _moves_so(scene: SceneOnBalls, senses: Sequence[float], rope_senses: Sequence[Sequence[float]]) -> bool:
@@ -384,14 +283,19 @@ def _moves_so(scene: SceneOnBalls, senses: Sequence[float], rope_senses: Sequenc
 
 
 class _FrictionSystem:
-    """The equations and their derivatives, by the place of each unknown."""
+    """The equations and their derivatives, by the place of each unknown: a column of the statics."""
 
-    def __init__(self, statics: Statics, columns: Sequence[int], slides: Sequence[int]) -> None:
-        self.statics, self.slides = statics, slides
+    def __init__(self, statics: Statics, columns: Sequence[int], senses: Sequence[float]) -> None:
+        self.statics, self.senses = statics, senses
+        self.slides = [k for k in range(len(statics.rubs)) if statics.rub(k) in columns]
         self.place = {column: n for n, column in enumerate(columns)}
-        every = (*columns, statics.known)
+        every, count = (*columns, statics.known), len(statics.roots)
         powers = [[left.get(c, 0.0) for c in every] for left in statics.general.left]
-        chosen = independent(powers, len(statics.roots))
+        chosen = independent(powers, count)
+        if len(chosen) < count:  # a load that does no work presses, and the frictions balance the others
+            chosen = powers
+        if len(chosen) != count:
+            raise MoreDigits
         self.powers = [dict(zip(every, row, strict=True)) for row in chosen]
         self.pressing = forces_of(statics)
 
@@ -404,14 +308,32 @@ class _FrictionSystem:
             limit, own = self.statics.rubs[k].limit, self.place[self.statics.rub(k)]
             forces = [self._at(row, x) for row in self.pressing[k]]
             square = limit * limit
-            values.append(x[own] * x[own] - square * sum((n * n for n in forces), 0.0))
-            slope: dict[int, Scalar] = {own: x[own] * 2.0}
-            for force, row in zip(forces, self.pressing[k], strict=True):
+            if len(forces) == 1:  # its sign is that of a friction against its sense
+                ahead = self.senses[k] * math.copysign(1.0, float(forces[0])) * limit
+                values.append(x[own] + ahead * forces[0])
+                weights = [ahead]
+            else:
+                values.append(x[own] * x[own] - square * sum((n * n for n in forces), 0.0))
+                weights = [0.0 - square * force * 2.0 for force in forces]
+            slope: dict[int, Scalar] = {own: x[own] * 2.0 if len(forces) > 1 else 1.0}
+            for weight, row in zip(weights, self.pressing[k], strict=True):
                 for c, n in self.place.items():
                     if c in row:
-                        slope[n] = slope.get(n, 0.0) - square * force * row[c] * 2.0
+                        slope[n] = slope.get(n, 0.0) + weight * row[c]
             slopes.append(slope)
         return values, slopes
+
+    def pressed(self, k: int, found: Mapping[int, Scalar], a: Balls) -> float:
+        """How large the force is that presses at a rub; 0.0 where it vanishes."""
+        x = [found[column] for column in self.place]
+        forces = [self._at(row, x) for row in self.pressing[k]]
+        size = max(
+            abs(row.get(c, 0.0)) * abs(x[n]) for row in self.pressing[k] for c, n in self.place.items()
+        )
+        size = max(size, *(abs(row.get(self.statics.known, 0.0)) for row in self.pressing[k]))
+        if all_vanish(a, ((force, size) for force in forces)):
+            return 0.0
+        return math.hypot(*map(float, forces))
 
     def _at(self, row: Row, x: Sequence[Scalar]) -> Scalar:
         total = row.get(self.statics.known, 0.0)
@@ -419,15 +341,3 @@ class _FrictionSystem:
             if c in row:
                 total = total + row[c] * x[n]
         return total
-
-
-def is_smooth(position: Position, solved: Solved) -> bool:
-    """Whether the equations are smooth at a solution, so that it can be enclosed.
-
-    Not where next to no force presses, or where given centres miss the motion.
-    """
-    frictions = [abs(f) for f in solved.friction]
-    if len(frictions) != len(solved.statics.rubs) or position.slack:
-        return False
-    largest = max(map(abs, solved.statics.filled(solved.parameters).values()), default=0.0)
-    return all(f > KINK * largest for f in frictions if f) and math.isfinite(largest)

@@ -20,12 +20,13 @@ from icsolve.numbers.arithmetic import FLOATS
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import Statics, equilibrium
 from icsolve.statics.error_bound import (
+    MISSED,
     TOO_CLOSE,
-    ErrorBounds,
+    UNBOUND,
+    Proven,
     SceneOnBalls,
     enclosed,
-    error_bounds,
-    is_smooth,
+    slopes,
 )
 from icsolve.statics.free_bodies import FreeBodies, Solved, carrying_flanks, frictionless, on_flanks, told
 from icsolve.statics.friction_equations import forces_of
@@ -55,15 +56,26 @@ from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed, plural
 
 
-def in_motion(
-    scene: FrictionScene, reactions: bool = False
-) -> tuple[dict[str, float], FreeBodies, ErrorBounds]:
-    """The unknown loads that keep up the given motion, the free bodies, and bounds; of reactions if asked.
+class Slipping(NamedTuple):
+    """A scene in the motion that is given: what its ropes and rubs do in it.
 
-    Returns
-    -------
-    tuple[dict[str, float], FreeBodies, ErrorBounds]
-        Loads and bounds by name [case units].
+    Attributes
+    ----------
+    scene : with the pulls of its ropes as they slip
+    solved, senses : loads and frictions, each rounded once where that is proven; senses of the rubs
+    proven : of them
+    bodies : what the free bodies say
+    """
+
+    scene: FrictionScene
+    solved: Solved
+    senses: tuple[float, ...]
+    proven: Proven
+    bodies: FreeBodies
+
+
+def in_motion(scene: FrictionScene, reactions: bool = False) -> Slipping:
+    """The unknown loads that keep up the given motion, the free bodies, and bounds; of reactions if asked.
 
     Raises
     ------
@@ -81,14 +93,16 @@ def in_motion(
         return Solved(statics, slides[-1].unknowns, slides[-1].friction)
 
     first = _flanks(scene, ties, workless)
-    solved = on_flanks(first, lambda flanks: solve(reaction_basis.with_flanks(scene.position, ties, flanks)))
-    sure, bodies = _certain(scene, solved, senses), _bodies(scene, solved, slides[-1], rates)
-    if reactions and sure.values and scene.enclose is not None:
+    rough = on_flanks(first, lambda flanks: solve(reaction_basis.with_flanks(scene.position, ties, flanks)))
+    proven = _proven(scene, rough, senses)
+    solved = rough if proven.why else rough._replace(unknowns=dict(proven.values), friction=proven.friction)
+    bodies = _bodies(scene, solved, slides[-1], rates)
+    if reactions and not proven.why and scene.enclose is not None:
         with suppress(SceneError):
-            exact = scene.enclose(lambda placed: _enclosed_bodies(scene, placed, solved, senses))
+            exact = scene.enclose(lambda placed: _enclosed_bodies(scene, placed, rough, senses))
             if exact is not None:
                 bodies = bodies._replace(reactions=exact[0], tensions=exact[1])
-    return {**solved.unknowns, **sure.values}, bodies, sure
+    return Slipping(scene, solved, senses, proven, bodies)
 
 
 def _enclosed_bodies(
@@ -103,26 +117,28 @@ def _enclosed_bodies(
     return reactions, tensions_of(statics, parameters, a, placed.position.case.units.force)
 
 
-def _enclosed_loads(
-    placed: SceneOnBalls, solved: Solved, senses: Sequence[float]
-) -> Mapping[str, tuple[float, float]] | None:
-    """The unknown loads of a solution rounded once, and their errors."""
-    found = enclosed(placed, solved, senses)
-    return None if found is None else {q: placed.arithmetic.rounded(x) for q, x in found.unknowns.items()}
-
-
-def _certain(scene: FrictionScene, solved: Solved, senses: Sequence[float]) -> ErrorBounds:
-    found = error_bounds(scene.position, solved, senses, scene.traced, scene.speed)
-    if scene.enclose is None or scene.traced is None or not is_smooth(scene.position, solved):
-        return found
+def _proven(scene: FrictionScene, solved: Solved, senses: Sequence[float]) -> Proven:
+    """The loads and frictions of a solution, each rounded once, or why nothing is proven of them."""
+    if scene.enclose is None:
+        return Proven(UNBOUND)
+    if scene.position.slack:
+        return Proven(MISSED)
+    if len(solved.friction) != len(solved.statics.rubs):
+        return Proven(TOO_CLOSE)
     try:
-        both = scene.enclose(lambda placed: _enclosed_loads(placed, solved, senses))
+        found = scene.enclose(lambda placed: _rounded(placed, solved, senses))
     except SceneError:  # no digits show that the solution stands alone
-        return found
-    if both is None:
-        return ErrorBounds({}, {}, TOO_CLOSE)
-    bounds, values = ({root: two[n] for root, two in both.items()} for n in (1, 0))
-    return found._replace(bounds=bounds, values=values)
+        found = None
+    return found or Proven(TOO_CLOSE)
+
+
+def _rounded(placed: SceneOnBalls, solved: Solved, senses: Sequence[float]) -> Proven | None:
+    found = enclosed(placed, solved, senses)
+    if found is None:
+        return None
+    both = {root: placed.arithmetic.rounded(x) for root, x in found.unknowns.items()}
+    values, bounds = ({root: two[n] for root, two in both.items()} for n in (0, 1))
+    return Proven("", bounds, values, tuple(map(float, found.friction)))
 
 
 def at_rest(scene: FrictionScene) -> tuple[StaticRange, float | None, str]:
@@ -147,16 +163,16 @@ def at_rest(scene: FrictionScene) -> tuple[StaticRange, float | None, str]:
         raise SceneError(Status.MOBILITY, message)
     rates = rates_of_motion(scene)
     if any(rope.slips for rope in scene.position.case.ropes):
-        found, sure = _range_with_ropes(scene, rates)
+        found, proven = _range_with_ropes(scene, rates)
     else:
         ties, workless, senses = ties_of(scene.position), _is_workless(scene), rates.senses.rubs
         flanks = _flanks(scene, ties, workless)
         statics = _statics(scene, reaction_basis.with_flanks(scene.position, ties, flanks))
         found = pressed(statics, senses) if workless else static_range(statics, senses)
-        sure = [_certain_end(scene, statics, end) for end in found.ends]
-    bounds = [bound for each in sure for bound in each.bounds.values()]
-    why = next((each.why for each in sure if not each.bounds), "" if bounds else PRESSED)
-    both = zip(found.ends, sure, strict=True)
+        proven = [_proven_end(scene, statics, end) for end in found.ends]
+    bounds = [bound for each in proven for bound in each.bounds.values()]
+    why = next((each.why for each in proven if each.why), "" if bounds else UNENDING)
+    both = zip(found.ends, proven, strict=True)
     exact = {end.value: value for end, each in both for value in each.values.values()}
     least, most, *possible = (exact.get(v, v) for v in (found.least, found.most, *found.possible))
     found = found._replace(least=least, most=most, possible=(possible[0], possible[1]))
@@ -186,7 +202,7 @@ SLOW = 1e-7
 """Rates below this fraction of the fastest are looked at on balls."""
 
 
-def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[StaticRange, list[ErrorBounds]]:
+def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[StaticRange, list[Proven]]:
     """The range where ropes slip: about to move one way and the other, with the pulls that go with each; and
     the bounds of its finite ends.
 
@@ -194,7 +210,7 @@ def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[Static
     side on which the unknown load draws the ropes tighter.
     """
     ends: list[End] = []
-    sure: list[ErrorBounds] = []
+    proven: list[Proven] = []
     for direction in (1.0, -1.0):
         one = _slipping(scene, rates, direction)
         ties = ties_of(one.position)
@@ -205,8 +221,8 @@ def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[Static
             raise SceneError(Status.NO_VALUE, nothing_rubs(statics))
         ends.append(_pulling(statics, end))
         if math.isfinite(ends[-1].value):
-            sure.append(_certain_end(one, statics, ends[-1]))
-    return range_of(ends), sure
+            proven.append(_proven_end(one, statics, ends[-1]))
+    return range_of(ends), proven
 
 
 def _pulling(statics: Statics, end: End) -> End:
@@ -223,13 +239,13 @@ def _pulling(statics: Statics, end: End) -> End:
     return end
 
 
-PRESSED = "no bound is proven of a range whose ends no motion sets"
+UNENDING = "the range has no ends"
 
 
-def _certain_end(scene: FrictionScene, statics: Statics, end: End) -> ErrorBounds:
-    """The bound of an end, at which the mechanism is about to move."""
+def _proven_end(scene: FrictionScene, statics: Statics, end: End) -> Proven:
+    """What is proven of an end, at which the mechanism is about to move."""
     (root,) = statics.roots
-    return _certain(scene, Solved(statics, {root: end.value}, end.friction), end.senses)
+    return _proven(scene, Solved(statics, {root: end.value}, end.friction), end.senses)
 
 
 def _flanks(scene: FrictionScene, ties: Sequence[Tie], workless: bool) -> Mapping[int, float]:
@@ -292,7 +308,7 @@ def _bodies(scene: FrictionScene, solved: Solved, found: Slid, rates: RubbingRat
         by_power = {q: (value, 0.0) for q, value in _by_power(scene, solved).items()}
     bodies = told(scene.position, scene.frame, scene.balance, solved, by_power, FLOATS)
     of_ropes = _ropes_rubbing(scene, statics, bodies.tensions, rates)
-    rubbing = (*rubbing_of(scene, solved, found, rates.rubs), *of_ropes)
+    rubbing = (*rubbing_of(scene, solved, rates.rubs), *of_ropes)
     refuse_power(rubbing)
     error, losses = found.error if math.isfinite(found.error) else None, sum(r.loss for r in rubbing)
     left = residual(terms_of(statics, solved.parameters))
@@ -346,22 +362,27 @@ def solved(
 def _moving(
     scene: FrictionScene, answer_with: Callable[[Mapping[str, Value]], Answer], reactions: bool
 ) -> Answer:
-    unknowns, bodies, sure = in_motion(scene, reactions)
-    bounds = {root: sure.bounds.get(root) for root in unknowns}
-    why = {root: sure.why if bounds[root] is None else "" for root in unknowns}
-    values = {root: Value(value, bounds[root], why[root]) for root, value in unknowns.items()}
-    answer = replace(answer_with(values), sensitivities=Deferred(lambda: _slopes(scene, sure)))
-    return bodies.added_to(answer, reactions)
+    found = in_motion(scene, reactions)
+    bounds, why = found.proven.bounds, found.proven.why
+    values = {root: Value(x, bounds.get(root), why) for root, x in found.solved.unknowns.items()}
+    answer = replace(answer_with(values), sensitivities=Deferred(lambda: _slopes(found)))
+    return found.bodies.added_to(answer, reactions)
 
 
-def _slopes(scene: FrictionScene, sure: ErrorBounds) -> dict[str, dict[str, float]]:
+def _slopes(found: Slipping) -> dict[str, dict[str, float]]:
     """Slopes of every unknown load and of those like it, friction included."""
-    if not sure.slopes:
-        raise SceneError(Status.UNSUPPORTED, f"{NO_SLOPES}: {sure.why}.")
+    scene, why = found.scene, found.proven.why
+    try:
+        traced = None if why or scene.trace is None else scene.trace()
+        by_root = {} if traced is None else slopes(scene.position, found.solved, found.senses, traced)
+    except LookupError as error:
+        why = error.args[0]
+    if why:
+        raise SceneError(Status.UNSUPPORTED, f"{NO_SLOPES}: {why}.")
     return {
-        w.load.name: {path: float(w.ratio) * slope for path, slope in sure.slopes[w.root].items()}
+        w.load.name: {path: float(w.ratio) * slope for path, slope in by_root[w.root].items()}
         for w in scene.balance.wrenches
-        if w.root in sure.slopes
+        if w.root in by_root
     }
 
 
@@ -398,15 +419,13 @@ class FrictionScene(NamedTuple):
     balance: Balance
     solution: Solution
     speed: Speed
-    traced: Bounded | None = None
-    """the same on a tape, where bounds are asked for"""
     enclose: Enclose | None = None
-    """the same on balls, of as many digits as that takes"""
+    """the same on balls, of as many digits as that takes, where bounds are asked for"""
+    trace: Callable[[], Bounded | None] | None = None
+    """the same on a tape"""
 
 
-def rubbing_of(
-    scene: FrictionScene, solved: Solved, found: Slid, rates: Sequence[float]
-) -> tuple[Rubbing, ...]:
+def rubbing_of(scene: FrictionScene, solved: Solved, rates: Sequence[float]) -> tuple[Rubbing, ...]:
     """Friction, its limit, rate and loss at every rub, case units."""
     statics, case = solved.statics, scene.position.case
     names = names_by_tie(case, statics.ties)
@@ -417,9 +436,9 @@ def rubbing_of(
         per_unit = statics.scale * (scene.frame.scale / case.units.torque_per_force_length if turns else 1.0)
         rate = rates[k] / (1.0 if turns else scene.frame.scale)
         loss = 0.0 - solved.friction[k] / statics.scale * (rates[k] / scene.frame.scale)
-        value, limit = solved.friction[k] / per_unit + 0.0, found.limits[k] / per_unit
+        value = solved.friction[k] / per_unit + 0.0
         radius = rub.limit / scene.frame.scale if turns else None
-        rows.append(Rubbing(names[rub.tie], tie.where, kind, value, limit, rate, loss, radius))
+        rows.append(Rubbing(names[rub.tie], tie.where, kind, value, abs(value), rate, loss, radius))
     return tuple(rows)
 
 

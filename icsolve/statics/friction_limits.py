@@ -45,7 +45,6 @@ class Slid(NamedTuple):
     ----------
     unknowns : by load [case units]
     friction : (rubs,), on the ties' second links [scaled]
-    limits : (rubs,), its sizes
     error : bound of the relative error of the forces that press, from what is left of their equations
     unique : how it is known that there is no other solution; empty where it is not
     others : the values of the first unknown load in all other solutions [case units]
@@ -53,7 +52,6 @@ class Slid(NamedTuple):
 
     unknowns: dict[str, float]
     friction: tuple[float, ...]
-    limits: tuple[float, ...]
     error: float
     unique: str
     others: tuple[float, ...]
@@ -89,10 +87,9 @@ def _of(
 ) -> Slid:
     loads = [value / statics.scale for value in equations.load(y)]
     friction = equations.friction(y)
-    limits = tuple(abs(f) for f in friction)
     error = error_of(equations.equations, y)
     values = tuple(equations.load(other)[0] / statics.scale for other in others if equations.loads)
-    return Slid(dict(zip(statics.roots, loads, strict=True)), friction, limits, error, unique, values)
+    return Slid(dict(zip(statics.roots, loads, strict=True)), friction, error, unique, values)
 
 
 def _unconnected(statics: Statics, equations: Reduced, found: Solutions) -> Slid:
@@ -365,13 +362,15 @@ def pressed(statics: Statics, senses: Sequence[float]) -> StaticRange:
             Status.ANY_VALUE, f"any value of {name} holds: it does no work, and nothing drives the mechanism."
         )
     against = [-math.copysign(1.0, drive * p) if p else 0.0 for p in powers]
-    equations = reduced_workless(statics, [-a for a in against])
+    senses = tuple([-a for a in against])
+    equations = reduced_workless(statics, senses)
     if equations is None:
         raise SceneError(Status.NO_VALUE, f"no value of {name} holds: it does no work, and no friction does.")
     roots = all_roots(equations.equations)
     if roots is None:
         raise SceneError(Status.UNSUPPORTED, _too_many(statics))
-    ends = sorted({equations.load(y)[0] for y in roots})
+    moving = {load: equations.friction(y) for load, y in sorted((equations.load(y)[0], y) for y in roots)}
+    ends = list(moving)
     marks = [-math.inf, *ends, math.inf]
     holding = [
         (a, b)
@@ -386,7 +385,9 @@ def pressed(statics: Statics, senses: Sequence[float]) -> StaticRange:
     both = (least / statics.scale, most / statics.scale)
     others = {end / statics.scale for pair in holding if pair != (least, most) for end in pair}
     again = sorted(end for end in others if math.isfinite(end) and end not in both)
-    return StaticRange(*both, both, SAID, again=tuple(again))
+    own = [end for end in (least, most) if math.isfinite(end)]
+    about_to_move = tuple(End(end / statics.scale, senses, moving[end]) for end in own)
+    return StaticRange(*both, both, SAID, ends=about_to_move, again=tuple(again))
 
 
 def _between(a: float, b: float) -> float:
