@@ -17,7 +17,6 @@ from icsolve.assembly.workspace import (
     Datum,
     Frame,
     Key,
-    Point,
     Workspace,
     case_point,
     data_of,
@@ -27,6 +26,7 @@ from icsolve.assembly.workspace import (
 from icsolve.case import Case, Coordinates
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
+from icsolve.screws.plane import Point
 
 __all__ = [
     "Figure",

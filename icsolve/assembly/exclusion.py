@@ -21,7 +21,8 @@ import numpy.typing as npt
 from icsolve.assembly.conditions import Unknown
 from icsolve.assembly.loci import Axis, PlacedLine, intersection, sine_between
 from icsolve.assembly.steps import Group
-from icsolve.assembly.workspace import GUIDE, LENGTH, RAY, Point, Workspace, X, Y, data_in
+from icsolve.assembly.workspace import GUIDE, LENGTH, RAY, Workspace, X, Y, data_in
+from icsolve.screws.plane import Point
 from icsolve.tuples import NamedTuple
 
 Array = npt.NDArray[np.float64]

@@ -15,10 +15,11 @@ from icsolve.assembly.order import Order, order_of
 from icsolve.assembly.refusals import Miss, measure, mirrored, notes_of, plain
 from icsolve.assembly.steps import CLOSED_FORMS, Figure, Given, Meet, Step, leading_to, points_of
 from icsolve.assembly.walk import EVEN, DeadEnd, Mode, Path, Walk, squared_distance
-from icsolve.assembly.workspace import Frame, Point, Workspace, case_point, frame_of, names_of
+from icsolve.assembly.workspace import Frame, Workspace, case_point, frame_of, names_of
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
+from icsolve.screws.plane import Point
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed
 

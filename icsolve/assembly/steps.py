@@ -25,7 +25,6 @@ from icsolve.assembly.workspace import (
     Frame,
     Key,
     LineDirection,
-    Point,
     Span,
     Workspace,
     data_in,
@@ -34,6 +33,7 @@ from icsolve.assembly.workspace import (
 from icsolve.case import Case
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, magnitude
 from icsolve.numbers.sparse import Row, eliminate
+from icsolve.screws.plane import Point
 from icsolve.tuples import NamedTuple
 
 

@@ -31,8 +31,9 @@ from icsolve.assembly.refusals import (
     too_far,
 )
 from icsolve.assembly.steps import CLOSED_FORMS, Meet, Step, aims, needs
-from icsolve.assembly.workspace import Datum, Key, Point, Workspace, normalised
+from icsolve.assembly.workspace import Datum, Key, Workspace, normalised
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.screws.plane import Point
 from icsolve.tuples import NamedTuple
 
 T = TypeVar("T")

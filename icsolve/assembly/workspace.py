@@ -16,6 +16,7 @@ from icsolve.case import Case, Centroid, Coordinates, Corner, Guide, Number, Rop
 from icsolve.case.joints import Guided
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.screws.plane import Point, unit_between
 from icsolve.tuples import NamedTuple
 
 X, Y, MEAN, GUIDE, LINE, LENGTH, RAY, CORNER = "x", "y", "mean", "guide", "line", "length", "ray", "corner"
@@ -350,7 +351,6 @@ def _parts(made: object) -> Iterator[Datum | Key]:
 
 Key = str | tuple[int, str]
 """A point of the figure by its name, or of a link's own cluster by the cluster and the name."""
-Point = tuple[Scalar, Scalar]
 
 
 class Workspace:
@@ -389,10 +389,7 @@ class Workspace:
         if isinstance(root, Datum):
             x, y = self.turn(root)
         else:
-            (ax, ay), (bx, by) = self.points[root.a], self.points[root.b]
-            x, y = bx - ax, by - ay
-            d = self.arithmetic.sqrt(x * x + y * y)
-            x, y = x / d, y / d
+            (x, y), _ = unit_between(self.points[root.a], self.points[root.b], self.arithmetic)
         for datum, sense in direction.turns:
             c, s = self.turn(datum)
             x, y = (c * x - s * y, s * x + c * y) if sense > 0 else (c * x + s * y, c * y - s * x)

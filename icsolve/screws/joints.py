@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping
 from icsolve.case import Guide, Joint
 from icsolve.case.joints import CentreAt, CentreSquareTo, JointCentre, Mesh
 from icsolve.numbers.arithmetic import Arithmetic
-from icsolve.screws.plane import Point, Triple, normal_twist, pin_twist, slide_twist
+from icsolve.screws.plane import Point, Triple, normal_twist, pin_twist, slide_twist, unit_between
 from icsolve.structure.topology import Bond
 
 Points = Mapping[str, Point]
@@ -94,10 +94,8 @@ def guide_direction(guide: Guide, points: Points, arithmetic: Arithmetic) -> Poi
     if guide.angle is not None:
         return arithmetic.turn(guide.angle)
     assert guide.ends is not None
-    (ax, ay), (bx, by) = points[guide.ends[0]], points[guide.ends[1]]
-    dx, dy = bx - ax, by - ay
-    length = arithmetic.sqrt(dx * dx + dy * dy)
-    return (dx / length, dy / length)
+    first, second = (points[end] for end in guide.ends)
+    return unit_between(first, second, arithmetic)[0]
 
 
 def mesh_weights(joint: Mesh, arithmetic: Arithmetic) -> tuple[float, float]:

@@ -12,12 +12,13 @@ centre [length, length, 1], counter-clockwise positive; a `Point` is (x, y) [len
 or an array of any shape (the same for all, or broadcast).
 
 All functions are componentwise and branch-free: they run on floats, arrays, and any other number
-type with + - *. None refuses anything: a centre or line that does not exist comes out as (0, 0, 0).
+type with + - *. None but `unit_between` refuses anything: a centre or line that does not exist comes out as
+(0, 0, 0).
 """
 
 from __future__ import annotations
 
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.arithmetic import Arithmetic, Scalar
 
 Triple = tuple[Scalar, Scalar, Scalar]
 Point = tuple[Scalar, Scalar]
@@ -36,6 +37,13 @@ def slide_twist(direction: Point) -> Triple:
 def normal_twist(normal: Point) -> Triple:
     """Unit translation square to a normal, a unit vector (cos, sin): its centre lies along it."""
     return (normal[0], normal[1], 0.0)
+
+
+def unit_between(a: Point, b: Point, arithmetic: Arithmetic) -> tuple[Point, Scalar]:
+    """Unit vector from a to b, and the distance; where they are one place it divides by zero."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    length = arithmetic.sqrt(dx * dx + dy * dy)
+    return (dx / length, dy / length), length
 
 
 def force_wrench(force: Point, p: Point) -> Triple:

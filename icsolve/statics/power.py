@@ -47,7 +47,7 @@ from icsolve.numbers.arithmetic import (
 )
 from icsolve.numbers.null_space import null_space
 from icsolve.numbers.tape import Tape
-from icsolve.screws.plane import Point, Triple, force_wrench
+from icsolve.screws.plane import Point, Triple, force_wrench, unit_between
 from icsolve.screws.ropes import rope_parts
 from icsolve.tuples import NamedTuple
 
@@ -194,9 +194,9 @@ def _unit_wrench(
         case Spring() if may_vanish(load) and at_one_place(points[load.at], points[load.to], arithmetic):
             return (0.0, 0.0, 0.0), 0.0
         case Spring():
-            toward, length = _between(points[load.at], points[load.to], arithmetic)
+            along, length = unit_between(points[load.at], points[load.to], arithmetic)
             stretch = length / frame.scale - arithmetic.given(load.free)
-            return force_wrench(toward, points[load.at]), stretch
+            return force_wrench(along, points[load.at]), stretch
         case ForceVector():
             size = vector_size(load.parts) or 1.0
             x, y = arithmetic.given(load.x) / size, arithmetic.given(load.y) / size
@@ -238,7 +238,7 @@ def _spread(
     A triangle's resultant is half its length times its number, at a third of the length from its high end.
     """
     a, b = points[over.a], points[over.b]
-    length = _between(a, b, arithmetic)[1] / frame.scale
+    length = unit_between(a, b, arithmetic)[1] / frame.scale
     along, value = direction(load, points, arithmetic), load.value
     if over.end is None:
         return force_wrench(along, points[load.at]), length
@@ -299,24 +299,17 @@ def direction(load: Force, points: Points, arithmetic: Arithmetic) -> Point:
     heading = load.heading
     assert not isinstance(heading, AlongRope)
     if isinstance(heading, Toward):
-        x, y = _between(points[load.at], points[heading.point], arithmetic)[0]
+        x, y = unit_between(points[load.at], points[heading.point], arithmetic)[0]
         return (-x, -y) if heading.away else (x, y)
     if isinstance(heading, Slope):
         run, rise = arithmetic.given(heading.run), arithmetic.given(heading.rise)
-        return _between((0.0, 0.0), (run, rise), arithmetic)[0]
+        return unit_between((0.0, 0.0), (run, rise), arithmetic)[0]
     return arithmetic.turn(heading)
 
 
 def at_one_place(a: Point, b: Point, arithmetic: Arithmetic) -> bool:
     """Whether two points [frame] are one."""
     return all_vanish(arithmetic, ((q - p, 1.0 + magnitude(p)) for p, q in zip(a, b, strict=True)))
-
-
-def _between(a: Point, b: Point, arithmetic: Arithmetic) -> tuple[Point, Scalar]:
-    """Unit vector from a to b, and the distance."""
-    dx, dy = b[0] - a[0], b[1] - a[1]
-    length = arithmetic.sqrt(dx * dx + dy * dy)
-    return (dx / length, dy / length), length
 
 
 class PowerFactors(NamedTuple, Generic[L]):

@@ -18,7 +18,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import TURN
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.screws.joints import Points, at_radius, freedoms, guide_direction, pitch_point, transmitted
-from icsolve.screws.plane import Point, Triple, shift, subtract
+from icsolve.screws.plane import Point, Triple, shift, subtract, unit_between
 from icsolve.screws.ropes import RopePart, rope_parts, tension_ratios
 from icsolve.structure.topology import Bond, Topology, pairs_of
 from icsolve.tuples import NamedTuple
@@ -318,12 +318,13 @@ def tangent_and_separating(position: Position, tie: Tie) -> tuple[Point, Point]:
     arithmetic = position.arithmetic
     if not isinstance(tie.joint, Mesh):
         link, centre = _wheel(position, tie)
-        ex, ey = _unit(tie.at, centre, arithmetic)
+        (ex, ey), _ = unit_between(tie.at, centre, arithmetic)
         return (-ey, ex), ((ex, ey) if link == tie.on else (-ex, -ey))
     a, b = (position.points[p] for p in tie.pivots)
-    ex, ey = _unit(a, b, arithmetic)
+    (ex, ey), _ = unit_between(a, b, arithmetic)
     internal_on = tie.joint.sizes[1].value < 0
-    return (-ey, ex), (_unit(a, tie.at, arithmetic) if internal_on else _unit(tie.at, b, arithmetic))
+    inward, _ = unit_between(a, tie.at, arithmetic) if internal_on else unit_between(tie.at, b, arithmetic)
+    return (-ey, ex), inward
 
 
 def axial_shares(position: Position, tie: Tie, tangential: Scalar) -> list[tuple[str, Scalar]]:
@@ -367,9 +368,3 @@ def _wheel(position: Position, tie: Tie) -> tuple[str, Point]:
         f"the teeth of links {tie.by} and {tie.on} need the pin of the round one: give `radii`, and the pin "
         "at that distance.",
     )
-
-
-def _unit(a: Point, b: Point, arithmetic: Arithmetic) -> Point:
-    dx, dy = b[0] - a[0], b[1] - a[1]
-    length = arithmetic.sqrt(dx * dx + dy * dy)
-    return dx / length, dy / length
