@@ -1008,6 +1008,34 @@ def test_a_load_point_by_coordinates_moves_with_its_link_from_where_the_figure_i
     assert slopes == pytest.approx([0.0, 0.0], abs=1e-12)
 
 
+SLEEVE = """icsolve: 1
+points: {{A: [0, 0]}}
+lengths: {{AB: {{unknown: [0.1, 3]}}}}
+angles: {{AB: {angle}}}
+joints:
+  - {{{held}: [1, 2], at: A}}
+  - {{slide: [3, 2], at: B, along: [A, B]}}
+links: {{2: [A], 3: [B]}}
+loads:
+  W: {{weight: 10, link: 3, at: B}}
+  H: {{force: 10, link: 3, at: B, angle: 0}}
+  S: {{spring: 40, free: 0.5, link: 3, at: B, against: 2, to: A}}
+"""
+
+
+@pytest.mark.parametrize("angle", ["-45", "{unknown: [-180, 0]}"])
+def test_a_block_goes_with_its_own_link_also_where_its_point_tells_the_guide(angle: str) -> None:
+    """V = 20 (r - 0.5)^2 - 10 r (cos a - sin a): V'' = 40 along and F r across, F = 10 sqrt 2."""
+    held = "weld" if angle == "-45" else "pin"
+    (one,) = positions(SLEEVE.format(angle=angle, held=held))
+    force = 10.0 * math.sqrt(2.0)
+    assert one.at["lengths.AB"] == pytest.approx(0.5 + force / 40.0, abs=1e-15)
+    assert one.stability == "stable"
+    assert one.stiffness is not None
+    across = [40.0, 0.0, 0.0, force * (0.5 + force / 40.0)]
+    assert np.ravel(one.stiffness.value) == pytest.approx([40.0] if held == "weld" else across, abs=1e-12)
+
+
 def test_a_coordinate_that_nothing_fixes_is_what_is_asked() -> None:
     text = SLIDER.format(angle=40).replace("angles: {AB: 40}\n", "").replace("near: {C: [0.5, 0]}", "")
     text = text.replace("G: {centroid: [A, B]}}", "G: {centroid: [A, B]}, C: [unknown, 0]}")

@@ -21,7 +21,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import RADIAN
 from icsolve.numbers.replay import Array, Code
 from icsolve.scene import solve_scene
-from icsolve.solve.load_function import given_at
+from icsolve.solve.load_function import bearers, given_at
 from icsolve.solve.rest import AT_LIMIT, PROBE, Rest
 from icsolve.sweep.exact import as_written
 from icsolve.sweep.find_by_scenes import Query
@@ -166,7 +166,9 @@ def rate_of(answer: Answer, along: str) -> float:
     if along in rates:
         return float(rates[along])
     points = points_of(along)
-    moving = {name: v for (name, _), v in (answer.velocities or {}).items() if isinstance(v, tuple)}
+    velocities = answer.velocities or {}
+    paces = {name: velocities.get((name, link)) for name, (link, *_) in bearers(answer.case).items()}
+    moving = {name: v for name, v in paces.items() if isinstance(v, tuple)}
     v = {p: np.array(moving.get(p, (0.0, 0.0)), dtype=float) for p in points}
     if along.startswith("points."):
         return float(v[points[0]]["xy".index(along[-1])])

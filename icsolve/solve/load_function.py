@@ -388,6 +388,20 @@ def _turning(twists: Mapping[str, tuple[tuple[Scalar, Scalar, Scalar], ...]]) ->
     return sorted((link for link, rate in rates.items() if rate > 0.0), key=lambda link: -rates[link])
 
 
+def bearers(case: Case) -> dict[str, list[str]]:
+    """The links with which every point goes: those of its joints, and not one on whose guide it runs."""
+    carriers: dict[str, list[str]] = {}
+    for link in case.links:
+        for name in case.carries.get(link, ()):
+            carriers.setdefault(name, []).append(link)
+    own: dict[str, list[str]] = {}
+    for joint in case.joints:
+        pairs = joint.carried[:1] if joint.guide is not None else joint.carried
+        for link, name in pairs:
+            own.setdefault(name, []).append(link)
+    return carriers | own
+
+
 def _rate(
     scene: RecordedScene, twists: Mapping[str, tuple[tuple[Scalar, Scalar, Scalar], ...]], given: int
 ) -> tuple[Scalar, bool]:
@@ -396,17 +410,16 @@ def _rate(
     case, record = scene.case, scene.record
     best: tuple[float, Scalar] = (0.0, 0.0)
     ways: list[list[tuple[float, float, float, float]]] = []
-    carries = {link: case.carries[link] for link in case.links if link in case.carries}
-    for name in dict.fromkeys(name for names in carries.values() for name in names):
+    for name, links in bearers(case).items():
         if name not in scene.points or name.startswith("@"):
             continue
         x, y = scene.points[name]
         dx, dy = gradient(record, x, (given,))[given], gradient(record, y, (given,))[given]
-        on = [velocity(twists[link][0], (x, y)) for link, names in carries.items() if name in names]
+        on = [velocity(twists[link][0], (x, y)) for link in links]
         ways.append([(float(dx), float(dy), float(vx), float(vy)) for vx, vy in on])
         square = dx * dx + dy * dy
         if float(square) > 4.0 * best[0]:
-            # a link whose guide the point lies on moves otherwise there than the link that carries it
+            # where links roll or slip on one another a point goes with neither, or with one of them
             vx, vy = min(on, key=lambda v: abs(float(v[0] * dy - v[1] * dx)))
             best = (float(square), (vx * dx + vy * dy) / square)
     rate = float(best[1])

@@ -30,6 +30,7 @@ from icsolve.solve.branches import nearest
 from icsolve.solve.load_function import (
     PARTS,
     TOGETHER,
+    bearers,
     clearance,
     given_at,
     modes_of,
@@ -202,14 +203,11 @@ def _surface(compiled: CompiledSweep, paths: Sequence[str], margins: Sequence[Sc
     totals = [power.known_power(balance, m, record) for m in (0, 1)]
     slopes = [v for total in totals for v in gradient(record, total, inputs).values()]
     velocities = []
-    for link, names in case.carries.items():
-        for name in names if link != case.ground else ():
-            if name in scene.points and not name.startswith("@"):
-                for axis in (0, 1):
-                    velocities += list(gradient(record, scene.points[name][axis], inputs).values())
-                    velocities += [
-                        velocity(motions.twists[link][m], scene.points[name])[axis] for m in (0, 1)
-                    ]
+    for name, (link, *_) in bearers(case).items():
+        if name in scene.points and not name.startswith("@"):
+            for axis in (0, 1):
+                velocities += list(gradient(record, scene.points[name][axis], inputs).values())
+                velocities += [velocity(motions.twists[link][m], scene.points[name])[axis] for m in (0, 1)]
     named = {p: scene.points[p] for p in figure.points if not p.startswith("@")}
     nodes = [[record.lifted(v).index for v in some] for some in (totals, slopes, velocities, margins)]
     places = {p: (record.lifted(x).index, record.lifted(y).index) for p, (x, y) in named.items()}
