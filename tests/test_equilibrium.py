@@ -345,6 +345,67 @@ def test_at_a_limit_a_position_is_stable_by_the_motion_that_is_left(
     ]
 
 
+@pytest.mark.parametrize(
+    ("free", "limits"),
+    [
+        ("unknown", [0]),
+        ("{unknown: [0, 360]}", [0, 360]),
+        ("{unknown: [-90, 90]}", [0]),
+        ("{unknown: [0, 50]}", [0]),
+        ("{unknown: [-360, 10]}", [-360, 0]),
+        ("{unknown: [1e-9, 50]}", []),
+    ],
+)
+def test_a_limit_at_the_end_of_the_range_belongs_to_it(free: str, limits: list[int]) -> None:
+    """A triangle 3, 4, 5: B, C and D are in line where AB lies along the x axis, and the load along them."""
+    text = STRETCHED.format(free=free)
+    if not limits:
+        with pytest.raises(SceneError, match="balance for no value"):
+            positions(text)
+        return
+    answer = icsolve.solve(icsolve.load(text))
+    found = [one for one in answer.positions or () if one.stiffness is None]
+    assert [one.at["angles.AB"] for one in found] == limits
+    assert {one.stability for one in found} == {"unstable"}
+    assert answer.notes == ()
+
+
+STRETCHED = """icsolve: 1
+points: {{A: [0, 0], D: [0, 4]}}
+lengths: {{AB: 3, BC: 2, CD: 3}}
+angles: {{AB: {free}}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+loads:
+  P: {{force: 10, link: 3, at: C, slope: [-3, 4]}}
+  T: {{torque: 5, link: 2}}
+"""
+
+
+@pytest.mark.parametrize("seed", range(200 if FULL else 8))
+def test_a_limit_lies_within_its_error(seed: int) -> None:
+    """A torque on AB does no work where B, C and D are in line: |BD| = BC + CD or |BC - CD|."""
+    draw = random.Random(f"limits {seed}")
+    x, y, a, b, c = (round(draw.uniform(*span), 2) for span in ((-3, 3), (1, 4), (1, 3), (2, 4), (1, 2)))
+    text = STRETCHED.format(free="unknown").replace("D: [0, 4]", f"D: [{x}, {y}]")
+    text = text.replace("AB: 3, BC: 2, CD: 3", f"AB: {a}, BC: {b}, CD: {c}")
+    text = "".join(line for line in text.splitlines(True) if "slope" not in line)
+    with mpmath.workdps(40):
+        u, v, a, b, c = (mpmath.mpf(str(number)) for number in (x, y, a, b, c))
+        cosines = [
+            (u**2 + v**2 + a**2 - reach**2) / (2 * a * mpmath.hypot(u, v)) for reach in (b + c, abs(b - c))
+        ]
+        turns = [sign * mpmath.acos(cosine) for cosine in cosines if abs(cosine) < 1 for sign in (1, -1)]
+        limits = sorted(mpmath.degrees(mpmath.atan2(v, u) + turn) % 360 for turn in turns)
+        found = positions(text) if limits else ()
+        assert len(found) == len(limits)
+        for one, limit in zip(found, limits, strict=True):
+            assert abs(one.at["angles.AB"] - limit) <= one.error["angles.AB"] < 1e-10
+
+
 def test_a_figure_that_is_moved_from_where_it_is_written_is_shown_as_it_has_moved() -> None:
     """A wheel of half the radius turns twice as far the other way, a load by coordinates with its link."""
     text = """icsolve: 1

@@ -38,7 +38,9 @@ class Branches:
         self.values = np.linspace(low, high, SAMPLES + 1)
         self.names = [name for name in functions[0].places if all(name in f.places for f in functions)]
         self.places = np.array([self._places(f, self.values) for f in functions])  # (mode, sample, 2 points)
-        self.whole = np.array([self._assembles(f) for f in functions])  # (modes, samples)
+        self.slack = 1e-9 * (high - low)
+        self.whole = self.assemble(self.values)  # (modes, samples)
+        self.whole[:, [0, -1]] &= self.assemble(np.array([low + self.slack, high - self.slack]))
         self.ids = self._followed()
 
     def _places(self, function: LoadFunction, values: Array) -> Array:
@@ -49,11 +51,12 @@ class Branches:
         origin = np.tile([ox, oy], len(self.names))
         return np.array(np.stack(columns, axis=1) / scale + origin)
 
-    def _assembles(self, function: LoadFunction) -> npt.NDArray[np.bool_]:
-        found = Code(function.record, function.margins).run(function.given(self.values), len(self.values))
-        whole = np.ones(len(self.values), dtype=bool)
-        for margin in found:
-            whole &= np.broadcast_to(margin >= 0.0, len(self.values))
+    def assemble(self, values: Array) -> npt.NDArray[np.bool_]:
+        """Whether each mode assembles at each value (modes, n)."""
+        whole = np.ones((len(self.functions), len(values)), dtype=bool)
+        for n, function in enumerate(self.functions):
+            for margin in Code(function.record, function.margins).run(function.given(values), len(values)):
+                whole[n] &= np.broadcast_to(margin >= 0.0, len(values))
         return whole
 
     def _followed(self) -> npt.NDArray[np.int64]:
@@ -124,8 +127,7 @@ class Branches:
     def parts(self, m: int, without: frozenset[int]) -> list[tuple[float, float]]:
         """Where a mode is on none of some branches: between change points, and to the ends of the range."""
         if not without & set(self.ids[m].tolist()):
-            slack = 1e-9 * (self.high - self.low)
-            return [(self.low - slack, self.high + slack)]
+            return [(self.low - self.slack, self.high + self.slack)]
         left = [int(i) in without for i in self.ids[m]]
         cuts = [k for k in range(SAMPLES) if left[k] != left[k + 1]]
         ends = [self.low, *(self._change_point(m, k, left[k]) for k in cuts), self.high]

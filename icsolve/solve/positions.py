@@ -124,9 +124,9 @@ def _find_in_modes(
     ]
     if not complete:
         notes.append(f"the figure has more than {len(functions)} ways of assembling: not all were searched.")
-    found.sort(key=lambda p: p.value)
     least = None if found else _nearest(functions, stretches)
-    return Search(path, tuple(_distinct(found)), tuple(dict.fromkeys(notes)), False, least)
+    rests = _settled_turns(found, path, span is None)
+    return Search(path, tuple(rests), tuple(dict.fromkeys(notes)), False, least)
 
 
 Stretch = tuple[Branches, frozenset[int] | None]
@@ -156,7 +156,8 @@ def _beyond(branches: Branches, kept: frozenset[int] | None) -> list[Stretch]:
 def _unbounded(path: str, stretches: Sequence[Stretch]) -> list[str]:
     """What was searched, where the figure assembles beyond it."""
     parts = sorted((part for part, _ in stretches), key=lambda part: part.low)
-    if parts[0].whole[:, 0].any() or parts[-1].whole[:, -1].any():
+    ends = path.startswith("lengths.") and parts[0].low <= 0.0  # no length is less
+    if (parts[0].whole[:, 0].any() and not ends) or parts[-1].whole[:, -1].any():
         return [f"{path} was searched from {parts[0].low:g} to {parts[-1].high:g}."]
     return []
 
@@ -369,7 +370,6 @@ def search_modes(
     and ``notes`` takes sentences on what stays open."""
     found: list[tuple[int, Rest]] = []
     low, high = branches.low, branches.high
-    slack = 1e-9 * (high - low)
     path = functions[0].path
     limits = _limits(functions, branches)
     every = frozenset(branches.ids[branches.ids >= 0].tolist())
@@ -387,7 +387,7 @@ def search_modes(
                 found.append((n, position))
         for cluster in search.open_cells if search.complete else ():
             ends = [limit.value for limit in limits if limit.mode == n]
-            if any(cluster[0] - slack <= value <= cluster[1] + slack for value in ends):
+            if any(cluster[0] - branches.slack <= value <= cluster[1] + branches.slack for value in ends):
                 continue
             if not _changes(function, cluster):
                 position = _in_range(function, _in_open_cells(function, cluster), (low, high), whole)
@@ -631,7 +631,7 @@ def _in_open_cells(function: LoadFunction, cluster: tuple[float, float]) -> tupl
         if turning is None:
             return None
         value, error = turning
-        plain = next((v for d in range(13) if abs((v := round(value, d)) - value) <= error), value)
+        plain = plain_within(value, error)
         if _probe(function, plain) == 0.0:
             return plain, math.ulp(plain)
         least = abs(_probe(function, value))
@@ -639,6 +639,11 @@ def _in_open_cells(function: LoadFunction, cluster: tuple[float, float]) -> tupl
         return None
     # beside the place the load rises as the square of the distance: so much is left where that is zero
     return turning if least <= 8.0 * beside * (error / (high - low)) ** 2 else None
+
+
+def plain_within(value: float, error: float) -> float:
+    """The number with the fewest decimals that is as near as an error bound."""
+    return next((v for d in range(13) if abs((v := round(value, d)) - value) <= error), value)
 
 
 def _changes(function: LoadFunction, cluster: tuple[float, float]) -> bool:
@@ -670,7 +675,7 @@ def _at_change_point(
         if abs(root) > cluster[1] - cluster[0] + error:
             return []
         value = min(max(middle + root, span[0]), span[1])
-        value = next((v for d in range(13) if abs((v := round(value, d)) - value) <= error), value)
+        value = plain_within(value, error)
         here = next(_scenes_near(function, value, step))
     except (SceneError, StopIteration):
         return []
@@ -722,23 +727,45 @@ def _turning_point(function: LoadFunction, low: float, high: float) -> tuple[flo
 
 
 class _Limit(NamedTuple):
-    """Where a mode ends: the last value at which it assembles, and on which side it does."""
+    """Where a mode ends: the last value at which it assembles, how far from it the limit may be, and on which
+    side the mode assembles (1: below)."""
 
     mode: int
     value: float
+    error: float
     side: float
 
 
 def _limits(functions: Sequence[LoadFunction], branches: Branches) -> list[_Limit]:
-    """The ends of all modes inside of the range."""
+    """The ends of all modes in the range, also at its ends."""
     found = []
+    low, high = branches.low, branches.high
+    beyond = np.array([low - branches.slack, high + branches.slack])
+    values = np.array([beyond[0], *branches.values, beyond[1]])
+    first, last = branches.assemble(beyond).T
     for n, function in enumerate(functions):
-        whole = branches.whole[n]
+        whole = np.array([first[n], *branches.whole[n], last[n]])
         for k in np.flatnonzero(whole[1:] != whole[:-1]).tolist():
             inside, outside = (k, k + 1) if whole[k] else (k + 1, k)
-            value = _last(function, float(branches.values[inside]), float(branches.values[outside]))
-            found.append(_Limit(n, value, 1.0 if inside < outside else -1.0))
+            value = _last(function, float(values[inside]), float(values[outside]))
+            side = 1.0 if inside < outside else -1.0
+            error = _reach(function, value, side, branches.slack)
+            if low - error <= value <= high + error:
+                found.append(_Limit(n, min(max(value, low), high), error, side))
     return found
+
+
+def _reach(function: LoadFunction, value: float, side: float, most: float) -> float:
+    """So far on either side of a limit it is certain that a mode assembles, and that it does not."""
+    reach = math.ulp(value)
+    while reach < most:
+        about = np.array([value - side * reach, value + side * reach])
+        margins = enclose(function.record, function.margins, function.enclosed(Interval(about, about)))
+        ends = [(np.ravel(margin.low)[0], np.ravel(margin.high)[-1]) for margin in margins]
+        if all(inside > 0.0 for inside, _ in ends) and any(outside < 0.0 for _, outside in ends):
+            break
+        reach *= 2.0
+    return reach
 
 
 def _last(function: LoadFunction, inside: float, outside: float) -> float:
@@ -763,7 +790,7 @@ def _at_limits(
     found = []
     for k, one in enumerate(limits):
         for other in limits[k + 1 :]:
-            near = abs(one.value - other.value) <= 1e-9 * (branches.high - branches.low)
+            near = abs(one.value - other.value) <= branches.slack
             if not near or one.side != other.side or one.mode == other.mode:
                 continue
             on = {branches.on(limit.mode, limit.value) for limit in (one, other)}
@@ -782,7 +809,7 @@ def _between(one: LoadFunction, two: LoadFunction, limit: _Limit) -> list[Rest]:
         if any(math.dist(at, b.points[name]) > 0.02 * size for name, at in a.points.items()):
             return []
         link = _fastest(a, one.links)  # of the motion there: the link that is led stands still
-        last = limit.value - limit.side * 2.0 * math.ulp(limit.value)
+        last = limit.value - limit.side * 4.0 * limit.error
         p, q = _probe(one, last, link), _probe(two, last, link)
         if (p > 0.0) == (q > 0.0) and p != 0.0 and q != 0.0:
             return []
@@ -792,11 +819,12 @@ def _between(one: LoadFunction, two: LoadFunction, limit: _Limit) -> list[Rest]:
         return []
     rises = (away - far) * way
     stability = "stable" if rises > 0.0 else "unstable" if rises < 0.0 else "neutral"
-    error = 4.0 * math.ulp(limit.value)
+    value = plain_within(limit.value, limit.error)
+    error = limit.error + abs(value - limit.value)
     try:
-        return [_rest(one, limit.value, error, stability, None, AT_LIMIT)]
+        return [_rest(one, value, error, stability, None, AT_LIMIT)]
     except SceneError:
-        return [_rest(one, limit.value, error, stability, None, AT_LIMIT, last)]
+        return [_rest(one, value, error, stability, None, AT_LIMIT, last)]
 
 
 def _fastest(answer: Answer, links: Sequence[str]) -> str:
