@@ -6,6 +6,7 @@ Only what leads to the wanted nodes is run. A buffer is free again after the las
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from functools import partial
 from threading import get_ident
 from typing import Any
 
@@ -20,17 +21,11 @@ BLOCK = 4096
 FEW = 256
 LEAST = 8
 MOST_SIZES = 24
+SCRATCH = 4
 
 Step = tuple[Callable[..., Any], tuple[Any, ...]]
 
 BINARY = {Op.ADD: np.add, Op.SUB: np.subtract, Op.MUL: np.multiply, Op.DIV: np.divide}
-
-
-def not_negative(values: Array, out: Array) -> None:
-    """Write ``values``, (n,), with zero where they are negative, to ``out``, (n,): radicands below zero by
-    rounding.
-    """
-    np.maximum(values, 0.0, out=out)
 
 
 class Code:
@@ -81,7 +76,7 @@ class Code:
         return place, count
 
     def bound(self, rows: int) -> tuple[list[Step], Array]:
-        """The steps and their buffers, (buffers + 2, room), for so many rows.
+        """The steps and their buffers, (buffers + SCRATCH, room), for so many rows.
 
         ``room`` is ``rows``, or for few rows the next power of two; there is one set a thread.
         """
@@ -90,7 +85,7 @@ class Code:
         if key not in self._bound:
             if len(self._bound) > MOST_SIZES:
                 self._bound.clear()
-            buffers = np.zeros((self.buffers + 2, room))
+            buffers = np.zeros((self.buffers + SCRATCH, room))
             self._bound[key] = (list(self._steps(buffers)), buffers)
         return self._bound[key]
 
@@ -107,7 +102,7 @@ class Code:
             elif node.op == Op.NEG:
                 yield np.negative, (self._value(node.a, buffers), out)
             elif node.op == Op.SQRT:
-                yield not_negative, (self._value(node.a, buffers), out)
+                yield partial(np.maximum, out=out), (self._value(node.a, buffers), 0.0)  # but for rounding
                 yield np.sqrt, (out, out)
             elif node.op == Op.ANGLE:
                 yield np.arctan2, (self._value(node.b, buffers), self._value(node.a, buffers), out)
@@ -119,7 +114,7 @@ class Code:
                 cosine = k if node.op == Op.COS else None
                 done.update(() if sine is None else (sine,))
                 outs = [None if n is None else buffers[self.place[n]] for n in (cosine, sine)]
-                yield turn, (self._value(node.a, buffers), *outs, buffers[-2], buffers[-1])
+                yield turn, (self._value(node.a, buffers), *outs, *buffers[-SCRATCH:])
 
     def _value(self, k: int, buffers: Array) -> Array:
         found: Array = buffers[self.place[k]] if k in self.place else np.array(self.record.nodes[k].value)
@@ -171,7 +166,9 @@ class Code:
         return self._cut(k, self.bound(rows)[1], rows)
 
 
-def turn(degrees: Array, cosine: Array | None, sine: Array | None, a: Array, b: Array) -> None:
+def turn(
+    degrees: Array, cosine: Array | None, sine: Array | None, a: Array, b: Array, c: Array, s: Array
+) -> None:
     """Cosine and sine of angles, exact at multiples of 90 degrees.
 
     As `arithmetic.turn_of`: reduced exactly to r within 45 degrees of an axis before pi is met.
@@ -182,9 +179,8 @@ def turn(degrees: Array, cosine: Array | None, sine: Array | None, a: Array, b: 
     ----------
     degrees : (n,) [degrees]
     cosine, sine : (n,), written to; None where it is not asked for
-    a, b : (n,), scratch
+    a, b, c, s : (n,), scratch
     """
-    c, s = np.empty_like(a), np.empty_like(a)
     quarters = np.rint(np.divide(degrees, 90.0, a), a)
     np.subtract(degrees, np.multiply(quarters, 90.0, b), s)
     np.sin(np.multiply(s, np.pi / 180.0, s), s)
@@ -194,9 +190,12 @@ def turn(degrees: Array, cosine: Array | None, sine: Array | None, a: Array, b: 
     quarters *= across
     along = np.negative(np.add(across, 1.0, b), b)
     if cosine is not None:
-        np.add(np.multiply(c, along, cosine), s * quarters, cosine)
+        np.multiply(c, along, cosine)
     if sine is not None:
-        np.subtract(np.multiply(s, along, sine), c * quarters, sine)
+        np.multiply(s, along, sine)
+        np.subtract(sine, np.multiply(c, quarters, c), sine)
+    if cosine is not None:
+        np.add(cosine, np.multiply(s, quarters, s), cosine)
 
 
 def code_of(record: Record, wanted: Sequence[int]) -> Code:

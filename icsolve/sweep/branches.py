@@ -202,7 +202,7 @@ def grid_of(ends: Iterable[float], line: InputLine) -> Array:
     step, ends = line.widest / CELLS, [line.start, *ends]
     step *= max(1, math.ceil((max(ends) - min(ends)) / step / MOST_CELLS))
     low, high = (math.floor((end - line.start) / step) for end in (min(ends), max(ends)))
-    return np.asarray(line.start + step * np.arange(low - 2, high + 4), dtype=np.float64)
+    return line.start + step * np.arange(low - 2.0, high + 4.0)
 
 
 def _refuse_long(compiled: CompiledSweep, line: InputLine, ends: Sequence[float], rows: int) -> None:

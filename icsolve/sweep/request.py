@@ -134,7 +134,7 @@ def _refuse_values(name: str, own: str, array: Array, turns: bool) -> None:
     """Refuse numbers that no case may have there, and turns that nobody would count."""
     if (own.startswith("lengths.") or own.endswith((".mu", ".radius", ".length"))) and (array < 0.0).any():
         raise RequestError(f"the values of {shown(name)} should not be negative")
-    if turns and (np.abs(array) > FARTHEST).any():
+    if turns and np.abs(array).max() > FARTHEST:
         raise RequestError(f"the values of {shown(name)} lie beyond {FARTHEST:.0f} degrees; take turns off")
 
 

@@ -102,7 +102,8 @@ class SweepRun:
 
     def _settle(self, part: SweepPart, doubtful: Rows) -> None:
         """Solve doubtful rows as scenes."""
-        doubtful = doubtful[self.codes[part.rows[doubtful]] == 0]
+        if doubtful.size:
+            doubtful = doubtful[self.codes[part.rows[doubtful]] == 0]
         if not doubtful.size:
             return
         apart = part.runner.apart(self.parts.given(part.some(doubtful))[0], len(doubtful))
