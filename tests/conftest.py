@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
+from functools import cache
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -14,6 +15,9 @@ settings.register_profile(
     "seeded", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow]
 )
 settings.load_profile("seeded")
+
+
+KEPT = type(cache(len))
 
 
 @pytest.fixture(scope="session")
@@ -30,10 +34,11 @@ def chromium() -> Iterator[Browser]:
 
 @pytest.fixture(scope="module", autouse=True)
 def forgotten() -> Iterator[None]:
-    """No module's compiled sweeps, with their buffers, are kept for the next."""
+    """What the package keeps of cases that one module solved is not kept for the next."""
     yield
-    if "icsolve.sweep.start" in sys.modules:
-        sys.modules["icsolve.sweep.start"].runner.cache_clear()
+    rooms = [vars(room) for name, room in sys.modules.items() if name.startswith("icsolve.")]
+    for kept in [value for room in rooms for value in room.values() if isinstance(value, KEPT)]:
+        kept.cache_clear()
 
 
 @pytest.fixture

@@ -43,6 +43,7 @@ from icsolve.bench.families import BOUNDED, FAMILIES, Family, all_joints, linkag
 from icsolve.bench.gates import Effort, Gate, gate_table, lawful, nothing, ratio
 from icsolve.bench.peers import PEERS, TORQUE, Peer, ran
 from icsolve.bench.picture import figure, picture
+from icsolve.bench.promises import STARTS
 from icsolve.bench.rivals import METHODS, Method
 from icsolve.bench.speed import BOUNDED as BOUNDED_SWEEP
 from icsolve.bench.speed import BY_HAND, IN_C, SWEPT
@@ -293,6 +294,7 @@ def test_the_whole_benchmark_in_small(tmp_path: Path, monkeypatch: pytest.Monkey
     monkeypatch.setattr(report, "USUAL", Effort(2, 4, 4, 4, 10, 0.02, 1))
     monkeypatch.setattr(report, "FAMILIES", FAMILIES[:4])
     monkeypatch.setattr("icsolve.bench.speed.MILLION", 10_000)
+    monkeypatch.setattr("icsolve.bench.promises.STARTS", STARTS[::3])
     ran = CliRunner().invoke(command, ["bench", "-o", str(tmp_path / "plot.svg")], standalone_mode=False)
     assert ran.return_value == int("| NO |" in ran.stdout)
     for heading in ("One scene", "A full turn", "Grading", "Rows", "Time", "Laws", "Figures"):

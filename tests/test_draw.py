@@ -65,13 +65,13 @@ def check(picture: Picture) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "options"), [(name, options) for options in OPTIONS for name in sample(FILES, 3, options)]
+    ("name", "options"), [(name, options) for options in OPTIONS for name in sample(FILES, 4, options)]
 )
 def test_every_case_draws_and_every_label_can_be_read(name: str, options: str) -> None:
     check(drawn(icsolve.load(FILES[name]), **OPTIONS[options]))
 
 
-@pytest.mark.parametrize("name", sample(FILES, 3, "labels on arrows"))
+@pytest.mark.parametrize("name", sample(FILES, 5, "labels on arrows"))
 def test_no_label_stands_on_an_arrow(name: str) -> None:
     for options in ("plain", "velocities", "free bodies"):
         assert on_arrows(drawn(icsolve.load(FILES[name]), **OPTIONS[options])) == []
