@@ -17,7 +17,17 @@ from icsolve.draw.loads import legend, load_parts, velocity_parts
 from icsolve.draw.marks import HEIGHT, WIDTH, Box, Mark, MarkGroup, Point, bounds, view_of
 from icsolve.draw.place import joined
 from icsolve.draw.ropes import belts, courses, filled, free_ends, pulley_marks, rope_marks
-from icsolve.draw.scene import Part, Scene, around, geneva_of, outlines, round_things, together, with_labels
+from icsolve.draw.scene import (
+    Geneva,
+    Part,
+    Scene,
+    around,
+    geneva_of,
+    outlines,
+    round_things,
+    together,
+    with_labels,
+)
 from icsolve.draw.svg import document
 from icsolve.draw.tikz import standalone
 from icsolve.draw.words import captioned, description
@@ -34,12 +44,17 @@ TOGETHER = 0.02
 
 def scene_of(known: Known, steps: Sequence[Step] = ()) -> Scene:
     """A known scene in the view that suits it and the centres of these steps."""
-    wheels = [geneva_of(known.case, known.points, link) for link in known.case.links]
-    ways = [around(wheel.centre, wheel.radius) for wheel in wheels if wheel is not None]
+    ways = [around(wheel.centre, wheel.radius) for wheel in genevas(known)]
     scene = scene_over(known, steps, ways=ways)
     larger = min(SHORT / max(_shortest(known) * scene.view.scale, 1e-9), LARGER)
     room = (larger * WIDTH, larger * HEIGHT)
     return scene_over(known, steps, ways=ways, room=room) if larger > 1.0 else scene
+
+
+def genevas(known: Known) -> list[Geneva]:
+    """The Geneva wheels among the links."""
+    wheels = (geneva_of(known.case, known.points, link) for link in known.case.links)
+    return [wheel for wheel in wheels if wheel is not None]
 
 
 def used_points(case: Case) -> set[str]:

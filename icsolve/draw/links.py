@@ -123,8 +123,8 @@ ROUNDED = 0.78
 
 
 def _geneva(scene: Scene, link: str) -> shapely.Geometry | None:
-    """A Geneva wheel; in a page, where the pin leaves it, it is the slotted lever that the case says."""
-    wheel = None if scene.travel else geneva_of(scene.case, scene.known.points, link)
+    """A Geneva wheel."""
+    wheel = geneva_of(scene.case, scene.known.points, link)
     if wheel is None:
         return None
     centre, pin = scene.view.at(wheel.centre), scene.view.at(wheel.pin)

@@ -364,7 +364,7 @@ def _controls(parts: PageParts) -> str:
     endless = "" if motion["verb"] == "turned" else '<p class="hint">The case gives the guides no ends.</p>\n'
     gap = motion["low"] < motion["first"] or motion["high"] > last
     keys = '<span class="k-dead">dead centre</span>' if motion["dead"] else ""
-    keys += '<span class="k-gap">the links do not meet</span>' if gap else ""
+    keys += f'<span class="k-gap">{motion["ends"]}</span>' if gap else ""
     return (
         f'<label class="turn" for="turn">Link {driver} {motion["verb"]}: '
         '<output id="angle">as written</output></label>\n'

@@ -13,7 +13,7 @@ import shapely
 
 from icsolve.case import Force, Pin, Spring
 from icsolve.case.joints import Guided
-from icsolve.draw.figure import scene_over, used_points
+from icsolve.draw.figure import genevas, scene_over, used_points
 from icsolve.draw.frame import frame_parts, joint_name, joint_parts, point_parts, rims
 from icsolve.draw.links import DrawnBody, bars, body_of, guide_in_picture, link_part, outline
 from icsolve.draw.loads import load_parts
@@ -77,6 +77,7 @@ def _scene(known: Known, steps: Sequence[Step], motion: PageMotion | None) -> Sc
     if motion is None:
         return scene_over(known, steps, room=ROOM)
     ways = [_box(*_way(motion, p)) for p in used_points(known.case) & motion.found.points.keys()]
+    ways += [around(wheel.centre, wheel.radius) for wheel in genevas(known)]
 
     def swept(link: str, p: Point, reach: float) -> Box:
         pose = motion.poses.get(link)

@@ -229,6 +229,7 @@ def motion_data(known: Known, view: View, motion: PageMotion, fine: int = FINE["
         "turns": motion.whole_turn,
         "dead": motion.dead,
         "hints": _hints(motion),
+        "ends": motion.ends,
         "links": _links(known, view, motion, rows),
         "points": {
             name: _place(view, column[rows, 0], column[rows, 1], fine)

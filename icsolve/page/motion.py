@@ -25,6 +25,7 @@ from icsolve.case import (
 )
 from icsolve.case.joints import Guided, Mesh, without_friction
 from icsolve.case.names import pair_name
+from icsolve.draw.figure import genevas
 from icsolve.draw.plot import asymptotes, dead_centres
 from icsolve.draw.words import figure_number, unit_word
 from icsolve.errors import SceneError, Status
@@ -319,6 +320,8 @@ class PageMotion(NamedTuple):
     """for each known load the power that it does while the unknown load does 1 (where there is one)"""
     dead: list[float]
     """the dead centres between the first and the last row"""
+    ends: str = "the links do not meet"
+    """what is so beyond them"""
 
     @property
     def driver(self) -> str:
@@ -364,11 +367,12 @@ def motion_of(known: Known, pairs: Sequence[Pair]) -> PageMotion | None:
     ends = {rope.end for rope in case.ropes} & poses.keys()
     ends_at = {poses[end].point: np.column_stack((poses[end].x, poses[end].y)) for end in ends}
     found = replace(found, points={**found.points, **ends_at})
-    first, last = _run(found, zero)
+    first, last = _run(known, found, zero)
     if first == last:
         return None
     dead = _dead(case, by, degrees, (float(degrees[first]), float(degrees[last])), found)
-    return PageMotion(by, degrees, zero, first, last, found, poses, _shares(case, found), dead)
+    moves = PageMotion(by, degrees, zero, first, last, found, poses, _shares(case, found), dead)
+    return moves._replace(ends="the pin is out of its slot") if genevas(known) else moves
 
 
 DEAD = (Status.DEAD_CENTRE, Status.NO_VALUE)
@@ -437,7 +441,7 @@ def _widest(known: Known, want: Sequence[str]) -> tuple[PageInput, Array, Sweep]
         found = _swept(case, driver, turn, want)
         if found is None:
             continue
-        first, last = _run(found, len(turn) // 2)
+        first, last = _run(known, found, len(turn) // 2)
         reach = float(turn[last] - turn[first])
         if best is None or reach > best[0]:
             best = (reach, driver, turn, found)
@@ -446,7 +450,7 @@ def _widest(known: Known, want: Sequence[str]) -> tuple[PageInput, Array, Sweep]
     if best is None:
         return None
     reach, driver, turn, found = best
-    finer = None if _one_by_one(case) else _suited(turn, *_run(found, len(turn) // 2), step)
+    finer = None if _one_by_one(case) else _suited(turn, *_run(known, found, len(turn) // 2), step)
     again = None if finer is None else _swept(case, driver, finer, want)
     return (driver, turn, found) if finer is None or again is None else (driver, finer, again)
 
@@ -470,9 +474,13 @@ def _suited(turn: Array, first: int, last: int, step: float) -> Array | None:
     return None
 
 
-def _run(found: Sweep, zero: int) -> tuple[int, int]:
-    """The first and last row of those around row zero in which all places are known."""
+def _run(known: Known, found: Sweep, zero: int) -> tuple[int, int]:
+    """The first and last row of those around row zero in which all places are known, and pins are in the
+    slots of Geneva wheels."""
     placed = np.ones(len(found), bool)
+    for wheel in genevas(known):
+        pin = next(name for name, at in known.points.items() if at == wheel.pin)
+        placed &= np.hypot(*(found.points[pin] - wheel.centre).T) <= wheel.radius * (1.0 + 1e-9)
     for column in found.points.values():
         placed &= np.isfinite(column[:, 0])
     missing = np.flatnonzero(~placed)

@@ -60,7 +60,7 @@ function turnTo(degrees) {
   const r = (degrees - motion.first) / motion.step;
   const over = r < -0.5 || r > rows - 0.5;
   const end = degreesOf(r < 0 ? 0 : rows - 1);
-  moveTo(r, over ? `The links do not meet beyond ${number(end, 5)}${motion.unit}.` : "");
+  moveTo(r, over ? `${motion.ends[0].toUpperCase()}${motion.ends.slice(1)} beyond ${number(end, 5)}${motion.unit}.` : "");
 }
 let playing = 0;
 const play = byId("play");

@@ -30,7 +30,11 @@ function restOf(told, x, figure) {
       return null;
     }
   };
-  const start = powerAt(told, x, figure, Math.min(Math.max(x[n], low), high), null);
+  const first = Math.min(Math.max(x[n], low), high);
+  let start = at(first, null);
+  for (let k = 1; !start && k <= SCANNED; k++)
+    for (const value of [first + k * pace, first - k * pace]) if (!start && value >= low && value <= high) start = at(value, null);
+  start = start || powerAt(told, x, figure, first, null);
   const sides = [1, -1].map((way) => ({ way, last: start, pace, going: true }));
   let moving = false;
   for (let k = 0; k < 3 * SCANNED && sides.some((side) => side.going); k++)
