@@ -108,7 +108,7 @@ def column(packed: dict[str, Any], row: int) -> float | None:
     if "v" in packed:
         value: float | None = packed["v"][row]
         return value
-    return float(np.cumsum(np.cumsum(packed["d"]))[row] / packed["s"])
+    return None if row in packed.get("n", []) else float(np.cumsum(np.cumsum(packed["d"]))[row] / packed["s"])
 
 
 def plain(text: str) -> str:

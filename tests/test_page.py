@@ -98,7 +98,9 @@ def column(packed: dict[str, Any]) -> np.ndarray:
     """A column as the script reads it."""
     if "v" in packed:
         return np.array([math.nan if v is None else v for v in packed["v"]], float)
-    return np.cumsum(np.cumsum(packed["d"])) / packed["s"]
+    values = np.cumsum(np.cumsum(packed["d"])) / packed["s"]
+    values[packed.get("n", [])] = math.nan
+    return values
 
 
 @pytest.mark.parametrize("name", PAGED)
@@ -584,3 +586,13 @@ def test_velocities_of_pages_solved_beforehand_are_those_of_the_turn(name: str) 
             most, seen = max(most, np.max(slip[fast] / sizes[fast], initial=0.0)), seen + int(fast.sum())
     assert seen > 50
     assert most < 0.01
+
+
+def test_a_page_passes_a_change_point_without_a_jump() -> None:
+    """Lazy tongs fold flat exactly in one position, where two pins of the next pair coincide: no point goes
+    farther from one degree to the next than three degrees of the longest way across would take it."""
+    moving = motion_of(known_of(icsolve.load(FILES["tools/lazy_tongs.yaml"])), [])
+    assert moving is not None and "change-point" in moving.status
+    for place in moving.found.points.values():
+        steps = np.hypot(*np.diff(place[moving.first : moving.last + 1], axis=0).T)
+        assert steps.max() < math.radians(3.0) * 500.0

@@ -210,7 +210,7 @@ def model_of(
     return data
 
 
-def motion_data(known: Known, view: View, motion: PageMotion, fine: int = FINE["px"]) -> dict[str, Any]:
+def motion_data(known: Known, view: View, motion: PageMotion, fine: float = FINE["px"]) -> dict[str, Any]:
     """Degrees, poses of links and places of points (in steps of 1 / ``fine``) in the rows that assemble."""
     rows = slice(motion.first, motion.last + 1)
     degrees = motion.degrees
@@ -280,7 +280,7 @@ def _links(known: Known, view: View, motion: PageMotion, rows: slice) -> dict[st
     return found
 
 
-def _place(view: View, x: Array, y: Array, fine: int = FINE["px"]) -> dict[str, Any]:
+def _place(view: View, x: Array, y: Array, fine: float = FINE["px"]) -> dict[str, Any]:
     across = (x - view.origin[0]) * view.scale
     down = (view.origin[1] - y) * view.scale
     return {"x": compact(across, fine), "y": compact(down, fine)}
@@ -326,6 +326,7 @@ def _centre(
         else:
             lines.append([numbers[end] for end in line if end in numbers])
     x, y = _places(centre, name, view, motion)
+    fine = FINE["far"] if (np.hypot(x, y)[np.isfinite(x)] >= INFINITE).all() else FINE["px"]
     return {
         "id": identifier(f"centre-{name}"),
         "name": name,
@@ -333,8 +334,8 @@ def _centre(
         "step": step.number,
         "primary": centre.by in ("inspection", "given"),
         "lines": lines,
-        "x": compact(x, FINE["px"]),
-        "y": compact(y, FINE["px"]),
+        "x": compact(x, fine),
+        "y": compact(y, fine),
     }
 
 

@@ -363,6 +363,7 @@ def motion_of(known: Known, pairs: Sequence[Pair]) -> PageMotion | None:
         return None
     by, degrees, found = best
     zero = int(np.argmin(np.abs(degrees)))
+    _pass_change_points(found)
     poses = poses_of(known, by.link, degrees, zero, found)
     ends = {rope.end for rope in case.ropes} & poses.keys()
     ends_at = {poses[end].point: np.column_stack((poses[end].x, poses[end].y)) for end in ends}
@@ -373,6 +374,17 @@ def motion_of(known: Known, pairs: Sequence[Pair]) -> PageMotion | None:
     dead = _dead(case, by, degrees, (float(degrees[first]), float(degrees[last])), found)
     moves = PageMotion(by, degrees, zero, first, last, found, poses, _shares(case, found), dead)
     return moves._replace(ends="the pin is out of its slot") if genevas(known) else moves
+
+
+def _pass_change_points(found: Sweep) -> None:
+    """Exactly at a change point pins that coincide leave open where others are: there the picture is midway
+    between the rows beside it, without centres."""
+    for row in np.flatnonzero(found.status == str(Status.CHANGE_POINT)).tolist():
+        if 0 < row < len(found) - 1 and (found.status[[row - 1, row + 1]] == str(Status.OK)).all():
+            for column in found.points.values():
+                column[row] = 0.5 * (column[row - 1] + column[row + 1])
+            for column in found.centres.values():
+                column[row] = np.nan
 
 
 DEAD = (Status.DEAD_CENTRE, Status.NO_VALUE)
@@ -545,21 +557,24 @@ def _like(load: Load) -> bool:
 
 # --- columns of numbers -----------------------------------------------------------------------------------
 
-FINE = {"px": 10, "deg": 100, "told": 100_000}
+FINE = {"px": 10, "deg": 100, "told": 100_000, "far": 1e-5}
 """Steps a picture unit, or a degree: a tenth of a unit, a hundredth of a degree; of a point whose place is
-read as a number, far finer."""
+read as a number, far finer; of a direction to infinity, whose numbers are large."""
 FAR = 1e5
 """Numbers beyond this are written plainly, to five significant digits."""
 DIGITS = 12
 """Significant digits of an answer: those that anyone is shown, and more."""
 
 
-def compact(values: Array, fine: int) -> dict[str, Any]:
+def compact(values: Array, fine: float) -> dict[str, Any]:
     """A column in steps of 1 / ``fine``, as differences of differences, which are small where a motion is
-    smooth; what is not a number is null."""
-    if np.isfinite(values).all() and float(np.abs(values).max(initial=0.0)) < FAR:
-        whole = np.rint(values * fine).astype(np.int64)
-        return {"s": fine, "d": np.diff(whole, 2, prepend=(0, 0)).tolist()}
+    smooth; ``n`` are the rows in which it is not a number."""
+    known = np.isfinite(values)
+    if known.any() and float(np.abs(values[known]).max()) * min(fine, 1.0) < FAR:
+        rows = np.arange(len(values))
+        whole = np.rint(np.interp(rows, rows[known], values[known]) * fine).astype(np.int64)
+        none = {} if known.all() else {"n": np.flatnonzero(~known).tolist()}
+        return {"s": fine, "d": np.diff(whole, 2, prepend=(0, 0)).tolist(), **none}
     return {"v": [_rounded(v, 5) for v in values.tolist()]}
 
 
@@ -575,7 +590,7 @@ def _rounded(value: float, digits: int) -> float | int | None:
     return int(value) if value == int(value) and abs(value) < 1e15 else value
 
 
-def moves(values: Array, fine: int) -> bool:
+def moves(values: Array, fine: float) -> bool:
     """Whether a column changes as the picture shows it."""
     return bool(np.ptp(values) * fine > 0.5) if np.isfinite(values).all() else True
 

@@ -13,7 +13,9 @@ const column = (c) => {
   if (c.v) return c.v;
   let sum = 0;
   let rate = 0;
-  return c.d.map((d) => (sum += rate += d) / c.s);
+  const values = c.d.map((d) => (sum += rate += d) / c.s);
+  for (const r of c.n || []) values[r] = null;
+  return values;
 };
 const places = (o) => ({ x: column(o.x), y: column(o.y) });
 const links = {};
