@@ -357,6 +357,12 @@ def _little() -> None:
     resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
 
 
+def _work() -> float:
+    """Seconds of the processor that this process, and those that it started and that ended, have taken."""
+    times = os.times()
+    return times.user + times.system + times.children_user + times.children_system
+
+
 def most_memory() -> int:
     """Bytes that this process, or the largest that it started, has held at most."""
     return 1024 * max(
@@ -385,9 +391,11 @@ def faults_of(
     held = most_memory()
     while left:
         command = left.pop(0)
+        began = _work()
         code, out, said, trace = printed(command, apart)
         if done is not None:
             done["commands"] += 1
+            done["milliseconds"] = max(done["milliseconds"], round(1000 * (_work() - began)))
         why = ""
         if code not in (0, 1, 2):
             why = f"status {code}: {said[-300:]}"
@@ -434,7 +442,8 @@ def campaign(count: int, seed: int, apart: bool = False, done: Counter[str] | No
 
 def counted(done: Counter[str]) -> str:
     """How much a campaign has done, in words."""
-    return ", ".join(f"{done[what]} {what}" for what in ("cases", "commands", "faults"))
+    many = ", ".join(f"{done[what]} {what}" for what in ("cases", "commands", "faults"))
+    return f"{many}, {done['milliseconds'] / 1000:g} s at most"
 
 
 def _place(trace: str) -> str:

@@ -29,6 +29,26 @@ loads: {P: {force: [1, 2, 3], link: 2, at: B}}
 """
 
 
+TRUSS = """icsolve: 1
+points: {A: [0, 0], B: [3, 0], C: [1, 2]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: C}, {pin: [3, 1], at: B}]
+loads: {P: {force: 120, link: 2, at: C, angle: -70}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "links", "said"),
+    [
+        (TRUSS, "2", "nothing is left to move, the links hold one another. Vary a load"),
+        (PRESS, "23", "the turning of link 3 and the turning of link 2 cannot both be given"),
+        (PRESS, "1", "link 1 is the frame. Turn another link"),
+    ],
+)
+def test_why_a_link_cannot_be_turned(text: str, links: str, said: str) -> None:
+    with pytest.raises(icsolve.SceneError, match=said):
+        icsolve.sweep(icsolve.load(text), drive={link: [0.0, 1.0] for link in links})
+
+
 def refused(*words: str) -> Callable[[str], bool]:
     return lambda text: all(word in text for word in words) and "fault of icsolve" not in text
 

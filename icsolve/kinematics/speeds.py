@@ -242,8 +242,8 @@ def fastest(twists: Twists) -> float:
 
 
 def joint_order(case: Case) -> list[str]:
-    """Links in the order in which the joints name them."""
-    return list(dict.fromkeys(link for joint in case.joints for link in joint.links))
+    """Links in the order in which the joints, and then the ropes, name them."""
+    return list(dict.fromkeys(link for joint in (*case.joints, *case.ropes) for link in joint.links))
 
 
 def _normal_row(

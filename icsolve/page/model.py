@@ -377,12 +377,14 @@ def _answers(known: Known, motion: PageMotion | None, loads: Sequence[Acting]) -
     acting = {a.load.name: a for a in loads}
     for name, value in known.answer.answers.items():
         one: dict[str, Any] = {"name": name, **_named(name), "unit": unit_word(value.unit)}
-        if motion is None or name not in motion.found.answers:
+        if motion is not None and name in motion.found.answers:
+            _through(known, motion, one, name, acting[name])
+        elif motion is not None and f"{name}.x" in motion.found.answers:
+            _of_any_direction(motion, one, name, acting[f"{name}.x"].load)
+        else:
             one["holds"] = [holding(value, figure_number)] if value.holds is not None else None
             one["values"] = exact([value.value])
             one["senses"], one["sense"] = _indexed([spelt(value.sense, figure_number)])
-        else:
-            _through(known, motion, one, name, acting[name])
         found.append(one)
     found += [
         {**_named(name), "name": name, "joint": [force.by, force.on, force.where], "sense": compact(ZERO, 1)}
@@ -434,6 +436,17 @@ def _through(known: Known, motion: PageMotion, one: dict[str, Any], name: str, a
         held = motion.found.holds[name][rows]
         unit = unit_of(acting.load, known.case)
         one["holds"] = [_held((float(low), float(high)), unit) for low, high in held]
+
+
+def _of_any_direction(motion: PageMotion, one: dict[str, Any], name: str, load: Load) -> None:
+    """The columns of an unknown force of unknown direction, from those of its components."""
+    x, y = (motion.found.answers[f"{name}.{axis}"][motion.first : motion.last + 1] for axis in "xy")
+    sizes, degrees = np.hypot(x, y), np.nan_to_num(np.degrees(np.arctan2(y, x)))
+    one["values"] = exact(sizes.tolist())
+    rows = zip(np.nan_to_num(sizes).tolist(), degrees.tolist(), strict=True)
+    one["senses"], one["sense"] = _indexed(
+        [spelt(sense_of(load, size, 1.0, at), figure_number) for size, at in rows]
+    )
 
 
 def _held(holds: tuple[float, float], unit: str) -> str:

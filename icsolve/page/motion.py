@@ -397,17 +397,19 @@ def _dead(case: Case, by: PageInput, degrees: Array, reach: tuple[float, float],
     are, and with them the places where an answer runs off to infinity.
 
     Where each position is a scene they are looked for only if an answer changes its sign or is missing; with
-    friction they are those of the mechanism without, at which the answer jams or grows all the same.
+    friction they are those of the mechanism without, at which the answer jams or grows all the same, unless
+    it has several freedoms, whose motion friction does not leave as it is.
     """
     if _one_by_one(case) and all(np.all(v > 0.0) or np.all(v < 0.0) for v in found.answers.values()):
         return []
-    some = None if by.slides or case.dynamic else dead_centres(_smooth(case), by.driven(degrees))
+    smooth = _smooth(case) if len(found.answers) == 1 else case
+    some = None if by.slides or case.dynamic else dead_centres(smooth, by.driven(degrees))
     if some is None:
         x = degrees.tolist()
         some = [at for at, word in zip(x, found.status, strict=True) if word in DEAD]
         for values in () if rubs(case) else found.answers.values():
             some = asymptotes(x, values.tolist(), some)
-    elif rubs(case):
+    elif rubs(case) and smooth is not case:
         some = [at for at in some if _jams(case, by, at)]
     return [at + 0.0 for at in some if reach[0] <= at <= reach[1]]
 

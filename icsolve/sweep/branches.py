@@ -81,7 +81,7 @@ class Radicands:
         gone = np.zeros(len(self.grid), dtype=bool)
         for n in range(len(self.roots)):
             radicand, a, a_size, b, b_size = found[5 * n : 5 * n + 5]
-            margin = np.minimum(a / a_size, b / b_size)
+            margin = np.minimum(_share(a, a_size), _share(b, b_size))
             radicand[gone], margin[gone] = np.nan, np.nan
             gone = gone | ~(margin >= -TOUCH)
             radicands.append(radicand)
@@ -168,8 +168,13 @@ class Radicands:
     def _margin(self, root: Root, at: float) -> float:
         """The smaller margin over its size."""
         nodes = [n for margin in root.margins for n in margin]
-        a, a_size, b, b_size = (float(v[0]) for v in self.values(nodes, np.array([at])))
-        return min(a / a_size, b / b_size)
+        a, a_size, b, b_size = self.values(nodes, np.array([at]))
+        return float(np.minimum(_share(a, a_size), _share(b, b_size))[0])
+
+
+def _share(margin: Array, size: Array) -> Array:
+    """A margin over its size; 0 where loci of no size touch."""
+    return np.divide(margin, size, out=np.zeros_like(margin), where=size != 0.0)
 
 
 def may_vanish(radicand: Array) -> bool:

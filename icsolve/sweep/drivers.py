@@ -377,14 +377,16 @@ def drive_of(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str]) -
         return derivatives(bodies, written.of(constraint))
 
     left = _freedoms(jacobian(mechanism, bodies, mechanism.constraints), len(bodies))
-    for link in links:
+    for n, link in enumerate(links):
         body = mechanism.top.body_of[link]
         taken = left.without(row(Turning(((body, 1.0),))))
         if taken is None:
             still = next((c for c in mechanism.constraints if isinstance(c, Immovable)), None)
             if still is not None and not left.motions:
                 raise still.refusal
-            raise _cannot_turn(case, link, len(left.motions), body == mechanism.top.ground)
+            if n and not left.motions:
+                raise _too_many(f"the turning of link {link}", n, links[:n])
+            raise _cannot_turn(link, bool(left.motions), body == mechanism.top.ground)
         left = taken
     moving: list[str] = []
     before = left
@@ -440,12 +442,13 @@ def _too_many(path: str, freedoms: int, links: Sequence[str]) -> SceneError:
     )
 
 
-def _cannot_turn(case: Case, link: str, left: int, ground: bool) -> SceneError:
+def _cannot_turn(link: str, left: bool, ground: bool) -> SceneError:
     why = f"link {link} is the frame" if ground else f"link {link} does not turn, or not by itself"
+    other = "Turn another link, or vary"
     if not left and not ground:
-        why = "no freedom is left for it"
+        why, other = "nothing is left to move, the links hold one another", "Vary a load, or"
     return SceneError(
         Status.MOBILITY,
-        f"link {link} cannot be the driving link: {why}. Turn another link, or vary an angle, a length or a "
-        "coordinate that poses the figure.",
+        f"link {link} cannot be the driving link: {why}. {other} an angle, a length or a coordinate that "
+        "poses the figure.",
     )

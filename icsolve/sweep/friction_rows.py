@@ -245,11 +245,12 @@ def _fixed_point(forms: list[list[list[Array | float]]], rows: int) -> tuple[lis
     """Sizes y = |v(y)| in every row, and which rows have settled."""
     y: list[Array] = [np.broadcast_to(_length([form[0] for form in three]), rows) for three in forms]
     for _ in range(ITERATIONS):
-        new = _sizes(forms, y)
+        new = [np.broadcast_to(size, rows) for size in _sizes(forms, y)]
         moving = _moved(y, new)
         y = new
         if not moving.any():
             return y, ~moving
+    y = [np.array(part) for part in y]
     late = np.flatnonzero(moving)
     some = [
         [[a if isinstance(a, float) or not a.ndim else a[late] for a in f] for f in three] for three in forms
