@@ -13,11 +13,12 @@ import numpy as np
 import pytest
 from mpmath import mp
 
+from icsolve.assembly.driven.order import rotation_to_line
 from icsolve.case import Number
 from icsolve.numbers.adjoint import still_noise
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.jets import BallArray, Jet
-from icsolve.numbers.record import Record
+from icsolve.numbers.record import Record, Traced
 from icsolve.numbers.tape import Tape
 
 many = mp.clone()
@@ -269,6 +270,19 @@ def test_a_tape_bounds_the_error_of_an_expression_and_has_its_derivatives(seed: 
         for path, slope in by_path.items():
             expected = (truth(path, step)[k] - truth(path, -step)[k]) / (2 * step)
             assert slope == pytest.approx(float(expected), rel=1e-9, abs=1e-11 * (1.0 + abs(one.value)))
+
+
+@pytest.mark.parametrize("off", [0.0, 3e-16, -1e-15])
+def test_a_line_that_passes_its_pivot_but_for_rounding_turns_as_if_through_it_and_says_by_how_much(
+    off: float,
+) -> None:
+    record = Record()
+    for h in (off, record.about(off, 1e-17)):
+        found = rotation_to_line(record, (0.6, 0.8), (1.0, 0.0), h, 1.0)
+        for part, own in zip(found, (0.6, 0.8), strict=True):
+            assert float(part) == own
+            noise = still_noise(record, part.index) if isinstance(part, Traced) else 0.0
+            assert noise == 0.0 if h is off and off == 0.0 else abs(off) * own <= noise <= 4e-15
 
 
 def test_what_does_nothing_is_not_on_the_tape() -> None:

@@ -28,7 +28,7 @@ from icsolve.scene.sensitivity import influences
 from icsolve.statics import friction
 from icsolve.statics.error_bound import Exact, SceneOnBalls, SlidingSolution, Weights, enclosed, step
 from icsolve.statics.free_bodies import Solved
-from icsolve.statics.friction_equations import Lengths, error_of
+from icsolve.statics.friction_equations import Lengths, error_of, newton
 from icsolve.statics.friction_interface import rubs_of
 from icsolve.statics.reaction_basis import Position, ties_of
 from icsolve.statics.reactions import names_by_tie
@@ -368,6 +368,11 @@ def test_the_error_of_rubs_is_how_far_they_are_off_and_at_most_twice_that(own: f
         at = 3.0 / (own - 0.3) * (1.0 + off)
         found = error_of(Lengths(((0.0, own),), (((3.0, 0.3),),), (False,)), [at])
         assert abs(off) * 0.99 <= found <= 1.01 * most * abs(off)
+
+
+def test_rubs_whose_equations_have_no_slope_have_no_solution() -> None:
+    """y = |3 + y|: nothing is far enough."""
+    assert newton(Lengths(((0.0, 1.0),), (((3.0, 1.0),),), (False,)), [1.0]) is None
 
 
 def test_a_pin_that_does_not_rub_leaves_all_as_it_is_without_friction() -> None:

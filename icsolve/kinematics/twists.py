@@ -228,7 +228,7 @@ class Closure(NamedTuple):
     numerators : the rates of its bodies' first joints times D (of an eliminated group, of all joints of its
         tree)
     columns : the triples whose determinants these are, the relative twist of the known bodies last; empty for
-        a group that was eliminated
+        a group that was eliminated, and for a wheel on the carrier of its mesh
     """
 
     group: Group
@@ -401,8 +401,7 @@ def _wheel(group: Group, mesh: Bond, bases: Bases, weights: tuple[Scalar, Scalar
     spin = pool.now(c, o)[2] - ta[2]
     p, q = weights if body == mesh.b else weights[::-1]
     d, s = p, -(q * spin)
-    columns = (*FREE[:2], (0.0, 0.0, d), (0.0, 0.0, s))
-    return Closure(group, d, (s,), columns), {body: blend(d, ta, s, here)}, o
+    return Closure(group, d, (s,)), {body: blend(d, ta, s, here)}, o
 
 
 def _dyad(group: Group, bases: Bases, pool: _Pool) -> Closed:

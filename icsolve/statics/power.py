@@ -564,7 +564,7 @@ def _solved_many(
     if not whole.basis or not roots:
         return Solution("balanced", dict.fromkeys(roots, 0.0), idle)
     vector = whole.basis[0]
-    if arithmetic.vanishes(vector[-1], 1.0):
+    if abs(vector[-1]) == 0.0:
         raise SceneError(
             Status.NEAR_SINGULAR, "the equations of power of the motions can't be told from dependent ones"
         )

@@ -201,7 +201,7 @@ def settled(mechanism: Mechanism, moved: Moved, step: AssurGroup, number: int) -
     bases = bases_of(mechanism, step.bodies)
     start = [x for body in step.bodies for x in (*mechanism.shape.ref[bases[body][1]], 0.0)]
     guessed = [record.input(f"guess {number} {k}", float(x)) for k, x in enumerate(start)]
-    q = {body: tuple(guessed[3 * n : 3 * n + 3]) for n, body in enumerate(step.bodies)}
+    q = dict(zip(step.bodies, _threes(guessed), strict=True))
     workspace = Workspace(mechanism.case, mechanism.frame, record)
     rows = list(_equations(mechanism, moved, step, Guess(moved, bases, q), workspace))
     columns = [(body, part) for body in step.bodies for part in range(3)]
@@ -213,7 +213,7 @@ def settled(mechanism: Mechanism, moved: Moved, step: AssurGroup, number: int) -
     )
     values = _at_record(record, equations)
     solved = [record.input(f"state {number} {k}", float(v)) for k, v in enumerate(values)]
-    states = {body: solved[3 * n : 3 * n + 3] for n, body in enumerate(step.bodies)}
+    states = dict(zip(step.bodies, _threes(solved), strict=True))
     equations = equations._replace(solved=tuple(s.index for s in solved))
     record.implicit.append(equations)
     return NewtonGroup(
@@ -223,6 +223,11 @@ def settled(mechanism: Mechanism, moved: Moved, step: AssurGroup, number: int) -
         {b: rotated(mechanism.shape, s[2]) for b, s in states.items()},
         {b: (s[0], s[1]) for b, s in states.items()},
     )
+
+
+def _threes(values: Sequence[Scalar]) -> Iterator[tuple[Scalar, Scalar, Scalar]]:
+    """Place and turning (x, y, angle) of body after body."""
+    return zip(values[::3], values[1::3], values[2::3], strict=True)
 
 
 def _equations(

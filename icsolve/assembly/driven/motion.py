@@ -29,11 +29,11 @@ from icsolve.assembly.driven.order import (
     reference,
     rotation_to_line,
 )
-from icsolve.assembly.driven.poses import Moved, Rotation, Spot, dot, minus, rotated, scaled, square
+from icsolve.assembly.driven.poses import Moved, Rotation, Spot, dot, minus, rotated, square
 from icsolve.assembly.loci import PlacedLocus, crossing_sine, intersection, side
 from icsolve.assembly.workspace import Workspace
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.record import Traced, varies
+from icsolve.numbers.record import Traced
 from icsolve.screws.plane import Point
 from icsolve.tuples import NamedTuple
 
@@ -201,19 +201,10 @@ class _Placing:
             h = h - dot(normal, minus(self.shape.ref[c.spot[1]], self.shape.ref[step.aim[1]]))
         written = minus(self.shape.ref[step.aim[1]], self.shape.ref[step.pivot[1]])
         sign = 1.0 if float(dot(line.along, written)) >= 0.0 else -1.0
-        rotation = Rotation(self._to_line(e, line.along, h, self.signs.get(name, sign)))
+        rotation = Rotation(rotation_to_line(self.record, e, line.along, h, self.signs.get(name, sign)))
         self._branch(name, sign)
         for body in step.bodies:
             moved.rotations[body] = rotation
-
-    def _to_line(self, e: Point, along: Point, h: Scalar, sign: Scalar) -> Point:
-        """The rotation of a swing; a line that passes its pivot by rounding only passes through it."""
-        if varies(h) or abs(float(h)) > FLUSH:
-            return rotation_to_line(self.record, e, along, h, sign)
-        z = rotation_to_line(self.record, e, along, 0.0, sign)
-        if isinstance(h, float) and h == 0.0:
-            return z
-        return scaled(self.record.about(1.0, FLUSH), z)
 
     def _branch(self, name: str, written: float) -> None:
         """The roots that were new belong to the branch of this name."""
@@ -231,7 +222,3 @@ class _Placing:
             self.moved.located.setdefault(self.shape.one(base), group.places[body])
         for body in step.bodies:
             self._placed(body, group.bases[body], tuple(self.mechanism.spots[body]))
-
-
-FLUSH = 1e-15
-"""A line that passes its pivot by less than this passes through it (rounding; normalised)."""

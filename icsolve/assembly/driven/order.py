@@ -37,9 +37,12 @@ from icsolve.assembly.driven.poses import (
 from icsolve.assembly.loci import PlacedCircle, PlacedLine, PlacedLocus, crossing_sine
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import RADIAN, Scalar
-from icsolve.numbers.record import Record
+from icsolve.numbers.record import Record, varies
 from icsolve.screws.plane import Point
 from icsolve.tuples import NamedTuple
+
+FLUSH = 1e-15
+"""A line that passes its pivot by less than this passes through it (rounding; normalised)."""
 
 
 def rotation_to_line(record: Record, e: Point, along: Point, h: Scalar, sign: Scalar) -> Point:
@@ -58,9 +61,10 @@ def rotation_to_line(record: Record, e: Point, along: Point, h: Scalar, sign: Sc
         Cosine and sine since the position as written.
     """
     d2 = dot(e, e)
-    if isinstance(h, float) and h == 0.0:
+    if not varies(h) and abs(float(h)) <= FLUSH:
         d = record.root((d2, 1.0), (1.0, 1.0))
-        return quotient((sign * (e[0] / d), sign * (e[1] / d)), along)
+        z = quotient((sign * (e[0] / d), sign * (e[1] / d)), along)
+        return z if isinstance(h, float) and h == 0.0 else scaled(record.about(1.0, FLUSH), z)
     ahead = sign * record.root((d2 - h * h, d2 + h * h), (1.0, 1.0))
     x, y = product((ahead, h), along)
     return ((e[0] * x + e[1] * y) / d2, (e[1] * x - e[0] * y) / d2)
