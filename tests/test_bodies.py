@@ -127,3 +127,19 @@ def test_random_mechanisms_of_all_joint_kinds() -> None:
         answer = solved(scene)
         check_reactions(scene, answer)
         check_witnesses(answer, scene)
+
+
+@pytest.mark.parametrize("push", [0, 90, 180, 270])
+def test_a_reaction_along_an_axis_has_its_directions_within_a_turn(push: int) -> None:
+    """A block that is pressed to its guide: the guide pushes back, and is pushed along."""
+    found = icsolve.solve(
+        icsolve.load(
+            f"icsolve: 1\npoints: {{A: [0, 0]}}\njoints: [{{slide: [2, 1], at: A, along: {push + 90}}}]\n"
+            f"loads: {{P: {{force: 10, link: 2, at: A, angle: {push}}}, "
+            f"U: {{force: unknown, link: 2, at: A, angle: {push + 90}}}}}\n"
+        ),
+        reactions=True,
+    )
+    assert found.reactions is not None
+    force = found.reactions["F12"]
+    assert (force.magnitude, force.direction, force.opposite) == (10.0, (push + 180) % 360, push)
