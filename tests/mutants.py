@@ -62,15 +62,21 @@ SWAPS: dict[type, list[type]] = {
     ast.In: [ast.NotIn],
     ast.NotIn: [ast.In],
 }
-EQUIVALENT: dict[str, str] = {}
+EQUIVALENT: dict[str, str] = {
+    "icsolve/numbers/tape.py Taped.__truediv__ #18: 0.0 -> 1.0": "of an operand that is not there",
+    "icsolve/statics/homotopy.py _moved #13: off <= NEAR -> off < NEAR": "two half steps instead",
+    "icsolve/assembly/exclusion.py _Exclusion._refined #0: 6 -> 7": "six steps of Newton find all digits",
+}
 """Mutants, as they are listed, that change no answer, with the reason."""
 
 
 class Mutant(NamedTuple):
-    """A change of one node in a function (``""``: of the module itself) of a file."""
+    """A change of the ``place``-th node that can be changed in a function (``""``: of the module itself) of a
+    file."""
 
     file: str
     function: str
+    place: int
     line: int
     what: str
     text: str
@@ -78,7 +84,7 @@ class Mutant(NamedTuple):
     @property
     def name(self) -> str:
         """As it is listed, wherever the line stands."""
-        return f"{self.file} {self.function or 'module'}: {self.what}"
+        return f"{self.file} {self.function or 'module'} #{self.place}: {self.what}"
 
 
 class _Change(ast.NodeTransformer):
@@ -180,7 +186,8 @@ def drawn(count: int, seed: int) -> list[Mutant]:
         change = _Change((scope, k), Random(f"{seed} {name} {scope} {k}"))
         tree = change.visit(ast.parse(trees[name]))
         text = ast.unparse(ast.fix_missing_locations(tree))
-        found.append(Mutant(name, scope.removesuffix(".<locals>."), change.line, change.what, text))
+        function = scope.removesuffix(".<locals>.")
+        found.append(Mutant(name, function, k, change.line, change.what, text))
     return found
 
 

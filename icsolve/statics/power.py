@@ -118,13 +118,13 @@ def wrenches(
         else:
             unit, gain = _unit_wrench(load, case, frame, points, arithmetic)
         measure = frame.scale if isinstance(load, Torque | TorsionSpring) else 1.0
-        reach = magnitude(gain) + _beside(load, case)
+        reach = magnitude(gain) + beside(load, case)
         on = reacting(case, load)
         result.append(UnitWrench(load, on, unit, gain, source.name, ratio, measure, source, reach))
     return tuple(result)
 
 
-def _beside(load: Load, case: Case) -> float:
+def beside(load: object, case: Case) -> float:
     """What the gain of a spring is besides itself: twice the free length, a whole turn."""
     if isinstance(load, TorsionSpring):
         return 2.0 * math.pi / case.units.torque_per_force_length

@@ -158,18 +158,17 @@ def _reaction(
 
 
 def _polar(x: Scalar | None, y: Scalar | None, a: Showing) -> dict[str, Scalar | None]:
-    """Size and direction of a force, and the direction of its opposite."""
+    """Size and direction of a force, and the direction of its opposite, from 0 to 360 degrees."""
     found: dict[str, Scalar | None] = dict.fromkeys(("magnitude", "direction", "opposite"))
     if x is None or y is None:
         return found
     if float(x) == float(y) == 0.0:
         return {**found, "magnitude": x if isinstance(y, float) else y}
     toward = a.angle(x, y)
-    back = toward + 180.0
     return {
         "magnitude": a.sqrt(x * x + y * y),
         "direction": toward if float(toward) >= 0.0 else toward + 360.0,
-        "opposite": back if float(back) < 360.0 else back - 360.0,
+        "opposite": toward + 180.0,
     }
 
 

@@ -21,6 +21,7 @@ from icsolve.statics.power import (
     PowerFactors,
     PowerRow,
     UnitWrench,
+    beside,
     force_scale,
     power_rows,
     reacting,
@@ -60,7 +61,7 @@ def _wrench(case: Case, figure: SpatialFigure, load: Load, by_name: Mapping[str,
     (force, couple), gain = _unit(case, figure, load)
     about = moved((*force, *couple), place_of(load, figure) or ZERO, ZERO)
     measure = figure.frame.scale if is_couple(load) else 1.0
-    reach = magnitude(gain) + (2.0 * load.free.value if isinstance(load, Spring) else 0.0)
+    reach = magnitude(gain) + beside(load, case)
     return UnitWrench(load, reacting(case, load), about, gain, source.name, ratio, measure, source, reach)
 
 
