@@ -223,6 +223,24 @@ def test_json_lines_name_every_part_and_cause(a_class: Class) -> None:
     assert (right["verdict"], right["line"], right["value"]) == ("right", 3, 200.0)
 
 
+def test_an_answer_under_a_name_like_that_of_a_case_is_not_missing_too(a_class: Class) -> None:
+    """It waits for a person; a mark by hand puts it right, and whoever gave no answer is not counted."""
+    roster = a_class.file("roster.csv", "student_id\na\nb\nc\n")
+    marks = a_class.file("marks.csv", "student_id,case,score\na,lever,1\n")
+    a_class.course("cases: {lever: {}, pusher: {}}\n")
+    table = "student_id,case,answer\na,levr,200\na,pusher,1\nb,lever,200\n"
+    ran = a_class.grade(table, "--roster", roster)
+    assert ran.code == 1
+    assert "answers.csv:2: there is no case 'levr'; did you mean 'lever'?" in ran.err
+    files = (str(a_class.path("answers.csv")), "--cases", str(a_class.path("cases")), "--roster", roster)
+    assert "3 answers from 2 of 3 students" in a_class.run("grade", *files).out
+    verdicts = {(row["student_id"], row["case"]): row["verdict"] for row in ran.rows()}
+    assert ("a", "lever") not in verdicts and verdicts["a", "levr"] == "review"
+    assert verdicts["b", "pusher"] == verdicts["c", "lever"] == verdicts["c", "pusher"] == "missing"
+    again = a_class.grade(table, "--roster", roster, "--overrides", marks)
+    assert [r["score"] for r in again.rows() if (r["student_id"], r["case"]) == ("a", "lever")] == ["1"]
+
+
 def test_the_summary_counts_marks_and_mistakes(a_class: Class) -> None:
     answers = "".join(f"s{n},lever,{value}\n" for n, value in enumerate([200] * 5 + [-200] * 3 + [100, "x"]))
     table = a_class.file("answers.csv", "student_id,case,answer\n" + answers)

@@ -14,6 +14,10 @@ from icsolve.grade.solved import SolvedCase, asked_of, canonical, unknowns
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import VariantRecord, Varied
 
+_MOST_SLIPS = 200
+"""Names that are no case for which one that may be meant is looked for."""
+_LONGEST_SLIP = 60
+
 
 class CaseStore:
     """The cases of a folder (and those in it) by name."""
@@ -28,6 +32,7 @@ class CaseStore:
         self.varied = False
         """whether a case with variables has been met"""
         self._lower = {name.lower(): name for name in self.paths}
+        self._near: dict[str, str] = {}
         self._solved: dict[str, SolvedCase | Varied | NoKeyError] = {}
         self._cases: dict[str, Case] = {}
         self.records: dict[str, VariantRecord] = {}
@@ -64,13 +69,12 @@ class CaseStore:
         own = []
         for text, fields in self.course.own:
             question = self.find(text)
-            why = f"there is no case '{text}'"
-            if question is not None:
+            if question is None:
+                why = self.no_case(text)
+            else:
                 name, _, what = question.partition(":")
                 question = self.canonical(question)
                 why = self._why_not_asked(name, what)
-            elif near := self.near(text):
-                why += f"; did you mean '{near}'?"
             if why:
                 raise ValueError(f"{dict(self.course.places).get(text, 'course')}: {why}")
             own.append((question or text, fields))
@@ -94,9 +98,22 @@ class CaseStore:
         """The case whose name a text that names none is most like; '' for none."""
         from difflib import get_close_matches
 
-        name = text.partition(":")[0].strip().lower()
-        found = get_close_matches(name, list(self._lower), 1, 0.75)
-        return self._lower[found[0]] if found else ""
+        name = text.partition(":")[0].strip().lower()[:_LONGEST_SLIP]
+        if name not in self._near and len(self._near) < _MOST_SLIPS:
+            found = get_close_matches(name, list(self._lower), 1, 0.75)
+            self._near[name] = self._lower[found[0]] if found else ""
+        return self._near.get(name, "")
+
+    def meant(self, text: str) -> str:
+        """The question that may be meant by a text that names none; '' for none."""
+        near = self.near(text)
+        question = self.find("".join((near, *text.partition(":")[1:]))) if near else None
+        return self.canonical(question) if question else ""
+
+    def no_case(self, text: str) -> str:
+        """That there is no such case, and which may be meant."""
+        near = self.near(text)
+        return f"there is no case '{text[:60]}'" + (f"; did you mean '{near}'?" if near else "")
 
     def solved(self, name: str, student: str = "") -> SolvedCase:
         """The case of that name, solved; with the student's own values, if it has variables.
@@ -147,7 +164,7 @@ class CaseStore:
         if name in self.twice:
             raise NoKeyError(f"two files are the case {name}: {' and '.join(self.twice[name])}")
         if name not in self.paths:
-            raise NoKeyError(f"there is no case '{name[:60]}'")
+            raise NoKeyError(self.no_case(name))
         try:
             if name not in self._cases:
                 self._cases[name] = read_file(self.paths[name])

@@ -214,7 +214,7 @@ class Import:
         question = self.case_store.find(text)
         if question is None:
             shown = " ".join(text.split())[:_LONGEST_NAME]
-            why = f"there is no case '{shown[:60]}'" if shown else "this row names no case"
+            why = self.case_store.no_case(shown) if shown else "this row names no case"
             found = (shown, why)
         else:
             found = (self.case_store.canonical(question) if ":" in question else question, "")

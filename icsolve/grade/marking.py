@@ -60,6 +60,8 @@ class Marker:
         self._others: list[Marked] = []
         self.owing: dict[str, list[str]] = {}
         """of each question the first students who gave no answer"""
+        self.silent = 0
+        """students who gave no answer at all"""
         self.tally = Tally(self._band)
         self._carried_forward = CarriedForward(case_store, self.course.reveal, self._once)
 
@@ -106,6 +108,7 @@ class Marker:
     def _student(self, student: str, chosen: list[StoredAnswer]) -> Iterator[Result]:
         """One student's results, with what is missing, in order of the questions."""
         found = [(entry, self._marked(entry)) for entry in chosen]
+        self.silent += not chosen
         if any(":" in entry.item for entry in chosen):
             found = self._carried_forward.looked_at(found)
         if student:
@@ -117,9 +120,12 @@ class Marker:
             yield Result(student, entry.item, variant, entry.attempt, entry.line, marked)
 
     def _add_missing(self, student: str, found: list[tuple[StoredAnswer, Marked]]) -> None:
-        """What the student owes and did not answer."""
+        """What the student owes and did not answer; an answer under a name that is nearly that of a case
+        waits for a person, and is not missing too."""
         missing = self.questions.difference([entry.item for entry, _ in found])
         if missing:
+            meant = {self.case_store.meant(entry.item) for entry, _ in found if entry.trouble}
+            missing -= {item for item in meant if (student, item) not in self._overrides}
             for item in missing:
                 self._owes(student, item)
             found += [(StoredAnswer(student, item, 0), self._absent(item)) for item in missing]

@@ -318,7 +318,7 @@ def read_overrides(path: str, store: CaseStore, roster: Roster | None) -> dict[t
                 continue
             question = store.find(case)
             if question is None:
-                raise ValueError(f"{where}: there is no case '{case[:60]}'")
+                raise ValueError(f"{where}: {store.no_case(case)}")
             question = store.canonical(question)
             points = store.course.policy_of(question).points
             said = row.cells[comment_at].strip() if comment_at is not None else ""

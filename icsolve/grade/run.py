@@ -73,6 +73,8 @@ class Graded(NamedTuple):
     serious: bool
     rows: int
     students: int
+    silent: int
+    """how many of the students gave no answer"""
     marks: dict[str, tuple[tuple[str, float], ...]]
     """of each question the known wrong answers that were given, over the right one"""
     owing: dict[str, tuple[str, ...]]
@@ -243,7 +245,8 @@ def _graded(marker: Marker, issues: Issues, case_store: CaseStore, rows: int, st
     marks = {item: tuple(_marks(case_store, item, c)) for item, c in counts.items()}
     owing = {item: tuple(names) for item, names in sorted(marker.owing.items())}
     accepted = {item: words for item in counts if (words := _accepted(case_store, item))}
-    return Graded(counts, tuple(issues.entries()), issues.serious, rows, students, marks, owing, accepted)
+    notes, silent = tuple(issues.entries()), marker.silent
+    return Graded(counts, notes, issues.serious, rows, students, silent, marks, owing, accepted)
 
 
 def _accepted(case_store: CaseStore, item: str) -> str:

@@ -20,11 +20,17 @@ _SHOWN = 6
 
 def summary(graded: Graded) -> str:
     """The summary of a class, for a terminal."""
-    lines = [f"{_count(graded.rows, 'answer')} from {_count(graded.students, 'student')}"]
+    lines = [_received(graded)]
     lines += [told for item, counts in graded.counts.items() if (told := mostly_unread(item, counts))]
     for item, counts in graded.counts.items():
         lines += ["", *_question(item, counts)]
     return "\n".join([*lines, *_missing(graded)])
+
+
+def _received(graded: Graded) -> str:
+    """How many answers came in, and from how many of the students."""
+    some = f"{graded.students - graded.silent} of " if graded.silent else ""
+    return f"{_count(graded.rows, 'answer')} from {some}{_count(graded.students, 'student')}"
 
 
 def mostly_unread(item: str, counts: Counts) -> str:
@@ -210,8 +216,7 @@ def page(graded: Graded, title: str = "", found: Statistics | None = None) -> st
     people = _people(found) if found is not None else ""
     return _document(
         name,
-        f"<p>{graded.rows} answers from {graded.students} students</p>"
-        f"{warned}{_overview(graded, found)}{_queue(graded)}{body}{people}{listed}",
+        f"<p>{_received(graded)}</p>{warned}{_overview(graded, found)}{_queue(graded)}{body}{people}{listed}",
     )
 
 

@@ -73,10 +73,11 @@ def without_inertia(case: Case, dynamic: bool) -> bool:
 
 @lru_cache(maxsize=32)
 def wanted(case: Case, asked: Want) -> Want:
-    """What is to be found for what was asked: without an unknown, what moves; with friction, all forces."""
+    """What is to be found for what was asked: without an unknown, what moves; with friction or ropes, which
+    have to pull, all forces."""
     if not _asks(case):
         return asked._replace(centres=True, rates=True)
-    return asked._replace(bodies=asked.bodies or refusals.rubs(case))
+    return asked._replace(bodies=asked.bodies or bool(case.ropes) or refusals.rubs(case))
 
 
 def _asks(case: Case) -> bool:
