@@ -7,14 +7,25 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
+import pytest
 
 import icsolve
-from icsolve.case import Case
-from icsolve.case.joints import CentreAt, JointCentre, JointKind, Pair
+from icsolve.case import Case, Guide, Joint, Pin, Slot
+from icsolve.case.joints import (
+    CentreAt,
+    CentreSquareTo,
+    Friction,
+    Guided,
+    JointCentre,
+    JointKind,
+    Pair,
+)
 from icsolve.tuples import NamedTuple
 
+CASES = Path(__file__).parent.parent / "cases"
 FOUR_BAR = """\
 icsolve: 1
 points: {A: [0, 0], C: [3.6, 2.5], D: [4, 0]}
@@ -78,3 +89,57 @@ def test_it_moves_as_that_link_does() -> None:
     # rounding of two elimination orders: some hundred ulps of the largest force
     assert np.allclose(bar.answers["T12"], pinned.answers["T12"], rtol=0.0, atol=1e-11)
     assert np.allclose(bar.points["C"], pinned.points["C"], rtol=0.0, atol=1e-13)
+
+
+class _At(NamedTuple):
+    links: tuple[str, ...]
+    at: str
+    friction: Friction | None = None
+
+
+class Hinge(_At, JointKind):
+    """A pin of another name."""
+
+    @cached_property
+    def centres(self) -> tuple[JointCentre, ...]:
+        return (CentreAt(self.at, self.links[0]),)
+
+    @property
+    def carried(self) -> tuple[tuple[str, str], ...]:
+        return tuple((link, self.at) for link in self.links)
+
+
+class _On(NamedTuple):
+    links: Pair
+    at: str
+    guide: Guide
+    friction: Friction | None = None
+
+
+class Groove(_On, Guided):
+    """A slot of another name."""
+
+    @cached_property
+    def centres(self) -> tuple[JointCentre, ...]:
+        return CentreAt(self.at, self.links[0]), CentreSquareTo(self.guide, self.links[1])
+
+
+def renamed(joint: Joint) -> JointKind:
+    """The joint as one of a kind that the package does not know."""
+    return Hinge(*joint) if isinstance(joint, Pin) else Groove(*joint) if isinstance(joint, Slot) else joint
+
+
+@pytest.mark.parametrize(
+    "name", ["ch13/13_12_five_links", "gears/epicyclic_train", "rolling/rack_and_pinion", "sliders/geneva"]
+)
+def test_a_pin_and_a_slot_are_known_by_what_they_answer_alone(name: str) -> None:
+    case = icsolve.load(CASES / f"{name}.yaml")
+    twin = replace(case, joints=tuple(map(renamed, case.joints)))  # type: ignore[arg-type]
+    ours, theirs = (icsolve.solve(one, all_centres=True, rates=True, reactions=True) for one in (case, twin))
+    assert {load: found.value for load, found in ours.answers.items()} == {
+        load: found.value for load, found in theirs.answers.items()
+    }
+    assert ours.rates == theirs.rates
+    assert [r._replace(kind="") for r in ours.reactions.values()] == [
+        r._replace(kind="") for r in theirs.reactions.values()
+    ]

@@ -40,7 +40,7 @@ from icsolve.cams.enclosed_contact import (
 from icsolve.cams.enclosed_contact import direction as direction_in_balls
 from icsolve.cams.pieces import Point, unit
 from icsolve.cams.words import corner_refusal, left_open, never_meets, piece_words, several_ways
-from icsolve.case import Case, Contact, Coordinates, Direction, Joint, Number, Pin
+from icsolve.case import Case, Contact, Coordinates, Direction, Joint, Number
 from icsolve.case.profiles import Flat, Follower, Knife, Profiles, Roller, Shape, Touch, points_of
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar, turn_of
@@ -381,7 +381,7 @@ def places_of(case: Case, names: tuple[str, ...]) -> Places:
 def carrier(case: Case, link: str, follower: Follower) -> str:
     """The link by whose guide a follower moves: that on which a roller of its own turns, else itself."""
     for joint in case.joints if isinstance(follower, Roller) else ():
-        if isinstance(joint, Pin) and link in joint.links and joint.at == follower.at:
+        if joint.pivot == follower.at and link in joint.links:
             return next(other for other in joint.links if other != link)
     return link
 
@@ -471,11 +471,7 @@ def missing(case: Case, link: str, points: tuple[str, ...], freedom: Freedom) ->
     if isinstance(freedom, Shift):
         axis = 0 if abs(freedom.along[0]) > abs(freedom.along[1]) else 1
         return Missing(points[0], "", axis, case.near.get(points[0], (0.0, 0.0))[axis])
-    pivot = next(
-        joint.at
-        for joint in case.joints
-        if isinstance(joint, Pin) and link in joint.links and _is_at(case, joint.at, freedom.about)
-    )
+    pivot = next(p for p in case.pivots(link) if _is_at(case, p, freedom.about))
     arm = next((p for p in (*points, *case.carries.get(link, ())) if p != pivot), None)
     if arm is None:
         raise SceneError(

@@ -157,6 +157,11 @@ class Case:
         slides = (joint for joint in self.joints if isinstance(joint, Guided))
         return tuple(Screw(slide, slide.thread) for slide in slides if slide.thread is not None)
 
+    def pivots(self, *links: str) -> list[str]:
+        """The points about which a link is pinned, or several to each other, in the order of the joints."""
+        pins = (joint for joint in self.joints if {*links} <= {*joint.links})
+        return [joint.pivot for joint in pins if joint.pivot is not None]
+
     def __repr__(self) -> str:
         """Its name and size; the fields of a whole case would fill a page."""
         counts = f"{len(self.links)} links, {len(self.joints)} joints, {len(self.loads)} loads"

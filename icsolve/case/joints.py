@@ -104,6 +104,14 @@ class JointKind:
         """Relative freedoms that it leaves to its links."""
         return len(self.centres)
 
+    @cached_property
+    def pivot(self) -> str | None:
+        """The point about which its links turn and which is a point of each, as of a pin."""
+        match self.centres:
+            case (CentreAt(point, link),) if link:
+                return point
+        return None
+
     @property
     def keeps_direction(self) -> bool:
         """Whether its links cannot turn against each other."""

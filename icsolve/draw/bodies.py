@@ -9,7 +9,6 @@ from collections.abc import Iterable, Sequence
 import shapely
 
 from icsolve.answer.bodies import Reaction
-from icsolve.case import Pin
 from icsolve.draw.frame import point_parts, rims
 from icsolve.draw.links import bars, body_of, link_part, wheel_parts
 from icsolve.draw.loads import ARC, axle, heads, hidden, ways
@@ -172,7 +171,7 @@ def _reaction(scene: Scene, name: str, reaction: Reaction) -> DrawnPush:
 def _off_pin(scene: Scene, reaction: Reaction, size: float) -> Point | None:
     """From a pin that rubs to where its force touches the friction circle, case lengths: there it has the
     moment of the friction. None where the pin does not rub."""
-    pins = (pin for pin in scene.case.joints if isinstance(pin, Pin) and pin.friction is not None)
+    pins = (pin for pin in scene.case.joints if pin.pivot and pin.friction is not None)
     rubbed = any(pin.at == reaction.where and {reaction.by, reaction.on} <= {*pin.links} for pin in pins)
     moment = (reaction.moment or 0.0) / scene.case.units.torque_per_force_length
     if not rubbed or not moment or size * scene.known.size * NOTHING >= abs(moment):

@@ -9,7 +9,7 @@ from itertools import combinations
 
 import shapely
 
-from icsolve.case import Case, Pin
+from icsolve.case import Case
 from icsolve.draw.centres import centre_parts, circle_marks
 from icsolve.draw.frame import frame_parts, joint_parts, point_parts, rims, threads
 from icsolve.draw.links import DrawnBody, bars, body_of, inside_plate, link_part, outline, wheel_parts
@@ -99,9 +99,9 @@ def _shortest(known: Known) -> float:
     """The length of the shortest link, from pin to pin; infinite where no link has two."""
     ends: dict[str, set[str]] = {}
     for joint in known.case.joints:
-        if isinstance(joint, Pin) and joint.at in known.points:
+        if joint.pivot is not None and joint.pivot in known.points:
             for link in joint.links:
-                ends.setdefault(link, set()).add(joint.at)
+                ends.setdefault(link, set()).add(joint.pivot)
     places = ([known.points[p] for p in sorted(some)] for some in ends.values() if len(some) > 1)
     spans = (max(math.dist(p, q) for p, q in combinations(some, 2)) for some in places)
     return min((span for span in spans if span > TOGETHER * known.size), default=math.inf)
@@ -147,9 +147,9 @@ def _supports(scene: Scene, links: shapely.Geometry) -> list[Part]:
 
 def _hides_its_foot(scene: Scene, body: DrawnBody) -> bool:
     """Whether a link is so large around its pin on the frame that the foot is drawn above it."""
-    plate, both = inside_plate(body), {body.link, scene.case.ground}
-    pins = [scene.at[j.at] for j in scene.joints() if isinstance(j, Pin) and both <= set(j.links)]
-    return any(shapely.contains(plate, shapely.Point(pin).buffer(FOOT)) for pin in pins)
+    plate, pins = inside_plate(body), scene.case.pivots(body.link, scene.case.ground)
+    places = (scene.at[pin] for pin in pins if pin in scene.at)
+    return any(shapely.contains(plate, shapely.Point(place).buffer(FOOT)) for place in places)
 
 
 def _filled(links: shapely.Geometry, parts: Iterable[Part]) -> shapely.Geometry:

@@ -255,7 +255,7 @@ def joint_parts(scene: Scene) -> list[Part]:
         marks = _symbol(scene, joint)
         if marks:
             at = scene.at[joint.at or ""]
-            reach = PIN + 1.0 if isinstance(joint, Pin | Guided) else 4.0
+            reach = PIN + 1.0 if joint.pivot or joint.guide else 4.0
             parts.append(Part((MarkGroup(joint_name(joint), "", tuple(marks)),), (), (around(at, reach),)))
     return parts
 
@@ -294,7 +294,7 @@ def _symbol(scene: Scene, joint: Joint) -> list[Mark]:
 
 def _friction_circle(scene: Scene, joint: Joint, p: Point) -> list[Mark]:
     """The circle of radius r sin phi to which the force in a rubbing pin is tangent, where it can be seen."""
-    friction = joint.friction if isinstance(joint, Pin) else None
+    friction = joint.friction if joint.pivot else None
     if friction is None or friction.radius is None:
         return []
     radius = friction.radius.value * math.sin(math.atan(friction.mu.value)) * scene.view.scale

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 import shapely
 
-from icsolve.case import Pin, Weight
+from icsolve.case import Weight
 from icsolve.case.joints import Guided
 from icsolve.draw.marks import Disc, Mark, MarkGroup, Point, TextRun, along, unit
 from icsolve.draw.place import Label, Soft, area, bar, joined, nearest, plate, tilted
@@ -276,7 +276,7 @@ def _frame_of_points(
 
 def _pivots(scene: Scene, link: str) -> bool:
     """Whether a link turns about a pin on the frame."""
-    return any(isinstance(j, Pin) and {link, scene.case.ground} <= set(j.links) for j in scene.joints())
+    return any(p in scene.at for p in scene.case.pivots(link, scene.case.ground))
 
 
 def _stem(line: shapely.LineString, p: Point, *, square: bool) -> list[Point]:

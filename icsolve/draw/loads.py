@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 import shapely
 
 from icsolve.case import Area as Face
-from icsolve.case import Load, Number, Pin, Screw, Spring, Stretch, TorsionSpring, Weight
+from icsolve.case import Load, Number, Screw, Spring, Stretch, TorsionSpring, Weight
 from icsolve.draw.links import guide_in_picture
 from icsolve.draw.marks import (
     AreaMark,
@@ -259,10 +259,10 @@ def _torque(scene: Scene, acting: Acting, turned: dict[Point, int]) -> Part | No
 
 def axle(scene: Scene, link: str) -> Point | None:
     """The point about which a torque's arc is drawn: a pin of the link with the frame, else another."""
-    pins = [j for j in scene.joints() if isinstance(j, Pin) and link in j.links]
-    pins.sort(key=lambda joint: scene.case.ground not in joint.links)
-    if pins:
-        return scene.at[pins[0].at]
+    case = scene.case
+    for p in (*case.pivots(link, case.ground), *case.pivots(link)):
+        if p in scene.at:
+            return scene.at[p]
     own = scene.known.centre(scene.case.ground, link)
     if own is not None and own.kind == "at":
         place = scene.view.at((own.place[0], own.place[1]))

@@ -12,7 +12,6 @@ from types import MappingProxyType
 from icsolve.case import (
     Case,
     Joint,
-    Pin,
     Spring,
 )
 from icsolve.case.joints import Guided, Mesh, Rolling, Sliding
@@ -169,7 +168,7 @@ def _wheel(
     """The circle of a link that rolls at a point; None for a straight one, and where no centre is known."""
     if radius == 0.0 or (radius is None and link == case.ground):
         return None
-    pins = [j.at for j in case.joints if isinstance(j, Pin) and link in j.links and j.at in points]
+    pins = [p for p in case.pivots(link) if p in points]
     if radius is None:
         rolls = any(isinstance(j, Rolling) and {link, case.ground} == {*j.links} for j in case.joints)
         own = [p for p in case.carries.get(link, ()) if p in points and points[p] != at] if rolls else []
@@ -201,7 +200,7 @@ def _disc(
     case: Case, link: str, at: Point, side: Point, points: Mapping[str, Point], *, free: bool
 ) -> Wheel | None:
     """A circle about a point of the common normal on the link's side: a pin of it, or a point of no link."""
-    pins = [j.at for j in case.joints if isinstance(j, Pin) and link in j.links]
+    pins = case.pivots(link)
     owned = {p for ps in case.carries.values() for p in ps} | {getattr(j, "at", None) for j in case.joints}
     loose = [p for p in points if p not in owned] if free else []
     for name in (*loose, *pins):
@@ -237,8 +236,8 @@ def geneva_of(case: Case, points: Mapping[str, Point], link: str) -> Geneva | No
     slots = [joint for joint in own if isinstance(joint, Guided) and not joint.keeps_direction]
     if len(own) != 2 or len(slots) != 1 or slots[0].links[1] != link or slots[0].at not in points:
         return None
-    pins = [j for j in case.joints if isinstance(j, Pin) and case.ground in j.links and j.at in points]
-    pivots = [points[j.at] for one in slots[0].links[::-1] for j in pins if one in j.links]
+    pins = (p for one in slots[0].links[::-1] for p in case.pivots(case.ground, one))
+    pivots = [points[p] for p in pins if p in points]
     if len(pivots) != 2:
         return None
     centre, pin = pivots[0], points[slots[0].at]

@@ -13,7 +13,6 @@ from icsolve.case import (
     ForceVector,
     Joint,
     Number,
-    Pin,
     Spring,
     Stretch,
     Torque,
@@ -287,7 +286,7 @@ def _rule(figures: Figures, joint: Joint) -> Iterable[Block]:
     yield words(
         f"Links {links} at {at}: tan ", Name("phi"), " = ", mu, ", ", Name("phi"), f" = {phi:.6g} deg."
     )
-    if isinstance(joint, Pin) and friction.radius is not None:
+    if joint.pivot and friction.radius is not None:
         radius = friction.radius.value
         circle = figures.distance(radius * math.sin(math.radians(phi)))
         numbers = product(figures.number(radius), Trig("sin", figures.number(phi)))

@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from icsolve.assembly.workspace import Frame
-from icsolve.case import Case, Joint, Motion, Number, Pin, Rope
+from icsolve.case import Case, Joint, Motion, Number, Rope
 from icsolve.case.joints import CentreAt, CentreSquareTo, JointCentre, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import LOOSE, NO_SPEED, fastest, meant, path_of, speed_of
@@ -368,7 +368,7 @@ def _normal(place: _Place, joint: Rolling) -> Point:
     """Unit normal at a rolling contact, out of the first link: along the line to a round link's centre."""
     assert joint.radii is not None
     px, py = place.points[joint.at]
-    pins = {j.at for j in place.case.joints if isinstance(j, Pin)}
+    pins = place.case.pivots()
     for link, radius, sense in zip(joint.links, joint.radii, (-1.0, 1.0), strict=True):
         carried, reach = place.case.carries.get(link, ()), radius.value * place.frame.scale
         near = at_radius(carried, joint.at, reach, place.points)

@@ -20,7 +20,7 @@ from operator import attrgetter
 
 from icsolve.answer import Centre
 from icsolve.assembly.workspace import Frame
-from icsolve.case import Case, Pair, Pin
+from icsolve.case import Case, Pair
 from icsolve.case.joints import Mesh
 from icsolve.case.names import ordered_pair
 from icsolve.kinematics.twists import Closure, is_dead, products, rate_sizes
@@ -458,7 +458,8 @@ def aligned(top: Topology, bonds: Iterable[int], verb: str = "lie on") -> str:
 
 
 def _place(bond: Bond) -> str:
-    return bond.joint.at if isinstance(bond.joint, Pin) and not bond.joint.at.startswith("@") else ""
+    pivot = bond.joint.pivot
+    return pivot if pivot is not None and not pivot.startswith("@") else ""
 
 
 def _normal(bond: Bond) -> str:

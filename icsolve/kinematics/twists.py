@@ -16,7 +16,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 
-from icsolve.case import Pin
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, all_vanish, decider, magnitude
 from icsolve.numbers.null_space import ZERO, NullSpace, Vanishes, null_space
 from icsolve.screws.joints import transmitted, weights_of
@@ -372,7 +371,7 @@ def _on_carrier(group: Group, top: Topology) -> bool:
     one, two = (top.bonds[k] for k in group.bonds)
     carrier, other = group.ends
     mine, its = two.pivots if two.b == other else two.pivots[::-1]
-    if not isinstance(one.joint, Pin) or one.joint.at != mine:
+    if one.joint.pivot != mine:
         return False
     here = _pinned(top, other, its)
     return carrier in here or (bool(here) and bool(_pinned(top, carrier, its)))
@@ -381,12 +380,7 @@ def _on_carrier(group: Group, top: Topology) -> bool:
 def _pinned(top: Topology, body: int, at: str) -> set[int]:
     """A body and those that a pin at a point joins it to; none where it has no pin there."""
     bonds = [top.bonds[k] for k in top.at[body]]
-    return {
-        end
-        for bond in bonds
-        if isinstance(bond.joint, Pin) and bond.joint.at == at
-        for end in (bond.a, bond.b)
-    }
+    return {end for bond in bonds if bond.joint.pivot == at for end in (bond.a, bond.b)}
 
 
 def _wheel(group: Group, mesh: Bond, bases: Bases, weights: tuple[Scalar, Scalar], pool: _Pool) -> Closed:

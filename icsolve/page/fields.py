@@ -12,7 +12,7 @@ from typing import Any
 from icsolve.assembly.loci import Axis, CircleLocus, Locus
 from icsolve.assembly.steps import Given, Meet, Polar, Step
 from icsolve.assembly.workspace import LENGTH, RAY, Datum, X, number_of
-from icsolve.case import Area, Case, Force, Load, Number, Pin, TorsionSpring, Weight
+from icsolve.case import Area, Case, Force, Load, Number, TorsionSpring, Weight
 from icsolve.case.names import pair_name
 from icsolve.draw.words import unit_word
 from icsolve.errors import CaseError
@@ -108,7 +108,7 @@ def _joints(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
             kind = type(joint).__name__.lower()
             at = getattr(joint, "at", None)
             words = f"{kind} {pair_name(case, joint.links[:2]) if len(joint.links) == 2 else ''}"
-            words += f" at {at.lstrip('@')}" if at and not isinstance(joint, Pin) else ""
+            words += f" at {at.lstrip('@')}" if at and not joint.pivot else ""
             yield FieldLine(words, tuple(_of_joint(case, n, words) for n in own))
 
     for rope in case.ropes:

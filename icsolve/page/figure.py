@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 import shapely
 
-from icsolve.case import Force, Pin, Spring
+from icsolve.case import Force, Spring
 from icsolve.case.joints import Guided
 from icsolve.draw.figure import genevas, scene_over, used_points
 from icsolve.draw.frame import frame_parts, joint_name, joint_parts, point_parts, rims
@@ -187,12 +187,7 @@ def _ropes(scene: Scene, ropes: Sequence[RopeCourse]) -> Iterable[Part]:
 
 
 def _pinned(scene: Scene, link: str, wheel: Wheel) -> bool:
-    return any(
-        isinstance(j, Pin)
-        and {link, wheel.link} <= set(j.links)
-        and scene.known.points.get(j.at) == wheel.centre
-        for j in scene.case.joints
-    )
+    return any(scene.known.points.get(p) == wheel.centre for p in scene.case.pivots(link, wheel.link))
 
 
 def _joints(scene: Scene) -> Iterable[Part]:

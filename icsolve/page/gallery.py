@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 from urllib.parse import quote
 
-from icsolve.case import Case, Pin, Spring
+from icsolve.case import Case, Spring
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.draw import Drawing, draw
 from icsolve.draw.svg import escaped
@@ -104,7 +104,7 @@ def kind_of(known: Known) -> str:
     """What a mechanism is in the first place."""
     case = known.case
     joints = case.joints
-    pinned = all(isinstance(joint, Pin) for joint in joints)
+    pinned = len(case.pivots()) == len(joints)
     tests = (
         ("In space", case.space is not None),
         ("Structures", known.structure),

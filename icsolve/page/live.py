@@ -25,7 +25,7 @@ from icsolve.assembly.workspace import (
     normalised,
     number_of,
 )
-from icsolve.case import Coordinates, Motion, Number, Pin, Rope, Screw
+from icsolve.case import Coordinates, Motion, Number, Rope, Screw
 from icsolve.case.figure import Unknown
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.draw.words import unit_word
@@ -410,7 +410,7 @@ class _ProgramWriter:
         for joint in case.joints:
             at = getattr(joint, "at", None)
             if at is not None:
-                found.setdefault(at, []).extend(joint.links if isinstance(joint, Pin) else joint.links[:1])
+                found.setdefault(at, []).extend(joint.links if joint.pivot else joint.links[:1])
         for link, names in case.carries.items():
             for name in names:
                 found.setdefault(name, [link])
@@ -418,7 +418,7 @@ class _ProgramWriter:
 
     def _turning(self) -> list[str]:
         """The links that are pinned to the frame."""
-        pins = [joint for joint in self.case.joints if isinstance(joint, Pin)]
+        pins = [joint for joint in self.case.joints if joint.pivot is not None]
         found = [link for pin in pins if self.case.ground in pin.links for link in pin.links]
         return [link for link in dict.fromkeys(found) if link != self.case.ground]
 

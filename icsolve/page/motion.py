@@ -19,7 +19,6 @@ from icsolve.case import (
     Load,
     Number,
     Pair,
-    Pin,
     Rope,
     Torque,
 )
@@ -529,7 +528,7 @@ def inputs(known: Known) -> list[str]:
     pinned = [
         link
         for joint in case.joints
-        if isinstance(joint, Pin) and case.ground in joint.links
+        if joint.pivot is not None and case.ground in joint.links
         for link in joint.links
     ]
     first = [m.link for m in case.motion]

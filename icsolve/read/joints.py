@@ -390,7 +390,7 @@ NAMES = frozenset((*JOINTS, *SPACE_JOINTS))
 def read_joints(reading: Reading, section: Sequence) -> tuple[Joint, ...]:
     """The joints of a planar case that could be read."""
     joints: tuple[Joint, ...] = read_list(reading, section, JOINTS, BUILDERS, "{pin: [1, 2], at: B}")
-    pins = Counter((frozenset(joint.links), joint.at) for joint in joints if isinstance(joint, Pin))
+    pins = Counter((frozenset(joint.links), joint.pivot) for joint in joints if joint.pivot)
     for (links, at), times in pins.items():
         if times > 1:
             reading.noticed.append(f"the pin of {listed(sorted(links))} at {at} is given more than once.")

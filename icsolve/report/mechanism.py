@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer
-from icsolve.case import Case, Pin
+from icsolve.case import Case
 from icsolve.case.joints import Guided
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing, size_of
 from icsolve.scene.parts import scene_of
@@ -281,10 +281,10 @@ def _pivots(case: Case) -> Pivots:
     body = _bodies(case)
     pivots: Pivots = {its: [] for its in body.values()}
     for joint in case.joints:
-        if isinstance(joint, Pin):
+        if joint.pivot is not None:
             ends = dict.fromkeys(body[link] for link in joint.links)
             for a in ends:
-                pivots[a].extend((b, joint.at) for b in ends if b != a)
+                pivots[a].extend((b, joint.pivot) for b in ends if b != a)
     return pivots
 
 

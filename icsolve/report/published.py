@@ -7,7 +7,7 @@ import math
 from icsolve.answer import Answer
 from icsolve.answer.bodies import Reaction
 from icsolve.answer.space import Parts, SpatialReaction
-from icsolve.case import Number, Pin
+from icsolve.case import Number
 from icsolve.case.expected import (
     ArmIs,
     DistanceIs,
@@ -163,6 +163,6 @@ def _rubbed(answer: Answer, reaction: Reaction, point: str) -> float:
 def _friction_radius(answer: Answer, point: str) -> float:
     """Radius of a pin's friction circle: its own radius times the sine of the friction angle."""
     for joint in answer.case.joints:
-        if isinstance(joint, Pin) and joint.at == point and joint.friction and joint.friction.radius:
+        if joint.pivot == point and joint.friction and joint.friction.radius:
             return float(joint.friction.radius.value * math.sin(math.atan(joint.friction.mu.value)))
     raise LookupError(f"no pin at {point} has friction")

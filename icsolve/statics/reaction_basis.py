@@ -357,7 +357,7 @@ def _wheel(position: Position, tie: Tie) -> tuple[str, Point]:
     for link, radius in zip(tie.joint.links, radii, strict=True):
         if link == position.case.ground or (radius is not None and radius.value <= 0.0):
             continue
-        pins = [pin.at for pin in position.case.joints if isinstance(pin, Pin) and link in pin.links]
+        pins = position.case.pivots(link)
         found = [p for p in pins if p != tie.joint.at]
         if radius is not None:
             found = at_radius(pins, tie.joint.at, radius.value * position.scale, position.points)

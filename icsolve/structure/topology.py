@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable
 from functools import lru_cache
 from typing import TypeVar
 
-from icsolve.case import Case, Joint, Pin, Rope
+from icsolve.case import Case, Joint, Rope
 from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
 from icsolve.tuples import NamedTuple
@@ -147,8 +147,8 @@ def _pinned_at(case: Case, body_of: dict[str, int]) -> dict[str, list[int]]:
     """The bodies that turn about each point: one pin, or several with the same point."""
     at: dict[str, list[int]] = {}
     for joint in case.joints:
-        if isinstance(joint, Pin):
-            at.setdefault(joint.at, []).extend(body_of[link] for link in joint.links)
+        if joint.pivot is not None:
+            at.setdefault(joint.pivot, []).extend(body_of[link] for link in joint.links)
     return at
 
 

@@ -14,7 +14,7 @@ from icsolve.answer import Answer
 from icsolve.answer.contacts import Touching
 from icsolve.cams.contact_candidates import Turn
 from icsolve.cams.words import follower_driven, lost_rows, widest_pressure
-from icsolve.case import Case, Pin
+from icsolve.case import Case
 from icsolve.case.joints import Mesh
 from icsolve.case.profiles import Flat, Knife, Roller
 from icsolve.errors import SceneError, Status
@@ -299,7 +299,7 @@ def _cam(case: Case, links: tuple[str, str]) -> str:
 
 def _over_a_turn(case: Case, cam: str) -> Mapping[tuple[str, str], tuple[float, float]]:
     """Least and greatest pressure angle of every contact that the whole turn of a cam keeps."""
-    if not any(isinstance(j, Pin) and {cam, case.ground} <= {*j.links} for j in case.joints):
+    if not case.pivots(cam, case.ground):
         return {}
     try:
         rows = Rows(cam_motion(case), Columns({}, {cam: np.arange(0.0, 360.0, STEP)}, {cam: cam}))

@@ -25,7 +25,7 @@ from icsolve.assembly.driven.mechanism import Mechanism
 from icsolve.assembly.driven.poses import Places as Still
 from icsolve.assembly.driven.poses import Rotation, Spot, minus
 from icsolve.assembly.workspace import CORNER, LENGTH, RAY, Datum, X, Y, data_of, normalised, number_of
-from icsolve.case import Case, Coordinates, Number, Pin
+from icsolve.case import Case, Coordinates, Number
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
@@ -66,7 +66,7 @@ def turns_links(mechanism: Mechanism, path: str, moved: Collection[str], written
     wheels = {b for bond in bonds if isinstance(bond.joint, Rolling | Mesh) for b in (bond.a, bond.b)}
     for body in range(len(mechanism.top.members)):
         own = [bond.joint for bond in bonds if body in (bond.a, bond.b)]
-        if all(isinstance(joint, Pin) for joint in own) and len({j.at for j in own}) == 1:
+        if len({joint.pivot for joint in own}) == 1 and own[0].pivot is not None:
             wheels.add(body)
     carriers = {body for body, spots in mechanism.spots.items() if any(name in moved for _, name in spots)}
     if not carriers or not carriers <= wheels - {mechanism.top.ground}:

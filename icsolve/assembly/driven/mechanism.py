@@ -21,7 +21,7 @@ from icsolve.assembly.driven.constraints import (
 )
 from icsolve.assembly.driven.poses import Places, Shape, Spot, dot, minus, plus, scaled, square
 from icsolve.assembly.workspace import Frame
-from icsolve.case import Case, Centroid, Guide, Joint, Pin, Rope, Toward
+from icsolve.case import Case, Centroid, Guide, Joint, Rope, Toward
 from icsolve.case.joints import CentreAt, Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Scalar
@@ -331,12 +331,12 @@ def _joined(case: Case, top: Topology) -> dict[Spot, Spot]:
     """For each pinned spot the one that stands for its pin; the frame's where it has one."""
     groups: list[tuple[str, set[int]]] = []
     for joint in case.joints:
-        if isinstance(joint, Pin):
+        if joint.pivot is not None:
             bodies = {top.body_of[link] for link in joint.links}
-            for group in [g for g in groups if g[0] == joint.at and g[1] & bodies]:
+            for group in [g for g in groups if g[0] == joint.pivot and g[1] & bodies]:
                 groups.remove(group)
                 bodies |= group[1]
-            groups.append((joint.at, bodies))
+            groups.append((joint.pivot, bodies))
     joined: dict[Spot, Spot] = {}
     for name, bodies in groups:
         first = top.ground if top.ground in bodies else min(bodies)
@@ -389,7 +389,7 @@ def _sides(
 ) -> tuple[RollingSide, RollingSide]:
     if joint.radii is None:
         raise _refusal(joint, "without `radii` nothing says how the contact moves on. Add them")
-    pins = frozenset(pin.at for pin in case.joints if isinstance(pin, Pin))
+    pins = frozenset(case.pivots())
     sides = []
     for k, link in enumerate(joint.links):
         body = top.body_of[link]
@@ -421,7 +421,7 @@ def _carrier(bond: Bond, top: Topology) -> int:
     """The body that carries both pivots."""
     around: list[set[int]] = []
     for pivot in bond.pivots:
-        pins = (other for other in top.bonds if isinstance(other.joint, Pin) and other.joint.at == pivot)
+        pins = (other for other in top.bonds if other.joint.pivot == pivot)
         around.append({body for pin in pins for body in (pin.a, pin.b)})
     carriers = around[0] & around[1] - {bond.a, bond.b}
     assert isinstance(bond.joint, Mesh)
@@ -450,12 +450,9 @@ def _owners(
 ) -> dict[str, Spot]:
     """The spot that a name stands for: a pin's, the first link's of a slide or slot, a carrier's."""
     owners: dict[str, Spot] = {}
-    for joint in case.joints:
-        if isinstance(joint, Pin):
-            owners.setdefault(joint.at, (top.body_of[joint.links[0]], joint.at))
-    for joint in case.joints:
-        if isinstance(joint, Guided):
-            owners.setdefault(joint.at, (top.body_of[joint.links[0]], joint.at))
+    for joint in sorted(case.joints, key=lambda joint: joint.pivot is None):
+        for link, point in joint.carried[:1]:
+            owners.setdefault(point, (top.body_of[link], point))
     for carried in spots.values():
         for spot in carried:
             if spot[1] not in contacts:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from icsolve.answer import Answer, Centre, by_load
 from icsolve.answer.equilibrium import EquilibriumPosition
 from icsolve.assembly import Frame, case_point, solve_figure
-from icsolve.case import Case, Coordinates, ForceVector, Joint, Like, Load, Pair, Pin
+from icsolve.case import Case, Coordinates, ForceVector, Joint, Like, Load, Pair
 from icsolve.case.figure import Unknown
 from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError
@@ -100,12 +100,12 @@ def _by_roller(known: Known, centre: Centre) -> Centre:
         if touch.at not in known.points or touch.direction is None or not touch.only_pushes:
             continue
         for pin in case.joints:
-            if not isinstance(pin, Pin) or len({*touch.links} & {*pin.links}) != 1:
+            if pin.pivot is None or len({*touch.links} & {*pin.links}) != 1:
                 continue
             both = {*touch.links} ^ {*pin.links}
             own = [known.whole.centres.get(ordered_pair(case, ground, link)) for link in centre.pair]
             (x, y), (u, v) = known.points[touch.at or ""], turn_of(touch.direction.value)
-            places = (known.points[pin.at], centre.place)
+            places = (known.points[pin.pivot], centre.place)
             near = all(abs((px - x) * v - (py - y) * u) <= ON_NORMAL * known.size for px, py in places)
             if both == {*centre.pair} and near and all(c is not None and c.by == "inspection" for c in own):
                 frame = tuple(ordered_pair(case, ground, link) for link in centre.pair)
