@@ -25,7 +25,7 @@ import pytest
 import icsolve
 from equilibrium_cases import POTENTIALS
 from icsolve.answer.equilibrium import EquilibriumPosition, position_dict
-from icsolve.errors import SceneError
+from icsolve.errors import CaseError, SceneError
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import Record
 from icsolve.report.derivation.known import known_of
@@ -106,6 +106,11 @@ def test_a_range_has_its_ends_and_nothing_beyond_them() -> None:
     assert places(pendulum("T: {torque: 0, link: 2}", "{unknown: [90, 270]}")) == [90.0, 270.0]
     with pytest.raises(SceneError, match="balance for no value"):
         positions(pendulum("T: {torque: 0, link: 2}", "{unknown: [91, 269]}"))
+
+
+def test_a_slip_in_the_key_of_a_range_is_told() -> None:
+    with pytest.raises(CaseError, match=r"has no key 'unkown'; did you mean 'unknown'\?"):
+        icsolve.load(pendulum("", "{unkown: [0, 90]}"))
 
 
 def test_loads_that_balance_nowhere_say_where_they_come_nearest() -> None:
@@ -1143,7 +1148,8 @@ def test_a_range_that_friction_holds_is_explained_and_has_no_reactions(
 ) -> None:
     text = pendulum("", friction=", mu: 0.3, radius: 0.1")
     assert "so no reactions are told" in run(tmp_path, capsys, text, "solve", "CASE", "--reactions")
-    assert "holds still from" in run(tmp_path, capsys, text, "explain", "CASE")
+    said = run(tmp_path, capsys, text, "explain", "CASE")
+    assert "holds still from" in said and "about to move" in said
 
 
 @pytest.mark.parametrize("name", sorted(POTENTIALS))

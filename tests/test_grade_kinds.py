@@ -75,9 +75,9 @@ def test_any_position_of_equilibrium_is_right_and_whole_turns_do_not_count(a_cla
     a_class.case("crank", TWO.read_text())
     right = ("50.04", "50.04 deg", "0.8734 rad", "410.04", "233.1", "-126.9", "at 50.04 deg", "50.04° ccw")
     assert set(a_class.verdicts(*right, case="crank")) == {"right"}
-    rows = a_class.judge("-50.04", "39.96", "130", "70", "50.04° above the horizontal", case="crank")
-    assert [(row["verdict"], row["code"]) for row in rows] == [
-        ("wrong", "sign"), ("wrong", "sin-cos"), ("wrong", "angle-sense"), ("wrong", ""),
+    given = ("-50.04", "309.96", "39.96", "130", "70", "50.04° above the horizontal")
+    assert [(row["verdict"], row["code"]) for row in a_class.judge(*given, case="crank")] == [
+        ("wrong", "sign"), ("wrong", "sign"), ("wrong", "sin-cos"), ("wrong", "angle-sense"), ("wrong", ""),
         ("review", "ambiguous-direction"),
     ]  # fmt: skip
     named = a_class.judge("50.04", case="crank:angles.AB") + a_class.judge("50.04", case="crank:angles.A-B")

@@ -33,6 +33,10 @@ SEARCHED = (
     "The loads balance where the power of all of them vanishes for the motion that the mechanism has. The "
     "whole range was searched; the figure shows the first position that is stable, where there is one:"
 )
+HOLDS = (
+    "Where the loads nearly balance friction holds the mechanism still: from one value, at which it is about "
+    "to move one way, to another, at which it is about to move the other way."
+)
 
 
 def answer_section(known: Known, figures: Figures) -> Iterable[Section]:
@@ -44,7 +48,8 @@ def answer_section(known: Known, figures: Figures) -> Iterable[Section]:
         work = equilibrium_section(known, figures)
         yield from () if work is None else (work,)
         rests = tuple((line,) for line in positions_text(answer, figures.digits))
-        yield Section("Positions of equilibrium", (words(SEARCHED), Items(rests)))
+        said = HOLDS if all(one.stability is None for one in answer.positions) else SEARCHED
+        yield Section("Positions of equilibrium", (words(said), Items(rests)))
     if answer.answers:
         entries = tuple(_found(known, figures, name, found) for name, found in answer.answers.items())
         blocks: list[Block] = [Items(entries)]

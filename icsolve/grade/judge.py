@@ -286,7 +286,8 @@ def _unit_code(key: NumberKey, written: WrittenAnswer) -> str:
 def _direction_code(key: NumberKey, written: WrittenAnswer, sign: int | None) -> str:
     if sign == NEITHER or sign is None:
         return "direction"
-    if written.direction is None and sign != AGAINST and (written.number > 0.0) == (key.value > 0.0):
+    bare = written.direction is None and sign != AGAINST and not key.period  # an angle's sign is its sense
+    if bare and (written.number > 0.0) == (key.value > 0.0):
         return "no-direction"
     return "sign"
 

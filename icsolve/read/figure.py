@@ -158,9 +158,7 @@ def read_angles(reading: Reading, section: Mapping, known: set[str]) -> tuple[Di
 
 def _is_unknown(node: Node) -> bool:
     """Whether a datum is to find: ``unknown``, or ``{unknown: [0, 90]}``."""
-    if type(node) is Mapping:
-        return bool({"unknown", "from"} & node.items.keys())
-    return type(node) is Scalar and node.text == "unknown"
+    return type(node) is Mapping or (type(node) is Scalar and node.text == "unknown")
 
 
 def _datum(reading: Reading, node: Node, dimension: str, path: str) -> Number | None:

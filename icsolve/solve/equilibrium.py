@@ -113,7 +113,8 @@ def _unknown(case: Case) -> Unknown:
         paths = " and ".join(one.path for one in case.unknowns)
         raise SceneError(
             Status.UNSUPPORTED,
-            f"{paths} are unknown: positions are searched for one unknown datum at a time.",
+            f"{paths} are unknown: positions are searched by one unknown datum, or by two of a mechanism of "
+            "mobility 2. Give the others numbers.",
         )
     return case.unknowns[0]
 
