@@ -386,6 +386,27 @@ for (const place of [...places, 0]) {
 return found"""
 
 
+STRUCK = """return [...document.querySelectorAll('#labels [data-label] text')].filter((e) => {
+  const box = e.getBoundingClientRect();
+  return [...document.querySelectorAll('#centres path.construction:not(.hidden)')].some((line) => {
+    const m = line.getScreenCTM();
+    const length = line.getTotalLength();
+    return [...Array(400).keys()].some((k) => {
+      const p = line.getPointAtLength((length * k) / 399).matrixTransform(m);
+      return p.x > box.left + 4 && p.x < box.right - 4 && p.y > box.top + 4 && p.y < box.bottom - 4;
+    });
+  });
+}).map((e) => e.textContent)"""
+
+
+@pytest.mark.parametrize(
+    "name", ["linkages/four_bar.yaml", "linkages/stephenson_six_bar.yaml", "ch13/13_08_four_bar.yaml"]
+)
+def test_no_line_strikes_out_the_words_of_a_load(name: str, opened: Any) -> None:
+    """The lines that find the centres go beside what is written at the loads."""
+    assert opened(page_of(name)).run(STRUCK) == []
+
+
 @pytest.mark.parametrize("block", range(4))
 def test_every_case_runs_and_its_labels_can_be_read(block: int, opened: Any) -> None:
     """No message of the console, one request each, and at four positions no label on another."""

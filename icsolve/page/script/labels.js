@@ -56,6 +56,20 @@ function held(p, size) {
   const y = Math.max(TOP + size[1], Math.min(BOTTOM - size[1], p[1]));
   return [x, y];
 }
+/* What a label costs that lies on lines: more, the more of them it covers; no sum above `most` matters. */
+function crossed([x, y], [w, h], strokes, most) {
+  let sum = 0;
+  for (const [x1, y1, x2, y2] of strokes) {
+    if ((x1 < x - w && x2 < x - w) || (x1 > x + w && x2 > x + w)) continue;
+    if ((y1 < y - h && y2 < y - h) || (y1 > y + h && y2 > y + h)) continue;
+    const [dx, dy] = [x2 - x1 || 1e-9, y2 - y1 || 1e-9];
+    const first = Math.max(0, (x - x1 - w * Math.sign(dx)) / dx, (y - y1 - h * Math.sign(dy)) / dy);
+    const last = Math.min(1, (x - x1 + w * Math.sign(dx)) / dx, (y - y1 + h * Math.sign(dy)) / dy);
+    if (last > first) sum += 4 + 0.25 * (last - first) * Math.hypot(dx, dy);
+    if (sum > most) break;
+  }
+  return sum;
+}
 function placeLabels(r, [more, far]) {
   const items = [];
   for (const label of labels) {
@@ -63,14 +77,18 @@ function placeLabels(r, [more, far]) {
     items.push({ element: label.e, own: label, size: label.size, gap: 9, ...homeOf(label, r) });
   }
   const boxes = [...pins(r), ...arrows(r), ...far];
+  const strokes = [...outlines(), ...lines()];
   for (const item of [...items, ...more]) {
     const options = candidates(item);
     let best = null;
     options.forEach((wished, n) => {
+      const own = (item.home && n === 0 ? 0 : 3 + 0.7 * n) - (item.own.choice === n ? 6 : 0);
+      if (best && own >= best.cost) return;
       const p = held(wished, item.size);
-      const kept = item.own.choice === n ? -6 : 0;
-      const cost = overlap(p, item.size, boxes) + (item.home && n === 0 ? 0 : 3 + 0.7 * n) + kept;
-      if (!best || cost < best.cost) best = { cost, p, n };
+      const most = best ? best.cost : Infinity;
+      let cost = own + overlap(p, item.size, boxes);
+      if (cost < most) cost += crossed(p, item.size, strokes, most - cost);
+      if (cost < most) best = { cost, p, n };
     });
     item.own.choice = best.n;
     boxes.push([...best.p, ...item.size, ON_LABEL]);
@@ -106,6 +124,35 @@ function arrows(r) {
     for (const [x, y] of along) found.push([p[0] + Math.cos(a) * x + Math.sin(a) * y, p[1] - Math.sin(a) * x + Math.cos(a) * y, 5, 5]);
   }
   return found;
+}
+/* What is drawn, as short lines where it was written, by the part that it moves with. */
+const PIECE = 24;
+function pieces(path) {
+  const length = path.getTotalLength();
+  const count = Math.max(1, Math.ceil(length / PIECE));
+  const ends = [...Array(count + 1).keys()].map((k) => path.getPointAtLength((length * k) / count));
+  return ends.slice(1).map((q, k) => [ends[k].x, ends[k].y, q.x, q.y]);
+}
+const drawn = new Map();
+for (const path of all("#mechanism path, #loads [data-load] path", figure)) {
+  const part = path.closest("[data-turn], [data-at], [data-load]") || figure;
+  drawn.set(part, [...(drawn.get(part) || []), ...pieces(path)]);
+}
+function outlines() {
+  const found = [];
+  for (const [part, all] of drawn) {
+    const bent = part.querySelector(":scope > .bent");
+    const moved = part === figure ? null : part.transform.baseVal.consolidate();
+    const m = moved ? moved.matrix : { a: 1, b: 0, c: 0, d: 1, e: 0, f: 0 };
+    const at = (x, y) => [m.a * x + m.c * y + m.e, m.b * x + m.d * y + m.f];
+    for (const [x1, y1, x2, y2] of bent ? pieces(bent) : all) found.push([...at(x1, y1), ...at(x2, y2)]);
+  }
+  return found;
+}
+/* The lines that find the centres, as they are drawn. */
+function lines() {
+  const seen = centres.flatMap((c) => c.paths).map((path) => path.getAttribute("d").match(/-?[\d.]+/g).map(Number));
+  return seen.filter((ends) => ends.length === 4);
 }
 if (stage) {
   fit([], [...Array(rows).keys()].flatMap(arrows).filter((p) => p.every(Number.isFinite)));
