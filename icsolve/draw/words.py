@@ -120,10 +120,19 @@ def captioned(known: Known, marks: Sequence[Mark], steps: Sequence[Step], step: 
     y = bottom + 20.0
     for kind, text in _below(known, steps, step):
         for line in wrapped(text, NOTE, width):
-            runs = runs_of(line) if kind == "t-axis" else (TextRun(line),)
-            below.append(TextMark((left, y), runs, kind, NOTE, "start"))
+            below.append(TextMark((left, y), _caption_runs(known, kind, line), kind, NOTE, "start"))
             y += NOTE * 1.45
     return [MarkGroup("title", "", tuple(reversed(above))), *marks, MarkGroup("caption", "", tuple(below))]
+
+
+def _caption_runs(known: Known, kind: str, line: str) -> tuple[TextRun, ...]:
+    """A line of a caption; the name of an answer as the figure writes it."""
+    if kind == "t-axis":
+        return runs_of(line)
+    name, space, rest = line.partition(" ")
+    if kind == "t-unknown" and known.answer is not None and name in known.answer.answers:
+        return (*name_runs(name), TextRun(space + rest))
+    return (TextRun(line),)
 
 
 def _below(known: Known, steps: Sequence[Step], step: int | None) -> Iterable[tuple[str, str]]:
