@@ -191,6 +191,20 @@ def test_a_force_of_unknown_direction_has_size_direction_and_components() -> Non
     assert abs(shown["value"] - math.hypot(px, py)) <= shown["error"] + 1e-15
 
 
+def test_the_error_of_a_size_is_some_ulps_whatever_the_size() -> None:
+    relative = []
+    for power in (-20, 0, 20):
+        text = ARM
+        for number in ("weight: 10", "weight: 4", "torque: 5"):
+            kind, size = number.split()
+            text = text.replace(number, f"{kind} {int(size) * 2.0**power!r}")
+        (found,) = icsolve.solve(icsolve.load(text)).answers.values()
+        assert found.error is not None
+        relative.append(found.error / found.value)
+    assert relative == pytest.approx([relative[0]] * 3, rel=1e-9)
+    assert 0.0 < relative[0] < 2.0**-50
+
+
 LOADS = {
     "pressure": f"{{pressure: 100 psi, bore: 2, rod: 1, {ON_E}}}",
     "per length": "{distributed: 20, link: 4, from: C, to: D, angle: 180}",

@@ -77,7 +77,7 @@ def null_space(
         elif size <= 0.0:
             for row in work[rank:]:
                 for value in row[rank:columns]:
-                    vanishes(value, max(pivots[0] if pivots else 0.0, unit))  # raises where that is open
+                    vanishes(value, max((unit, *pivots)))  # raises where that is open
             break
         pivots.append(size)
         _pivot(work, order, rank, r, c)

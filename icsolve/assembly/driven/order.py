@@ -446,7 +446,7 @@ class AssemblyOrder:
             if pivot is not None and self.shape.apart(pivot, spot) > TOUCHING:
                 yield Through(spot, pivot)
             for c in self.constraints:
-                if body in self.ties[id(c)] and id(c) not in self.used:
+                if id(c) not in self.used:
                     yield from self._through(spot, c)
 
     def _through(self, spot: Spot, c: Constraint) -> Iterator[ThroughTurned]:
