@@ -160,7 +160,7 @@ h3{font-size:1rem;line-height:1.3;margin:0}a{color:var(--link)}p{margin:.35em 0}
 .card{border:1px solid var(--line);border-radius:6px;padding:.9rem;display:flex;flex-direction:column}
 .card img{width:100%;height:14rem;object-fit:contain;margin:.5rem 0}
 .kinds{display:flex;flex-wrap:wrap;gap:.4em 1.2em;padding:0;list-style:none}
-iframe{width:100%;height:34rem;border:1px solid var(--line);border-radius:6px}
+iframe{width:100%;height:54rem;border:1px solid var(--line);border-radius:6px}
 .answer{font-weight:600}.bad{color:var(--bad);font-weight:600}.soft{color:var(--soft);font-size:.9rem}
 .links{margin-top:auto;padding-top:.4em}.problem{white-space:pre-wrap}
 @media print{.card{break-inside:avoid}}
