@@ -301,6 +301,14 @@ def test_it_rests_at_a_change_point_too(free: int) -> None:
     assert one.stiffness.value == pytest.approx(5.0, rel=1e-9)
 
 
+def test_a_load_may_but_touch_zero_at_a_change_point() -> None:
+    """V = W (sin u - u), flat where the parallelogram is: neither position beside it is one."""
+    load = "W: {weight: 10, link: 3, at: G}, T: {torque: 10, link: 2}"
+    (one,) = positions(PARALLELOGRAM.format(angle="{unknown: [-60, 60]}", load=load))
+    assert abs(one.at["angles.AB"]) <= one.error["angles.AB"]
+    assert one.stability == "neutral"
+
+
 def test_at_a_change_point_each_branch_has_its_own_stiffness() -> None:
     """Bars of 0.5 with 30 down on their joint, a spring of 200 drawing the block to the pivot: in one branch
     V = 15 sin u + 100 (cos u)^2, in the other, the block on the pivot, V = 15 sin u."""

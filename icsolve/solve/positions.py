@@ -54,8 +54,14 @@ from icsolve.tuples import NamedTuple, replace
 STEPS = 64
 BESIDE = 5e-4
 """Beside a change point a branch is looked at in steps of this fraction of the range."""
+SPREAD = (255.0 * 2.0**-46, 618.0 * 2.0**-46)
+"""What becomes of the rounding of loads at eight steps, 64 units each: of the value and slope one step on."""
 APART = 1e-6
 """Points of two ways of assembling differ by more than this fraction of the figure's size."""
+ESTIMATED = (
+    "{path} = {value:g} is a change point, where no scene has an answer: the position there is found from "
+    "the loads beside it, and its errors are estimates."
+)
 STRETCHES = 4
 """So many times the range of a length or a coordinate is made ten times longer."""
 JUMP = 1e-5
@@ -397,7 +403,10 @@ def search_modes(
             for step in (-BESIDE * (high - low), BESIDE * (high - low)):
                 beside = branches.on(n, 0.5 * (cluster[0] + cluster[1]) + 8.0 * step)
                 if beside >= 0 and (kept is None or beside in kept):
-                    found += [(n, one) for one in _at_change_point(function, cluster, step, (low, high))]
+                    there = _at_change_point(function, cluster, step, (low, high))
+                    found += [(n, one) for one in there]
+                    if notes is not None:
+                        notes += [ESTIMATED.format(path=path, value=one.value) for one in there]
     found += [(-1, position) for position in _at_limits(functions, branches, kept, limits)]
     return found
 
@@ -637,8 +646,9 @@ def _in_open_cells(function: LoadFunction, cluster: tuple[float, float]) -> tupl
         least = abs(_probe(function, value))
     except SceneError:
         return None
-    # beside the place the load rises as the square of the distance: so much is left where that is zero
-    return turning if least <= 8.0 * beside * (error / (high - low)) ** 2 else None
+    # beside the place the load rises as the square of the distance: so much is left where that is zero,
+    # and two zeros may lie on either side of it
+    return (value, 2.5 * error) if least <= 8.0 * beside * (error / (high - low)) ** 2 else None
 
 
 def plain_within(value: float, error: float) -> float:
@@ -658,9 +668,10 @@ def _at_change_point(
     function: LoadFunction, cluster: tuple[float, float], step: float, span: tuple[float, float]
 ) -> list[Rest]:
     """The position at a change point, if there is one: the generalised load of a branch goes smoothly on to
-    it (by a polynomial, over some steps from one side), though no scene can be solved there."""
+    it, though no scene can be solved there. A polynomial takes it there from one side; how far one of one
+    degree less is off, and what rounding becomes on the way, estimate the errors."""
     middle = 0.5 * (cluster[0] + cluster[1])
-    steps = range(1, 9)
+    steps = list(range(1, 9))
     beside = [middle + k * step for k in steps]
     if not all(span[0] <= value <= span[1] for value in beside):
         return []
@@ -668,21 +679,32 @@ def _at_change_point(
         loads = [_generalised(function, value) for value in beside]
         if not any(loads):
             return []
-        smooth = np.polynomial.Polynomial.fit(steps, loads, 7, domain=[0, 8], window=[0, 8])
+        smooth, rough = (
+            np.polynomial.Polynomial.fit(steps[:n], loads[:n], n - 1, domain=[0, 8], window=[0, 8])
+            for n in (len(steps), len(steps) - 1)
+        )
         roots = smooth.roots()
-        root = float(np.real(roots[np.argmin(np.abs(roots))])) * step
-        error = 1e-9 * abs(step)
-        if abs(root) > cluster[1] - cluster[0] + error:
+        root = float(np.real(roots[np.argmin(np.abs(roots))]))
+        largest = max(map(abs, loads))
+        level, slope, bend = (float(smooth.deriv(n)(root)) for n in range(3))
+        off, off_slope = (
+            2.0 * abs(float((smooth - rough).deriv(n)(root))) + spread * largest
+            for n, spread in enumerate(SPREAD)
+        )
+        # so far from the root the load is within what the sides leave open, also where it but touches zero
+        error = 2.0 * off / (abs(slope) + math.sqrt(slope * slope + 2.0 * abs(bend) * off))
+        if abs(level) > off or (abs(root) - error) * abs(step) > cluster[1] - cluster[0]:
             return []
-        value = min(max(middle + root, span[0]), span[1])
+        off_slope += abs(bend) * error
+        error *= abs(step)
+        value = min(max(middle + root * step, span[0]), span[1])
         value = plain_within(value, error)
         here = next(_scenes_near(function, value, step))
     except (SceneError, StopIteration):
         return []
-    stiffness = -float(smooth.deriv()(0.0)) / step * (DEGREES if function.turns_links else 1.0)
-    off = 1e-9 * max(map(abs, loads)) / abs(step) * (DEGREES if function.turns_links else 1.0)
-    kind = "stable" if stiffness > off else "unstable" if stiffness < -off else "neutral"
-    known = Stiffness(stiffness, _units(function)[1], off)
+    per = (DEGREES if function.turns_links else 1.0) / step
+    known = Stiffness(-slope * per, _units(function)[1], off_slope * abs(per))
+    kind = "neutral" if abs(slope) <= off_slope else "stable" if known.value > 0.0 else "unstable"
     return [here._replace(value=value, error=error, stability=kind, stiffness=known)]
 
 
