@@ -50,21 +50,13 @@ def every(group: Group, workspace: Workspace) -> Converged:
 
     found = every_solution(group, workspace)
     if found.movable:
-        return Converged([], Miss(Status.UNDERDETERMINED, _movable(group)), {}, False)
+        return Converged([], Miss(Status.UNDERDETERMINED, _of(group, MOVABLE)), {}, False)
     groups = []
     for place in found.places:
         start = tuple(place[t] for t in group.targets)
         groups.append(_polished(group, workspace, place) or group._replace(start=start))
     miss = None if groups else _unreached(group, workspace, {})
     return Converged(groups, miss, {}, found.complete)
-
-
-def _movable(group: Group) -> str:
-    names = listed([plain(t) for t in group.targets])
-    return (
-        f"{names} may lie anywhere along a curve: some of the data tell the same; give one more length, "
-        f"angle or coordinate for {names}"
-    )
 
 
 ROPED = (
@@ -98,7 +90,7 @@ class Descent(NamedTuple):
 def solutions(group: Group, workspace: Workspace, near: Mapping[str, Spot]) -> Converged:
     """The solutions found of a group: from `near` itself first, then from other starts."""
     if not any(p in near for p in group.targets):
-        return Converged([], _needs_near(group), {}, False)
+        return Converged([], _vague(Status.AMBIGUOUS, _of(group, NEEDS_NEAR)), {}, False)
     search = _NewtonSearch(group, workspace, near)
     search.run()
     held = [t for t in group.targets if t in near]
@@ -111,9 +103,9 @@ def solutions(group: Group, workspace: Workspace, near: Mapping[str, Spot]) -> C
             return Converged(settled, None, {}, search.complete)
         return Converged(settled, _unreached(group, workspace, search.beside), search.beside, False)
     if polished:
-        return Converged([], _flat(group), {}, False)
-    closest = search.closest.end
-    miss = _unfinished(group) if search.spent else _unreached(group, workspace, closest)
+        return Converged([], _vague(Status.NEAR_SINGULAR, _of(group, FLAT_THERE)), {}, False)
+    spent = _vague(Status.AMBIGUOUS, _of(group, UNFINISHED)) if search.spent else None
+    miss = spent or _unreached(group, workspace, search.closest.end)
     return Converged([], miss, search.beside, False)
 
 
@@ -384,34 +376,30 @@ def _unreached(group: Group, workspace: Workspace, closest: Start) -> Miss:
     )
 
 
-def _needs_near(group: Group) -> Miss:
+NEEDS_NEAR = (
+    "{names} can only be found together, there is no order of construction; say roughly where one of them "
+    "is: near: {{{first}: [x, y]}}"
+)
+UNFINISHED = (
+    "no position was found in which points {names} fit their data together, and the search ended before all "
+    "starts were tried: say roughly where more of them are, near: {{...}} for each"
+)
+FLAT_THERE = (
+    "points {names} are not held by their data: where these are met, the points can still move (a dead "
+    "centre, or a datum that repeats others); give one more length, angle or coordinate"
+)
+MOVABLE = (
+    "{names} may lie anywhere along a curve: some of the data tell the same; give one more length, angle or "
+    "coordinate for {names}"
+)
+
+
+def _of(group: Group, sentence: str) -> str:
+    """A sentence about the points of a group."""
     names = [plain(t) for t in group.targets]
-    return Miss(
-        Status.AMBIGUOUS,
-        f"{listed(names)} can only be found together, there is no order of construction; "
-        f"say roughly where one of them is: near: {{{names[0]}: [x, y]}}",
-        0.0,
-        vague=True,
-    )
+    return sentence.format(names=listed(names), first=names[0])
 
 
-def _unfinished(group: Group) -> Miss:
-    names = listed([plain(t) for t in group.targets])
-    return Miss(
-        Status.AMBIGUOUS,
-        f"no position was found in which points {names} fit their data together, and the search ended before "
-        "all starts were tried: say roughly where more of them are, near: {...} for each",
-        0.0,
-        vague=True,
-    )
-
-
-def _flat(group: Group) -> Miss:
-    names = listed([plain(t) for t in group.targets])
-    return Miss(
-        Status.NEAR_SINGULAR,
-        f"points {names} are not held by their data: where these are met, the points can still move "
-        "(a dead centre, or a datum that repeats others); give one more length, angle or coordinate",
-        0.0,
-        vague=True,
-    )
+def _vague(status: str, message: str) -> Miss:
+    """A miss of which others may say more."""
+    return Miss(status, message, 0.0, vague=True)

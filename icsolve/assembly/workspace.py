@@ -17,6 +17,7 @@ from icsolve.case.joints import Guided
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.screws.plane import Point, unit_between
+from icsolve.structure.topology import Topology
 from icsolve.tuples import NamedTuple
 
 X, Y, MEAN, GUIDE, LINE, LENGTH, RAY, CORNER = "x", "y", "mean", "guide", "line", "length", "ray", "corner"
@@ -168,6 +169,17 @@ class Frame(NamedTuple):
         """
         x, y, w = (value / divisor + 0.0 for value in t)
         return (x / self.scale + w * self.ox, y / self.scale + w * self.oy, w)
+
+
+class PlacedCase(NamedTuple):
+    """A case in one position: the scale of its frame, places by name [frame], and the arithmetic of these and
+    of all that is made of them."""
+
+    case: Case
+    top: Topology
+    frame: Frame
+    points: Mapping[str, Point]
+    arithmetic: Arithmetic
 
 
 def case_point(frame: Frame, xy: tuple[float, float]) -> tuple[float, float]:

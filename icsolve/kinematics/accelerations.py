@@ -12,14 +12,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from icsolve.assembly.workspace import Frame
-from icsolve.case import Case, Joint, Motion, Number, Rope
+from icsolve.assembly.workspace import PlacedCase
+from icsolve.case import Joint, Motion, Number, Rope
 from icsolve.case.joints import CentreAt, CentreSquareTo, JointCentre, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import LOOSE, NO_SPEED, fastest, meant, path_of, speed_of
-from icsolve.numbers.arithmetic import Arithmetic, Scalar, all_vanish, decider
+from icsolve.numbers.arithmetic import Scalar, all_vanish, decider
 from icsolve.numbers.sparse import SPENT, Row, eliminate
-from icsolve.screws.joints import Points, at_radius, freedoms, guide_direction, mesh_weights, transmitted
+from icsolve.screws.joints import at_radius, freedoms, guide_direction, mesh_weights, transmitted
 from icsolve.screws.plane import Point, Triple, add, cross, pairing, subtract, velocity
 from icsolve.screws.ropes import part_changes, rope_parts
 from icsolve.structure.topology import Bond, Topology
@@ -34,6 +34,10 @@ GROWN = 1e4
 """By so much what contacts miss may grow in the elimination."""
 
 
+Twists = Mapping[str, Triple]
+"""By link."""
+
+
 class Moving(NamedTuple):
     """The given motion and its change.
 
@@ -44,7 +48,7 @@ class Moving(NamedTuple):
     open : links that a freedom moves which no given motion fixes
     """
 
-    twists: Mapping[str, Triple]
+    twists: Twists
     rates: Mapping[str, Triple]
     open: frozenset[str]
 
@@ -63,23 +67,13 @@ class Moving(NamedTuple):
         return x - omega * vy, y + omega * vx
 
 
-def moving(
-    case: Case,
-    top: Topology,
-    frame: Frame,
-    points: Points,
-    motions: Mapping[str, Sequence[Triple]],
-    arithmetic: Arithmetic,
-    slack: float = 0.0,
-) -> Moving:
+def moving(place: PlacedCase, motions: Mapping[str, Sequence[Triple]], slack: float = 0.0) -> Moving:
     """The motion that the case gives, with its accelerations.
 
     Parameters
     ----------
-    case, top : the scene; given speeds in rad/s or case lengths a second
-    frame, points : the scale of the frame, and the places in it
+    place : the scene; given speeds in rad/s or case lengths a second
     motions : by link, one twist a freedom
-    arithmetic : of the twists
     slack : by how much rolling contacts as written miss the motion [fraction of the figure's size]
 
     Raises
@@ -88,6 +82,7 @@ def moving(
         Where no speed is given, where given motions contradict each other, where a joint does not tell how it
         moves on, and where the links move only for an instant.
     """
+    case, top, frame, points, arithmetic = place
     if not case.motion or any(given.speed is None for given in case.motion):
         raise SceneError(Status.MOBILITY, NO_SPEED)
     speed = speed_of(case, motions, frame, points, arithmetic)
@@ -99,8 +94,7 @@ def moving(
         size = LOOSE * max((abs(part) for t in motions[link] for part in t), default=0.0)
         if not all_vanish(arithmetic, ((part, size) for t in open_ for part in t)):
             idle.add(link)
-    drives = drives_of(case, motions, frame, points, arithmetic)
-    rates, loose = _rates(case, top, points, twists, drives, arithmetic, frame, slack)
+    rates, loose = _rates(place, twists, drives_of(place, motions), slack)
     return Moving(twists, {link: rates[top.body_of[link]] for link in twists}, frozenset(idle | loose))
 
 
@@ -108,14 +102,9 @@ Drive = tuple[Motion, Point | None, Scalar]
 """A given motion, the direction of its point, the acceleration."""
 
 
-def drives_of(
-    case: Case,
-    motions: Mapping[str, Sequence[Triple]],
-    frame: Frame,
-    points: Points,
-    arithmetic: Arithmetic,
-) -> list[Drive]:
+def drives_of(place: PlacedCase, motions: Mapping[str, Sequence[Triple]]) -> list[Drive]:
     """What each given motion accelerates: as its speed goes, faster where that is positive."""
+    case, _, frame, points, arithmetic = place
     found: list[Drive] = []
     for given in case.motion:
         assert given.speed is not None
@@ -129,53 +118,38 @@ def drives_of(
     return found
 
 
-def rate_rows(
-    case: Case,
-    top: Topology,
-    points: Points,
-    twists: Mapping[str, Triple],
-    drives: Sequence[Drive],
-    arithmetic: Arithmetic,
-    frame: Frame,
-) -> tuple[list[Row], list[float]]:
+def rate_rows(place: PlacedCase, twists: Twists, drives: Sequence[Drive]) -> tuple[list[Row], list[float]]:
     """What the rates of the bodies' twists fulfil, three columns a body and the known part behind them, and
     the sizes of the known parts' terms."""
-    known = 3 * len(top.members)
+    top, known = place.top, 3 * len(place.top.members)
     rows: list[Row] = []
     sizes: list[float] = []
     for bond in top.bonds:
         relative = subtract(twists[bond.links[1]], twists[bond.links[0]])
-        basis = freedoms(bond, points, arithmetic)
-        change = _changes(_Place(case, points, twists, arithmetic, frame), bond)
+        basis, change = freedoms(bond, place.points, place.arithmetic), _changes(place, twists, bond)
         for w, dw in zip(transmitted(basis), _transmitted_changes(basis, change), strict=True):
             rows.append(_between(top, bond, w, pairing(dw, relative), known))
             sizes.append(sum(abs(a * b) for a, b in zip(dw, relative, strict=True)))
     for rope in top.ropes:
-        row, change = _roped(top, rope, points, twists, arithmetic, frame)
-        rows.append({**row, known: change})
-        sizes.append(abs(change))
+        row, moved = _roped(place, rope, twists)
+        rows.append({**row, known: moved})
+        sizes.append(abs(moved))
     for given, along, more in drives:
-        rows.append(_driven(top, given, along, more, twists, points, known))
+        rows.append(_driven(place, given, along, more, twists))
         sizes.append(abs(more))
     return rows, sizes
 
 
 def _rates(
-    case: Case,
-    top: Topology,
-    points: Points,
-    twists: Mapping[str, Triple],
-    drives: Sequence[Drive],
-    arithmetic: Arithmetic,
-    frame: Frame,
-    slack: float,
+    place: PlacedCase, twists: Twists, drives: Sequence[Drive], slack: float
 ) -> tuple[list[Triple], set[str]]:
     """The rate of each body's twist, and the links whose rate a freedom leaves open.
 
     Where written numbers all but fit the motion, so they do what follows from it.
     """
+    top, arithmetic = place.top, place.arithmetic
     known = 3 * len(top.members)
-    rows, sizes = rate_rows(case, top, points, twists, drives, arithmetic, frame)
+    rows, sizes = rate_rows(place, twists, drives)
     near = min(NEAR, GROWN * slack)
     general = eliminate(rows, known, near or SPENT, None if slack else decider(arithmetic))
     rest = [left.get(known, 0.0) for left in general.left]
@@ -206,15 +180,9 @@ def _between(top: Topology, bond: Bond, w: Triple, change: Scalar, known: int) -
     return row
 
 
-def _roped(
-    top: Topology,
-    rope: Rope,
-    points: Points,
-    twists: Mapping[str, Triple],
-    arithmetic: Arithmetic,
-    frame: Frame,
-) -> tuple[Row, Scalar]:
+def _roped(place: PlacedCase, rope: Rope, twists: Twists) -> tuple[Row, Scalar]:
     """The condition that a rope goes on keeping its length, and what its turning parts make of it."""
+    _, top, frame, points, arithmetic = place
     row: Row = {}
     total: Scalar = 0.0
     centres = zip(rope.points, rope.points[1:], strict=False)
@@ -228,20 +196,12 @@ def _roped(
     return row, total
 
 
-def _driven(
-    top: Topology,
-    given: Motion,
-    along: Point | None,
-    more: Scalar,
-    twists: Mapping[str, Triple],
-    points: Points,
-    known: int,
-) -> Row:
+def _driven(place: PlacedCase, given: Motion, along: Point | None, more: Scalar, twists: Twists) -> Row:
     """The acceleration that a motion gives to its link, or to a point of it along its path."""
-    first = 3 * top.body_of[given.link]
+    first, known = 3 * place.top.body_of[given.link], 3 * len(place.top.members)
     if along is None or given.point is None:
         return {first + 2: 1.0, known: -more}
-    p, (ux, uy) = points[given.point], along
+    p, (ux, uy) = place.points[given.point], along
     vx, vy = velocity(twists[given.link], p)
     turned = twists[given.link][2] * (uy * vx - ux * vy)
     return {first: -uy, first + 1: ux, first + 2: uy * p[0] - ux * p[1], known: turned - more}
@@ -257,42 +217,31 @@ def _transmitted_changes(basis: tuple[Triple, ...], change: tuple[Triple, ...]) 
     return ((w, 0.0, -x), (0.0, w, -y))
 
 
-class _Place(NamedTuple):
-    """A scene in motion."""
-
-    case: Case
-    points: Points
-    twists: Mapping[str, Triple]
-    arithmetic: Arithmetic
-    frame: Frame
-
-    def at(self, link: str, point: str) -> Point:
-        """Velocity of a named point of a link."""
-        return velocity(self.twists[link], self.points[point])
-
-
-def _changes(place: _Place, bond: Bond) -> tuple[Triple, ...]:
+def _changes(place: PlacedCase, twists: Twists, bond: Bond) -> tuple[Triple, ...]:
     """Rates of a bond's basis twists."""
     joint, (by, on) = bond.joint, bond.links
     if isinstance(joint, Mesh):
         p, q = mesh_weights(joint, place.arithmetic)
-        (ax, ay), (bx, by_) = place.at(by, bond.pivots[0]), place.at(on, bond.pivots[1])
+        a, b = (place.points[pivot] for pivot in bond.pivots)
+        (ax, ay), (bx, by_) = velocity(twists[by], a), velocity(twists[on], b)
         return (p * ax + q * bx, p * ay + q * by_, 0.0), (ay - by_, bx - ax, 0.0)
     if isinstance(joint, Rolling):
-        return (_moved(_contact_velocity(place, joint)),)
+        return (_moved(_contact_velocity(place, twists, joint)),)
     if joint.curvature is not None:
-        return _slipping(place, joint, joint.curvature)
-    return tuple(_change(place, joint, centre) for centre in joint.centres)
+        return _slipping(place, twists, joint, joint.curvature)
+    return tuple(_change(place, twists, joint, centre) for centre in joint.centres)
 
 
-def _change(place: _Place, joint: Joint, centre: JointCentre) -> Triple:
+def _change(place: PlacedCase, twists: Twists, joint: Joint, centre: JointCentre) -> Triple:
     """Rate of a basis twist whose centre a link carries."""
     if not centre.link:
         raise SceneError(Status.UNSUPPORTED, why_no_acceleration(joint))
     if isinstance(centre, CentreAt):
-        return _moved(place.at(centre.link, centre.point))
+        return _moved(velocity(twists[centre.link], place.points[centre.point]))
     assert isinstance(centre, CentreSquareTo)
-    return _turned(place, centre.link, guide_direction(centre.guide, place.points, place.arithmetic))
+    x, y = guide_direction(centre.guide, place.points, place.arithmetic)  # turns with its link
+    omega = twists[centre.link][2]
+    return -(omega * x), -(omega * y), 0.0
 
 
 def _unknown(joint: Rolling, why: str) -> SceneError:
@@ -304,14 +253,11 @@ def _moved(v: Point) -> Triple:
     return (v[0], v[1], 0.0)
 
 
-def _turned(place: _Place, link: str, along: Point) -> Triple:
-    """Rate of the basis twist of a guide that turns with its link."""
-    omega = place.twists[link][2]
-    return (-(omega * along[0]), -(omega * along[1]), 0.0)
-
-
 def _slipping(
-    place: _Place, joint: Joint, radii: tuple[Number | None, Number | None]
+    place: PlacedCase,
+    twists: Twists,
+    joint: Joint,
+    radii: tuple[Number | None, Number | None],
 ) -> tuple[Triple, Triple]:
     """How the point and the normal of a contact move, by the radii r, s of curvature of the two links.
 
@@ -327,8 +273,8 @@ def _slipping(
     (a, b), (c, d) = ((1.0, 0.0) if r is None else (given(r) * scale, 1.0) for r in radii)
     nx, ny = place.arithmetic.turn(joint.direction)
     tx, ty = 0.0 - ny, nx
-    (vx, vy), (ux, uy) = velocity(place.twists[one], p), velocity(place.twists[two], p)
-    w, o = place.twists[one][2], place.twists[two][2]
+    (vx, vy), (ux, uy) = velocity(twists[one], p), velocity(twists[two], p)
+    w, o = twists[one][2], twists[two][2]
     slip = (ux - vx) * tx + (uy - vy) * ty
     whole = a * d + b * c
     if not abs(whole) > 0.0:
@@ -339,7 +285,7 @@ def _slipping(
     return (vx + on * tx, vy + on * ty, 0.0), (turning * tx, turning * ty, 0.0)
 
 
-def _contact_velocity(place: _Place, joint: Rolling) -> Point:
+def _contact_velocity(place: PlacedCase, twists: Twists, joint: Rolling) -> Point:
     """How the point moves at which two links roll on each other (it is of neither).
 
     The centres of curvature are points of the links at the radii r, s along the normal n out of the first:
@@ -351,12 +297,12 @@ def _contact_velocity(place: _Place, joint: Rolling) -> Point:
     r, s = (place.arithmetic.given(radius) * place.frame.scale for radius in joint.radii)
     n = _normal(place, joint)
     c, d = (p[0] - r * n[0], p[1] - r * n[1]), (p[0] + s * n[0], p[1] + s * n[1])
-    vc, vd = velocity(place.twists[a], c), velocity(place.twists[b], d)
+    vc, vd = velocity(twists[a], c), velocity(twists[b], d)
     if joint.radii[1].value == 0.0:
-        omega = place.twists[b][2]
+        omega = twists[b][2]
         return vc[0] - r * omega * n[1], vc[1] + r * omega * n[0]
     if joint.radii[0].value == 0.0:
-        omega = place.twists[a][2]
+        omega = twists[a][2]
         return vd[0] + s * omega * n[1], vd[1] - s * omega * n[0]
     whole = r + s
     if joint.radii[0].value + joint.radii[1].value == 0.0:
@@ -364,7 +310,7 @@ def _contact_velocity(place: _Place, joint: Rolling) -> Point:
     return (s * vc[0] + r * vd[0]) / whole, (s * vc[1] + r * vd[1]) / whole
 
 
-def _normal(place: _Place, joint: Rolling) -> Point:
+def _normal(place: PlacedCase, joint: Rolling) -> Point:
     """Unit normal at a rolling contact, out of the first link: along the line to a round link's centre."""
     assert joint.radii is not None
     px, py = place.points[joint.at]

@@ -20,6 +20,7 @@ from icsolve.assembly.workspace import (
     MEAN,
     RAY,
     Key,
+    PlacedCase,
     Workspace,
     data_of,
     normalised,
@@ -255,15 +256,16 @@ class _ProgramWriter:
     def _dynamics(self) -> Iterable[tuple[str, list[Any]]]:
         """What the rates of the twists fulfil, as places and values of each row; then the wrenches of the
         inertia forces. Twists and rates of the bodies are inputs."""
-        case, top, frame, points = self.case, self.top, self.figure.frame, self._points()
+        case, points = self.case, self._points()
         assert self.motions is not None
-        now = moving(case, top, frame, self.figure.points, self.motions.twists, FLOATS, self.motions.slack)
+        still = PlacedCase(case, self.top, self.figure.frame, self.figure.points, FLOATS)
+        place = still._replace(points=points, arithmetic=self.record)
+        now = moving(still, self.motions.twists, self.motions.slack)
         twists = self._inputs("t", now.twists)
-        drives = drives_of(case, {link: [t] for link, t in twists.items()}, frame, points, self.record)
-        rows, _ = rate_rows(case, top, points, twists, drives, self.record, frame)
+        rows, _ = rate_rows(place, twists, drives_of(place, {link: [t] for link, t in twists.items()}))
         yield "rates", [[[float(column), value] for column, value in row.items()] for row in rows]
         moves = Moving(twists, self._inputs("r", now.rates), frozenset())
-        forces = inertia_forces(case, frame, moves, points, self.record)
+        forces = inertia_forces(place, moves)
         found: list[Any] = []
         for load in case.loads:
             if load.name == FORCE.format(load.link):

@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 from icsolve.answer import Answer, Deferred
+from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import Case, ForceVector, Load, Torque
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.accelerations import Moving, moving
@@ -18,7 +19,6 @@ from icsolve.kinematics.speeds import NO_SPEED, OPEN, moving_points
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.given import Number
 from icsolve.scene.program import Program, Want, evaluate, prepare
-from icsolve.screws.plane import Point
 from icsolve.statics.inertia import COUPLE, FORCE, inertia_forces
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed
@@ -84,10 +84,8 @@ def with_inertia(case: Case) -> tuple[Case, Accelerations, tuple[str, ...]]:
 def _found(case: Case, program: Program, arithmetic: Balls) -> tuple[Case, Accelerations, tuple[str, ...]]:
     """The same with so many digits; raises MoreDigits where they leave something open."""
     program, outcome = evaluate(program, arithmetic)
-    frame, points = program.figure.frame, outcome.points
-    moves = moving(
-        case, program.top, frame, points, outcome.motions.twists, arithmetic, outcome.motions.slack
-    )
+    place = PlacedCase(case, program.top, program.figure.frame, outcome.points, arithmetic)
+    moves = moving(place, outcome.motions.twists, outcome.motions.slack)
     _refuse_open(case, moves)
 
     def number(value: Scalar, path: str) -> Number:
@@ -95,16 +93,15 @@ def _found(case: Case, program: Program, arithmetic: Balls) -> tuple[Case, Accel
         return Number(near, 0.0, path, repr(near))
 
     loads: list[Load] = []
-    for link, (centre, force, couple) in inertia_forces(case, frame, moves, points, arithmetic).items():
+    for link, (centre, force, couple) in inertia_forces(place, moves).items():
         path = f"inertia.{link}"
         if force is not None and centre is not None:
             x, y = (number(part, f"{path}.{axis}") for part, axis in zip(force, "xy", strict=True))
             loads.append(ForceVector(FORCE.format(link), link, centre, x, y))
         if couple is not None:
             loads.append(Torque(COUPLE.format(link), link, number(couple, f"{path}.couple")))
-    shown = _shown(case, program, moves, points, arithmetic)
     loaded = replace(case, loads=(*case.loads, *loads), dynamic=bool(loads))
-    return loaded, shown, _notes(case, moves, arithmetic)
+    return loaded, _shown(place, moves, arithmetic), _notes(case, moves, arithmetic)
 
 
 def _slopes(loaded: Case, solve: Callable[..., Answer]) -> Mapping[str, Mapping[str, float]]:
@@ -135,11 +132,9 @@ def _refuse_open(case: Case, moves: Moving) -> None:
         )
 
 
-def _shown(
-    case: Case, program: Program, moves: Moving, points: Mapping[str, Point], arithmetic: Balls
-) -> Accelerations:
+def _shown(place: PlacedCase, moves: Moving, arithmetic: Balls) -> Accelerations:
     """Accelerations of every link and of every point on the links that carry it."""
-    scale, size = program.figure.frame.scale, moves.size
+    (case, _, (_, _, scale), points, _), size = place, moves.size
     links: dict[str, float | str] = {}
     places: dict[tuple[str, str], tuple[float, float] | str] = {}
     for link in case.links:

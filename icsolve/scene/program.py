@@ -16,7 +16,7 @@ from functools import lru_cache, partial
 from typing import TypeVar
 
 from icsolve.assembly import Figure, place, placed_figure, solve_figure
-from icsolve.assembly.workspace import names_of
+from icsolve.assembly.workspace import PlacedCase, names_of
 from icsolve.case import Case
 from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
@@ -163,7 +163,7 @@ def evaluate(program: Program, arithmetic: Arithmetic = FLOATS) -> tuple[Program
         from icsolve.statics.inertia import exactly, is_loaded
 
         if is_loaded(case):
-            wrenches = exactly(case, top, figure.frame, points, motions, wrenches, arithmetic)
+            wrenches = exactly(PlacedCase(case, top, figure.frame, points, arithmetic), motions, wrenches)
     balance = power.balance(wrenches, motions.twists, motions.mobility)
     return program, Outcome(points, motions, balance, power.solve_balance(balance, arithmetic))
 

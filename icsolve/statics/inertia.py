@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
-from icsolve.assembly.workspace import Frame
+from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import Case, ForceVector, Torque
 from icsolve.kinematics.accelerations import Moving, moving
 from icsolve.kinematics.motion import Motions
-from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.units import exact_ratio, parse_unit
 from icsolve.screws.plane import Point, force_wrench
 from icsolve.statics.power import Wrench, known_value, vector_size
-from icsolve.structure.topology import Topology
 from icsolve.tuples import replace
 
 FORCE = "inertia force {}"
@@ -37,15 +36,7 @@ def as_posed(case: Case) -> Case:
     return replace(as_given(case), dynamic=True) if is_loaded(case) else case
 
 
-def exactly(
-    case: Case,
-    top: Topology,
-    frame: Frame,
-    points: Mapping[str, Point],
-    motions: Motions,
-    wrenches: Sequence[Wrench],
-    arithmetic: Arithmetic,
-) -> tuple[Wrench, ...]:
+def exactly(place: PlacedCase, motions: Motions, wrenches: Sequence[Wrench]) -> tuple[Wrench, ...]:
     """The wrenches with those of the inertia forces as this arithmetic has them; the loads are rounded.
 
     D'Alembert's principle: ``-m a`` at the centre of mass and the couple ``-I alpha``, in case units.
@@ -55,8 +46,7 @@ def exactly(
     SceneError
         As `icsolve.kinematics.accelerations.moving`.
     """
-    moves = moving(case, top, frame, points, motions.twists, arithmetic, motions.slack)
-    forces = inertia_forces(case, frame, moves, points, arithmetic)
+    forces = inertia_forces(place, moving(place, motions.twists, motions.slack))
     found = []
     for w in wrenches:
         load = w.load
@@ -64,7 +54,9 @@ def exactly(
             _, force, _ = forces[load.link]
             assert force is not None
             size = vector_size(load.parts) or 1.0
-            found.append(w._replace(unit=force_wrench((force[0] / size, force[1] / size), points[load.at])))
+            found.append(
+                w._replace(unit=force_wrench((force[0] / size, force[1] / size), place.points[load.at]))
+            )
         elif load.name == COUPLE.format(load.link) and isinstance(load, Torque):
             couple = forces[load.link][2]
             assert couple is not None
@@ -79,10 +71,9 @@ InertiaForce = tuple[str | None, Point | None, Scalar | None]
 """Of a link its centre of mass, the force there and the couple, in case units."""
 
 
-def inertia_forces(
-    case: Case, frame: Frame, moves: Moving, points: Mapping[str, Point], arithmetic: Arithmetic
-) -> dict[str, InertiaForce]:
+def inertia_forces(place: PlacedCase, moves: Moving) -> dict[str, InertiaForce]:
     """-m a and -I alpha of every link that has a mass."""
+    case, _, frame, points, arithmetic = place
     newton = arithmetic.ratio(case.units.exact_newton)
     metre = arithmetic.ratio(exact_ratio(parse_unit("m"), parse_unit(case.units.length)))
     found: dict[str, InertiaForce] = {}
