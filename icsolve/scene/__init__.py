@@ -31,13 +31,15 @@ def solve_scene(
     bound: bool = True,
     reactions: bool = False,
     dynamic: bool = False,
+    alone: bool = False,
 ) -> Answer:
-    """Solve a case whose figure is given; the options are those of `icsolve.solve`.
+    """Solve a case whose figure is given; the options are those of `icsolve.solve`, ``alone`` is that of
+    `Want`.
 
     Inertia forces and contacts of profiles are worked out first: with them it is a case like any other.
     Raises SceneError where the scene has no answer.
     """
-    asked = {"all_centres": all_centres, "rates": rates, "examine": examine, "bound": bound}
+    asked = {"all_centres": all_centres, "rates": rates, "examine": examine, "bound": bound, "alone": alone}
     if case.space is not None:
         from icsolve.statics.space.solve import solve_space
 
@@ -51,7 +53,8 @@ def solve_scene(
 
         return solve_dynamic(case, solve_scene, **{**asked, "rates": True}, reactions=reactions)
     try:
-        return _solved(case, wanted(case, Want(all_centres, rates, examine, reactions)), bound, reactions)
+        want = Want(all_centres, rates, examine, reactions, alone)
+        return _solved(case, wanted(case, want), bound, reactions)
     except SceneError as refusal:
         if not case.noticed or refusal.status not in MISTAKEN:
             raise

@@ -46,6 +46,7 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     outcome = parts.outcome
     position = _position(parts.first._replace(outcome=outcome, arithmetic=FLOATS))
     scene = FrictionScene(position, parts.figure.frame, outcome.balance, outcome.solution, parts.speed)
+    scene = scene._replace(alone=parts.program.want.alone)
     if parts.scene.certain:
         scene = scene._replace(enclose=_enclose(parts), trace=lambda: parts.traced)
     return solved(scene, answer_with, reactions)

@@ -42,6 +42,8 @@ class Want(NamedTuple):
     examine: bool = False
     bodies: bool = False
     """reactions or friction: the equilibrium of every link"""
+    alone: bool = False
+    """with friction the answer alone, not what is said of other solutions beside it"""
 
     @property
     def everything(self) -> bool:

@@ -89,7 +89,7 @@ def in_motion(scene: FrictionScene, reactions: bool = False) -> Slipping:
 
     def solve(flanked: Sequence[Tie]) -> Solved:
         statics = _statics(scene, flanked)
-        slides.append(slid(statics, senses, workless))
+        slides.append(slid(statics, senses, workless, scene.alone))
         return Solved(statics, slides[-1].unknowns, slides[-1].friction)
 
     first = _flanks(scene, ties, workless)
@@ -168,7 +168,7 @@ def at_rest(scene: FrictionScene) -> tuple[StaticRange, float | None, str]:
         ties, workless, senses = ties_of(scene.position), _is_workless(scene), rates.senses.rubs
         flanks = _flanks(scene, ties, workless)
         statics = _statics(scene, reaction_basis.with_flanks(scene.position, ties, flanks))
-        found = pressed(statics, senses) if workless else static_range(statics, senses)
+        found = pressed(statics, senses) if workless else static_range(statics, senses, scene.alone)
         proven = [_proven_end(scene, statics, end) for end in found.ends]
     bounds = [bound for each in proven for bound in each.bounds.values()]
     why = next((each.why for each in proven if each.why), "" if bounds else UNENDING)
@@ -423,6 +423,8 @@ class FrictionScene(NamedTuple):
     """the same on balls, of as many digits as that takes, where bounds are asked for"""
     trace: Callable[[], Bounded | None] | None = None
     """the same on a tape"""
+    alone: bool = False
+    """whether what is said of other solutions is left out"""
 
 
 def rubbing_of(scene: FrictionScene, solved: Solved, rates: Sequence[float]) -> tuple[Rubbing, ...]:

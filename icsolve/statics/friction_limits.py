@@ -57,7 +57,7 @@ class Slid(NamedTuple):
     others: tuple[float, ...]
 
 
-def slid(statics: Statics, senses: Sequence[float], workless: bool) -> Slid:
+def slid(statics: Statics, senses: Sequence[float], workless: bool, alone: bool = False) -> Slid:
     """Solve the friction of given senses.
 
     Parameters
@@ -65,6 +65,7 @@ def slid(statics: Statics, senses: Sequence[float], workless: bool) -> Slid:
     statics : with friction as parameters
     senses : (rubs,), 1, -1 or 0: those of the rubbing motions of the second links
     workless : whether the unknown load does no work, so that the frictions alone balance the known ones
+    alone : whether other solutions beside the one that grows out of no friction are not looked for
 
     Raises
     ------
@@ -76,7 +77,7 @@ def slid(statics: Statics, senses: Sequence[float], workless: bool) -> Slid:
         if not statics.rubs:  # what could draw a rope that slips does not
             raise SceneError(Status.NO_VALUE, _draws_nothing(statics))
         return _workless(statics, senses)
-    found = solutions(equations.equations)
+    found = solutions(equations.equations, alone)
     if found.main is None:
         return _unconnected(statics, equations, found)
     return _of(statics, equations, found.main, found.others, found.unique)
@@ -210,13 +211,14 @@ class StaticRange(NamedTuple):
     again: tuple[float, ...] = ()
 
 
-def static_range(statics: Statics, senses: Sequence[float]) -> StaticRange:
+def static_range(statics: Statics, senses: Sequence[float], alone: bool = False) -> StaticRange:
     """The interval of the one unknown load.
 
     Parameters
     ----------
     statics : of one motion and one unknown load, with friction as parameters
     senses : (rubs,), those of the rubs in the motion, 1, -1 or 0
+    alone : whether what friction that is not about to slip can hold is not looked for
 
     Returns
     -------
@@ -225,6 +227,8 @@ def static_range(statics: Statics, senses: Sequence[float]) -> StaticRange:
     """
     ends = [end for d in (1.0, -1.0) if (end := _end(statics, [d * s for s in senses])) is not None]
     found = range_of(ends)
+    if alone:
+        return found
     possible, how = _possible(statics, senses, (found.least, found.most))
     unbounded = math.isinf(found.least) or math.isinf(found.most)
     again = _again(statics, senses, found.least, found.most) if unbounded else ()

@@ -72,14 +72,14 @@ class Solutions(NamedTuple):
     grows: bool = False
 
 
-def solutions(equations: Lengths) -> Solutions:
+def solutions(equations: Lengths, alone: bool = False) -> Solutions:
     """The solutions of a fixed point y = |v(y)|: one where it contracts, else followed from no friction and
-    counted.
+    counted (``alone``: only where that one stops on the way).
     """
     if contraction(equations) is not None:
         return Solutions(contracted(equations), (), CONTRACTS)
     main, share, grows = followed(equations)
-    found = all_roots(equations)
+    found = None if alone and main is not None else all_roots(equations)
     if found is None:
         return Solutions(main, (), "", share, grows)
     others = tuple(y for y in found if main is None or not near(y, main))

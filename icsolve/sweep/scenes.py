@@ -57,7 +57,7 @@ def _one(table: Table, row: int, case_of: Callable[[int], Case], missing: bool) 
     try:
         case = case_of(row)
         if missing:
-            answer = solve_scene(case, rates=table.lacks_rates(row))
+            answer = solve_scene(case, rates=table.lacks_rates(row), alone=True)
         else:
             answer = solve_scene(
                 case,
@@ -65,6 +65,7 @@ def _one(table: Table, row: int, case_of: Callable[[int], Case], missing: bool) 
                 all_centres=bool(asked.centres),
                 examine=bool(asked.points),
                 dynamic=asked.dynamic,
+                alone=True,
             )
         table.fill(row, answer, missing)
     except SceneError as error:
