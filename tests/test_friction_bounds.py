@@ -7,6 +7,7 @@ link, nor of any friction; the load that it ends at is the true one.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from fractions import Fraction
 from random import Random
@@ -391,3 +392,69 @@ motion: {link: 2, turns: cw}
     assert with_mu.answers == without.answers
     assert with_mu.reactions == without.reactions
     assert with_mu.notes[0].startswith("3-5 at E does not rub in this motion")
+
+
+DEAD = """
+icsolve: 1
+points: {{A: [0, 0], C: [unknown, 0]}}
+lengths: {{AB: {crank:.3f}, BC: {rod:.3f}}}
+angles: {{AB: {angle!r}}}
+near: {{C: [{far:.3f}, 0]}}
+joints:
+  - {{pin: [1, 2], at: A, mu: 0.15, radius: {radius:.3f}}}
+  - {{pin: [2, 3], at: B, mu: 0.25, radius: {radius:.3f}}}
+  - {{pin: [3, 4], at: C, mu: 0.2, radius: {radius:.3f}}}
+  - {{slide: [4, 1], at: C, along: 0, mu: {mu:.3f}}}
+loads:
+  T: {{torque: {torque}, link: 2}}
+  P: {{force: {force}, link: 4, at: C, angle: 180}}
+  W: {{weight: {weight}, link: 3, at: B}}
+motion: {{link: 2, turns: {turns}}}
+"""
+
+
+def test_beside_a_dead_centre_every_load_is_proven_or_jams() -> None:
+    """The force's share in the sum of power is next to none there: rounding makes roots that are none."""
+    proven = 0
+    for seed in range(24 * MORE):
+        rng = Random(seed)
+        numbers = {
+            "crank": rng.uniform(0.5, 1.5),
+            "rod": rng.uniform(2.0, 5.0),
+            "angle": rng.choice([0.0, 180.0]) + rng.choice([1, -1]) * 10.0 ** rng.uniform(-13, -10),
+            "radius": rng.uniform(0.02, 0.1),
+            "mu": rng.uniform(0.05, 0.3),
+        }
+        torque, force = ("10", "unknown") if seed % 2 else ("unknown", "100")
+        weight, turns = rng.choice([5, 0.3]), rng.choice(["cw", "ccw"])
+        far = numbers["crank"] + numbers["rod"]
+        text = DEAD.format(far=far, torque=torque, force=force, weight=weight, turns=turns, **numbers)
+        try:
+            (found,) = icsolve.solve(icsolve.load(text)).answers.values()
+        except icsolve.SceneError as refusal:
+            found = None
+            assert refusal.status in ("jam", "ambiguous"), seed  # noqa: PT017
+        if found is not None:
+            assert found.error is not None, seed
+            assert found.error <= 2.0 * math.ulp(found.value), seed
+            proven += 1
+    assert proven >= 6
+
+
+@pytest.mark.parametrize("gap", ["1e-9", "-1e-12", "1e-13"])
+def test_pins_that_wedge_a_rod_at_its_dead_centre_do_it_in_both_senses(gap: str) -> None:
+    """T = |F| (a + (1 + r/l) b + r/l c), with the friction circles a, b, c: the rod pushes or pulls.
+
+    Its force leans by the circles, which counts by their square.
+    """
+    text = DEAD.format(
+        crank=1, rod=4, angle=float(gap), far=5, radius=0.1, mu=0, torque=10, force="unknown", weight=0,
+        turns="ccw",
+    ).replace("  W: {weight: 0, link: 3, at: B}\n", "")  # fmt: skip
+    a, b, c = (0.1 * math.sin(math.atan(mu)) for mu in (0.15, 0.25, 0.2))
+    force = 10 / (a + 1.25 * b + 0.25 * c)
+    with pytest.raises(icsolve.SceneError) as refused:
+        icsolve.solve(icsolve.load(text))
+    assert refused.value.status == "ambiguous"
+    values = [float(one) for one in re.findall(r"-?\d+\.?\d*", refused.value.message)]
+    assert values == pytest.approx([2, -force, force], rel=1e-3)

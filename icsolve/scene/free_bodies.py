@@ -56,8 +56,13 @@ def _enclose(parts: AnswerBuilder) -> Enclose:
     """Asks the scene on balls."""
     from icsolve.statics.error_bound import SceneOnBalls
 
+    known: dict[int, SceneOnBalls] = {}
+
     def placed(found: Evaluation) -> SceneOnBalls:
-        return SceneOnBalls(_position(found), found.outcome.balance, speed_of(found), found.arithmetic)
+        if id(found) not in known:  # the scene keeps what it has evaluated
+            position, balance = _position(found), found.outcome.balance
+            known[id(found)] = SceneOnBalls(position, balance, speed_of(found), found.arithmetic, {})
+        return known[id(found)]
 
     def ask(question: Callable[[SceneOnBalls], T]) -> T:
         return parts.scene.ask(lambda found: question(placed(found)))

@@ -226,13 +226,30 @@ def _pairing(force: Components, apart: Components) -> Scalar:
     return _sum(f * a for f, a in zip(force, apart, strict=True))
 
 
+Flanks = Mapping[int, float]
+Senses = Sequence[tuple[float, ...]]
+
+
 class SceneOnBalls(NamedTuple):
-    """A scene on balls, and which of its motions is meant."""
+    """A scene on balls, and which of its motions is meant; ``made`` keeps its statics."""
 
     position: Position
     balance: Balance
     speed: Speed
     arithmetic: Showing
+    made: dict[object, Statics]
+
+    def statics(self, flanks: Flanks, rope_senses: Senses) -> Statics:
+        """The equilibrium of its links, with the teeth on these flanks and ropes that slip so.
+
+        Raises MoreDigits where the balls leave a pivot open.
+        """
+        key = (tuple(sorted(flanks.items())), tuple(rope_senses))
+        if key not in self.made:
+            position = slipping(self.position, rope_senses)
+            ties = with_flanks(position, ties_of(position), flanks)
+            self.made[key] = equilibrium(position, ties, self.balance, rubs_of(position, ties))
+        return self.made[key]
 
 
 def enclosed(scene: SceneOnBalls, solved: Solved, senses: Sequence[float]) -> Solved | None:
@@ -246,10 +263,9 @@ def enclosed(scene: SceneOnBalls, solved: Solved, senses: Sequence[float]) -> So
     rope_senses = [tie.senses for tie in solved.statics.ropes]
     if not _moves_so(scene, senses, rope_senses):
         return None
-    position = slipping(scene.position, rope_senses)
-    ties = with_flanks(position, ties_of(position), carrying_flanks(position, solved.statics.ties, solved))
-    rubs = rubs_of(position, ties)
-    statics = equilibrium(position, ties, scene.balance, rubs)
+    flanks = carrying_flanks(scene.position, ties_of(scene.position), solved)
+    statics = scene.statics(flanks, rope_senses)
+    rubs = statics.rubs
     roots = {statics.root(n): solved.unknowns[q] * statics.scale for n, q in enumerate(statics.roots)}
     largest = max(map(abs, solved.statics.filled(solved.parameters).values()))
     every = {statics.rub(k): f for k, f in enumerate(solved.friction) if senses[k]}

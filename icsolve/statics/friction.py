@@ -17,6 +17,7 @@ from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import Speed, fastest
 from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers.sparse import General, Row
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import Statics, equilibrium
 from icsolve.statics.error_bound import (
@@ -87,13 +88,12 @@ def in_motion(scene: FrictionScene, reactions: bool = False) -> Slipping:
     ties, workless = ties_of(scene.position), _is_workless(scene)
     slides: list[Slid] = []
 
-    def solve(flanked: Sequence[Tie]) -> Solved:
-        statics = _statics(scene, flanked)
+    def solve(flanks: Mapping[int, float]) -> Solved:
+        statics = _statics(scene, ties, flanks)
         slides.append(slid(statics, senses, workless, scene.alone))
         return Solved(statics, slides[-1].unknowns, slides[-1].friction)
 
-    first = _flanks(scene, ties, workless)
-    rough = on_flanks(first, lambda flanks: solve(reaction_basis.with_flanks(scene.position, ties, flanks)))
+    rough = on_flanks(_flanks(scene, ties, workless), solve)
     proven = _proven(scene, rough, senses)
     solved = rough if proven.why else rough._replace(unknowns=dict(proven.values), friction=proven.friction)
     bodies = _bodies(scene, solved, slides[-1], rates)
@@ -166,8 +166,7 @@ def at_rest(scene: FrictionScene) -> tuple[StaticRange, float | None, str]:
         found, proven = _range_with_ropes(scene, rates)
     else:
         ties, workless, senses = ties_of(scene.position), _is_workless(scene), rates.senses.rubs
-        flanks = _flanks(scene, ties, workless)
-        statics = _statics(scene, reaction_basis.with_flanks(scene.position, ties, flanks))
+        statics = _statics(scene, ties, _flanks(scene, ties, workless))
         found = pressed(statics, senses) if workless else static_range(statics, senses, scene.alone)
         proven = [_proven_end(scene, statics, end) for end in found.ends]
     bounds = [bound for each in proven for bound in each.bounds.values()]
@@ -214,8 +213,7 @@ def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[Static
     for direction in (1.0, -1.0):
         one = _slipping(scene, rates, direction)
         ties = ties_of(one.position)
-        flanks = _flanks(one, ties, False)
-        statics = _statics(one, reaction_basis.with_flanks(one.position, ties, flanks))
+        statics = _statics(one, ties, _flanks(one, ties, False))
         end = end_of(statics, [direction * sense for sense in rates.senses.rubs])
         if end is None:
             raise SceneError(Status.NO_VALUE, nothing_rubs(statics))
@@ -270,13 +268,18 @@ def _is_workless(scene: FrictionScene) -> bool:
     return scene.solution.verdict in ("no value", "any value") and not slips
 
 
-def _statics(scene: FrictionScene, ties: Sequence[Tie]) -> Statics:
-    """Statics with the rubs of the ties.
+def _statics(scene: FrictionScene, ties: Sequence[Tie], flanks: Mapping[int, float]) -> Statics:
+    """Statics with the rubs of the ties; its numbers those of balls, rounded, where bounds are asked for.
 
     Raises SceneError where the joints leave a rubbing force open.
     """
-    rubs = rubs_of(scene.position, ties)
-    statics = equilibrium(scene.position, ties, scene.balance, rubs)
+    ties = reaction_basis.with_flanks(scene.position, ties, flanks)
+    statics = equilibrium(scene.position, ties, scene.balance, rubs_of(scene.position, ties))
+    senses = [tie.senses for tie in statics.ropes]
+    if scene.enclose is not None:
+        with suppress(SceneError):  # what no digits decide is left to rounding
+            exact = scene.enclose(lambda placed: placed.statics(flanks, senses))
+            statics = statics._replace(general=_in_floats(exact.general))
     refuse_doubt(len(statics.general.left), scene.position.mobility)
     try:
         forces_of(statics)
@@ -284,6 +287,15 @@ def _statics(scene: FrictionScene, ties: Sequence[Tie]) -> Statics:
         tie = ties[error.args[0]]
         raise SceneError(Status.UNSUPPORTED, _shared(tie, ties)) from None
     return statics
+
+
+def _in_floats(general: General) -> General:
+    solved = {c: _floats(row) for c, row in general.solved.items()}
+    return General(solved, general.free, tuple(map(_floats, general.left)), tuple(map(float, general.pivots)))
+
+
+def _floats(row: Row) -> Row:
+    return {c: float(a) for c, a in row.items()}
 
 
 def _shared(tie: Tie, ties: Sequence[Tie]) -> str:

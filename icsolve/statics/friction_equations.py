@@ -131,8 +131,11 @@ def newton(equations: Lengths, start: Sequence[float], most: int = MOST_STEPS) -
 def scale_at(equations: Lengths, y: Sequence[float]) -> float:
     """The largest term in any of the forms: what rounding is measured by."""
     forms = [*equations.lengths, *(form for forms in equations.vectors for form in forms)]
-    terms = (abs(f[0]) + sum(abs(a * x) for a, x in zip(f[1:], y, strict=True)) for f in forms)
-    return max(terms, default=0.0) or 1.0
+    return max((_size(form, y) for form in forms), default=0.0) or 1.0
+
+
+def _size(form: Form, y: Sequence[float]) -> float:
+    return abs(form[0]) + sum(abs(a * x) for a, x in zip(form[1:], y, strict=True))
 
 
 def contraction(equations: Lengths) -> list[list[float]] | None:
@@ -175,12 +178,12 @@ def error_of(equations: Lengths, y: Sequence[float]) -> float:
 
 
 def is_sound(equations: Lengths, y: Sequence[float]) -> bool:
-    """Whether no length is negative and every contact pushes (but for rounding)."""
-    least = -1e-10 * scale_at(equations, y)
-    if any(at(form, y) < least for form in equations.lengths):
-        return False
-    touching = (forms for forms, only in zip(equations.vectors, equations.touching, strict=True) if only)
-    return all(at(forms[0], y) >= least for forms in touching)
+    """Whether no length is negative and every contact pushes (but for the rounding of its own terms)."""
+    for length, forms, only in zip(equations.lengths, equations.vectors, equations.touching, strict=True):
+        least = -1e-13 * max(_size(form, y) for form in (length, *forms))
+        if at(length, y) < least or (only and at(forms[0], y) < least):
+            return False
+    return True
 
 
 OPEN = 1e-9
@@ -203,10 +206,13 @@ class Reduced(NamedTuple):
     loads: tuple[Form, ...]
     gains: tuple[float, ...]
 
+    def sizes(self, y: Sequence[float]) -> tuple[float, ...]:
+        """Sizes of the forces that press."""
+        return tuple(at(form, y) for form in self.equations.lengths)
+
     def friction(self, y: Sequence[float]) -> tuple[float, ...]:
         """Friction at every rub, on the tie's second link; a size below zero is rounding of zero."""
-        sizes = (max(at(form, y), 0.0) for form in self.equations.lengths)
-        return tuple(gain * size for gain, size in zip(self.gains, sizes, strict=True))
+        return tuple(gain * max(size, 0.0) for gain, size in zip(self.gains, self.sizes(y), strict=True))
 
     def load(self, y: Sequence[float]) -> tuple[float, ...]:
         """Unknown loads, scaled."""
@@ -303,7 +309,8 @@ def _touching(statics: Statics) -> list[bool]:
 
 
 def reduced_workless(statics: Statics, senses: Sequence[float]) -> Reduced | None:
-    """The equations where the one unknown load does no work: the frictions alone balance the known loads.
+    """The equations where the one unknown load does no work, or next to none: the frictions alone balance the
+    known loads.
 
     y are the sizes of the forces, but for the one whose friction counts most: it follows from the sum of
     power, and the unknown load (scaled) stands in its place. None where no friction does work.
@@ -314,8 +321,9 @@ def reduced_workless(statics: Statics, senses: Sequence[float]) -> Reduced | Non
     most = max(range(len(powers)), key=lambda k: abs(powers[k]))
     if not powers[most]:
         return None
-    others = tuple(-p / powers[most] if k != most else 0.0 for k, p in enumerate(powers))
-    length: Form = (-left.get(statics.known, 0.0) / powers[most], *others)
+    powers[most], largest = left.get(statics.root(0), 0.0), powers[most]
+    others = tuple(-p / largest for p in powers)
+    length: Form = (-left.get(statics.known, 0.0) / largest, *others)
     n = len(gains)
     lengths = tuple(length if k == most else _alone(k, n, 1.0) for k in range(n))
     frictions = tuple(tuple(gain * a for a in form) for form, gain in zip(lengths, gains, strict=True))

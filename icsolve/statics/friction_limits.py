@@ -33,7 +33,16 @@ from icsolve.statics.friction_equations import (
     reduced,
     reduced_workless,
 )
-from icsolve.statics.homotopy import COUNTED, Solutions, all_roots, followed, solutions, without_friction
+from icsolve.statics.homotopy import (
+    COUNTED,
+    Solutions,
+    Y,
+    all_roots,
+    followed,
+    near,
+    solutions,
+    without_friction,
+)
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
@@ -77,44 +86,58 @@ def slid(statics: Statics, senses: Sequence[float], workless: bool, alone: bool 
         if not statics.rubs:  # what could draw a rope that slips does not
             raise SceneError(Status.NO_VALUE, _draws_nothing(statics))
         return _workless(statics, senses)
-    found = solutions(equations.equations, alone)
-    if found.main is None:
-        return _unconnected(statics, equations, found)
-    return _of(statics, equations, found.main, found.others, found.unique)
+    found = solutions(equations.equations)
+    if found.main is not None and (found.unique or alone):
+        return _of(statics, equations, found.main, (), found.unique)
+    by, roots = _counted(statics, senses, equations)
+    unique = "" if roots is None else COUNTED
+    others = [y for y in roots or () if found.main is None or not near(by.sizes(y), found.main)]
+    if found.main is not None:
+        loads = tuple(by.load(other)[0] / statics.scale for other in others if by.loads)
+        return _of(statics, equations, found.main, loads, unique)
+    if len(others) == 1:
+        return _of(statics, by, others[0], (), unique)
+    if others:
+        raise SceneError(Status.AMBIGUOUS, _several(statics, sorted(by.load(y)[0] for y in others)))
+    raise SceneError(Status.JAM, _jam(statics, found, unique))
+
+
+def _counted(statics: Statics, senses: Sequence[float], equations: Reduced) -> tuple[Reduced, list[Y] | None]:
+    """All solutions, and the equations of which they are some; None where they are too many.
+
+    Where the load does next to no work beside some friction, that is eliminated in its place: rounding over a
+    share of next to nothing makes solutions that are none.
+    """
+    alone = len(statics.roots) == len(statics.general.left) == 1
+    if alone and any(abs(a) > LITTLE for a in equations.loads[0][1:]):
+        equations = reduced_workless(statics, senses) or equations
+    return equations, all_roots(equations.equations)
+
+
+LITTLE = 1e4
+"""So many times the work of the load that of a friction is far more."""
 
 
 def _of(
-    statics: Statics, equations: Reduced, y: Sequence[float], others: Sequence[Sequence[float]], unique: str
+    statics: Statics, equations: Reduced, y: Sequence[float], others: tuple[float, ...], unique: str
 ) -> Slid:
     loads = [value / statics.scale for value in equations.load(y)]
-    friction = equations.friction(y)
     error = error_of(equations.equations, y)
-    values = tuple(equations.load(other)[0] / statics.scale for other in others if equations.loads)
-    return Slid(dict(zip(statics.roots, loads, strict=True)), friction, error, unique, values)
+    return Slid(dict(zip(statics.roots, loads, strict=True)), equations.friction(y), error, unique, others)
 
 
-def _unconnected(statics: Statics, equations: Reduced, found: Solutions) -> Slid:
-    """Where friction stops the solution that grows out of none: another one, if there is just one."""
-    if found.unique and len(found.others) == 1:
-        return _of(statics, equations, found.others[0], (), found.unique)
-    if found.others:
-        values = sorted(equations.load(y)[0] / statics.scale for y in found.others)
-        raise SceneError(Status.AMBIGUOUS, _several(statics, values))
-    raise SceneError(Status.JAM, _jam(statics, found))
-
-
-def _several(statics: Statics, values: Sequence[float]) -> str:
-    shown = listed(f"{value:.6g}" for value in values)
+def _several(statics: Statics, scaled: Sequence[float]) -> str:
+    shown = listed(f"{value / statics.scale:.6g}" for value in scaled)
     return (
-        f"with this friction the motion is in equilibrium at {len(values)} values of {statics.roots[0]}: "
+        f"with this friction the motion is in equilibrium at {len(scaled)} values of {statics.roots[0]}: "
         f"{shown}. None of them grows out of the equilibrium without friction: reduce `mu`, or take another "
         "position."
     )
 
 
-def _jam(statics: Statics, found: Solutions) -> str:
+def _jam(statics: Statics, found: Solutions, unique: str) -> str:
     way = "the forces grow without bound" if found.grows else "its equilibrium ends"
-    sure = "" if found.unique else " (more solutions than could be counted were not looked for)"
+    sure = "" if unique else " (more solutions than could be counted were not looked for)"
     return (
         f"the mechanism jams: no value of {listed(statics.roots)} keeps up the given motion. As friction is "
         f"brought in, {way} at {100.0 * found.share:.4g} % of the given coefficients{sure}. Reduce `mu`, or "
@@ -134,7 +157,8 @@ def _workless(statics: Statics, senses: Sequence[float]) -> Slid:
         raise SceneError(Status.NO_VALUE, _nothing_balances(statics))
     if len(found) > 1:
         found.sort(key=lambda y: abs(equations.load(y)[0]))
-    return _of(statics, equations, found[0], found[1:], COUNTED)
+    loads = tuple(equations.load(other)[0] / statics.scale for other in found[1:])
+    return _of(statics, equations, found[0], loads, COUNTED)
 
 
 def _draws_nothing(statics: Statics) -> str:
@@ -252,8 +276,8 @@ def _again(statics: Statics, senses: Sequence[float], least: float, most: float)
     for direction in (1.0, -1.0):
         equations = reduced(statics, [direction * s for s in senses])
         if equations is not None:
-            roots = all_roots(equations.equations) or []
-            found |= {equations.load(y)[0] / statics.scale for y in roots}
+            by, roots = _counted(statics, [direction * s for s in senses], equations)
+            found |= {by.load(y)[0] / statics.scale for y in roots or ()}
     room = 1e-9 * max((abs(end) for end in (least, most) if math.isfinite(end)), default=0.0)
     return tuple(sorted(value for value in found if value < least - room or value > most + room))
 

@@ -53,37 +53,28 @@ NEAR = 0.05
 
 
 class Solutions(NamedTuple):
-    """The solutions of the friction equations.
+    """The solution of the friction equations that grows out of none.
 
     Attributes
     ----------
-    main : continues the frictionless solution, (rubs,) [scaled force]; None: it stops at ``share`` of the
-        friction
-    others : all other solutions, where ``unique`` is not empty
-    unique : how it is known that there are no more; empty where they were too many to count
+    main : (rubs,) [scaled force]; None: it stops at ``share`` of the friction
+    unique : how it is known that there are no others; empty where that is not known
     share : fraction of full friction to which ``main`` could be followed
     grows : whether its forces grew without bound there
     """
 
     main: Y | None
-    others: tuple[Y, ...]
     unique: str
     share: float = 1.0
     grows: bool = False
 
 
-def solutions(equations: Lengths, alone: bool = False) -> Solutions:
-    """The solutions of a fixed point y = |v(y)|: one where it contracts, else followed from no friction and
-    counted (``alone``: only where that one stops on the way).
-    """
+def solutions(equations: Lengths) -> Solutions:
+    """That of a fixed point y = |v(y)|: the one where it contracts, else followed from no friction."""
     if contraction(equations) is not None:
-        return Solutions(contracted(equations), (), CONTRACTS)
+        return Solutions(contracted(equations), CONTRACTS)
     main, share, grows = followed(equations)
-    found = None if alone and main is not None else all_roots(equations)
-    if found is None:
-        return Solutions(main, (), "", share, grows)
-    others = tuple(y for y in found if main is None or not near(y, main))
-    return Solutions(main, others, COUNTED, share, grows)
+    return Solutions(main, "", share, grows)
 
 
 def near(y: Sequence[float], other: Sequence[float]) -> bool:
