@@ -17,10 +17,12 @@ from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider, magnitude
 from icsolve.numbers.sparse import Row, eliminate
 from icsolve.screws.space import AXES, ZERO, Components, Vec, moved
 from icsolve.statics.equilibrium import Action, Equilibrium, columns_of, load_action, solve_statics
+from icsolve.statics.free_bodies import carrying
 from icsolve.statics.power import (
     PowerFactors,
     PowerRow,
     UnitWrench,
+    balance,
     beside,
     force_scale,
     power_rows,
@@ -39,6 +41,7 @@ from icsolve.statics.space.reaction_basis import (
     spring_length,
     vector_of,
 )
+from icsolve.statics.witness import refuse_doubt
 from icsolve.tuples import NamedTuple
 
 SpatialStatics = Equilibrium[SpatialTie]
@@ -193,18 +196,44 @@ def _left(row: PowerRow, numbers: Sequence[Scalar]) -> tuple[float, float]:
     return rest, math.fsum(size * abs(float(n)) for size, n in zip(row.sizes, numbers, strict=True))
 
 
-def spatial_statics(
-    case: Case,
-    figure: SpatialFigure,
-    ties: tuple[SpatialTie, ...],
-    powers: SpatialFactors,
-) -> SpatialStatics:
-    """Solve the equilibrium of every link in space but the frame: six equations a link.
+class SpatialSolution(NamedTuple):
+    """Motions, unknown loads by power, and the equilibrium of all bodies: six equations each."""
 
-    Parameters and result as of `icsolve.statics.equilibrium.equilibrium`.
+    case: Case
+    figure: SpatialFigure
+    twists: Twists
+    powers: SpatialFactors
+    balance: SpatialBalance
+    statics: SpatialStatics
+
+    @property
+    def parameters(self) -> Mapping[int, Scalar]:
+        """Values of the columns of the loads."""
+        return self.statics.parameters(self.balance.unknowns)
+
+    @property
+    def mobility(self) -> int:
+        """Motions that the joints leave."""
+        return count_of(self.twists)
+
+    def carrying(self, t: int) -> float:
+        """Sign of the force in a mesh along its unit; 1 for no force."""
+        return carrying(self.statics, self.parameters, t)
+
+
+def solution_of(
+    case: Case, figure: SpatialFigure, ties: tuple[SpatialTie, ...], loads: tuple[SpatialWrench, ...]
+) -> SpatialSolution:
+    """Both ways to the unknown loads of a case in space, by power and by equilibrium.
+
+    Raises SceneError where the two count different freedoms.
     """
+    twists = motions_of(case, ties, figure.arithmetic)
+    powers = balance(loads, twists, count_of(twists))
     bare = columns_of(ties, powers, figure.arithmetic)
-    return solve_statics(bare, _actions(bare, figure, powers.wrenches), case.ground)
+    statics = solve_statics(bare, _actions(bare, figure, loads), case.ground)
+    refuse_doubt(len(statics.general.left), count_of(twists))
+    return SpatialSolution(case, figure, twists, powers, balance_of(powers, figure.arithmetic), statics)
 
 
 def _actions(

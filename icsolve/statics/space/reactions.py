@@ -30,17 +30,8 @@ from icsolve.screws.space import AXES, Vec, cross, dot, size, square_to, sub, ti
 from icsolve.statics.equilibrium import value_of
 from icsolve.statics.power import unknown_loads
 from icsolve.statics.reactions import REDUNDANT, SHARED, left_open, names_by_tie
-from icsolve.statics.space.power import (
-    NEARLY,
-    SpatialBalance,
-    SpatialFactors,
-    SpatialStatics,
-    SpatialWrench,
-    Twists,
-    count_of,
-    is_couple,
-)
-from icsolve.statics.space.reaction_basis import SpatialFigure, SpatialFrame, SpatialTie
+from icsolve.statics.space.power import NEARLY, SpatialBalance, SpatialSolution, SpatialWrench, is_couple
+from icsolve.statics.space.reaction_basis import SpatialFigure, SpatialTie
 from icsolve.structure.topology import reached
 from icsolve.wording import senses, sentences
 from icsolve.wording.sentences import plural, wrong_count
@@ -85,11 +76,9 @@ def _heading_words(heading: Along | Vector | FromTo, forth: bool) -> str:
             return direction_words(unit((sign * x.value, sign * y.value, sign * z.value)))
 
 
-def terms_of_power(
-    case: Case, powers: SpatialFactors, values: Mapping[str, float], a: Arithmetic
-) -> tuple[Term, ...]:
+def terms_of_power(solved: SpatialSolution, values: Mapping[str, float], a: Arithmetic) -> tuple[Term, ...]:
     """The sum of power, for the motion in which the one unknown load moves at 1 (length or rad a second)."""
-    unknowns = unknown_loads(powers)
+    case, powers, unknowns = solved.case, solved.powers, unknown_loads(solved.powers)
     if len(unknowns) != 1:
         return ()
     (one,), loads = unknowns, powers.wrenches
@@ -191,33 +180,22 @@ ROUNDING = 1e-15
 """In floats a sum below this fraction of its terms is none."""
 
 
-def reactions_of(
-    case: Case, frame: SpatialFrame, statics: SpatialStatics, parameters: Mapping[int, Scalar], a: Showing
-) -> SpatialReactions:
-    """Every joint's reaction [case units]; ``parameters`` are the known loads and the unknown ones."""
-    reader = _Reader(case, frame, statics, parameters, a)
-    found = SpatialReactions()
-    for t, name in enumerate(names_by_tie(case, statics.ties)):
-        found[name] = reader.reaction(t)
-    return found
+def reactions_of(solved: SpatialSolution, a: Showing) -> SpatialReactions:
+    """Every joint's reaction [case units]."""
+    reader, names = _Reader(solved, a), names_by_tie(solved.case, solved.statics.ties)
+    return SpatialReactions((name, reader.reaction(t)) for t, name in enumerate(names))
 
 
 class _Reader:
     """Reads forces and couples along given directions off the general solution."""
 
-    def __init__(
-        self,
-        case: Case,
-        frame: SpatialFrame,
-        statics: SpatialStatics,
-        parameters: Mapping[int, Scalar],
-        a: Showing,
-    ) -> None:
-        self.case, self.frame, self.statics, self.parameters, self.a = case, frame, statics, parameters, a
+    def __init__(self, solved: SpatialSolution, a: Showing) -> None:
+        self.case, self.frame, self.a = solved.case, solved.figure.frame, a
+        self.statics, self.parameters = statics, parameters = solved.statics, solved.parameters
         self.sizes = statics.open_sizes()
         self.largest = max((abs(statics.value(c, parameters)) for c in range(statics.known)), default=0.0)
-        num, den, pi = case.units.exact_torque
-        self.per_torque = a.ratio((den, num, -pi)) * frame.scale
+        num, den, pi = self.case.units.exact_torque
+        self.per_torque = a.ratio((den, num, -pi)) * self.frame.scale
         self.rows = [statics.transmitted(t) for t in range(len(statics.ties))]
 
     def along(self, rows: Sequence[Row], direction: Vec) -> Scalar | None:
@@ -334,12 +312,10 @@ def refuse_loose(case: Case, ties: Sequence[SpatialTie]) -> None:
         raise SceneError(Status.LOOSE, sentences.loose(case, loose))
 
 
-def refuse_unbalanced(
-    figure: SpatialFigure, twists: Twists, powers: SpatialFactors, balance: SpatialBalance
-) -> None:
+def refuse_unbalanced(solved: SpatialSolution) -> None:
     """Refuse unknown loads that have no value, or any, and known loads that nothing balances."""
-    unknowns = unknown_loads(powers)
-    if unknowns and not count_of(twists):
+    unknowns, balance = unknown_loads(solved.powers), solved.balance
+    if unknowns and not solved.mobility:
         raise SceneError(
             Status.STRUCTURE,
             f"the joints hold every link, so any value of {unknowns[0].load.name} is carried. Give it a "
@@ -349,7 +325,12 @@ def refuse_unbalanced(
     if balance.free:
         raise _undetermined(unknowns, balance, unbalanced)
     if unbalanced:
-        raise SceneError(Status.MOBILITY, _driven(figure, twists, powers, balance))
+        raise SceneError(
+            Status.MOBILITY,
+            f"the joints leave {plural(solved.mobility, 'degree')} of freedom and the loads do not balance: "
+            f"they drive a motion in which {driven_motion(solved)}. Add an unknown load that does work on "
+            "it, or a joint that prevents it; or correct a point or a load that is off.",
+        )
 
 
 def _undetermined(unknowns: Sequence[SpatialWrench], balance: SpatialBalance, unbalanced: bool) -> SceneError:
@@ -368,30 +349,21 @@ def _undetermined(unknowns: Sequence[SpatialWrench], balance: SpatialBalance, un
     return SceneError(Status.ANY_VALUE, f"{said} The joints carry it; ask for another load.")
 
 
-def _driven(figure: SpatialFigure, twists: Twists, powers: SpatialFactors, balance: SpatialBalance) -> str:
-    words = driven_motion(figure, twists, powers, balance)
-    return (
-        f"the joints leave {plural(count_of(twists), 'degree')} of freedom and the loads do not balance: "
-        f"they drive a motion in which {words}. Add an unknown load that does work on it, or a joint that "
-        "prevents it; or correct a point or a load that is off."
-    )
-
-
-def driven_motion(
-    figure: SpatialFigure, twists: Twists, powers: SpatialFactors, balance: SpatialBalance
-) -> str:
+def driven_motion(solved: SpatialSolution) -> str:
     """The motion that the loads drive most, by that of the first loaded link that takes part."""
+    balance = solved.balance
     rests = zip(balance.unbalanced, balance.left, strict=True)
     shares = [rest / most if rest else 0.0 for rest, (_, most) in rests]
     most = max(range(len(shares)), key=lambda m: abs(shares[m]))
     back = shares[most] < 0.0
-    motion = {q: [-float(a) if back else float(a) for a in each[most]] for q, each in twists.items()}
-    link = moving(motion, [w.load.link for w in powers.wrenches])
-    return motion_words(link, motion, figure)
+    motion = {q: [-float(a) if back else float(a) for a in each[most]] for q, each in solved.twists.items()}
+    link = moving(motion, [w.load.link for w in solved.powers.wrenches])
+    return motion_words(link, motion, solved.figure)
 
 
-def refuse_huge(statics: SpatialStatics, parameters: Mapping[int, Scalar]) -> None:
+def refuse_huge(solved: SpatialSolution) -> None:
     """Refuse forces that only a figure out of true by its last digits would make."""
+    statics, parameters = solved.statics, solved.parameters
     loads = max((abs(value) for value in parameters.values()), default=0.0)
     values = [abs(statics.value(column, parameters)) for column in range(statics.known)]
     if loads and max(values, default=0.0) > HUGE * loads:
@@ -406,34 +378,24 @@ def refuse_huge(statics: SpatialStatics, parameters: Mapping[int, Scalar]) -> No
 HUGE = 1e6
 
 
-def notes_of(
-    figure: SpatialFigure,
-    twists: Twists,
-    powers: SpatialFactors,
-    balance: SpatialBalance,
-    statics: SpatialStatics,
-    reactions: SpatialReactions,
-) -> tuple[str, ...]:
+def notes_of(solved: SpatialSolution, reactions: SpatialReactions) -> tuple[str, ...]:
     """All that a reader of the answer should know."""
-    working, mobility, notes = len(balance.unknowns), count_of(twists), []
+    balance, mobility, notes = solved.balance, solved.mobility, []
+    working = len(balance.unknowns)
     if not mobility:
         notes.append("the joints hold every link: statics alone gives the reactions.")
     if mobility > working:
         idle = plural(mobility - working, "degree")
         notes.append(f"the joints leave {idle} of freedom in which the loads are in balance.")
     if balance.off:
-        words = driven_motion(figure, twists, powers, balance)
         notes.append(
-            f"the loads balance to a fraction of {balance.off:.1g} only (a motion in which {words}): taken "
-            "as balanced, the rest being rounding of the data."
+            f"the loads balance to a fraction of {balance.off:.1g} only (a motion in which "
+            f"{driven_motion(solved)}): taken as balanced, the rest being rounding of the data."
         )
-    return (*notes, *_not_unique(statics, reactions))
-
-
-def _not_unique(statics: SpatialStatics, reactions: SpatialReactions) -> Iterable[str]:
     named = [part for name, reaction in reactions.items() for part in _open_parts(name, reaction)]
     if named:
-        yield left_open(statics, named, REDUNDANT)
+        notes.append(left_open(solved.statics, named, REDUNDANT))
+    return tuple(notes)
 
 
 def _open_parts(name: str, reaction: SpatialReaction) -> Iterable[str]:

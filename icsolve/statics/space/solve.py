@@ -16,23 +16,12 @@ from icsolve.answer import Answer, Deferred, Found
 from icsolve.answer.space import Spatial
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS, Scalar, Showing
+from icsolve.numbers.arithmetic import FLOATS, Showing
 from icsolve.numbers.balls import PRECISIONS, Balls, HalfUnits, MoreDigits, is_long
 from icsolve.numbers.given import numbers_in
-from icsolve.statics.free_bodies import carrying, on_flanks
-from icsolve.statics.power import advantage, balance, load_value
-from icsolve.statics.space.power import (
-    SpatialBalance,
-    SpatialFactors,
-    SpatialStatics,
-    SpatialWrench,
-    Twists,
-    balance_of,
-    count_of,
-    motions_of,
-    spatial_statics,
-    wrenches,
-)
+from icsolve.statics.free_bodies import on_flanks
+from icsolve.statics.power import advantage, load_value
+from icsolve.statics.space.power import SpatialSolution, solution_of, wrenches
 from icsolve.statics.space.reaction_basis import (
     SpatialFigure,
     SpatialTie,
@@ -61,31 +50,8 @@ from icsolve.statics.witness import (
     unknowns_of,
     witnesses,
 )
-from icsolve.tuples import NamedTuple, replace
+from icsolve.tuples import replace
 from icsolve.wording.sentences import EXPLAINED
-
-
-class SpatialSolution(NamedTuple):
-    """Motions, unknown loads by power, and the equilibrium of all bodies."""
-
-    twists: Twists
-    balance: SpatialBalance
-    statics: SpatialStatics
-    powers: SpatialFactors
-
-    @property
-    def parameters(self) -> Mapping[int, Scalar]:
-        """Values of the columns of the loads."""
-        return self.statics.parameters(self.balance.unknowns)
-
-    @property
-    def mobility(self) -> int:
-        """Motions that the joints leave."""
-        return count_of(self.twists)
-
-    def carrying(self, t: int) -> float:
-        """Sign of the force in a mesh along its unit; 1 for no force."""
-        return carrying(self.statics, self.parameters, t)
 
 
 def solve_space(case: Case, bound: bool = True) -> Answer:
@@ -130,20 +96,19 @@ def _solve(case: Case, a: Showing) -> Answer:
     refuse_loose(case, ties)
     solved = _on_carrying_flanks(case, figure, ties)
     statics = solved.statics
-    refuse_unbalanced(figure, solved.twists, solved.powers, solved.balance)
+    refuse_unbalanced(solved)
     terms = terms_of(statics, solved.parameters)
     bounds = bounds_of(statics, powers_of(statics, solved.powers), solved.twists, terms)
-    refuse_huge(statics, solved.parameters)
+    refuse_huge(solved)
     unknowns = unknowns_of(statics)
     if unknowns is None:
         refuse_doubt(0, solved.mobility)
     by_power = {q: (float(x), 0.0) for q, x in solved.balance.unknowns.items()}
     found = witnesses(by_power, {q: float(x) for q, x in (unknowns or {}).items()}, bounds)
     refuse_apart(found, 0.0)
-    reactions = reactions_of(case, figure.frame, statics, solved.parameters, a)
+    reactions = reactions_of(solved, a)
     spatial = Spatial(_named(figure), reactions, found, residual(terms))
-    notes = notes_of(figure, solved.twists, solved.powers, solved.balance, statics, reactions)
-    return _answer(case, solved, bounds, spatial, notes, a)
+    return _answer(solved, bounds, spatial, a)
 
 
 def _on_carrying_flanks(case: Case, figure: SpatialFigure, ties: tuple[SpatialTie, ...]) -> SpatialSolution:
@@ -151,21 +116,11 @@ def _on_carrying_flanks(case: Case, figure: SpatialFigure, ties: tuple[SpatialTi
     loads = wrenches(case, figure)
 
     def solve(flanks: Mapping[int, float]) -> SpatialSolution:
-        return _solved(case, figure, flanked(ties, flanks), loads)
+        return solution_of(case, figure, flanked(ties, flanks), loads)
 
     meshes = [t for t, tie in enumerate(ties) if tie.mesh]
     found = solve({})
     return on_flanks({t: found.carrying(t) for t in meshes}, solve) if meshes else found
-
-
-def _solved(
-    case: Case, figure: SpatialFigure, ties: tuple[SpatialTie, ...], loads: tuple[SpatialWrench, ...]
-) -> SpatialSolution:
-    twists = motions_of(case, ties, figure.arithmetic)
-    powers = balance(loads, twists, count_of(twists))
-    statics = spatial_statics(case, figure, ties, powers)
-    refuse_doubt(len(statics.general.left), count_of(twists))
-    return SpatialSolution(twists, balance_of(powers, figure.arithmetic), statics, powers)
 
 
 def _named(figure: SpatialFigure) -> dict[str, tuple[float, float, float]]:
@@ -173,15 +128,8 @@ def _named(figure: SpatialFigure) -> dict[str, tuple[float, float, float]]:
     return {name: (x, y, z) for name, (x, y, z) in shown.items()}
 
 
-def _answer(
-    case: Case,
-    solved: SpatialSolution,
-    bounds: Mapping[str, float],
-    spatial: Spatial,
-    notes: tuple[str, ...],
-    a: Showing,
-) -> Answer:
-    exact, values, found = solved.balance.unknowns, {}, {}
+def _answer(solved: SpatialSolution, bounds: Mapping[str, float], spatial: Spatial, a: Showing) -> Answer:
+    case, exact, values, found = solved.case, solved.balance.unknowns, {}, {}
     for w in solved.powers.wrenches:
         value, error = a.rounded(load_value(w, exact, a))
         if w.root in exact:
@@ -193,10 +141,10 @@ def _answer(
     return Answer(
         case=case,
         answers=found,
-        terms=terms_of_power(case, solved.powers, values, a),
+        terms=terms_of_power(solved, values, a),
         advantage=advantage(solved.powers.wrenches, exact, a),
         mobility=solved.mobility,
-        notes=notes,
+        notes=notes_of(solved, spatial.reactions),
         sensitivities=Deferred(_no_sensitivities),
         spatial=spatial,
     )
