@@ -85,6 +85,11 @@ class JointKind:
         return None
 
     @property
+    def helix(self) -> Helix | None:
+        """The slant of its teeth."""
+        return None
+
+    @property
     def direction(self) -> Number | None:
         """The angle that directs it, degrees."""
         return None
@@ -253,11 +258,6 @@ class Mesh(JointKind):
     @property
     def diametral_pitch(self) -> Number | None:
         """Teeth for each unit of the pitch diameter."""
-        return None
-
-    @property
-    def helix(self) -> Helix | None:
-        """The slant of its teeth."""
         return None
 
 

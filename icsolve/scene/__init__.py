@@ -121,8 +121,8 @@ def _has_long_numbers(case: Case) -> bool:
 def judged(parts: AnswerBuilder, reactions: bool) -> Answer:
     """The answer of an evaluated scene; refused where power does not determine it."""
     rubs = parts.program.want.bodies and refusals.rubs(parts.case)
-    if not (rubs and refusals.is_workless(parts.outcome.motions, parts.outcome.solution)):
-        _refuse_unbalanced(parts)
+    if not (rubs and refusals.is_workless(parts.outcome)):
+        parts.scene.ask(_refuse_unbalanced)
     if rubs:
         from icsolve.scene.free_bodies import with_friction
 
@@ -135,11 +135,6 @@ def judged(parts: AnswerBuilder, reactions: bool) -> Answer:
     return parts.answer()
 
 
-def _refuse_unbalanced(parts: AnswerBuilder) -> None:
+def _refuse_unbalanced(found: Evaluation) -> None:
     """Refuse unknown loads that power does not determine."""
-
-    def refuse(found: Evaluation) -> None:
-        top, (_, motions, balance, solution) = found.program.top, found.outcome
-        refusals.refuse_unbalanced(parts.case, top, motions, balance, solution, found.arithmetic)
-
-    parts.scene.ask(refuse)
+    refusals.refuse_unbalanced(found.program.case, found.program.top, found.outcome, found.arithmetic)

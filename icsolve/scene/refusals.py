@@ -78,20 +78,16 @@ def rubs(case: Case) -> bool:
     return any(power.is_unknown(load) for load in case.loads) and power.has_friction(case)
 
 
-def is_workless(motions: Motions, solution: power.Solution) -> bool:
+def is_workless(outcome: power.Outcome) -> bool:
     """Whether the one unknown load of a mechanism does no work: with friction it may still balance."""
-    return solution.verdict in ("no value", "any value") and motions.mobility == 1
+    return outcome.solution.verdict in ("no value", "any value") and outcome.motions.mobility == 1
 
 
 def refuse_unbalanced(
-    case: Case,
-    top: Topology,
-    motions: Motions,
-    balance: power.Balance,
-    solution: power.Solution,
-    arithmetic: Arithmetic = FLOATS,
+    case: Case, top: Topology, outcome: power.Outcome, arithmetic: Arithmetic = FLOATS
 ) -> None:
     """Refuse unknown loads that have no value, or any, or are not as many as the freedoms."""
+    motions, solution = outcome.motions, outcome.solution
     unknowns = sum(power.is_unknown(load) for load in case.loads)
     if solution.verdict == "balanced" or not unknowns:
         return
@@ -103,18 +99,12 @@ def refuse_unbalanced(
         ends = sentences.free_ends(top, case)
         message = sentences.wrong_count(motions.mobility, unknowns, len(solution.idle), ends)
         raise SceneError(Status.MOBILITY, message)
-    raise _no_work(case, top, motions, balance, solution, arithmetic)
+    raise _no_work(case, top, outcome, arithmetic)
 
 
-def _no_work(
-    case: Case,
-    top: Topology,
-    motions: Motions,
-    balance: power.Balance,
-    solution: power.Solution,
-    arithmetic: Arithmetic,
-) -> SceneError:
+def _no_work(case: Case, top: Topology, outcome: power.Outcome, arithmetic: Arithmetic) -> SceneError:
     """An unknown that does no work: a dead centre, no value, or any value."""
+    _, motions, balance, solution = outcome
     culprit = next(w for w in balance.wrenches if w.load.name == solution.culprit)
     others = solution.verdict == "no value"
     if culprit.load.link == culprit.against:

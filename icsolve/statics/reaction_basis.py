@@ -169,18 +169,39 @@ def _end_tie(position: Position, tie: RopeTie) -> Tie:
 
 
 def _tie(position: Position, bond: Bond) -> Tie:
-    joint, (by, on) = bond.joint, bond.links
-    if not joint.freedom:
+    joint, (by, on), points = bond.joint, bond.links, position.points
+    if bond.pivots[0]:
+        at, units = _on_pivots(position, bond)
+        return Tie(joint, by, on, at, "", units, bond.pivots)
+    meshed = isinstance(joint, Mesh)
+    if meshed or not joint.freedom:  # its links move as one: it may carry anything
         where = joint.at or _meeting(position, by, on)
-        return Tie(joint, by, on, position.points.get(where, (0.0, 0.0)), where, (X, Y, COUPLE))
-    if isinstance(joint, Mesh) and not bond.pivots[0]:  # its links move as one: it may carry anything
-        at = position.points.get(_meeting(position, by, on), (0.0, 0.0))
-        return Tie(joint, by, on, at, "", (X, Y, COUPLE))
-    where, at = _place(bond, position.points, position.arithmetic)
-    found = Tie(joint, by, on, at, where, _units(position, bond, at), bond.pivots)
+        return Tie(joint, by, on, points.get(where, (0.0, 0.0)), "" if meshed else where, (X, Y, COUPLE))
+    at = (0.0, 0.0) if joint.at is None else points[joint.at]
+    basis = freedoms(bond, points, position.arithmetic)
+    if position.slack and joint.has_written_centre:
+        basis = _as_it_moves(position, bond, basis)
+    where = joint.at if joint.at is not None and not joint.at.startswith("@") else ""
+    found = Tie(joint, by, on, at, where, _forces(tuple(_seen(b, at) for b in basis)))
     if isinstance(joint, Guided) and joint.thread is not None:
         return _screwed(position, found, Screw(joint, joint.thread))
     return found
+
+
+def _on_pivots(position: Position, bond: Bond) -> tuple[Point, tuple[Force, ...]]:
+    """Where a mesh or a belt acts, and the two parts of its force: it is one constraint, but all passes that
+    does no work on the turning about the pitch point (a tangential and a separating force, two strands).
+
+    The forces of a belt lie along the line of the pivots, and across it through the pitch point; where that
+    lies at infinity, since the pulleys turn as one, the second is a couple.
+    """
+    pitch = pitch_point(bond, position.points, position.arithmetic)
+    if not bond.joint.pulls:
+        return (pitch[0] / pitch[2], pitch[1] / pitch[2]), _forces(((0.0, 0.0, 1.0),))
+    (ax, ay), (bx, by) = (position.points[p] for p in bond.pivots)
+    at, (dx, dy) = ((ax + bx) / 2.0, (ay + by) / 2.0), (bx - ax, by - ay)
+    x, y, w = shift(pitch, at)
+    return at, ((dx, dy, 0.0), (0.0 - w * dy, w * dx, x * dx + y * dy))
 
 
 def _screwed(position: Position, slide: Tie, screw: Screw) -> Tie:
@@ -217,47 +238,6 @@ def _meeting(position: Position, by: str, on: str) -> str:
     mine, other = ([p for p in carries.get(link, ()) if p in points] for link in (by, on))
     named = [p for p in (*(p for p in mine if p in other), *other, *mine) if not p.startswith("@")]
     return named[0] if named else ""
-
-
-def _place(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[str, Point]:
-    joint = bond.joint
-    if isinstance(joint, Mesh) and joint.pulls:
-        (ax, ay), (bx, by) = (points[p] for p in bond.pivots)
-        return "", ((ax + bx) / 2.0, (ay + by) / 2.0)
-    if isinstance(joint, Mesh):
-        x, y, w = pitch_point(bond, points, arithmetic)
-        return "", (x / w, y / w)
-    at = joint.at
-    if at is None:
-        return "", (0.0, 0.0)
-    return ("" if at.startswith("@") else at), points[at]
-
-
-def _units(position: Position, bond: Bond, at: Point) -> tuple[Force, ...]:
-    """What the joint transmits: the wrenches that do no work on the freedoms that it leaves.
-
-    A mesh or a belt is one constraint, but the force in it has two unknown parts (tangential and
-    separating, the pulls of two strands): all that does no work on the turning about the pitch point.
-    """
-    meshed = isinstance(bond.joint, Mesh)
-    if meshed and not bond.joint.pulls:
-        return _forces(((0.0, 0.0, 1.0),))
-    basis = freedoms(bond, position.points, position.arithmetic)
-    if meshed:
-        return _pulls(bond, position.points, shift(basis[0], at))
-    if position.slack and bond.joint.has_written_centre:
-        basis = _as_it_moves(position, bond, basis)
-    return _forces(tuple(_seen(b, at) for b in basis))
-
-
-def _pulls(bond: Bond, points: Points, pitch: Triple) -> tuple[Force, ...]:
-    """The forces of a belt: along the line of the pivots, and across it through the pitch point.
-
-    That lies at infinity where the pulleys turn as one, and the second is a couple.
-    """
-    (ax, ay), (bx, by) = (points[p] for p in bond.pivots)
-    (x, y, w), (dx, dy) = pitch, (bx - ax, by - ay)
-    return (dx, dy, 0.0), (0.0 - w * dy, w * dx, x * dx + y * dy)
 
 
 def _seen(b: Triple, at: Point) -> Triple:
@@ -307,7 +287,7 @@ def _along_action(position: Position, tie: Tie, flank: float) -> Tie:
         return tie._replace(units=((tx, ty, 0.0), (sx, sy, 0.0)))
     cosine, sine = position.arithmetic.turn(tie.joint.pressure_angle)
     apart = sine / cosine
-    helix = tie.joint.helix if isinstance(tie.joint, Mesh) else None
+    helix = tie.joint.helix
     if helix is not None and helix.normal:  # the tangent in the plane is that of the normal section / cos
         apart = apart / position.arithmetic.turn(helix.angle)[0]
     return tie._replace(units=((flank * tx + apart * sx, flank * ty + apart * sy, 0.0),))
@@ -334,7 +314,7 @@ def axial_shares(position: Position, tie: Tie, tangential: Scalar) -> list[tuple
     about the wheel L at its radius [case torque]; where the span of the bearings is given, ``bearing L`` is
     what each carries more for that couple [force].
     """
-    helix = tie.joint.helix if isinstance(tie.joint, Mesh) else None
+    helix = tie.joint.helix
     if helix is None:
         return []
     a = position.arithmetic

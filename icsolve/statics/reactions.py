@@ -221,11 +221,13 @@ def _why(tie: Tie, kept: list[Scalar | None]) -> str:
     if None not in kept:
         boxed = tie.joint.stands_in
         return "a given centre stands for joints that the case does not show" if boxed else ""
-    if isinstance(tie.joint, Mesh) and not tie.pivots[0]:
+    if not isinstance(tie.joint, Mesh):
+        return SHARED
+    if not tie.pivots[0]:
         return "its links are fixed to each other: what it carries hangs on how it was fitted"
-    if isinstance(tie.joint, Mesh) and tie.joint.pulls:
+    if tie.joint.pulls:
         return "the pull of the slack strand is not given: only the difference of the two pulls is determined"
-    if isinstance(tie.joint, Mesh) and tie.joint.pressure_angle is None:
+    if tie.joint.pressure_angle is None:
         return "the part that pushes the gears apart needs `pressure angle`"
     return SHARED
 

@@ -263,7 +263,7 @@ def statics(scene: RecordedScene, everything: bool) -> RecordedStatics:
     balance = power.balance(wrenches, motions.twists, motions.mobility)
     solution = power.solve_balance(balance, scene.record)
     try:
-        refusals.refuse_unbalanced(case, top, motions, balance, solution)
+        refusals.refuse_unbalanced(case, top, power.Outcome(scene.points, motions, balance, solution))
     except SceneError as error:
         return RecordedStatics({}, motions, error, balance)
     answers = {w.load.name: w.ratio * solution.values[w.root] for w in wrenches if w.root in solution.values}
