@@ -12,7 +12,7 @@ import pytest
 from mpmath import mp
 
 from icsolve.case import Number
-from icsolve.numbers.balls import Ball, Balls, BelowZero, MoreDigits
+from icsolve.numbers.balls import Ball, Balls, BelowZero, HalfUnits, MoreDigits
 
 many = mp.clone()
 many.dps = 400
@@ -199,6 +199,14 @@ def test_at_the_highest_precision_what_lies_within_1e_40_of_its_terms_is_zero_an
     assert balls.vanishes(nothing, 1e-90)  # within what a frame of size 1 spends of the digits
     with pytest.raises(MoreDigits):
         balls.vanishes(nothing * 1e35, 1e-90)
+
+
+@pytest.mark.parametrize("kind", [Balls, HalfUnits])
+def test_a_zero_is_shown_without_a_sign(kind: type[Balls]) -> None:
+    balls = kind(30, highest=True)
+    x = balls.given(Number(0.1234567890123456, 0.0, "a", "0.1234567890123456"))
+    for nothing in (x - x, -(x - x), (x - x) * -1.0):
+        assert math.copysign(1.0, balls.rounded(nothing, 1.0)[0]) == 1.0
 
 
 def test_the_context_of_the_program_that_calls_does_not_matter() -> None:

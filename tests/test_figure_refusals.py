@@ -322,6 +322,12 @@ def test_a_direction_between_points_that_coincide(pin: str) -> None:
     assert_refused(text, Status.CANNOT_ASSEMBLE, "C has no place", "from B to A, and these coincide")
 
 
+def test_a_guide_between_points_that_coincide() -> None:
+    text = "points: {A: [0, 0], C: [2, 1], D: [2, 1], P: [3, 1]}\njoints: [{pin: [1, 2], at: A}, "
+    text += "{slide: [3, 2], at: P, along: [C, D]}]\n"
+    assert_refused(text, Status.INCONSISTENT, "the guide of P has no direction: CD are one point")
+
+
 def test_too_many_open_branches() -> None:
     names = [f"P{k}" for k in range(40)]
     lengths = ", ".join(f"{a}-{b}: 1.1" for a, b in zip(names[2:], names[1:], strict=False))

@@ -26,7 +26,7 @@ from icsolve.answer.bodies import Witness
 from icsolve.report.text import answer_text
 from icsolve.scene.program import Want, evaluate, prepare
 from icsolve.scene.sensitivity import influences
-from icsolve.statics import friction
+from icsolve.statics import friction, homotopy
 from icsolve.statics.error_bound import Exact, SceneOnBalls, SlidingSolution, Weights, enclosed, step
 from icsolve.statics.free_bodies import Solved
 from icsolve.statics.friction_equations import Lengths, error_of, newton
@@ -369,6 +369,16 @@ def test_the_error_of_rubs_is_how_far_they_are_off_and_at_most_twice_that(own: f
         at = 3.0 / (own - 0.3) * (1.0 + off)
         found = error_of(Lengths(((0.0, own),), (((3.0, 0.3),),), (False,)), [at])
         assert abs(off) * 0.99 <= found <= 1.01 * most * abs(off)
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_the_end_of_a_path_is_real_or_not_at_any_size(size: float) -> None:
+    """Of homogeneous numbers: what all are multiplied by says nothing."""
+    for by in (1.0, 1e-4j, 1e4 + 1e4j):
+        assert homotopy._real([by, by * size, -3.0 * by * size]) == pytest.approx([size, -3.0 * size])
+        assert homotopy._real([by, by * 1e3 * (1.0 + 1e-6j)]) == pytest.approx([1e3])
+        assert homotopy._real([by, by * 1e3 * (1.0 + 1e-4j)]) is None
+        assert homotopy._real([1e-9 * by, by]) is None
 
 
 def test_rubs_whose_equations_have_no_slope_have_no_solution() -> None:

@@ -45,6 +45,13 @@ def test_another_point_of_the_rod_runs_straight_for_an_instant_only() -> None:
     assert BINDS in note(text)
 
 
+def test_of_a_joint_with_two_freedoms_nothing_is_said_of_the_second_order() -> None:
+    """The third block of the small circle left out: its pin slides in the guide."""
+    text = rod_on_three_guides("2.2, -0.4", "[O, C]").replace("{slide: [4, 1], at: C", "{slot: [5, 1], at: C")
+    said = note(text.replace("  - {pin: [4, 5], at: C}\n", ""))
+    assert "1 redundant constraint" in said and MOVES not in said and BINDS not in said
+
+
 def pinned(points: str, pairs: str) -> str:
     """Links pinned two by two at A, B, C, ..., a torque on the last link, another to find on link 2."""
     names = [chr(65 + k) for k in range(len(pairs.split()))]

@@ -402,6 +402,12 @@ loads:
 """
 SCENES = {
     "driven": (DOOR % ("5", "along: y"), "mobility", "link 2 turns about the line through A and B"),
+    "driven elsewhere": (
+        DOOR.replace("at: C", "at: B").replace("at: A", "at: C").replace("D:", "E: [1, 0, 3], D:")
+        % ("5", "along: y"),
+        "mobility",
+        "link 2 turns about the line through C and E",
+    ),
     "any value": (DOOR % ("unknown", "along: x"), "any-value", "any value of P balances"),
     "structure": (
         DOOR.replace("hinge", "weld").replace(", axis: z", "") % ("unknown", "along: x"),

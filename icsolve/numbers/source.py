@@ -6,7 +6,9 @@ from one function, which reduces it exactly (`arithmetic.turn_of`).
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from itertools import chain
 
 from icsolve.numbers.record import Op, Record, live, operands
 from icsolve.tuples import NamedTuple
@@ -104,12 +106,7 @@ def straight_line(
         Lines without indentation, to be run in order. Angles are in degrees.
     """
     order = live(record, wanted, inputs)
-    uses: dict[int, int] = dict.fromkeys(order, 0)
-    for k in order:
-        for n in operands(record, k) if k not in inputs else ():
-            uses[n] = uses.get(n, 0) + 1
-    for k in wanted:
-        uses[k] = uses.get(k, 0) + 1
+    uses = Counter(chain(wanted, *(operands(record, k) for k in order if k not in inputs)))
     text: dict[int, tuple[str, int]] = {k: (name, 0) for k, name in inputs.items()}
     lines: list[str] = []
     names: list[str] = []
