@@ -117,7 +117,7 @@ def test_the_directions_of_a_box_are_those_of_its_corners_and_all_about_the_orig
         assert max(offs) <= high - first <= max(offs) + 3e-13, (xs, ys)
 
 
-def test_a_direction_that_is_the_same_in_all_rows_is_known_to_three_units_of_half_a_turn() -> None:
+def test_a_direction_that_does_not_vary_is_known_to_three_units_of_half_a_turn_or_of_itself() -> None:
     draw = Random("still direction")
     for _ in range(30):
         x, y = draw.uniform(-1.0, 1.0), draw.uniform(-1.0, 1.0)
@@ -125,6 +125,8 @@ def test_a_direction_that_is_the_same_in_all_rows_is_known_to_three_units_of_hal
         found = record.angle(record.about(x, 0.0), record.about(y, 0.0))
         off = abs(many.degrees(many.atan2(y, x)) - found.value)
         assert off <= still_noise(record, found.index) <= 3.0 * math.ulp(180.0)
+        taped = Tape().angle(x, y)
+        assert off <= taped.tape.bound(taped) <= 2.0**-51 * abs(found.value)
 
 
 def test_what_is_divided_by_a_range_with_zero_in_it_or_by_a_constant_that_is_zero_is_unbounded() -> None:

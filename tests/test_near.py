@@ -260,11 +260,11 @@ def test_a_group_that_does_not_close_about_near_is_not_found_elsewhere_in_silenc
 
 
 def test_a_group_whose_near_is_far_from_all_that_comes_close_is_found_and_that_said() -> None:
-    """A plate on three legs, with a `near` some three times its size away."""
+    """A plate on three legs, with a `near` farther off than the figure is large."""
     text = """icsolve: 1
 points: {A: [0, 0], B: [5, 0], C: [3, 4]}
 lengths: {AP: 1.803, BQ: 1.664, CR: 1.612, PQ: 3.513, QR: 2.247, PR: 1.836}
-near: {P: [4.7, 2.4], Q: [5.8, -2.4], R: [8.1, 6.9]}
+near: {P: [3.7, -4.3], Q: [3.4, 4.1], R: [-1.1, 7.9]}
 joints: [{pin: [1, 2], at: A}, {pin: [1, 3], at: B}, {pin: [1, 4], at: C}]
 """
     figure = solve_figure(load(text), ["P", "Q", "R"])

@@ -93,17 +93,21 @@ def test_one_percent_more_of_the_only_load_is_one_percent_more_torque() -> None:
     assert by_path["loads.P"].percent == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize(("force", "arm"), [(1, 1), (3, 1), (1, 3), (0, 1), (2, 0.5)])
-def test_a_torque_of_one_force_depends_on_the_force_and_its_arm(force: float, arm: float) -> None:
-    """T = -F a: slopes a and F, and one per cent a per cent where neither is zero."""
+@pytest.mark.parametrize(("force", "arm"), [(1, 1), (3, 1), (-1, 3), (0, 1), (-2, 0.5)])
+def test_a_torque_depends_on_a_force_and_its_arm(force: float, arm: float) -> None:
+    """T = -(F + 2) a: slope -a, and F / (F + 2) per cent a per cent where neither F nor T is zero."""
     case = icsolve.load(
         f"icsolve: 1\npoints: {{A: [0, 0], B: [{arm}, 0]}}\njoints: [{{pin: [1, 2], at: A}}]\n"
-        f"loads: {{F: {{force: {force}, link: 2, at: B, angle: 90}}, T: {{torque: unknown, link: 2}}}}"
+        f"loads: {{F: {{force: {force}, link: 2, at: B, angle: 90}}, "
+        "G: {force: 2, link: 2, at: B, angle: 90}, T: {torque: unknown, link: 2}}"
     )
-    slopes = {
-        i.path: (i.per_unit, i.percent) for i in influences(icsolve.solve(case), "T") if i.value == force
-    }
-    assert slopes.get("loads.F") == (pytest.approx(-arm), pytest.approx(1.0) if force else None)
+    (found,) = (i for i in influences(icsolve.solve(case), "T") if i.path == "loads.F")
+    percent = force / (force + 2) if force not in (0, -2) else None
+    assert (found.value, found.per_unit, found.percent) == (
+        force,
+        pytest.approx(-arm),
+        pytest.approx(percent),
+    )
 
 
 def test_the_strongest_comes_first() -> None:

@@ -162,8 +162,8 @@ class Roped(NamedTuple):
     scale: float
 
     def is_round(self, k: int) -> bool:
-        """Whether it goes round its circle ``k``, which has a size."""
-        return type(self.offsets[k]) is not float or self.offsets[k] != 0.0
+        """Whether it goes round its place ``k``, a pulley or a drum."""
+        return self.rope.radii[k] is not None
 
     def part(self, k: int, places: Places, record: Record) -> RopePart:
         """A straight part where the bodies are."""
