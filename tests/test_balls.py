@@ -5,14 +5,19 @@ from __future__ import annotations
 import decimal
 import math
 from fractions import Fraction
+from pathlib import Path
 from random import Random
 from typing import Any
 
 import pytest
 from mpmath import mp
 
+import icsolve
 from icsolve.case import Number
 from icsolve.numbers.balls import Ball, Balls, BelowZero, HalfUnits, MoreDigits
+from icsolve.scene.parts import scene_of
+
+CASES = Path(__file__).parent.parent / "cases"
 
 many = mp.clone()
 many.dps = 400
@@ -231,3 +236,22 @@ def test_a_number_is_rounded_once_and_its_error_is_at_most_two_ulps(seed: int) -
     true = Fraction(a, b)
     assert value == a / b
     assert abs(Fraction(value) - true) <= Fraction(error) <= 2 * Fraction(math.ulp(value))
+
+
+def test_nothing_times_anything_is_nothing() -> None:
+    """An exact zero stays exact, whatever it is multiplied by: what lies on an axis is on it."""
+    a = Balls(30)
+    zero, third = a.ball(1.0) - a.ball(1.0), a.ball(1.0) / a.ball(3.0)
+    for product in (zero * third, third * zero):
+        assert (product, type(product)) == (0.0, float)
+
+
+def test_a_centre_on_an_axis_needs_no_more_digits() -> None:
+    """Waldron, Kinzel and Agrawal, problem 13.8: the rocker turns about a pivot on the x axis, so its centre
+    with the crank lies there, by the structure of its twist and not by a difference that vanishes."""
+    answer = icsolve.solve(icsolve.load(CASES / "ch13" / "13_08_four_bar.yaml"))
+    scene = scene_of(answer)
+    assert scene is not None
+    _, y, _ = scene.first.outcome.motions.twists["4"][0]
+    assert (type(y), y) == (float, 0.0)
+    assert answer.centres["2", "4"].place[1] == 0.0

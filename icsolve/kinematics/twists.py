@@ -213,6 +213,8 @@ def all_motions(
     return LoopMotions({body: tuple(m[body] for m in motions) for body in tree.branches}, found)
 
 
+Seen = tuple[Triple, Point]
+"""A twist, and the origin from which it is seen."""
 LONG = 4
 """Plans with more groups are rescaled by powers of two on the way: determinants multiply up."""
 
@@ -259,10 +261,10 @@ class _Pool:
         self.drift = 0.0
         """log2 of what rescaling by whole powers of two has left of the common scale"""
 
-    def put(self, found: dict[int, Triple], o: Point) -> None:
+    def put(self, found: Mapping[int, Seen]) -> None:
         """Hold twists at the present level."""
         level = len(self.factors)
-        for body, twist in found.items():
+        for body, (twist, o) in found.items():
             self.held[body] = (twist, o, level)
 
     def now(self, body: int, o: Point) -> Triple:
@@ -273,7 +275,7 @@ class _Pool:
         if level < len(self.factors):
             for factor in self.factors[level:]:
                 twist = times(factor, twist)
-            self.put({body: twist}, own)
+            self.put({body: (twist, own)})
         return twist if own is o else shift(twist, (o[0] - own[0], o[1] - own[1]))
 
     def all_now(self) -> dict[int, Triple]:
@@ -310,23 +312,23 @@ def run(plan: Plan, top: Topology, bases: Bases, arithmetic: Arithmetic) -> Run:
     pool = _Pool()
     entry = top.bonds[plan.entry]
     o = _origin(bases[plan.entry][0])
-    pool.put({entry.a: ORIGIN, entry.b: _seen(bases[plan.entry][0], o)}, o)
+    pool.put({entry.a: (ORIGIN, o), entry.b: (_seen(bases[plan.entry][0], o), o)})
     closures = []
     for group in plan.groups:
-        closure, found, o = _close(group, top, bases, arithmetic, pool)
+        closure, found = _close(group, top, bases, arithmetic, pool)
         if len(plan.groups) > LONG:
             closure, found = _rescaled(closure, found, pool)
         closures.append(closure)
         pool.factors.append(closure.factor)
-        pool.put(found, o)
+        pool.put(found)
     return Run(pool.all_now(), tuple(closures))
 
 
-Closed = tuple[Closure, dict[int, Triple], Point]
-"""How a group closed, the twists of its bodies, and the origin from which they are seen."""
+Closed = tuple[Closure, dict[int, Seen]]
+"""How a group closed, and the twists of its bodies."""
 
 
-def _rescaled(closure: Closure, found: dict[int, Triple], pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
+def _rescaled(closure: Closure, found: dict[int, Seen], pool: _Pool) -> Closed:
     """Times a power of two that brings the largest determinant, and what was left over before, near 1.
 
     The largest alone would lie between 1/2 and 1 at every step, and all twists fade along a chain.
@@ -339,7 +341,7 @@ def _rescaled(closure: Closure, found: dict[int, Triple], pool: _Pool) -> tuple[
         scale = math.ldexp(1.0, -exponent)
     numerators = tuple(scale * value for value in closure.numerators)
     columns = tuple(times(scale, column) for column in closure.columns[:1]) + closure.columns[1:]
-    scaled = {body: times(scale, twist) for body, twist in found.items()}
+    scaled = {body: (times(scale, twist), o) for body, (twist, o) in found.items()}
     return Closure(closure.group, scale * closure.factor, numerators, columns), scaled
 
 
@@ -363,7 +365,7 @@ def _monad(group: Group, bases: Bases, pool: _Pool) -> Closed:
     first, second = _seen(line[0], o), _seen(line[1], o)
     r = subtract(tc, ta)
     d, s = monad_twist(here, cross(first, second), r)
-    return Closure(group, d, (s,), (first, second, here, r)), {body: blend(d, ta, s, here)}, o
+    return Closure(group, d, (s,), (first, second, here, r)), {body: (blend(d, ta, s, here), o)}
 
 
 def _on_carrier(group: Group, top: Topology) -> bool:
@@ -395,7 +397,7 @@ def _wheel(group: Group, mesh: Bond, bases: Bases, weights: tuple[Scalar, Scalar
     spin = pool.now(c, o)[2] - ta[2]
     p, q = weights if body == mesh.b else weights[::-1]
     d, s = p, -(q * spin)
-    return Closure(group, d, (s,)), {body: blend(d, ta, s, here)}, o
+    return Closure(group, d, (s,)), {body: (blend(d, ta, s, here), o)}
 
 
 def _dyad(group: Group, bases: Bases, pool: _Pool) -> Closed:
@@ -405,8 +407,17 @@ def _dyad(group: Group, bases: Bases, pool: _Pool) -> Closed:
     ta, tc = pool.now(a, o), pool.now(c, o)
     columns = (_seen(b1, o), _seen(b3, o), _seen(b2, o), subtract(tc, ta))
     d, s1, s2 = dyad_twists(*columns)
-    found = {u: blend(d, ta, s1, columns[0]), v: blend(d, tc, s2, columns[2])}
-    return Closure(group, d, (s1, s2), columns), found, o
+    found = {u: _hung(pool, a, b1, (d, s1), o), v: _hung(pool, c, b2, (d, s2), o)}
+    return Closure(group, d, (s1, s2), columns), found
+
+
+def _hung(pool: _Pool, root: int, basis: Triple, rates: tuple[Scalar, Scalar], o: Point) -> Seen:
+    """The twist of a body that a joint ties to a known one, as seen from its pin, where that is not turned
+    into a difference; else from o."""
+    own = _origin(basis)
+    own = o if own is FRAME else own
+    d, s = rates
+    return blend(d, pool.now(root, own), s, _seen(basis, own)), own
 
 
 def _origin(*bases: Triple) -> Point:
@@ -434,15 +445,20 @@ def _eliminated(group: Group, top: Topology, bases: Bases, pool: _Pool, arithmet
     roots = {body: pool.now(body, FRAME) for body in sorted(ends - set(group.bodies))}
     tree = span(top, group.bonds, roots, bases)
     if not ends <= tree.branches.keys():  # part of it hangs on nothing known: all joints at once then
-        return Closure(group, 0.0, (0.0,)), dict.fromkeys(group.bodies, ORIGIN), FRAME
+        return _open(group)
     rows = loop_rows(top, tree, bases, roots)
     solved = null_space(rows, tree.columns + 1, unit=1.0, vanishes=decider(arithmetic))
     if len(solved.basis) != 1:
-        return Closure(group, 0.0, (0.0,)), dict.fromkeys(group.bodies, ORIGIN), FRAME
+        return _open(group)
     rates = solved.basis[0]
     twists = twists_on(tree, rates, roots)
-    found = {body: twists[body] for body in group.bodies}
-    return Closure(group, rates[-1], tuple(rates[:-1])), found, FRAME
+    found = {body: (twists[body], FRAME) for body in group.bodies}
+    return Closure(group, rates[-1], tuple(rates[:-1])), found
+
+
+def _open(group: Group) -> Closed:
+    """A group that has more motions than the one that drives it."""
+    return Closure(group, 0.0, (0.0,)), dict.fromkeys(group.bodies, (ORIGIN, FRAME))
 
 
 CLEAR = 1e-6

@@ -140,6 +140,8 @@ class Ball:
             other = a.ball(other)
         value = a.multiply(self.value, other.value)
         m, n, r, s = self.size, other.size, self.radius, other.radius
+        if not value and (m == r == 0.0 or n == s == 0.0):
+            return 0.0
         size = m * n * a.up + TINY
         if r == 0.0 and s == 0.0:
             last = self.last + other.last
