@@ -62,6 +62,15 @@ def test_a_group_takes_the_way_nearest_to_near(links: int, spread: float) -> Non
         assert nearest or apart(places, draft.at) < 1e-6, (links, seed)
 
 
+def test_of_two_ways_that_are_nearly_one_the_nearer_is_found() -> None:
+    """The descent from `near` ends at one; the other lies 0.01 beside it and is nearer to `near`."""
+    draft = linkage(91212, 12)
+    for p in draft.names:
+        if p not in draft.points:
+            draft.approximately(p, 0.15)
+    assert apart(places_of(draft.case()), draft.at) < 1e-6
+
+
 def places_near(text: str) -> dict[str, Place]:
     """What a case says under `near`."""
     return {p: (float(x), float(y)) for p, (x, y) in yaml.safe_load(text)["near"].items()}

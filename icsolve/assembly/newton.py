@@ -159,6 +159,8 @@ class _NewtonSearch:
 
     def _starts(self, held: list[str]) -> Iterator[Start]:
         group, near = self.group, self.near
+        for end in list(self.found):
+            yield _twin(group, self.workspace, end)
         if self.found:
             yield from _about(near, self.found[0])
         if held:
@@ -177,6 +179,38 @@ def _about(near: Mapping[str, Spot], end: Start) -> Iterator[Start]:
     radius = max(math.dist(near[t], end[t]) for t in held)
     for k in range(1, SPREAD // 2 + 1):
         yield {t: even(k, j, near.get(t, end[t]), radius) for j, t in enumerate(end)}
+
+
+def _twin(group: Group, workspace: Workspace, end: Start) -> Start:
+    """Where the solution beside one that is nearly double is to be expected.
+
+    In the direction v in which the equations F change least (their derivatives J have the smallest singular
+    value there, with u: by inverse iteration) they change by s u.Jv + s^2 u.Q, and by nothing at s = 0 and
+    at the other root: the data are squares of distances, so that Q hardly depends on s.
+    """
+    workspace.points.update(end)
+    values, rows = group.system(workspace)
+    across: list[Row] = [{} for _ in rows]
+    for i, row in enumerate(rows):
+        for j, a in row.items():
+            across[j][i] = a
+    v = [1.0] * len(rows)
+    for _ in range(INVERSE_STEPS):
+        u = _unit(newton_step(v, across).move)
+        v = _unit(newton_step(u, rows).move)
+    slope = sum(w * sum(a * v[j] for j, a in row.items()) for w, row in zip(u, rows, strict=True))
+    workspace.points.update(_moved(end, v, -1.0))
+    after = group.system(workspace)[0]
+    bend = sum(w * (b - a) for w, a, b in zip(u, values, after, strict=True)) - slope
+    return _moved(end, v, slope / bend if bend else 0.0)
+
+
+def _unit(v: Sequence[float]) -> list[float]:
+    size = math.hypot(*v)
+    return [x / size for x in v] if size else list(v)
+
+
+INVERSE_STEPS = 4
 
 
 def even(k: int, j: int, about: Spot, reach: float) -> Spot:
