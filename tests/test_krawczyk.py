@@ -16,7 +16,7 @@ import transcribe
 from figures import without_order
 from icsolve.assembly import solve_figure
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.balls import Balls, MoreDigits
+from icsolve.numbers.balls import INEXACT, Ball, Balls, MoreDigits
 from icsolve.numbers.krawczyk import enclosed_root
 
 many = mp.clone()
@@ -43,6 +43,19 @@ def test_the_root_lies_in_its_balls(digits: int, offset: str) -> None:
     found = enclosed_root(circles(offset), [float(x) * (1 + 1e-13), float(y)], Balls(digits))
     for ball, true in zip(found, (x, y), strict=True):
         assert abs(many.mpf(str(ball.value)) - true) <= ball.radius < 10.0 ** (10 - digits)
+
+
+@pytest.mark.parametrize("spread", [0.0, 0.2, 0.4])
+def test_all_that_wide_data_allow_lies_in_the_ball(spread: float) -> None:
+    """a x = 1e-8 with a within 1 - spread and 1 + spread."""
+
+    def system(z: Any) -> Any:
+        a = Ball(z[0].arithmetic, Decimal(1), spread, 2.0, INEXACT)
+        return [a * z[0] - z[0].arithmetic.exactly(Decimal("1e-8"))], [{0: a}]
+
+    (found,) = enclosed_root(system, [1e-8], Balls(30))
+    for a in (1.0 - spread, 1.0, 1.0 + spread):
+        assert abs(float(found.value) - 1e-8 / a) <= found.radius + 1e-23 < 1e-6
 
 
 @pytest.mark.parametrize("offset", ["1", "1.0000000000000001"])

@@ -30,20 +30,12 @@ class Backward:
     record : the record
     targets : nodes whose errors are asked for
     exact : inputs that carry no rounding: signs, guesses, counts of turns
-    leaves : nodes that are given like inputs, and exact
 
     At most ``rows`` rows go through at once.
     """
 
-    def __init__(
-        self,
-        record: Record,
-        targets: Sequence[int],
-        exact: Iterable[int],
-        leaves: Iterable[int] = (),
-    ) -> None:
+    def __init__(self, record: Record, targets: Sequence[int], exact: Iterable[int]) -> None:
         self.record, self.targets, self.exact = record, targets, frozenset(exact)
-        self.leaves = frozenset(leaves)
         self.groups = {min(group.solved): group for group in record.implicit}
         self.member = {k: group for group in record.implicit for k in group.solved}
         nodes = self.reached(targets)
@@ -53,7 +45,7 @@ class Backward:
             for g, s in zip(group.guesses, group.solved, strict=True)
             if g in nodes
         }
-        self.code = Code(record, sorted(nodes), self.leaves & nodes, keep=True)
+        self.code = Code(record, sorted(nodes), keep=True)
         self.rows = SLICE if len(nodes) < MANY else SLICE // 4
         self._still: dict[int, float] = {}
         self._passes: dict[tuple[int, int], Pass] = {}
@@ -72,8 +64,6 @@ class Backward:
         return seen
 
     def _behind(self, k: int) -> Iterable[int]:
-        if k in self.leaves:
-            return ()
         op = self.record.nodes[k].op
         if op in (Op.COS, Op.SIN):
             return (*operands(self.record, k), k + 1 if op == Op.COS else self.record.nodes[k].b)
@@ -99,8 +89,7 @@ class Backward:
 
         Parameters
         ----------
-        given : by node, values of the inputs, of the groups' unknowns and of the leaves, (rows,) or one
-            number
+        given : by node, values of the inputs and of the groups' unknowns, (rows,) or one number
         rows : at most `Backward.rows`
 
         Returns

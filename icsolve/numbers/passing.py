@@ -28,7 +28,6 @@ class Source(Protocol):
     record: Record
     code: Code
     exact: frozenset[int]
-    leaves: frozenset[int]
     groups: dict[int, Implicit]
     member: dict[int, Implicit]
 
@@ -79,7 +78,7 @@ class Pass:
         self.factors: list[float] = []
         self.holders: dict[int, int] = {}
         nodes = sorted(backward.reached((target,)), reverse=True)
-        self.merged = _merged(self.record, nodes) - backward.leaves
+        self.merged = _merged(self.record, nodes)
         self.free, self.products = backward.scratch(room)
         self.weights[target] = self._held((np.ones(room), 1.0), forever=True)
         for k in nodes:
@@ -127,10 +126,8 @@ class Pass:
         if weight is None:
             return
         node = self.record.nodes[k]
-        if node.op == Op.INPUT or k in self.backward.leaves:
+        if node.op == Op.INPUT:
             self.by[k] = self._held(weight, forever=True)
-        if k in self.backward.leaves:
-            return
         if k not in self.merged:
             self._error(self._share(k), weight, self._value(k))
         if node.op == Op.ANGLE:

@@ -5,7 +5,7 @@ Only what leads to the wanted nodes is run. A buffer is free again after the las
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from threading import get_ident
 from typing import Any
@@ -29,24 +29,21 @@ BINARY = {Op.ADD: np.add, Op.SUB: np.subtract, Op.MUL: np.multiply, Op.DIV: np.d
 
 
 class Code:
-    """Straight-line code from the given nodes to the wanted ones.
+    """Straight-line code from the inputs to the wanted nodes.
 
     Parameters
     ----------
     record : the record, which may grow afterwards
     wanted : indices of the nodes whose values are asked for
-    given : indices of the nodes whose values are put in: inputs, and what was found by other means
     keep : whether every value is kept, for a pass backwards
     """
 
-    def __init__(
-        self, record: Record, wanted: Sequence[int], given: Collection[int] = (), keep: bool = False
-    ) -> None:
+    def __init__(self, record: Record, wanted: Sequence[int], keep: bool = False) -> None:
         self.record, self.keep = record, keep
         self.wanted = tuple(wanted)
-        found = live(record, wanted, given)
-        self.given = tuple(k for k in found if k in given or record.nodes[k].op == Op.INPUT)
-        self.order = [k for k in found if k not in set(self.given)]
+        found = live(record, wanted)
+        self.given = tuple(k for k in found if record.nodes[k].op == Op.INPUT)
+        self.order = [k for k in found if record.nodes[k].op != Op.INPUT]
         self.place, self.buffers = self._allocated()
         self._bound: dict[tuple[int, int], tuple[list[Step], Array]] = {}
 

@@ -153,15 +153,13 @@ class Runner:
         """Rows as cases of their own."""
         return RowScenes(self.compiled)
 
-    def passes(self, targets: Sequence[int], leaves: Sequence[int] = ()) -> Backward:
-        """Backward passes from some nodes, as far as to the leaves: signs, guesses and counts of turns are
-        exact.
-        """
+    def passes(self, targets: Sequence[int]) -> Backward:
+        """Backward passes from some nodes: signs, guesses and counts of turns are exact."""
         compiled = self.compiled
         exact = [k for name, k in compiled.inputs.items() if name.startswith(("branch ", "swing "))]
         exact += [guess.index for guess, _ in compiled.record.counted.values()]
         exact += [k for group in compiled.record.implicit for k in (*group.guesses, *group.solved)]
-        return Backward(compiled.record, targets, exact, leaves)
+        return Backward(compiled.record, targets, exact)
 
     def blank(self, rows: int) -> dict[Key, Array]:
         """Arrays for the outputs, (rows,) or (rows, parts), of which nothing is filled."""
