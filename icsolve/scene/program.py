@@ -254,7 +254,25 @@ def _arithmetics(program: Program) -> list[Callable[[], Showing]]:
     if extra > MOST:
         return [partial(Balls, PRECISIONS[1], highest=True, carried=0.0)]
     last = PRECISIONS[-1]
-    return [partial(Balls, p + extra, highest=p == last) for p in PRECISIONS]
+    return [partial(_balls, p + extra, p == last) for p in PRECISIONS]
+
+
+KEPT = 4096
+"""Numbers of cases whose decimals an arithmetic remembers, at most."""
+
+
+def _balls(digits: int, highest: bool) -> Balls:
+    """The arithmetic of so many digits, which remembers the numbers that it has read."""
+    found = _made(digits, highest)
+    for kept in (found.inputs, found.turns, found.floats):
+        if len(kept) > KEPT:
+            kept.clear()
+    return found
+
+
+@lru_cache(maxsize=16)
+def _made(digits: int, highest: bool) -> Balls:
+    return Balls(digits, highest)
 
 
 def places_in(found: Evaluation) -> dict[str, tuple[Scalar, Scalar]]:
