@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from decimal import Decimal, localcontext
 from pathlib import Path
 from random import Random
 
@@ -12,7 +14,8 @@ from mpmath import mp, mpf
 import icsolve
 from icsolve.sweep import find_by_scenes
 from icsolve.sweep.continuation import PathSegment
-from icsolve.sweep.find_on_record import Query, find
+from icsolve.sweep.exact import CONTEXT
+from icsolve.sweep.find_on_record import Query, RangeSearch, find
 from icsolve.sweep.path_tracking import PathTracker
 from test_sweep_status import FOUR_BAR, PARALLELOGRAM, SLIDER_CRANK
 
@@ -279,3 +282,28 @@ def test_what_cannot_be_looked_for() -> None:
         find(case, {"angles.AB": [0.0, 1.0], "loads.P": [1.0, 2.0]}, Query("dead"))
     with pytest.raises(ValueError, match="no unknown load"):
         find(case, {"angles.AB": [0.0, 1.0]}, Query("value", "P", 1.0))
+
+
+@pytest.mark.parametrize(
+    ("function", "zeros"),
+    [
+        (lambda s: 1 / (s - Decimal("0.3")), []),
+        (lambda s: (s - Decimal("0.3")) ** 3, ["0.3"]),
+        (lambda s: (s - Decimal("0.3")) / (s + Decimal("1e-6")), ["0.3"]),
+        (lambda s: (s + Decimal("1e-9")) * (s - Decimal("0.3")) * (1 + Decimal("1e-9") - s), ["0.3"]),
+    ],
+)
+def test_a_pole_is_no_zero_and_costs_few_values(
+    function: Callable[[Decimal], Decimal], zeros: list[str]
+) -> None:
+    asked = []
+
+    def counted(s: Decimal) -> Decimal:
+        asked.append(s)
+        return function(s)
+
+    search = RangeSearch.__new__(RangeSearch)
+    with localcontext(CONTEXT):
+        found = list(search._closed(counted, Decimal(0), Decimal(1)))
+    assert [round(float(s), 12) for s in found] == [float(s) for s in zeros]
+    assert zeros or len(asked) < 100

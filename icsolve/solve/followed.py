@@ -38,6 +38,8 @@ STARTS = (0.5, 0.1, 0.9, 0.3, 0.7, 0.02, 0.98)
 SAMPLES = 181
 ROUNDS = 4
 SAME = 1e-6
+MOST_WORK = 400
+"""So many mechanisms are led at most, times the square of how many links they have."""
 NOT_ALL = "the ways in which the figure assembles are not shown to be all."
 UNPROVEN = "beside what was balanced no bound of its error is proven."
 
@@ -254,7 +256,7 @@ def led_mechanisms(
     """
     low, high = span
     found: list[LedMechanism] = []
-    complete, refusal = True, None
+    complete, refusal, most = True, None, max(2, MOST_WORK // len(case.links) ** 2)
     for value in [low + part * (high - low) for part in STARTS] if start is None else [start]:
         written = given_at(case, path, value)
         try:
@@ -265,6 +267,8 @@ def led_mechanisms(
         complete = complete and ways.complete
         for way in ways.ways:
             if not any(one.passes(value, way.points) for one in found):
+                if len(found) >= most:
+                    return found, False
                 found.append(LedMechanism(replace(written, near=way.near), path, span))
     for rest in known:
         if not any(one.passes(rest.value, dict(rest.answer.points)) for one in found):

@@ -52,6 +52,8 @@ from icsolve.tuples import NamedTuple, replace
 Steps = tuple[Step, ...]
 
 MOST_MODES = 256
+MOST_EXCHANGED = 32
+"""Modes of a figure that is posed by another datum than the unknown one."""
 SAMPLES = 181
 COUNTED = 1441
 PARTS = (0.498, 0.13, 0.87, 0.31, 0.69, 0.05, 0.95, 0.22, 0.78, 0.41, 0.59, 0.01, 0.99)
@@ -119,11 +121,14 @@ class LoadFunction(NamedTuple):
         return self.compiled.record
 
 
-def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list[LoadFunction], bool]:
+def load_functions(
+    case: Case, path: str, low: float, high: float, whole: bool = False
+) -> tuple[list[LoadFunction], bool]:
     """The functions of all modes that assemble somewhere between two values of the number at ``path``;
     whether every mode is among them.
 
-    Raises SceneError where no value gives a figure, or the mechanism has not one freedom.
+    Raises SceneError where no value gives a figure, or the mechanism has not one freedom; TogetherError,
+    where it is to be ``whole``, for more modes than are looked at.
     """
     top = topology(case)
     refusals.refuse_loose(case, top)
@@ -132,6 +137,8 @@ def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list
     found: list[LoadFunction] = []
     order = order_of_all(given_at(case, path, low + part * (high - low)) for part in PARTS)
     refuse_together(order)
+    if whole and 1 << len(_forks(order.steps)) > MOST_EXCHANGED:
+        raise TogetherError(Status.UNSUPPORTED, TOGETHER)
     count = 0
     counts = any(isinstance(load, TorsionSpring) for load in case.loads)
     span = (low, high)
@@ -201,9 +208,14 @@ def refuse_together(order: Order) -> None:
         raise TogetherError(Status.UNSUPPORTED, TOGETHER)
 
 
+def _forks(steps: Steps) -> list[int]:
+    """The steps at which two loci meet in two places."""
+    return [k for k, step in enumerate(steps) if isinstance(step, Meet) and is_round(step.second)]
+
+
 def modes_of(steps: Steps) -> Iterator[Steps]:
     """The steps with every choice of the places where two loci meet."""
-    forks = [k for k, step in enumerate(steps) if isinstance(step, Meet) and is_round(step.second)]
+    forks = _forks(steps)
     for signs in itertools.product((1, -1), repeat=len(forks)):
         mode = list(steps)
         for k, sign in zip(forks, signs, strict=True):

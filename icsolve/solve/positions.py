@@ -100,11 +100,12 @@ def find_positions(
 
 
 def _find_in_modes(
-    case: Case, path: str, span: tuple[float, float] | None, start: float | None = None
+    case: Case, path: str, span: tuple[float, float] | None, start: float | None = None, whole: bool = False
 ) -> Search:
-    """The positions in all modes of a figure whose points have places one by one."""
+    """The positions in all modes of a figure whose points have places one by one; raises TogetherError where
+    it is to be ``whole`` and has too many."""
     low, high = span or whole_range(case, path)
-    functions, complete = functions_of(case, path, (low, high), start, span is not None)
+    functions, complete = functions_of(case, path, (low, high), start, span is not None, whole)
     branches = Branches(functions, low, high)
     kept = branches.nearest(case) if case.near else None
     notes: list[str] = []
@@ -169,13 +170,18 @@ def _unbounded(path: str, stretches: Sequence[Stretch]) -> list[str]:
 
 
 def functions_of(
-    case: Case, path: str, span: tuple[float, float], start: float | None, bounded: bool
+    case: Case,
+    path: str,
+    span: tuple[float, float],
+    start: float | None,
+    bounded: bool,
+    whole: bool = False,
 ) -> tuple[list[LoadFunction], bool]:
     """The modes of the figure, and whether these are all."""
     if start is not None:
         return _moving_from(case, path, start, span)
     refuse_ropes(case, path)
-    functions, complete = load_functions(case, path, *span)
+    functions, complete = load_functions(case, path, *span, whole)
     refuse_unwritten(case, path, functions[0].links, bounded)
     refuse_unposed(functions[0])
     return functions, complete
@@ -212,7 +218,7 @@ def _exchanged(case: Case, path: str, span: tuple[float, float]) -> Search | Non
     """The positions by another datum in place of the unknown one; None where no points have places by it."""
     for other, by in exchanged(case, path):
         try:
-            search = _find_in_modes(other, by, None)
+            search = _find_in_modes(other, by, None, whole=True)
         except SceneError:
             continue
         return search._replace(positions=tuple(converted(search.positions, path, span, by)))

@@ -391,6 +391,21 @@ def angle(x: Decimal, y: Decimal) -> Decimal:
         return found
 
 
+def _normal_equations(
+    j: Sequence[Sequence[Decimal]], f: Sequence[Decimal]
+) -> tuple[list[list[Decimal]], list[Decimal]]:
+    """The square equations of least squares; rows have few numbers that are not zero."""
+    count = len(j[0])
+    square, right = [[Decimal(0)] * count for _ in range(count)], [Decimal(0)] * count
+    for row, known in zip(j, f, strict=True):
+        filled = [(n, a) for n, a in enumerate(row) if a]
+        for n, a in filled:
+            right[n] += a * known
+            for m, b in filled:
+                square[n][m] += a * b
+    return square, right
+
+
 def least_squares(j: Sequence[Sequence[Decimal]], f: Sequence[Decimal]) -> list[Decimal]:
     """x, (n,), with ``j x = f`` in the sense of least squares.
 
@@ -406,9 +421,7 @@ def least_squares(j: Sequence[Sequence[Decimal]], f: Sequence[Decimal]) -> list[
     """
     count = len(j[0])
     if len(j) != count:
-        turned = list(zip(*j, strict=True))
-        f = [sum((a * b for a, b in zip(row, f, strict=True)), Decimal(0)) for row in turned]
-        j = [[sum((a * b for a, b in zip(r, s, strict=True)), Decimal(0)) for s in turned] for r in turned]
+        j, f = _normal_equations(j, f)
     rows = [[*row, right] for row, right in zip(j, f, strict=True)]
     for k in range(count):
         best = max(range(k, count), key=lambda n: abs(rows[n][k]))

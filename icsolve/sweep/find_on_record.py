@@ -285,7 +285,8 @@ class RangeSearch:
     def _closed(
         self, function: Callable[[Decimal], Decimal], low: Decimal, high: Decimal
     ) -> Iterator[Decimal]:
-        """A change of sign between two places, closed in by false position (Illinois)."""
+        """A change of sign between two places, closed in by false position (Illinois); none where the
+        function grows as the places close in, through a pole."""
         f, g = function(low), function(high)
         if not f:
             yield low
@@ -293,7 +294,7 @@ class RangeSearch:
             yield high
         if not f * g < 0:
             return
-        side = 0
+        side, wide, size = 0, (high - low) / POLE, Decimal("Infinity")
         for _ in range(MOST_STEPS):
             at = high - g * (high - low) / (g - f)
             here = function(at)
@@ -305,6 +306,10 @@ class RangeSearch:
                 moved, (low, f), g, side = at - low, (at, here), g / 2 if side < 0 else g, -1
             if not here or min(moved, high - low) <= CLOSED:
                 break
+            if high - low <= wide:
+                if min(abs(f), abs(g)) > GROWN * size:
+                    return
+                wide, size = (high - low) / POLE, max(abs(f), abs(g))
         yield at
 
     # --- cells ------------------------------------------------------------------------------------
@@ -428,6 +433,8 @@ RINGS = 24
 """rings, each half as far from it."""
 PROBES = ("0.2137", "0.4311", "0.7919")
 MOST_STEPS = 400
+POLE, GROWN = 1000, 30
+"""Where places are so many times nearer to one another a function has grown by the second, at a pole."""
 ROUGH = 1e-12
 """Relative error of the place at which a group reaches its limit."""
 UNSHOWN = (
