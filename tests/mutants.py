@@ -65,7 +65,7 @@ SWAPS: dict[type, list[type]] = {
 EQUIVALENT: dict[str, str] = {
     "icsolve/numbers/tape.py Taped.__truediv__ #18: 0.0 -> 1.0": "of an operand that is not there",
     "icsolve/statics/homotopy.py _moved #13: off <= NEAR -> off < NEAR": "two half steps instead",
-    "icsolve/assembly/exclusion.py _Exclusion._refined #0: 6 -> 7": "six steps of Newton find all digits",
+    "icsolve/numbers/quadratics.py _Exclusion._refined #0: 6 -> 7": "six steps of Newton find all digits",
 }
 """Mutants, as they are listed, that change no answer, with the reason."""
 

@@ -29,7 +29,7 @@ from icsolve.scene.sensitivity import influences
 from icsolve.statics import friction, homotopy
 from icsolve.statics.error_bound import Exact, SceneOnBalls, SlidingSolution, Weights, enclosed, step
 from icsolve.statics.free_bodies import Solved
-from icsolve.statics.friction_equations import Lengths, error_of, newton
+from icsolve.statics.friction_equations import Lengths, error_of, fixed_point, newton
 from icsolve.statics.friction_interface import rubs_of
 from icsolve.statics.reaction_basis import Position, ties_of
 from icsolve.statics.reactions import names_by_tie
@@ -371,14 +371,22 @@ def test_the_error_of_rubs_is_how_far_they_are_off_and_at_most_twice_that(own: f
         assert abs(off) * 0.99 <= found <= 1.01 * most * abs(off)
 
 
-@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
-def test_the_end_of_a_path_is_real_or_not_at_any_size(size: float) -> None:
-    """Of homogeneous numbers: what all are multiplied by says nothing."""
-    for by in (1.0, 1e-4j, 1e4 + 1e4j):
-        assert homotopy._real([by, by * size, -3.0 * by * size]) == pytest.approx([size, -3.0 * size])
-        assert homotopy._real([by, by * 1e3 * (1.0 + 1e-6j)]) == pytest.approx([1e3])
-        assert homotopy._real([by, by * 1e3 * (1.0 + 1e-4j)]) is None
-        assert homotopy._real([1e-9 * by, by]) is None
+@pytest.mark.parametrize("size", [1e-6, 1e6])
+def test_all_solutions_grow_with_the_loads(size: float) -> None:
+    """The equations of two pins that hang on each other are homogeneous in the loads and the forces."""
+    rng = Random(5)
+    several = 0
+    for _ in range(20):
+        forms = [tuple(rng.uniform(-2.0, 2.0) for _ in range(3)) for _ in range(4)]
+        grown = [(size * form[0], *form[1:]) for form in forms]
+        ours, theirs = (
+            homotopy.all_roots(fixed_point(((a, b), (c, d)), (False, False))) for a, b, c, d in (forms, grown)
+        )
+        assert ours is not None and theirs is not None and len(ours) == len(theirs)
+        more = [[size * part for part in y] for y in ours]
+        assert all(any(homotopy.near(y, other) for other in more) for y in theirs)
+        several += len(ours) > 1
+    assert several
 
 
 def test_rubs_whose_equations_have_no_slope_have_no_solution() -> None:

@@ -3,15 +3,8 @@
 Where the equations contract there is exactly one. Else friction is brought in little by little from
 none, the solution followed, and all solutions are counted.
 
-All solutions of the friction equations, where one is not proven to be the only one.
-
-The signs of the scalar forces are tried one by one, which makes their equations linear. What remains,
-the pins, are as many quadrics as unknowns: one is solved in closed form, several by following every
-path of a homotopy from a system whose solutions are known (A. J. Sommese and C. W. Wampler, The
-Numerical Solution of Systems of Polynomials, 2005, ch. 8: total degree, on a random path in the complex
-projective space, so that solutions at infinity are points like others).
-
-Real solutions of quadrics l(z)^2 = |v(z)|^2, as many as unknowns: in closed form, or along paths.
+All solutions of the friction equations, where one is not proven to be the only one: as many quadrics as
+unknowns, whose zeros are found by exclusion in a box that holds them all.
 """
 
 from __future__ import annotations
@@ -19,14 +12,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
-from operator import mul
 
 from icsolve.numbers.linear import solve_square
-from icsolve.numbers.sparse import eliminate
 from icsolve.statics.friction_equations import (
     Form,
     Lengths,
-    at,
     contraction,
     is_sound,
     newton,
@@ -177,8 +167,11 @@ def _tangent(equations: Lengths, first: float, z: Y, share: float) -> list[float
 
 
 MOST_RUBS = 6
-MOST_PINS = 4
-"""More than these, found together, have too many combinations to try."""
+"""More than these, found together, take too many boxes."""
+MOST_BOXES = 100_000
+"""A second or two of search."""
+AT_INFINITY = 1e-9
+"""Share of w in the coordinates of a solution below which it is one at infinity."""
 MOST_PARTS = 12
 """More than these have too many, one after another."""
 EQUAL = 1e-12
@@ -237,7 +230,7 @@ def all_roots(equations: Lengths) -> list[Y] | None:
     Returns
     -------
     list[Y] | None
-        None where they are too many to try, or their paths too long to follow.
+        None where they are too many to try, or the search for them too long.
     """
     distinct, places = of_distinct(equations)
     parts = in_order(distinct)
@@ -277,211 +270,46 @@ def _part(equations: Lengths, part: Sequence[int], known: Mapping[int, float]) -
 
 
 def together(equations: Lengths) -> list[Y] | None:
-    """As `all_roots`, of equations taken as a whole: the signs are 2 to the number of scalar forces."""
-    pins = [k for k, forms in enumerate(equations.vectors) if len(forms) > 1]
-    scalars = [k for k in range(len(equations.vectors)) if k not in pins]
-    choices = [(1.0,) if equations.touching[k] else (1.0, -1.0) for k in scalars]
-    if len(pins) > MOST_PINS:
-        return None
-    try:
-        rough = [
-            y
-            for signs in product(*choices)
-            for y in _with_signs(equations, dict(zip(scalars, signs, strict=True)))
-        ]
-    except PathTooLong:
-        return None
-    return _sound(equations, rough)
+    """As `all_roots`, of equations taken as a whole.
 
-
-def _with_signs(equations: Lengths, signs: dict[int, float]) -> Iterable[Sequence[float]]:
-    """Rough solutions in which the scalar forces have these signs: then only the pins are not linear."""
-    n = len(equations.lengths)
-    both = ((sign, equations.lengths[k], equations.vectors[k][0]) for k, sign in signs.items())
-    linear = [[a - sign * b for a, b in zip(length, force, strict=True)] for sign, length, force in both]
-    general = eliminate([{n: row[0], **dict(enumerate(row[1:]))} for row in linear], n, 1e-12)
-    if general.left:
-        return
-    columns = [general.of(c) for c in range(n)]
-    space = [[row.get(q, 0.0) for row in columns] for q in (n, *general.free)]
-    quadrics = [
-        (_on(equations.lengths[k], space), tuple(_on(form, space) for form in equations.vectors[k]))
-        for k in range(n)
-        if k not in signs
-    ]
-    for z in quadric_roots(quadrics, scale_at(equations, space[0])):
-        weights = (1.0, *z)
-        y = [
-            sum(w * part for w, part in zip(weights, parts, strict=True))
-            for parts in zip(*space, strict=True)
-        ]
-        least = -1e-6 * scale_at(equations, y)
-        if all(sign * at(equations.vectors[k][0], y) >= least for k, sign in signs.items()):
-            yield y
-
-
-def _on(form: Form, space: Sequence[Sequence[float]]) -> Form:
-    """An affine form in the coordinates of an affine space (origin, then directions)."""
-    return (
-        at(form, space[0]),
-        *(sum(a * d for a, d in zip(form[1:], direction, strict=True)) for direction in space[1:]),
-    )
-
-
-class PathTooLong(ArithmeticError):
-    """A path of a homotopy takes more than `MOST_ON_PATH` steps: its end is not known."""
-
-
-MOST_ON_PATH = 400
-LONGEST_STEP = 0.1
-"""The longest step along a path; longer ones can cross to a neighbour."""
-NEAR_PATH = 1e-3
-"""A prediction that the first correction moves by more, of its size, was too far."""
-
-Quadric = tuple[Form, tuple[Form, ...]]
-Projective = list[complex]
-
-
-def quadric_roots(quadrics: Sequence[Quadric], scale: float) -> list[list[float]]:
-    """The real solutions z of quadrics l(z)^2 = |v(z)|^2, as many as unknowns (rough ones too).
-
-    Parameters
-    ----------
-    quadrics : n pairs of the form l and the components of v, forms (1 + n,) each
-    scale : size of the forms' constants
-
-    Returns
-    -------
-    list[list[float]]
-        (solutions, n); a solution at which two paths end may stand there twice.
-
-    Raises
-    ------
-    PathTooLong
-        Where the end of one is not known.
+    In homogeneous coordinates u = (w, z) with y = z / w they are quadrics l(u)^2 = |v(u)|^2; the lengths are
+    not negative, so their sum is made 1 and all solutions lie in a box, those at infinity too. An unknown
+    that is no length but a load has either sign.
     """
-    if not quadrics:
-        return [[]]
-    if len(quadrics) == 1:
-        return [[z] for z in _one(quadrics[0])]
-    paths = _Paths([_normalised(quadric, scale) for quadric in quadrics])
-    ends = [paths.follow(signs) for signs in product((1.0, -1.0), repeat=len(quadrics))]
-    return [[part * scale for part in z] for z in map(_real, ends) if z is not None]
+    import numpy as np
+
+    from icsolve.numbers.quadratics import Quadratics, every_zero
+
+    n, scale = len(equations.lengths), scale_at(equations, [0.0] * len(equations.lengths))
+    matrices = [np.array(_matrix(both)) for both in zip(equations.lengths, equations.vectors, strict=True)]
+    for matrix in matrices:
+        matrix[0] /= scale
+        matrix[:, 0] /= scale
+    least = EQUAL * max(float(np.abs(matrix).max()) for matrix in matrices)
+    signed = [k for k, form in enumerate(equations.lengths) if form != own_length(k, n)]
+    rough = []
+    for signs in product((1.0, -1.0), repeat=len(signed)):
+        turn = np.ones(n + 1)
+        turn[[1 + k for k in signed]] = signs
+        hessian = np.zeros((n + 1, n + 1, n + 1))
+        constant, gradient = np.zeros(n + 1), np.zeros((n + 1, n + 1))
+        constant[n], gradient[n] = -1.0, 1.0
+        for k, matrix in enumerate(matrices):
+            if (most := float(np.abs(matrix).max())) > least:
+                hessian[k] = 2.0 * turn[:, None] * matrix * turn / most
+            else:  # nothing presses, whatever the load is: none
+                gradient[k, 1 + k] = 1.0
+        zeros = every_zero(
+            Quadratics(constant, gradient, hessian), np.zeros(n + 1), np.ones(n + 1), MOST_BOXES
+        )
+        if zeros.spent or zeros.movable:
+            return None
+        rough += [scale * turn[1:] * u[1:] / u[0] for u in zeros.found if u[0] > AT_INFINITY]
+    return _sound(equations, [[float(part) for part in y] for y in rough])
 
 
-def _one(quadric: Quadric) -> list[float]:
-    """Solutions of one quadratic a z^2 + 2 b z + c = 0, without cancellation."""
-    length, forms = quadric
-    a = length[1] ** 2 - sum(f[1] ** 2 for f in forms)
-    b = length[0] * length[1] - sum(f[0] * f[1] for f in forms)
-    c = length[0] ** 2 - sum(f[0] ** 2 for f in forms)
-    inside = b * b - a * c
-    if inside < 0.0:
-        return [-b / a] if inside > -1e-12 * (b * b + abs(a * c)) and a else []
-    q = -(b + math.copysign(math.sqrt(inside), b))
-    return [x for x in (q / a if a else math.inf, c / q if q else math.inf) if math.isfinite(x)] or [0.0]
-
-
-def _normalised(quadric: Quadric, scale: float) -> Quadric:
-    length, forms = quadric
-    return _scaled(length, scale), tuple(_scaled(form, scale) for form in forms)
-
-
-def _scaled(form: Form, scale: float) -> Form:
-    return (form[0] / scale, *form[1:])
-
-
-def _real(end: Projective) -> list[float] | None:
-    """A path's end as a real point; None at infinity and off the real space."""
-    if abs(end[0]) < 1e-7 * max(map(abs, end)):
-        return None
-    z = [part / end[0] for part in end[1:]]
-    size = max(1.0, *map(abs, z))
-    if any(abs(part.imag) > 1e-5 * size for part in z):
-        return None
-    return [part.real for part in z]
-
-
-class _Paths:
-    """H(z, t) = (1 - t) gamma (z_k^2 - z_0^2) + t F_k(z), homogeneous in z_0, ..., z_n, on a random patch."""
-
-    def __init__(self, quadrics: Sequence[Quadric]) -> None:
-        self.matrices = [_matrix(quadric) for quadric in quadrics]
-        self.n = len(quadrics)
-        self.gamma = _unit(0.9137)
-        self.patch = [_unit(0.7 + 1.9 * k) for k in range(self.n + 1)]
-
-    def follow(self, signs: Sequence[float]) -> Projective:
-        """From a start (z_k = +-1) to t = 1, or to a singular point just before it."""
-        z: Projective = [1.0 + 0.0j, *(complex(s) for s in signs)]
-        size = sum(a * b for a, b in zip(self.patch, z, strict=True))
-        z = [part / size for part in z]
-        t, step = 0.0, LONGEST_STEP
-        for _ in range(MOST_ON_PATH):
-            ahead = min(1.0, t + step)
-            moved = self.corrected(self.predicted(z, t, ahead - t), ahead)
-            if moved is not None:
-                z, t, step = moved, ahead, min(LONGEST_STEP, 1.5 * step)
-            else:
-                step /= 2.0
-            if t == 1.0 or (step < 1e-9 and 1.0 - t < 1e-5):
-                return z
-        raise PathTooLong
-
-    def predicted(self, z: Projective, t: float, dt: float) -> Projective:
-        """A step along the tangent, of second order (midpoint)."""
-        first = self.tangent(z, t)
-        half = [a + 0.5 * dt * b for a, b in zip(z, first, strict=True)] if first else z
-        second = self.tangent(half, t + 0.5 * dt)
-        return [a + dt * b for a, b in zip(z, second, strict=True)] if second else half
-
-    def tangent(self, z: Projective, t: float) -> Projective | None:
-        starts, targets, rows = self.system(z, t)
-        change = [start - target for start, target in zip(starts, targets, strict=True)]
-        return solve_square(rows, [*change, 0.0j])
-
-    def corrected(self, z: Projective, t: float) -> Projective | None:
-        """Newton's method at fixed t; None where three steps do not nearly reach the path."""
-        for attempt in range(4):
-            starts, targets, rows = self.system(z, t)
-            values = [(1 - t) * a + t * b for a, b in zip(starts, targets, strict=True)]
-            values.append(sum(map(mul, self.patch, z)) - 1.0)
-            step = solve_square(rows, values)
-            if step is None:
-                return None
-            z = [a - b for a, b in zip(z, step, strict=True)]
-            size = max(map(abs, z))
-            moved = max(map(abs, step))
-            if moved <= 1e-10 * size:
-                return z
-            if attempt == 0 and moved > NEAR_PATH * size:
-                return None
-        return None
-
-    def system(self, z: Projective, t: float) -> tuple[Projective, Projective, list[Projective]]:
-        """The start system, the target system, and the derivatives of their sum at t (with the patch)."""
-        starts, targets, rows = [], [], []
-        twice, rest = 2.0 * t, 2.0 * (1.0 - t) * self.gamma
-        first = z[0]
-        for k, matrix in enumerate(self.matrices, start=1):
-            half = [sum(map(mul, row, z)) for row in matrix]  # half the gradient of the form
-            starts.append(self.gamma * (z[k] * z[k] - first * first))
-            targets.append(sum(map(mul, half, z)))
-            derivatives = [twice * part for part in half]
-            derivatives[k] += rest * z[k]
-            derivatives[0] -= rest * first
-            rows.append(derivatives)
-        rows.append(list(self.patch))
-        return starts, targets, rows
-
-
-def _matrix(quadric: Quadric) -> list[list[float]]:
-    """The symmetric matrix of a quadric l(z)^2 - |v(z)|^2."""
+def _matrix(quadric: tuple[Form, tuple[Form, ...]]) -> list[list[float]]:
+    """The symmetric matrix of a quadric l(u)^2 - |v(u)|^2."""
     length, forms = quadric
     count = range(len(length))
     return [[length[i] * length[j] - sum(form[i] * form[j] for form in forms) for j in count] for i in count]
-
-
-def _unit(angle: float) -> complex:
-    """A complex number of size 1 at an angle [rad]."""
-    return complex(math.cos(angle), math.sin(angle))
