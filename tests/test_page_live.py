@@ -214,6 +214,14 @@ loads:
 """
 
 
+def test_a_wheel_whose_centre_leaves_its_radius_is_refused_as_solve_does(shown: Any) -> None:
+    """Its acceleration follows from the radius: the centre has to lie there."""
+    changes = [{"points.C.y": "0.496707"}, {"joints.P.radii.0": "0.51"}, {"points.C.y": "0.5004"}]
+    path = ROOT / "dynamics/rolling_disk.yaml"
+    seen = compare(shown(path), path, changes)
+    assert seen == ["unsupported", "unsupported", "ok"]
+
+
 def test_a_rope_that_would_push_is_slack(shown: Any) -> None:
     """Pulls of all signs on both ropes, and a pulley too large for its rope."""
     changes = [{"loads.W": w, "loads.E1": e} for w in ("-40", "10", "40") for e in ("-15", "0", "15", "60")]

@@ -42,7 +42,7 @@ from icsolve.report.derivation import Known
 from icsolve.report.derivation.ratios import independent_motions
 from icsolve.scene.program import Program, Want, prepare
 from icsolve.scene.refusals import HANGS, rubs
-from icsolve.screws.joints import freedoms, guide_direction
+from icsolve.screws.joints import OFF_RADIUS, at_radius, freedoms, guide_direction
 from icsolve.screws.plane import Triple, force_wrench
 from icsolve.screws.ropes import RopePart, rope_parts
 from icsolve.statics import power
@@ -352,12 +352,8 @@ class _ProgramWriter:
             "motion": [self._motion(given, place) for given in case.motion],
             "order": joint_order(case),
             "dynamic": is_loaded(case),
-            "rolls": [
-                self.paths.index(radius.path)
-                for joint in case.joints
-                if isinstance(joint, Rolling)
-                for radius in joint.radii or ()
-            ],
+            "rolls": list(self._rolls(place)),
+            "offRadius": OFF_RADIUS,
             "heavy": [link for link in case.inertia if is_loaded(case)],
             "inexact": any(joint.has_written_centre for joint in case.joints),
             "given": any(joint.stands_in for joint in case.joints),
@@ -404,6 +400,16 @@ class _ProgramWriter:
                 path = None if datum.kind in (MEAN, LINE) else number_of(self.case, datum).path
                 number = None if path is None else self.paths.index(path)
                 yield [datum.kind, [place[p] for p in datum.points], number]
+
+    def _rolls(self, place: Mapping[Key, int]) -> Iterable[list[Any]]:
+        """The radii of links that roll: each with the contact, and the centre that lies at it."""
+        points, scale = self.figure.points, self.figure.frame.scale
+        for joint in self.case.joints:
+            if isinstance(joint, Rolling):
+                for link, radius in zip(joint.links, joint.radii or (), strict=False):
+                    own = at_radius(self.case.carries.get(link, ()), joint.at, radius.value * scale, points)
+                    centre = place[own[0]] if own and own[0] in place else None
+                    yield [self.paths.index(radius.path), place.get(joint.at), centre]
 
     def _owners(self) -> dict[str, str]:
         """The link that takes each point along: of a pin any, of a block or a pin in a slot its own."""

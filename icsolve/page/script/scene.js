@@ -615,9 +615,15 @@ function movedAs(told, x, motions, points) {
   const fast = largest(motions.twists.flat(2));
   return motions.twists.map((ts) => (speed.open.some((by) => largest(mix(by, ts)) > 1e-9 * fast) ? null : mix(speed.meant, ts)));
 }
+/* Whether a wheel has its radius still: its centre lies so far from where it touches. */
+function rollsOn(told, x, { points }, [n, contact, centre]) {
+  if ((x[n] === 0) !== (told.numbers[n] === 0)) return false;
+  const r = Math.abs(x[n] * told.frame[2]);
+  return centre === null || Math.abs(apart(points[contact], points[centre]) - r) <= told.offRadius * r;
+}
 /* The inertia forces of the given motion among the loads. */
 function withInertia(told, x, figure, twists, loads) {
-  if (told.rolls.some((n) => (x[n] === 0) !== (told.numbers[n] === 0))) throw new Refusal("unsupported");
+  if (told.rolls.some((wheel) => !rollsOn(told, x, figure, wheel))) throw new Refusal("unsupported");
   if (told.heavy.some((link) => !twists[told.body[link]])) throw new Refusal("mobility");
   const count = 3 * told.bodies;
   const rows = figure.rates(twists.slice(0, told.bodies).flatMap((t) => t || [0, 0, 0])).map((row) => {
