@@ -132,7 +132,15 @@ def test_where_nothing_is_carried_on_a_ball_has_its_own_rounding_alone() -> None
     balls = Balls(30, carried=0.0)
     third = balls.ball(1.0) / 3.0
     for _ in range(4):
-        for made in (third / (third + 1.0), third * third, third + third, third - 2.0, balls.sqrt(third)):
+        made_of = (
+            third / (third + 1.0),
+            third * third,
+            third + third,
+            third - 2.0,
+            balls.sqrt(third),
+            third.exp(),
+        )
+        for made in made_of:
             assert 0.0 < made.radius <= 5.1e-30 * made.size
         third = (third * 7.0) / (third + 2.0)
 

@@ -434,6 +434,11 @@ SCENES = {
         "mobility",
         "link 2 slides along z",
     ),
+    "slides back": (
+        DOOR.replace("hinge", "radial") % ("-5", "along: z"),
+        "mobility",
+        "link 2 slides along -z",
+    ),
     "no direction": (
         DOOR.replace("axis: z", "axis: [A, E]").replace("C: [1", "E: [0, 0, 0], C: [1") % ("5", "along: x"),
         "inconsistent",
