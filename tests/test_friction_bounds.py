@@ -29,7 +29,7 @@ from icsolve.scene.sensitivity import influences
 from icsolve.statics import friction, homotopy
 from icsolve.statics.error_bound import Exact, SceneOnBalls, SlidingSolution, Weights, enclosed, step
 from icsolve.statics.free_bodies import Solved
-from icsolve.statics.friction_equations import Lengths, error_of, fixed_point, newton
+from icsolve.statics.friction_equations import Lengths, error_of, fixed_point, newton, scale_at
 from icsolve.statics.friction_interface import rubs_of
 from icsolve.statics.reaction_basis import Position, ties_of
 from icsolve.statics.reactions import names_by_tie
@@ -389,6 +389,14 @@ def test_all_solutions_grow_with_the_loads(size: float) -> None:
     assert several
 
 
+def test_rounding_of_rubs_is_measured_by_their_largest_terms() -> None:
+    forms = Lengths(
+        ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (((-3.0, 0.5, 1.0),), ((1.0, 0.0, 2.0),)), (False, False)
+    )
+    assert scale_at(forms, (2.0, -4.0)) == 9.0
+    assert scale_at(forms, (2.0, 0.5)) == 4.5
+
+
 def test_rubs_whose_equations_have_no_slope_have_no_solution() -> None:
     """y = |3 + y|: nothing is far enough."""
     assert newton(Lengths(((0.0, 1.0),), (((3.0, 1.0),),), (False,)), [1.0]) is None
@@ -476,3 +484,18 @@ def test_pins_that_wedge_a_rod_at_its_dead_centre_do_it_in_both_senses(gap: str)
     assert refused.value.status == "ambiguous"
     values = [float(one) for one in re.findall(r"-?\d+\.?\d*", refused.value.message)]
     assert values == pytest.approx([2, -force, force], rel=1e-3)
+
+
+def test_a_slight_friction_beside_a_large_force_is_proven_as_it_is_alone() -> None:
+    """A force through the crank's own pin presses nothing else."""
+    text = """icsolve: 1
+points: {A: [0, 0], B: [0, 2], C: [5, 3], D: [4, 0]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C, mu: 0.2, radius: 0.1},
+  {pin: [4, 1], at: D}]
+loads: {P: {force: 0.01, link: 4, at: C, angle: 200}, W: {force: %s, link: 2, at: B, angle: 270},
+  T: {torque: unknown, link: 2}}
+motion: {link: 2, turns: cw}
+"""
+    alone, beside = (icsolve.solve(icsolve.load(text % force)).answers["T"] for force in (0, "1e9"))
+    assert beside.value == alone.value
+    assert beside.error is not None and beside.error <= 2.0 * math.ulp(beside.value)
