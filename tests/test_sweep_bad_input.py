@@ -4,6 +4,7 @@ exit status, nothing half-written."""
 from __future__ import annotations
 
 import os
+import re
 import resource
 import signal
 import subprocess
@@ -15,6 +16,7 @@ import numpy as np
 import pytest
 
 import icsolve
+from icsolve.scene.sensitivity import numbers_of
 from icsolve.sweep import request
 from shell import exit_status
 from test_sweep_command import PRESS, press
@@ -191,3 +193,41 @@ def test_a_reader_that_goes_away_ends_it_without_a_word(press: Path) -> None:
         process.stdout.close()
         assert process.stderr.read() == b""
         assert process.wait(timeout=60) == 141
+
+
+MIXED = """
+icsolve: 1
+points: {A: [0, 0], B: [0.3, 0.4], C: [2, 0.5], O: [-1, 0], E: [-3, 1], L: [1, -2]}
+joints:
+  - {pin: [1, 2], at: A, mu: 0.2, radius: 0.05}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0, mu: 0.1, length: 0.4}
+  - {pin: [1, 5], at: O}
+  - {gears: [2, 5], teeth: [20, 31], pressure angle: 20}
+  - {rope: [L, O, E], on: [1, 5], radii: {O: 0.3}, wraps: {O: ccw}, mu: {O: 0.3}}
+loads:
+  T: {torque: unknown, link: 2}
+  P: {pressure: 8, bore: 0.05, link: 4, at: C, angle: 180}
+  S: {spring: 40, free: 0.3, link: 3, at: B, to: L}
+  F: {force: 3, at: E}
+"""
+
+
+def test_what_no_case_may_have_no_row_has() -> None:
+    """A number that the reader refuses in its place, a sweep refuses among its values, in the same words."""
+    case = icsolve.load(MIXED)
+    told = 0
+    for path, number in numbers_of(case).items():
+        for value in (-number.value, 0.0, 90.0, number.value + 0.5):
+            try:
+                icsolve.load(MIXED, {path: value})
+            except icsolve.CaseError as refusal:
+                said = str(refusal).partition(" should ")[2]
+            else:
+                continue
+            if said:
+                told += 1
+                with pytest.raises(ValueError, match=re.escape(f" should {said}")):
+                    icsolve.sweep(case, {path: [number.value, value]})
+    assert told >= 20

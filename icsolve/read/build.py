@@ -242,7 +242,7 @@ def _gravity(reading: Reading, root: Mapping) -> Number | None:
     value = number(reading, node, "acceleration", "gravity") if node is not None else None
     if value is not None and node is not None and value.value < 0.0:
         reading.refuse(node.mark, "gravity is given by its size, along -y; it should not be negative")
-    return value
+    return value and value._replace(bound="not negative")
 
 
 def _tolerance(reading: Reading, root: Mapping) -> Tolerance | None:

@@ -11,6 +11,7 @@ from collections.abc import Mapping as Table
 from typing import Any
 
 from icsolve.case import Like, Magnitude, Mark, Number, Slope
+from icsolve.numbers.given import BOUNDS
 from icsolve.numbers.units import exactly, nearest, quotient, split_quantity
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.keys import LIKE, Key, Rule
@@ -163,9 +164,9 @@ class Entry:
         found = number(self.reading, node, dimension, path)
         for holds, said in BOUNDS[bound]:
             if found is not None and not holds(found.value):
-                self.refuse(node.mark, said.format(key=key, digits=found.digits, what=self.what))
+                self.refuse(node.mark, f"the {key} {found.digits} of {self.what} {said}")
                 return None
-        return found
+        return found._replace(bound=bound) if found is not None and bound else found
 
     def numbers(
         self, key: str, node: Node, names: str, path: str = "", dimension: str = "", wanted: str = ""
@@ -189,7 +190,7 @@ class Entry:
             return found
         holds, said = PAIR_BOUNDS[bound]
         if holds([one.value for one in found]):
-            return found
+            return tuple(one._replace(bound=bound if bound in BOUNDS else "") for one in found)
         self.refuse(self.mark(key), said.format(key=key, what=self.what))
         return None
 
@@ -212,7 +213,7 @@ class Entry:
         elif min(values) < 0.0 and abs(min(values)) <= max(values):
             said = "an internal gear has more teeth than the one inside it"
         else:
-            return found
+            return tuple(count._replace(bound="teeth") for count in found)
         self.refuse(self.mark(key), said)
         return None
 
@@ -392,17 +393,6 @@ def _no_mapping(kind: str, node: Mapping) -> str:
 
 
 MOST_TEETH = 1e9
-_POSITIVE = (lambda v: v > 0.0, "the {key} {digits} of {what} should be greater than zero")
-_NOT_NEGATIVE = (lambda v: v >= 0.0, "the {key} {digits} of {what} should not be negative")
-_ACUTE = (lambda v: v < 90.0, "a {key} is less than 90 degrees")
-BOUNDS: dict[str, tuple[tuple[Callable[[float], bool], str], ...]] = {
-    "": (),
-    "positive": (_POSITIVE,),
-    "not negative": (_NOT_NEGATIVE,),
-    "acute": (_POSITIVE, _ACUTE),
-    "acute or zero": (_NOT_NEGATIVE, _ACUTE),
-}
-"""What bounds a number, and what is said of one that is out of it."""
 PAIR_BOUNDS: dict[str, tuple[Callable[[list[float]], bool], str]] = {
     "positive": (lambda both: min(both) > 0.0, "the {key} of {what} should be greater than zero"),
     "one positive": (lambda both: max(both) > 0.0, "one of the {key} of {what} should be greater than zero"),

@@ -140,7 +140,7 @@ def read_lengths(reading: Reading, section: Mapping, known: set[str]) -> tuple[L
         elif value is not None:
             if value.value == 0.0:
                 reading.noticed.append(f"the length {key} is 0: {names[0]} and {names[1]} are one place.")
-            found.append(Length(names[0], names[1], value))
+            found.append(Length(names[0], names[1], value._replace(bound="not negative")))
     return tuple(found)
 
 

@@ -10,9 +10,10 @@ import numpy.typing as npt
 
 from icsolve.assembly.workspace import names_of
 from icsolve.case import Case, Pair
+from icsolve.numbers.given import BOUNDS
 from icsolve.numbers.replay import Array
 from icsolve.read.names import pairs, shown, suggestion
-from icsolve.sweep.numbers import find_number
+from icsolve.sweep.numbers import find_number, numbers_of
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recorded_scene import pairs as all_pairs
 from icsolve.tuples import NamedTuple
@@ -89,7 +90,8 @@ def columns_of(
         if own in found.names:
             raise RequestError(f"{shown(name)} and {shown(found.names[own])} are the same number")
         found.names[own] = name
-        _refuse_values(name, own, array, turned or own.startswith("angles."))
+        bound = "" if turned else numbers_of(case)[own].bound
+        _refuse_values(name, bound, array, turned or own.startswith("angles."))
         column = np.ascontiguousarray(array).view() if array.ndim else np.full(rows, array)
         column.flags.writeable = False
         (found.links if turned else found.paths)[own] = column
@@ -130,10 +132,11 @@ def _column(name: str, values: npt.ArrayLike) -> Array:
     return array
 
 
-def _refuse_values(name: str, own: str, array: Array, turns: bool) -> None:
+def _refuse_values(name: str, bound: str, array: Array, turns: bool) -> None:
     """Refuse numbers that no case may have there, and turns that nobody would count."""
-    if (own.startswith("lengths.") or own.endswith((".mu", ".radius", ".length"))) and (array < 0.0).any():
-        raise RequestError(f"the values of {shown(name)} should not be negative")
+    for holds, said in BOUNDS[bound]:
+        if not np.all(holds(array)):
+            raise RequestError(f"the values of {shown(name)} {said}")
     if turns and np.abs(array).max() > FARTHEST:
         raise RequestError(f"the values of {shown(name)} lie beyond {FARTHEST:.0f} degrees; take turns off")
 
