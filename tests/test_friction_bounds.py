@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from random import Random
 from statistics import median
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -27,10 +27,12 @@ from icsolve.report.text import answer_text
 from icsolve.scene.program import Want, evaluate, prepare
 from icsolve.scene.sensitivity import influences
 from icsolve.statics import friction, homotopy
-from icsolve.statics.error_bound import Exact, SceneOnBalls, SlidingSolution, Weights, enclosed, step
+from icsolve.statics.equilibrium import Statics, equations_of
+from icsolve.statics.error_bound import SceneOnBalls, enclosed
 from icsolve.statics.free_bodies import Solved
 from icsolve.statics.friction_equations import Lengths, error_of, fixed_point, newton, scale_at
 from icsolve.statics.friction_interface import rubs_of
+from icsolve.statics.power import Wrench
 from icsolve.statics.reaction_basis import Position, ties_of
 from icsolve.statics.reactions import names_by_tie
 from icsolve.statics.witness import refuse_apart
@@ -47,6 +49,23 @@ SCENES = {
     "wedge": (wedge(10.0, 0.2, "motion: {point: A, link: 2, speed: 1, angle: 0}"), "P"),
     "slider-crank": (slider_crank("motion: {link: 2, turns: ccw}", slide=", mu: 0.2"), "T"),
 }
+
+
+class SlidingSolution(NamedTuple):
+    """A solution with friction: values of all columns of its statics, the senses of the rubs."""
+
+    statics: Statics
+    values: Mapping[int, Any]
+    senses: tuple[float, ...]
+
+
+class Exact(NamedTuple):
+    """The columns of a scene in sixty digits, its place and loads, and values."""
+
+    statics: Statics
+    position: Position
+    wrenches: Sequence[Wrench]
+    values: dict[int, Any]
 
 
 class Seen:
@@ -75,17 +94,6 @@ def many_digits(case: icsolve.Case, found: SlidingSolution) -> Exact:
     return Exact(columns, position, outcome.balance.wrenches, values)
 
 
-def units(case: icsolve.Case, found: SlidingSolution, exact: Exact) -> list[Weights]:
-    """Weights that pick each residual."""
-    none = {link: ((0.0, 0.0), (0.0, 0.0, 0.0)) for link in case.links if link != case.ground}
-    rubs = (0.0,) * len(exact.statics.rubs)
-    return [
-        Weights(none | {link: ((0.0, 0.0), unit)}, rubs)
-        for link in none
-        for unit in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-    ]
-
-
 def rubbed(found: SlidingSolution, exact: Exact, values: dict[int, Any], k: int) -> Any:
     """What is left of a friction: against its sense, as large as its coefficient times its force."""
     rub = exact.statics.rubs[k]
@@ -104,12 +112,13 @@ def true_load(case: icsolve.Case, found: SlidingSolution) -> Any:
 def true_solution(case: icsolve.Case, found: SlidingSolution) -> Exact:
     """All columns in sixty digits, after Newton's method on all equations."""
     exact = many_digits(case, found)
-    picked = units(case, found, exact)
+    equations = equations_of(exact.statics, exact.position, exact.wrenches)
+    rows = [row for _, three in equations.values() for row in three]
     columns = sorted(c for c in exact.values if c != found.statics.known)
     small = mpf(2) ** -80
 
     def residuals(values: dict[int, Any]) -> list[Any]:
-        links = [step(found, one, exact._replace(values=values)) for one in picked]
+        links = [sum(a * values[c] for c, a in row.items()) for row in rows]
         return links + [rubbed(found, exact, values, k) for k in range(len(exact.statics.rubs))]
 
     values = dict(exact.values)

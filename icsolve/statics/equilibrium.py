@@ -319,6 +319,11 @@ def actions_of(statics: Statics, position: Position, wrenches: Sequence[Wrench])
     yield from rub_actions(statics.ties, statics.rubs, statics.rub(0))
 
 
+def equations_of(statics: Statics, position: Position, wrenches: Sequence[Wrench]) -> Equations:
+    """The equations of all links but the frame in the arithmetic of the position, for these columns."""
+    return _equations(actions_of(statics, position, wrenches), statics.known, position.case.ground)
+
+
 def _load_action(w: Wrench, statics: Statics, position: Position) -> Action:
     """A load where its resultant acts."""
     place = place_of(w.load, position.points, position.arithmetic)

@@ -14,23 +14,22 @@ Newton's method for that load. Evaluated on a tape, the sum gives its slope by e
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from types import MappingProxyType
 
 from icsolve.kinematics.speeds import Speed
-from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish
+from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, size_of
 from icsolve.numbers.balls import Balls, MoreDigits
 from icsolve.numbers.krawczyk import enclosed_root
 from icsolve.numbers.sparse import Row, eliminate
 from icsolve.numbers.tape import SMALL
-from icsolve.screws.plane import Point
-from icsolve.statics.equilibrium import Components, Rub, Statics, actions_of, equilibrium
+from icsolve.statics.equilibrium import Rub, Statics, equations_of, equilibrium
 from icsolve.statics.free_bodies import Solved, carrying_flanks
 from icsolve.statics.friction_equations import forces_of
 from icsolve.statics.friction_interface import rubbing_rates, rubs_of
 from icsolve.statics.power import Balance, Bounded, Wrench
-from icsolve.statics.reaction_basis import Force, Position, rope_ties, slipping, ties_of, with_flanks
+from icsolve.statics.reaction_basis import Position, rope_ties, slipping, ties_of, with_flanks
 from icsolve.statics.witness import independent
 from icsolve.tuples import NamedTuple
 
@@ -67,163 +66,78 @@ def slopes(
     """
     if any(sense and not friction for sense, friction in zip(senses, solved.friction, strict=True)):
         raise LookupError(AT_KINK)
-    found = SlidingSolution(solved.statics, solved.statics.filled(solved.parameters), tuple(senses))
-    weights = weights_of(found)
-    if weights is None or max(traced.tape.doubts(SMALL), default=0.0):
+    tape, outcome, statics = traced.tape, traced.outcome, solved.statics
+    x = statics.filled(solved.parameters)
+    weights = _weights(statics, x, senses)
+    if weights is None or max(tape.doubts(SMALL), default=0.0):
         raise LookupError(TOO_CLOSE)
-    exact = _exact(position, solved, found, traced)
-    passes = [traced.tape.back(step(found, by, exact)).by_path for by in weights]
-    scale = solved.statics.scale
-    by_root = zip(solved.statics.roots, passes, strict=True)
-    return {q: {path: -slope / scale for path, slope in swept.items()} for q, swept in by_root}
-
-
-def _exact(position: Position, solved: Solved, found: SlidingSolution, traced: Bounded) -> Exact:
-    """The scene on the tape."""
-    tape, outcome = traced.tape, traced.outcome
     placed = position._replace(points=outcome.points, arithmetic=tape)
-    flanks = carrying_flanks(position, solved.statics.ties, solved)
-    ties = with_flanks(placed, ties_of(placed), flanks)
-    values = {column: tape.constant(value) for column, value in found.values.items()}
-    ropes = slipping(
-        placed._replace(ropes=rope_ties(position.case, placed.points, position.scale, tape)),
-        [tie.senses for tie in found.statics.ropes],
-    ).ropes
-    statics = found.statics._replace(ties=ties, rubs=rubs_of(placed, ties), ropes=ropes, arithmetic=tape)
-    return Exact(statics, placed, outcome.balance.wrenches, values)
+    ropes = rope_ties(position.case, placed.points, position.scale, tape)
+    placed = slipping(placed._replace(ropes=ropes), [tie.senses for tie in statics.ropes])
+    ties = with_flanks(placed, ties_of(placed), carrying_flanks(position, statics.ties, solved))
+    exact = statics._replace(ties=ties, rubs=rubs_of(placed, ties), ropes=placed.ropes, arithmetic=tape)
+    rest = residuals(exact, placed, outcome.balance.wrenches, x, senses)
+    steps = [sum((w * value for w, value in zip(row, rest, strict=True)), 0.0) for row in weights]
+    return {
+        q: {path: -slope / statics.scale for path, slope in tape.back(step).by_path.items()}
+        for q, step in zip(statics.roots, steps, strict=True)
+    }
+
+
+def residuals(
+    columns: Statics,
+    position: Position,
+    wrenches: Sequence[Wrench],
+    x: Mapping[int, Scalar],
+    senses: Sequence[float],
+) -> list[Scalar]:
+    """What is left of the equilibrium of every link, then of every friction, which is against its sense and
+    as large as its coefficient makes it (scaled); ``columns`` are of the position's arithmetic.
+    """
+    equations = equations_of(columns, position, wrenches)
+    rest: list[Scalar] = [
+        sum((a * x[c] for c, a in row.items()), 0.0) for link in equations.values() for row in link[1]
+    ]
+    for k, rub in enumerate(columns.rubs):
+        force = pressing(columns, rub, x)
+        size = size_of(force[0]) if len(force) == 1 else columns.arithmetic.sqrt(sum(f * f for f in force))
+        rest.append(x[columns.rub(k)] + senses[k] * (rub.limit * size))
+    return rest
+
+
+def pressing(statics: Statics, rub: Rub, values: Mapping[int, Scalar]) -> list[Scalar]:
+    """The force that bounds the friction of a rub, by components."""
+    first = statics.first[rub.tie]
+    return [sum((values[first + n] * a for n, a in enumerate(row)), 0.0) for row in rub.normal]
 
 
 OPEN = 1e-9
 """What is left of a unit of an unknown load below this is rounding."""
 
 
-class SlidingSolution(NamedTuple):
-    """A solution with friction: values of all columns of its statics (scaled), the senses of the rubs."""
-
-    statics: Statics
-    values: Row
-    senses: tuple[float, ...]
-
-
-class Weights(NamedTuple):
-    """What a unit of each residual does to an unknown load, as a motion does power on forces.
-
-    ``links`` has those of the force along x and y and of the moment about a point of each link, ``rubs``
-    those of the frictions.
-    """
-
-    links: Mapping[str, tuple[Point, Force]]
-    rubs: tuple[float, ...]
-
-
-class Exact(NamedTuple):
-    """A scene in one arithmetic: its columns (ties, ropes, rubs), position and loads, and their values.
-
-    Attributes
-    ----------
-    statics : the columns, whose units are of this arithmetic; not solved in it
-    position, wrenches : points and loads
-    values : by column [scaled]
-    """
-
-    statics: Statics
-    position: Position
-    wrenches: Sequence[Wrench]
-    values: Mapping[int, Scalar]
-
-
-def weights_of(found: SlidingSolution) -> list[Weights] | None:
-    """The weights of every unknown load; None where the equations do not determine one."""
-    equations = found.statics.equations
-    rows = [row for _, three in equations.values() for row in three] + _frictions(found)
+def _weights(statics: Statics, x: Row, senses: Sequence[float]) -> list[list[float]] | None:
+    """What a unit of each residual does to each unknown load (the adjoint solution), (roots, residuals); None
+    where the equations do not determine one."""
+    rows = [row for _, three in statics.equations.values() for row in three]
+    for k, rub in enumerate(statics.rubs):
+        force = pressing(statics, rub, x)
+        size = math.hypot(*force) or 1.0
+        parts = zip(*rub.normal, strict=True)
+        shares = [sum(f * a / size for f, a in zip(force, part, strict=True)) for part in parts]
+        first, most = statics.first[rub.tie], senses[k] * rub.limit
+        rows.append({statics.rub(k): 1.0, **{first + n: most * share for n, share in enumerate(shares)}})
     by_column: dict[int, Row] = {}
     for n, row in enumerate(rows):
         for column, a in row.items():
-            if column != found.statics.known:
+            if column != statics.known:
                 by_column.setdefault(column, {})[n] = a
-    count = len(found.statics.roots)
-    for q in range(count):
-        by_column.setdefault(found.statics.root(q), {})[len(rows) + q] = -1.0
+    loads = range(len(statics.roots))
+    for q in loads:
+        by_column.setdefault(statics.root(q), {})[len(rows) + q] = -1.0
     general = eliminate([by_column[c] for c in sorted(by_column)], len(rows))
     if any(abs(a) > OPEN for left in general.left for a in left.values()):
         return None
-    return [
-        _weights({link: about for link, (about, _) in equations.items()}, all_weights)
-        for q in range(count)
-        if (all_weights := [general.of(n).get(len(rows) + q, 0.0) for n in range(len(rows))])
-    ]
-
-
-def _weights(about: Mapping[str, Components], values: Sequence[float]) -> Weights:
-    links: dict[str, tuple[Point, Force]] = {}
-    for k, (link, at) in enumerate(about.items()):
-        links[link] = ((at[0], at[1]), (values[3 * k], values[3 * k + 1], values[3 * k + 2]))
-    return Weights(links, tuple(values[3 * len(about) :]))
-
-
-def _frictions(found: SlidingSolution) -> list[Row]:
-    """Derivatives of each friction's residual: itself, and its coefficient times the size of its force."""
-    rows = []
-    for k, rub in enumerate(found.statics.rubs):
-        force = pressing(found.statics, rub, found.values)
-        size = math.hypot(*force) or 1.0
-        row: Row = {found.statics.rub(k): 1.0}
-        for n in range(len(rub.normal[0])):
-            share = sum(f * part[n] for f, part in zip(force, rub.normal, strict=True)) / size
-            row[found.statics.first[rub.tie] + n] = found.senses[k] * rub.limit * share
-        rows.append(row)
-    return rows
-
-
-def pressing(statics: Statics, rub: Rub, values: Mapping[int, Scalar]) -> tuple[Scalar, ...]:
-    """The force that bounds the friction of a rub, by components."""
-    first = statics.first[rub.tie]
-    return tuple(_sum(values[first + n] * a for n, a in enumerate(row)) for row in rub.normal)
-
-
-def _sum(terms: Iterable[Scalar]) -> Scalar:
-    total: Scalar = 0.0
-    for term in terms:
-        total = term + total
-    return total
-
-
-def step(found: SlidingSolution, weights: Weights, exact: Exact) -> Scalar:
-    """The weighted sum of all residuals (scaled): the unknown load is too large by so much."""
-    links = _sum(
-        exact.values[a.column] * _pairing(a.force, _apart(weights, a.on, a.by, a.at))
-        for a in actions_of(exact.statics, exact.position, exact.wrenches)
-    )
-    return links + _sum(_of_rub(found, weights, exact, k) for k in range(len(exact.statics.rubs)))
-
-
-def _of_rub(found: SlidingSolution, weights: Weights, exact: Exact, k: int) -> Scalar:
-    """A friction, which is against its sense and as large as its coefficient makes it."""
-    rub = exact.statics.rubs[k]
-    force = pressing(found.statics, rub, exact.values)
-    if len(force) == 1:
-        size = force[0] if float(force[0]) >= 0.0 else -force[0]
-    else:
-        size = exact.statics.arithmetic.sqrt(force[0] * force[0] + force[1] * force[1])
-    rest = exact.values[found.statics.rub(k)] + found.senses[k] * (rub.limit * size)
-    return weights.rubs[k] * rest
-
-
-def _apart(weights: Weights, on: str, by: str, at: Components) -> Force:
-    """Weights of a force along x and y and of a couple at a point, on one link and back on the other."""
-    a, b = _at(weights, on, at), _at(weights, by, at)
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def _at(weights: Weights, link: str, at: Components) -> Force:
-    if link not in weights.links:
-        return (0.0, 0.0, 0.0)
-    (ox, oy), (x, y, couple) = weights.links[link]
-    return (x - couple * (at[1] - oy), y + couple * (at[0] - ox), couple)
-
-
-def _pairing(force: Components, apart: Components) -> Scalar:
-    return _sum(f * a for f, a in zip(force, apart, strict=True))
+    return [[general.of(n).get(len(rows) + q, 0.0) for n in range(len(rows))] for q in loads]
 
 
 Flanks = Mapping[int, float]
