@@ -290,6 +290,8 @@ class _Growth:
             for other in self._neighbours((body,)):
                 if self._held(body) + self._held(other) + self._between(body, other) >= 6:
                     return (body, other)
+        if len(self.known) == len(self.top.members):
+            return ()
         if self.matching is None:
             self.matching = Matching(self.top, self.known)
         return self.matching.smallest_group()
