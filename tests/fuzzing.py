@@ -228,6 +228,7 @@ def commands(dice: Dice, text: str) -> list[list[str]]:
         ["draw", "case.yaml", *some(dice, DRAW)],
         ["explain", "case.yaml", *some(dice, EXPLAIN)],
         ["page", "case.yaml"],
+        ["gallery", "case.yaml", "-o", "shown", "--force"],
         ["sheet", "case.yaml", *some(dice, [["--title", dice.choice(TOKENS[:40])], ["-o", "exam.tex"]])],
         ["sweep", "case.yaml", *vary, *some(dice, SWEEP), *dice.choice([[], ["--find", find]])],
         ["sweep", "case.yaml", "--vary", f"{path}={dice.choice(spans)}", "--find", find, "--json"],

@@ -26,7 +26,7 @@ from icsolve.case import Case, Torque
 from icsolve.case.expected import RatioIs
 from icsolve.draw import draw
 from icsolve.draw.words import figure_number
-from icsolve.errors import SceneError
+from icsolve.errors import SceneError, Status
 from icsolve.explain import explain
 from icsolve.page import page_html
 from icsolve.report.check import value_of
@@ -352,3 +352,51 @@ def test_every_kind_of_case_is_explained_drawn_and_paged(kind: str) -> None:
     for position in answer.positions or ():
         value = position.at["angles.AG"]
         assert isinstance(value, float) and f"angles.AG = {value:.6g} deg" in plain(text)
+
+
+TOO_CLOSE = """
+icsolve: 1
+units: {length: mm, force: N}
+points: {A: [1e-300, 0], B: [200, 0], C: [1e9, 360], D: [400, 80], M: {centroid: [B, C]}}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}]
+loads: {P: {force: 20000.000000000000003, link: 3, at: M, angle: 270}, T: {torque: unknown, link: 2}}
+expect: {I13: {toward: 0}}
+"""
+NONE = {
+    Status.NEAR_SINGULAR: TOO_CLOSE,
+    Status.MOBILITY: UNUSED.replace("  - {pin: [4, 1], at: D}\n", ""),
+    Status.NO_VALUE: UNUSED.replace("T: {torque: unknown, link: 2}", "T: {torque: unknown, link: 1}"),
+    Status.INCONSISTENT: UNUSED.replace("links:", "lengths: {AB: 7}\nlinks:"),
+    Status.UNDERDETERMINED: UNUSED.replace("C: [4, 2]", "C: [4, unknown]"),
+    Status.AMBIGUOUS: UNUSED.replace("C: [4, 2]", "C: [4, unknown]").replace(
+        "links:", "lengths: {BC: 4}\nlinks:"
+    ),
+}
+TELL = {
+    **{verb: [] for verb in ("solve", "solve --json", "check", "explain", "ways")},
+    **{
+        f"{verb} -o": [f"out.{ending}"]
+        for verb, ending in (("draw", "svg"), ("page", "html"), ("sheet", "tex"))
+    },
+    "gallery -o": ["shown"],
+    "sweep --drive": ["2=0:2:1"],
+    "sweep --find": ["dead", "--drive", "2=0:2:1"],
+    "export gift -o": ["quiz.gift"],
+}
+
+
+@pytest.mark.parametrize("status", NONE)
+def test_a_case_without_an_answer_has_none_in_every_command(
+    status: Status, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It ends with 1 and says the status; a verb that does not ask for the answer may end with 0."""
+    monkeypatch.chdir(tmp_path)
+    Path("case.yaml").write_text(NONE[status], encoding="utf-8")
+    for verb, more in TELL.items():
+        name, *options = verb.split()
+        kind, options = ([options[0]], options[1:]) if name == "export" else ([], options)
+        code = exit_status(name, *kind, "case.yaml", *options, *more)
+        told = capsys.readouterr()
+        needs = name not in ("ways", "sweep", "export") or (status == Status.MOBILITY and name == "sweep")
+        assert code == 1 if needs else code in (0, 1), (verb, told)
+        assert code == 0 or status in told.err + told.out, verb

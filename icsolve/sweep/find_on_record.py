@@ -88,8 +88,10 @@ def find(
     start = None if by_itself else start_of(case, columns, RowRequest())
     if start is None or start.one_by_one:
         return Scenes(case, columns, along, query).spots()
-    spots = FoundPositions()
-    if start.compiled().refusal is None:
+    spots, refusal = FoundPositions(), start.compiled().refusal
+    if refusal is not None and refusal.status == Status.MOBILITY:
+        raise refusal
+    if refusal is None:
         parts = SweepParts(start, columns)
         search = RangeSearch(parts, parts.whole(), along, query)
         spots.extend(search.found())

@@ -33,7 +33,7 @@ def figure(case: Case) -> str:
     from icsolve.draw import Drawing, draw
     from icsolve.report.derivation import known_of
 
-    return draw(case, Drawing(centres="none"), known_of(case)._replace(answer=None))
+    return draw(case, Drawing(centres="none"), known_of(case, centres=False)._replace(answer=None))
 
 
 def asked(key: AnyKey, target: Target) -> str:

@@ -15,7 +15,7 @@ from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS, turn_of
 from icsolve.scene.parts import AnswerBuilder, scene_of
 from icsolve.screws.plane import Point, Triple
-from icsolve.solve import attempt
+from icsolve.solve import Attempt, attempt
 from icsolve.statics.inertia import as_given
 from icsolve.statics.power import Wrench, known_value, place_of, points_of, wrenches
 from icsolve.tuples import NamedTuple, replace
@@ -114,9 +114,17 @@ def _by_roller(known: Known, centre: Centre) -> Centre:
     return centre
 
 
-def known_of(case: Case, *, reactions: bool = False) -> Known:
-    """Solve a case as far as it goes, with the pulls of its ropes; never raises `SceneError`."""
+def known_of(case: Case, *, reactions: bool = False, centres: bool = True) -> Known:
+    """Solve a case as far as it goes, with the pulls of its ropes, and its ``centres`` where they will be
+    asked for; never raises `SceneError`."""
     found = attempt(case, reactions=reactions or bool(case.ropes))
+    try:
+        return _told(case, found, centres)
+    except SceneError as undecided:  # what is worked out when it is asked for may need too many digits
+        return _told(case, Attempt(None, found.refusal or undecided, None), False)
+
+
+def _told(case: Case, found: Attempt, centres: bool) -> Known:
     if case.unknowns or (found.answer is not None and found.answer.positions):
         return _at_rest(case, found.answer, found.refusal)
     if case.space is not None:
@@ -131,6 +139,8 @@ def known_of(case: Case, *, reactions: bool = False) -> Known:
         twists = {} if scene is None else scene.twists
     except SceneError:
         pass
+    if whole is not None and centres:
+        len(whole.centres)
     return Known(own, found.answer, found.refusal, whole, points, twists, _size(points))
 
 
