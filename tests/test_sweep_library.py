@@ -33,7 +33,8 @@ def sweeps(case: icsolve.Case) -> Iterator[icsolve.Sweep]:
 def around(path: str, value: float) -> np.ndarray:
     if path.startswith("angles.") or path.endswith(".angle"):
         return np.linspace(value - 90.0, value + 90.0, 5)
-    return np.linspace(0.7 * value, 1.3 * value, 5) if value else np.linspace(-1.0, 1.0, 5)
+    near = np.linspace(0.7 * value, 1.3 * value, 5) if value else np.linspace(-1.0, 1.0, 5)
+    return near.round() if ".teeth" in path else near
 
 
 def holes(sweep: icsolve.Sweep) -> list[str]:

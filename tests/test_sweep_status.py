@@ -14,6 +14,7 @@ import pytest
 
 import icsolve
 from icsolve.assembly.driven.order import AssemblyOrder
+from icsolve.scene.sensitivity import numbers_of
 
 ALL = ("answers", "status", "error", "points", "centres", "rates")
 
@@ -290,3 +291,39 @@ loads:
         one = icsolve.solve(sweep.case_of(k))
         for name, found in one.answers.items():
             assert sweep.answers[name][k] == pytest.approx(found.value, rel=1e-11)
+
+
+REPEATED = """icsolve: 1
+points: {A: [0, 0], B: [1, 2], C: [5, 3], D: [6, 0]}
+%s
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {%s}
+loads: {T: {torque: unknown, link: 2}, P: {torque: 3, link: 4}}
+"""
+
+
+@pytest.mark.parametrize("path", ["points.C.y", "points.B.x", "points.D.y", "lengths.BC"])
+@pytest.mark.parametrize(
+    ("datum", "last"),
+    [
+        ("lengths: {BC: 4.1231056256176606}", "pin: [4, 1], at: D"),
+        ("angles: {AB: 63.43494882292201}", "pin: [4, 1], at: D"),
+        ("", "slide: [4, 1], at: C, along: -71.56505117707799, through: D"),
+    ],
+)
+def test_a_row_whose_data_contradict_one_another_says_so(datum: str, last: str, path: str) -> None:
+    """As its scene: the coordinates pose the figure, and a length, angle or guide repeats what they say."""
+    text = REPEATED % (datum, last)
+    case = icsolve.load(text)
+    if path == "lengths.BC" and "lengths" not in text:
+        return
+    for value in (numbers_of(case)[path].value, 2.5):
+        row = icsolve.sweep(case, {path: [value]})
+        try:
+            one = icsolve.solve(icsolve.load(text, {path: value}))
+            assert row.answers["T"][0] == pytest.approx(one.answers["T"].value, rel=1e-12)
+        except icsolve.SceneError as refusal:
+            assert row.status[0] == refusal.status  # noqa: PT017

@@ -7,11 +7,15 @@ from functools import lru_cache
 
 import numpy as np
 
+from icsolve.assembly import place
+from icsolve.assembly.conditions import residual
 from icsolve.assembly.loci import is_round
 from icsolve.assembly.steps import Group, Meet
+from icsolve.assembly.workspace import Workspace, data_in, data_of
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
-from icsolve.sweep.numbers import with_numbers
+from icsolve.numbers.arithmetic import FLOATS
+from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, Signs, compile_sweep, setting_of
 from icsolve.sweep.request import Columns
 from icsolve.sweep.runner import Runner
@@ -39,16 +43,36 @@ def runner(
 
 def is_hard(setting: Setting) -> bool:
     """Whether numbers are varied that reshape a figure whose construction holds as written only: with a
-    group that Newton's method places, or with circles that touch; or that a given motion has to fit."""
+    group that Newton's method places, with circles that touch, or with data that repeat others; or that a
+    given motion has to fit."""
     reshaping = [path for path in setting.paths if path not in setting.drive.moving]
     if any(path.startswith("motion.") for path in reshaping):
         return True
-    if not any(map(_shapes, reshaping)):
+    shapes = list(filter(_shapes, reshaping))
+    if not shapes:
         return False
     return any(
         isinstance(step, Group) or (isinstance(step, Meet) and step.sign == 0 and is_round(step.second))
         for step in setting.figure.steps
-    )
+    ) or any(_contradicts(setting, path) for path in shapes)
+
+
+NUDGED = 1e-3
+"""By this fraction (of it, or of 1) a number is changed to see what hangs on it."""
+
+
+def _contradicts(setting: Setting, path: str) -> bool:
+    """Whether a number, changed, contradicts data that the construction of the figure does not need."""
+    figure, case = setting.figure, setting.case
+    used = {datum for step in figure.steps for datum in data_in(step)}
+    spare = [d for d in data_of(case) if d not in used and figure.points.keys() >= {*d.points}]
+    if not spare:
+        return False
+    value = numbers_of(case)[path].value
+    changed = with_numbers(case, {path: value + NUDGED * (abs(value) or 1.0)})
+    workspace = Workspace(changed, figure.frame, FLOATS)
+    workspace.points.update(place(figure, changed, FLOATS).points)
+    return any(abs(residual(workspace, datum)[0]) > NUDGED * NUDGED for datum in spare)
 
 
 class Start(NamedTuple):

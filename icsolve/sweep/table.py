@@ -19,6 +19,7 @@ from icsolve.case.names import link_order
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
 from icsolve.numbers.tape import UNIT
+from icsolve.statics.power import is_unknown
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.runner import Key, Rows
 from icsolve.tuples import dataclass, field
@@ -287,6 +288,9 @@ class Table:
         error : whether bounds of errors were wanted
         case_of : the case of a row, by its index
         """
+        if self.asked.answers and not any(kind == "answers" for kind, _ in self.values):  # no row has one
+            for load in filter(is_unknown, case.loads):
+                self._table(self.values, ("answers", load.name), (self.rows,))
         return Sweep(
             case,
             vary,
