@@ -628,7 +628,7 @@ def test_solutions_found_in_parts_are_those_of_the_whole() -> None:
     several = 0
     for _ in range(6 * MORE):
         equations = rubs_in_parts(rng)
-        parts, whole = homotopy.all_roots(equations), homotopy.together(equations)
+        parts, (whole, _) = homotopy.all_roots(equations), homotopy.together(equations, homotopy.MOST_BOXES)
         assert parts is not None and whole is not None and len(parts) == len(whole)
         assert all(any(homotopy.near(y, other) for other in whole) for y in parts)
         several += len(parts) > 0
@@ -650,3 +650,15 @@ def test_too_long_a_search_leaves_open_whether_there_are_other_solutions(
     assert homotopy.all_roots(hard) is not None
     monkeypatch.setattr(homotopy, "MOST_BOXES", 3)
     assert homotopy.all_roots(hard) is None
+
+
+def test_solutions_that_multiply_are_not_counted_for_long(monkeypatch: pytest.MonkeyPatch) -> None:
+    """y_k = |2 y_k - 1| is met at 1/3 and at 1: of twelve that is 4096 times."""
+
+    def alike(n: int) -> Lengths:
+        rows = [(-1.0, *(2.0 * (j == k) for j in range(n))) for k in range(n)]
+        return fixed_point([(row,) for row in rows], (False,) * n)
+
+    assert len(homotopy.all_roots(alike(4)) or ()) == 16
+    monkeypatch.setattr(homotopy, "MOST_BOXES", 10_000)
+    assert homotopy.all_roots(alike(12)) is None

@@ -170,6 +170,8 @@ MOST_RUBS = 6
 """More than these, found together, take too many boxes."""
 MOST_BOXES = 100_000
 """A second or two of search."""
+BEGUN = 250
+"""What a search of few boxes takes in time, in boxes."""
 AT_INFINITY = 1e-9
 """Share of w in the coordinates of a solution below which it is one at infinity."""
 MOST_PARTS = 12
@@ -237,13 +239,16 @@ def all_roots(equations: Lengths) -> list[Y] | None:
     if len(distinct.vectors) > MOST_PARTS or max(map(len, parts), default=0) > MOST_RUBS:
         return None
     partial: list[dict[int, float]] = [{}]
+    left = MOST_BOXES
     for part in parts:
-        further = [(known, together(_part(distinct, part, known))) for known in partial]
-        partial = []
-        for known, found in further:
-            if found is None:
+        further: list[dict[int, float]] = []
+        for known in partial:
+            found, boxes = together(_part(distinct, part, known), left)
+            left -= boxes + BEGUN
+            if found is None or left < 0:
                 return None
-            partial += [{**known, **dict(zip(part, y, strict=True))} for y in found]
+            further += [{**known, **dict(zip(part, y, strict=True))} for y in found]
+        partial = further
     return _sound(equations, ([rough[place] for place in places] for rough in partial))
 
 
@@ -269,8 +274,8 @@ def _part(equations: Lengths, part: Sequence[int], known: Mapping[int, float]) -
     return Lengths(lengths, vectors, tuple(equations.touching[k] for k in part))
 
 
-def together(equations: Lengths) -> list[Y] | None:
-    """As `all_roots`, of equations taken as a whole.
+def together(equations: Lengths, most: int) -> tuple[list[Y] | None, int]:
+    """As `all_roots`, of equations taken as a whole and by so many boxes at most; and how many it took.
 
     In homogeneous coordinates u = (w, z) with y = z / w they are quadrics l(u)^2 = |v(u)|^2; the lengths are
     not negative, so their sum is made 1 and all solutions lie in a box, those at infinity too. An unknown
@@ -287,7 +292,7 @@ def together(equations: Lengths) -> list[Y] | None:
         matrix[:, 0] /= scale
     least = EQUAL * max(float(np.abs(matrix).max()) for matrix in matrices)
     signed = [k for k, form in enumerate(equations.lengths) if form != own_length(k, n)]
-    rough = []
+    rough, boxes = [], 0
     for signs in product((1.0, -1.0), repeat=len(signed)):
         turn = np.ones(n + 1)
         turn[[1 + k for k in signed]] = signs
@@ -295,17 +300,18 @@ def together(equations: Lengths) -> list[Y] | None:
         constant, gradient = np.zeros(n + 1), np.zeros((n + 1, n + 1))
         constant[n], gradient[n] = -1.0, 1.0
         for k, matrix in enumerate(matrices):
-            if (most := float(np.abs(matrix).max())) > least:
-                hessian[k] = 2.0 * turn[:, None] * matrix * turn / most
+            if (largest := float(np.abs(matrix).max())) > least:
+                hessian[k] = 2.0 * turn[:, None] * matrix * turn / largest
             else:  # nothing presses, whatever the load is: none
                 gradient[k, 1 + k] = 1.0
         zeros = every_zero(
-            Quadratics(constant, gradient, hessian), np.zeros(n + 1), np.ones(n + 1), MOST_BOXES
+            Quadratics(constant, gradient, hessian), np.zeros(n + 1), np.ones(n + 1), most - boxes
         )
+        boxes += zeros.boxes
         if zeros.spent or zeros.movable:
-            return None
+            return None, boxes
         rough += [scale * turn[1:] * u[1:] / u[0] for u in zeros.found if u[0] > AT_INFINITY]
-    return _sound(equations, [[float(part) for part in y] for y in rough])
+    return _sound(equations, [[float(part) for part in y] for y in rough]), boxes
 
 
 def _matrix(quadric: tuple[Form, tuple[Form, ...]]) -> list[list[float]]:
