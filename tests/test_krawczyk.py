@@ -58,6 +58,20 @@ def test_all_that_wide_data_allow_lies_in_the_ball(spread: float) -> None:
         assert abs(float(found.value) - 1e-8 / a) <= found.radius + 1e-23 < 1e-6
 
 
+@pytest.mark.parametrize("start", [0.3, -0.1, 5.0])
+def test_what_has_no_root_is_given_up_soon(start: float) -> None:
+    """x^2 + 1: three steps of Newton, with a few looks about each."""
+    calls = []
+
+    def system(z: Any) -> Any:
+        calls.append(z)
+        return [z[0] * z[0] + 1.0], [{0: z[0] * 2.0}]
+
+    with pytest.raises(MoreDigits):
+        enclosed_root(system, [start], Balls(30))
+    assert len(calls) <= 24
+
+
 @pytest.mark.parametrize("offset", ["1", "1.0000000000000001"])
 def test_a_double_root_and_one_that_is_not_there_are_not_shown(offset: str) -> None:
     for digits in (30, 120):

@@ -185,7 +185,7 @@ class _Exclusion:
         inverse[~sure] = 0.0
         rest = np.abs(np.eye(n) - inverse @ j)
         spread = np.einsum("knm,km->kn", np.abs(inverse), self.system.bound(r) + SLACK)
-        spread += np.einsum("kij,kj->ki", rest, r) + SLACK
+        spread += np.einsum("kij,kj->ki", rest, r)
         shift = -np.einsum("knm,km->kn", inverse, values[which])
         apart = sure & (np.abs(shift) > spread + r).any(axis=1)
         single = sure & (2.0 * spread < r).all(axis=1)

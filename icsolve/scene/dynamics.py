@@ -15,7 +15,7 @@ from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import Case, ForceVector, Load, Torque
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.accelerations import Moving, moving
-from icsolve.kinematics.speeds import NO_SPEED, OPEN, moving_points
+from icsolve.kinematics.speeds import OPEN, moving_points
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.given import Number
 from icsolve.scene.program import Program, Want, evaluate, prepare
@@ -66,8 +66,6 @@ def with_inertia(case: Case) -> tuple[Case, Accelerations, tuple[str, ...]]:
 
     Raises SceneError where the motion is not given with its speed, or leaves a link with a mass open.
     """
-    if any(given.speed is None for given in case.motion) or not case.motion:
-        raise SceneError(Status.MOBILITY, NO_SPEED)
     from icsolve.numbers.balls import Balls, MoreDigits
 
     program = prepare(case, Want(rates=True, bodies=True))
