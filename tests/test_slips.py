@@ -271,6 +271,104 @@ REFUSED = {
     "near of no point": ("near: {C", "near: {X", 7, 8, "point X is named here, but nothing gives it"),
     "friction without a radius": ("at: A}", "at: A, mu: 0.2}", 9, 26, "needs 'radius', the pin's own"),
     "a load by a letter off": ("title:", "expect: {T21: 33}\ntitle:", 2, 10, "did you mean 'T12'?"),
+    "degrees and minutes": ("AB: 60", "AB: 60°30'", 6, 14, "write minutes as decimals of the degree"),
+    "a range of an angle": ("AB: 60", "AB: 0-360", 6, 14, "one value is wanted here; a range"),
+    "twice another length": ("BC: 3.5", "BC: 2*AB", 5, 22, "write the number that it comes to"),
+    "a root": ("BC: 3.5", "BC: sqrt(2)", 5, 22, "write the number that it comes to"),
+    "the stroke of an inch": ("BC: 3.5", 'BC: 3.5"', 5, 22, "write 'in' for \""),
+    "the strokes of a foot": ("BC: 3.5", "BC: 3.5'", 5, 22, "write 'ft' for '"),
+    "the load's own letter": ("torque: unknown", "torque: T", 15, 17, "or 'unknown' for what is to find"),
+    "a link by its points": ("link: 4", "link: CD", 14, 25, "it names two points, and links are called"),
+    "a support": ("{pin: [4, 1]", "{support: [4, 1]", 12, 6, "did you mean 'pin'?"),
+    "a guide by one point": (
+        "{pin: [4, 1], at: D}",
+        "{slide: [4, 1], at: D, along: A}",
+        12,
+        35,
+        "two points of the guide stand in brackets, as in [B, A]",
+    ),
+    "a mass alone": ("loads:", "links: {2: 5 kg}\nloads:", 13, 12, "{2: {mass: 5 kg, centre: G}}"),
+    "degree word and bracket": ("AB: 60", "AB: 60 (given)", 6, 14, "there is no unit 'given'"),
+    "near without coordinates": ("{C: [3.5, 2.4]}", "{C: up}", 7, 11, "two coordinates, as in [3.5, 2.4]"),
+    "near of no name": ("{C: [3.5, 2.4]}", "[3.5, 2.4]", 7, 7, "as in {C: [3.5, 2.4]}; take the dashes"),
+    "three coordinates": ("D: [4, 0]", "D: [4, 0, 0]", 4, 24, "two coordinates, as in [3, 0.5]"),
+    "an angle of one point": ("AB: 60", "A: 60", 6, 10, "should name two or three points"),
+    "a length backwards again": ("CD: 2.5", "CB: 3.5", 5, 27, "the first time as 'BC' in line 5, column 18"),
+    "a mass as a unit of force": ("force: lbf}", "force: kg}", 3, 28, "'kg' is a mass, not a force"),
+    "a unit of mass": (
+        "force: lbf}",
+        "force: lbf, mass: kg}",
+        3,
+        33,
+        "carry their unit, as in 1.2 rad or 3 kg",
+    ),
+    "unknown misspelt": ("torque: unknown", "torque: unkown", 15, 17, "did you mean 'unknown'?"),
+    "nothing for unknown": ("torque: unknown", "torque: null", 15, 17, "but there is no value"),
+    "solve for unknown": ("torque: unknown", "torque: solve", 15, 17, "torque: unknown"),
+    "a stiffness for a torque": ("torque: unknown", "torque: 5 N/m", 15, 17, "such as 'lbf*in'"),
+    "a sense in capitals": ("link: 2}", "link: 2, turns: CW}", 15, 42, "did you mean 'cw'?"),
+    "a direction by an axis": ("angle: 180", "angle: -x", 14, 42, "write 180 for '-x'"),
+    "toward coordinates": ("angle: 180", "toward: [0, 0]", 14, 43, "coordinates stand in 'points'"),
+    "toward a link": ("angle: 180", "toward: 2", 14, 43, "2 is a link, and a point of it is wanted here"),
+    "a slope by a quotient": ("angle: 180", "slope: 0.5", 14, 42, "by run and rise, as in [-3, 4]"),
+    "a load on two links": ("link: 4", "link: [3, 4]", 14, 25, "should be one name"),
+    "a link with a decimal": ("link: 4", "link: 4.0", 14, 25, "is not a name"),
+    "a pin at two points": ("at: C}", "at: [C, E]}", 11, 23, "should be a point's name"),
+    "a kind in other words": ("{pin: [4, 1], at: D}", "{fixed: D}", 12, 6, "did you mean 'weld'?"),
+    "a roller": ("{pin: [4, 1]", "{roller: [4, 1]", 12, 6, "did you mean 'roll'?"),
+    "a slide of no direction": (
+        "{pin: [4, 1]",
+        "{slide: [4, 1]",
+        12,
+        5,
+        "needs 'along': a direction in degrees",
+    ),
+    "a slide along an axis": (
+        "at: D}",
+        "at: D}\n  - {slide: [4, 1], at: D, along: x}",
+        13,
+        35,
+        "write 0 for 'x'",
+    ),
+    "a load in words": (
+        "{force: 100, link: 4, at: E, angle: 180}",
+        "100 lbf at E",
+        14,
+        6,
+        "as in {force: 100, link: 4, at: E, angle: 180}",
+    ),
+    "a weight's direction": (
+        "force: 100, link: 4, at: E, angle: 180",
+        "weight: 100, link: 4, at: E, angle: 270",
+        14,
+        36,
+        "is a weight, which has no 'angle'; it takes link, at",
+    ),
+    "a spring of no length": (
+        "force: 100, link: 4, at: E, angle: 180",
+        "spring: 10, link: 4, at: E, to: A",
+        14,
+        6,
+        "needs 'free': its length without load",
+    ),
+    "a torque at a point": (
+        "torque: unknown,",
+        "torque: unknown, at: A,",
+        15,
+        26,
+        "is a torque, which has no 'at'; it takes link, turns",
+    ),
+    "omega": ("loads:", "motion: {link: 2, omega: 10}\nloads:", 13, 19, "did you mean 'speed'?"),
+    "a motion of a link alone": ("loads:", "motion: 2\nloads:", 13, 9, "as in {link: 2, speed: 12 rad/s}"),
+    "gravity as a vector": ("loads:", "gravity: [0, -9.81]\nloads:", 13, 10, "not a list or mapping"),
+    "friction with a comma": ("at: A}", "at: A, mu: 0,2, radius: 1}", 9, 30, "write a decimal point, 0.2"),
+    "friction by its word": ("at: A}", "at: A, friction: 0.2, radius: 1}", 9, 26, "did you mean 'mu'?"),
+    "an expected value as a line": ("loads:", "expect: T12 = 33.8\nloads:", 13, 9, "as in {T12: 29.67 ccw}"),
+    "links in a list": ("loads:", "links: [2, 3]\nloads:", 13, 8, "as in {3: [G, H]} or {3: {mass:"),
+    "another version": ("icsolve: 1", "icsolve: 2", 1, 10, "this program reads 'icsolve: 1'"),
+    "a title twice": ("units:", "title: x\nunits:", 3, 1, "given twice, the first time in line 2, column 1"),
+    "a sign of YAML in a title": ("Four-bar press", "@home", 2, 8, "put the text in quotes"),
+    "a name of two loads": ("  P: {", "  T12: {", 15, 3, "given twice, the first time in line 14, column 3"),
     "gravity downward": ("title:", "gravity: -9.81\ntitle:", 2, 10, "given by its size"),
 }
 
@@ -336,6 +434,11 @@ loads:
 
 # What is changed; the status ('' for an answer) and what message or notes say.
 SCENES = {
+    "points for links": (
+        [("pin: [2, 3], at: B", "pin: [A, B], at: B")],
+        "loose-link",
+        "a joint names the links that it joins, and its point after `at`",
+    ),
     "the pin at D left out": (
         [("  - {pin: [4, 1], at: D}\n", "")],
         "mobility",
@@ -435,5 +538,5 @@ def test_a_file_without_its_ending_is_named(
     assert "did you mean" not in capsys.readouterr().err
 
 
-def test_there_are_a_hundred() -> None:
-    assert len(REFUSED) + len(SCENES) >= 100
+def test_there_are_three_times_fifty() -> None:
+    assert len(REFUSED) + len(SCENES) >= 150

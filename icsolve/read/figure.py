@@ -278,6 +278,10 @@ def read_links(reading: Reading, section: Mapping) -> tuple[dict[str, tuple[str,
         if type(node) is Mapping:
             entry = Entry(reading, node, f"links.{key}", f"link {shown(key)}", MASSES, MASSES_TIES)
             inertia, listed = _inertia(entry), node.items.get("points", Sequence([], node.mark))
+        if type(listed) is Scalar and listed.text[:1].isdigit() and " " in listed.text.strip():
+            form = f"{{{key}: {{mass: {listed.text}, centre: G}}}}"
+            reading.refuse(listed.mark, f"a mass stands in braces, with the point where it is: {form}")
+            continue
         items = reading.names(listed, f"the points of link {shown(key)}", "{3: [G, H]}")
         for item in items or ():
             reading.used.setdefault(item.text, item.mark)

@@ -63,7 +63,7 @@ _OTHER_WORDS = {
     "link": "body member bar part element on acts_on links",
     "at": "point position location where node p applied_at",
     "against": "from between reaction other",
-    "pin": "revolute hinge pivot joint r turning pinned rotational",
+    "pin": "support bearing revolute hinge pivot joint r turning pinned rotational",
     "slide": "prismatic slider track rail sliding guide p translational piston",
     "slot": "pin_in_slot pinslot",
     "roll": "rolling wheel rack",

@@ -129,7 +129,11 @@ class Reading:
         name = self.name(node, what)
         if name is None or self.knows_link(name):
             return name
-        self.refuse(node.mark, f"no joint has a link '{name}'{suggestion(name, self.links or ())}")
+        likely = suggestion(name, self.links or ())
+        if len(name) == 2 and set(name) <= {*self.given, *self.measured, *self.used}:
+            links = ", ".join(self.links or ())
+            likely = f"; it names two points, and links are called as in 'joints': {links}"
+        self.refuse(node.mark, f"no joint has a link '{name}'{likely}")
         return None
 
     def knows_link(self, name: str) -> bool:
@@ -254,6 +258,9 @@ def _is_of_radians(value: float, numeral: Numeral) -> bool:
     return 0.1 < abs(value) < 13.0 and near and (numeral.exponent <= -3 or abs(value) in (1.57, 3.14, 6.28))
 
 
+_STROKES = {'"': "in", "''": "in", "″": "in", "'": "ft", "′": "ft"}
+
+
 def _fitting(reading: Reading, text: str, dimension: str) -> Unit:
     """The unit, of the wanted dimension."""
     if text[0] == "," and text[1:2].isdigit():
@@ -266,6 +273,14 @@ def _fitting(reading: Reading, text: str, dimension: str) -> Unit:
         raise UnitError(f"a bare number is wanted here, without '{text}'")
     if text[0] == "/" and text[1:].strip().isdigit():
         raise UnitError("write the quotient as one decimal number")
+    if text[0] == "*":
+        raise UnitError("write the number that it comes to")
+    if text[0] == "-" and text[1:].strip().isdigit():
+        raise UnitError("one value is wanted here; a range is what `icsolve sweep --vary` goes through")
+    if text[0] == "°" and text[1:2].isdigit():
+        raise UnitError("write minutes as decimals of the degree, 60.5 for 60°30'")
+    if text in _STROKES and dimension == "length":
+        raise UnitError(f"write '{_STROKES[text]}' for {text}")
     sense = re.search(r"\b(c?cw|(?:counter)?clockwise)$", text)
     if sense:
         turns = "ccw" if sense[1][:2] == "cc" or sense[1][:2] == "co" else "cw"
@@ -354,6 +369,13 @@ def _meant(text: str, dimension: str, path: str) -> str:
     digits = text.translate(str.maketrans("OoIl", "0011"))
     if digits != text and re.fullmatch(r"-?[\d.]+", digits):
         return f"; write digits, {digits}"
+    if re.fullmatch(r"[a-z]+\(.*\)", text):
+        return "; write the number that it comes to"
+    if path.startswith("loads.") and dimension in ("torque", "force", "mass", "pressure") and is_name(text):
+        return "; write a number, or 'unknown' for what is to find"
+    if path.endswith(".along") and is_name(text):
+        other = "B" if text == "A" else "A"
+        return f"; two points of the guide stand in brackets, as in [{other}, {text}]"
     share = re.fullmatch(r"(-?)(\d*)\s*\*?\s*(?:pi|π)\s*(?:/\s*(\d+))?", text)
     if dimension == "angle" and share:
         degrees = 180.0 * int(share[2] or 1) / max(int(share[3] or 1), 1)

@@ -85,6 +85,12 @@ def too_close(load: str, why: str, open_by: float | None) -> str:
 def loose(case: Case, names: list[str]) -> str:
     """Links that no chain of joints ties to the frame."""
     which = f"link {names[0]} is" if len(names) == 1 else f"links {listed(names)} are"
+    points = {*case.points, *(point for length in case.lengths for point in (length.a, length.b))}
+    if set(names) <= points:
+        return (
+            f"{which} held by nothing, and so are points called: a joint names the links that it joins, and "
+            "its point after `at`, as in {pin: [2, 3], at: B}."
+        )
     return (
         f"{which} held by nothing: no chain of joints leads to the frame (link {case.ground}). "
         "Add the joint that is missing."
