@@ -33,7 +33,7 @@ from icsolve.numbers.arithmetic import Scalar
 from icsolve.screws.joints import Points
 from icsolve.screws.plane import Point
 from icsolve.screws.ropes import rope_parts
-from icsolve.structure.topology import Bond, Topology
+from icsolve.structure.topology import Topology
 from icsolve.tuples import NamedTuple
 
 Unknown = tuple[str, int]
@@ -268,20 +268,15 @@ MISFIT = 2e-3
 def refuse_misfit(case: Case, top: Topology, points: Points, scale: float) -> None:
     """Refuse teeth whose pitch circles do not touch on their pivots, as far as these are among the points."""
     for bond in top.bonds:
-        module = _module(bond)
-        if module is None or not {*bond.pivots} <= points.keys():
+        if not isinstance(bond.joint, Mesh) or not {*bond.pivots} <= points.keys():
             continue
-        assert isinstance(bond.joint, Mesh)
+        if (module := bond.joint.pitch) is None:
+            continue
         (a, b), apart = bond.links, math.dist(*(points[p] for p in bond.pivots)) / scale
         line, _ = case.marks.get(f"joints.{a}-{b}", (0, 0))
         what = f"gears {a} and {b}" + (f" (line {line})" if line else "")
         ends = (*bond.pivots, "pivots")
         refuse_unfit(what, bond.joint.sizes, module, apart, ends, f" {case.units.length}")
-
-
-def _module(bond: Bond) -> float | None:
-    """Pitch diameter per tooth (case lengths), where the case gives it."""
-    return bond.joint.pitch if isinstance(bond.joint, Mesh) and bond.pivots[0] else None
 
 
 def refuse_unfit(

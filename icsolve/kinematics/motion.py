@@ -31,7 +31,7 @@ from icsolve.kinematics.twists import (
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, all_vanish, decider
 from icsolve.numbers.given import Number
 from icsolve.numbers.null_space import null_space
-from icsolve.screws.joints import Points, freedoms, guide_direction, points_of, transmitted
+from icsolve.screws.joints import Points, freedoms, guide_direction, transmitted
 from icsolve.screws.plane import Triple, add, cross, pairing, subtract, times, velocity
 from icsolve.screws.ropes import end_twist, rope_parts
 from icsolve.structure.plan import Plan
@@ -68,11 +68,6 @@ def needed_bonds(plan: Plan | None, top: Topology) -> tuple[int, ...]:
     if plan is None or not plan.closed:
         return tuple(range(len(top.bonds)))
     return plan.bonds
-
-
-def needed_points(bonds: tuple[int, ...], top: Topology) -> list[str]:
-    """The points that these bonds need."""
-    return list(dict.fromkeys(p for k in bonds for p in points_of(top.bonds[k])))
 
 
 def by_plan(plan: Plan, top: Topology, points: Points, arithmetic: Arithmetic) -> Motions | None:

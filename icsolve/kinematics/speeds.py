@@ -232,13 +232,9 @@ def _check_direction(given: Given, v: Point, along: Point) -> None:
         )
 
 
-def _extent(t: Triple) -> float:
-    return max(abs(float(x)) for x in t)
-
-
 def fastest(twists: Twists) -> float:
     """Size of the largest twist of a scene, against which rest is judged."""
-    return max((_extent(t) for link in twists.values() for t in link), default=0.0)
+    return max((abs(float(x)) for link in twists.values() for t in link for x in t), default=0.0)
 
 
 def joint_order(case: Case) -> list[str]:

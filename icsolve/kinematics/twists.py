@@ -23,6 +23,7 @@ from icsolve.screws.plane import (
     Point,
     Triple,
     add,
+    basis_at,
     blend,
     cross,
     dyad_twists,
@@ -312,7 +313,7 @@ def run(plan: Plan, top: Topology, bases: Bases, arithmetic: Arithmetic) -> Run:
     pool = _Pool()
     entry = top.bonds[plan.entry]
     o = _origin(bases[plan.entry][0])
-    pool.put({entry.a: (ORIGIN, o), entry.b: (_seen(bases[plan.entry][0], o), o)})
+    pool.put({entry.a: (ORIGIN, o), entry.b: (basis_at(o, bases[plan.entry][0]), o)})
     closures = []
     for group in plan.groups:
         closure, found = _close(group, top, bases, arithmetic, pool)
@@ -361,8 +362,8 @@ def _monad(group: Group, bases: Bases, pool: _Pool) -> Closed:
     basis, line = bases[one][0], bases[two]
     o = _origin(basis, line[0])
     ta, tc = pool.now(a, o), pool.now(c, o)
-    here = _seen(basis, o)
-    first, second = _seen(line[0], o), _seen(line[1], o)
+    here = basis_at(o, basis)
+    first, second = basis_at(o, line[0]), basis_at(o, line[1])
     r = subtract(tc, ta)
     d, s = monad_twist(here, cross(first, second), r)
     return Closure(group, d, (s,), (first, second, here, r)), {body: (blend(d, ta, s, here), o)}
@@ -393,7 +394,7 @@ def _wheel(group: Group, mesh: Bond, bases: Bases, weights: tuple[Scalar, Scalar
     (body,), (a, c) = group.bodies, group.ends
     basis = bases[group.bonds[0]][0]
     o = _origin(basis)
-    here, ta = _seen(basis, o), pool.now(a, o)
+    here, ta = basis_at(o, basis), pool.now(a, o)
     spin = pool.now(c, o)[2] - ta[2]
     p, q = weights if body == mesh.b else weights[::-1]
     d, s = p, -(q * spin)
@@ -405,7 +406,7 @@ def _dyad(group: Group, bases: Bases, pool: _Pool) -> Closed:
     b1, b3, b2 = bases[outer_u][0], bases[inner][0], bases[outer_v][0]
     o = _origin(b3, b1, b2)  # the inner pin is in every determinant: each is of differences then
     ta, tc = pool.now(a, o), pool.now(c, o)
-    columns = (_seen(b1, o), _seen(b3, o), _seen(b2, o), subtract(tc, ta))
+    columns = (basis_at(o, b1), basis_at(o, b3), basis_at(o, b2), subtract(tc, ta))
     d, s1, s2 = dyad_twists(*columns)
     found = {u: _hung(pool, a, b1, (d, s1), o), v: _hung(pool, c, b2, (d, s2), o)}
     return Closure(group, d, (s1, s2), columns), found
@@ -417,7 +418,7 @@ def _hung(pool: _Pool, root: int, basis: Triple, rates: tuple[Scalar, Scalar], o
     own = _origin(basis)
     own = o if own is FRAME else own
     d, s = rates
-    return blend(d, pool.now(root, own), s, _seen(basis, own)), own
+    return blend(d, pool.now(root, own), s, basis_at(own, basis)), own
 
 
 def _origin(*bases: Triple) -> Point:
@@ -429,15 +430,6 @@ def _origin(*bases: Triple) -> Point:
 
 
 FRAME: Point = (0.0, 0.0)
-PIN: Triple = (0.0, 0.0, 1.0)
-"""A pin as seen from its own point."""
-
-
-def _seen(basis: Triple, o: Point) -> Triple:
-    """A basis twist as seen from o."""
-    if basis[0] is o[0] and basis[1] is o[1] and type(basis[2]) is float and basis[2] == 1.0:
-        return PIN
-    return shift(basis, o)
 
 
 def _eliminated(group: Group, top: Topology, bases: Bases, pool: _Pool, arithmetic: Arithmetic) -> Closed:

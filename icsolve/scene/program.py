@@ -25,7 +25,7 @@ from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing
 from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, HalfUnits, MoreDigits
 from icsolve.numbers.tape import Tape
 from icsolve.scene import refusals
-from icsolve.screws.joints import Points
+from icsolve.screws.joints import Points, points_of
 from icsolve.screws.plane import Triple
 from icsolve.statics import power
 from icsolve.statics.power import Bounded, Outcome, Value
@@ -123,7 +123,7 @@ def _wanted_bodies(case: Case, top: Topology, want: Want) -> frozenset[int]:
 
 def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want) -> list[str]:
     """The points whose places the plan, the loads and the given motions need."""
-    points = motion.needed_points(bonds, top)
+    points = [p for k in bonds for p in points_of(top.bonds[k])]
     points += [p for load in case.loads for p in power.points_of(load)]
     points += [given.point for given in case.motion if given.point is not None]
     points += [p for rope in case.ropes for p in rope.points]

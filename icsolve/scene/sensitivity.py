@@ -117,7 +117,7 @@ def unsettled(
     the change of each answer by half a unit of a number."""
     worst: dict[str, tuple[float, Number]] = {}
     for number in numbers_of(case).values():
-        if _has_decimals(number):
+        if "." in number.digits and (number.exact is None or number.factor != 1.0):  # a whole one is exact
             for load, reach in change(number).items():
                 if load not in worst or reach > worst[load][0]:
                     worst[load] = reach, number
@@ -127,11 +127,6 @@ def unsettled(
         for load, (reach, number) in worst.items()
         if load in answers and reach > abs(answers[load].value) > 0.0
     ]
-
-
-def _has_decimals(number: Number) -> bool:
-    """Whether a number was measured: a whole one is exact."""
-    return "." in number.digits and (number.exact is None or number.factor != 1.0)
 
 
 NUMBERED = (

@@ -97,6 +97,13 @@ def shift(a: Triple, o: Point) -> Triple:
     return (a[0] - a[2] * o[0], a[1] - a[2] * o[1], a[2])
 
 
+def basis_at(o: Point, basis: Triple) -> Triple:
+    """A basis twist seen from o: a turning about o itself is exactly one."""
+    if basis[0] is o[0] and basis[1] is o[1] and type(basis[2]) is float and basis[2] == 1.0:
+        return (0.0, 0.0, 1.0)
+    return shift(basis, o)
+
+
 def dyad_twists(b1: Triple, b3: Triple, b2: Triple, r: Triple) -> tuple[Scalar, Scalar, Scalar]:
     """Rates of a dyad without division.
 

@@ -18,7 +18,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import TURN
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.screws.joints import Points, at_radius, freedoms, guide_direction, pitch_point, transmitted
-from icsolve.screws.plane import Point, Triple, shift, subtract, unit_between
+from icsolve.screws.plane import Point, Triple, basis_at, shift, subtract, unit_between
 from icsolve.screws.ropes import RopePart, rope_parts, tension_ratios
 from icsolve.structure.topology import Bond, Topology, pairs_of
 from icsolve.tuples import NamedTuple
@@ -182,7 +182,7 @@ def _tie(position: Position, bond: Bond) -> Tie:
     if position.slack and joint.has_written_centre:
         basis = _as_it_moves(position, bond, basis)
     where = joint.at if joint.at is not None and not joint.at.startswith("@") else ""
-    found = Tie(joint, by, on, at, where, _forces(tuple(_seen(b, at) for b in basis)))
+    found = Tie(joint, by, on, at, where, _forces(tuple(basis_at(at, b) for b in basis)))
     if isinstance(joint, Guided) and joint.thread is not None:
         return _screwed(position, found, Screw(joint, joint.thread))
     return found
@@ -238,13 +238,6 @@ def _meeting(position: Position, by: str, on: str) -> str:
     mine, other = ([p for p in carries.get(link, ()) if p in points] for link in (by, on))
     named = [p for p in (*(p for p in mine if p in other), *other, *mine) if not p.startswith("@")]
     return named[0] if named else ""
-
-
-def _seen(b: Triple, at: Point) -> Triple:
-    """A basis twist from the tie's own point: a turning about that is exactly one."""
-    if b[0] is at[0] and b[1] is at[1] and b[2] == 1.0:
-        return (0.0, 0.0, 1.0)
-    return shift(b, at)
 
 
 def _forces(basis: tuple[Triple, ...]) -> tuple[Force, ...]:
