@@ -26,9 +26,11 @@ ROOMS = (
 @cache
 def nodes(file: Path) -> dict[type, list[Any]]:
     """What a module imports, names, defines and tells apart, wherever in it: each file is read once."""
-    found: dict[type, list[Any]] = {kind: [] for kind in (ast.ImportFrom, ast.Name, ast.ClassDef, ast.Match)}
+    kinds = (ast.ImportFrom, ast.Name, ast.ClassDef, ast.Match, ast.Call)
+    found: dict[type, list[Any]] = {kind: [] for kind in kinds}
     for node in ast.walk(ast.parse(file.read_text())):
         found.get(type(node), []).append(node)
+    found[ast.Call] = [c for c in found[ast.Call] if getattr(c.func, "id", "") == "isinstance"]
     found[ast.Name] = list({node.id: node for node in found[ast.Name]}.values())
     return found
 
@@ -135,6 +137,18 @@ def test_a_kind_of_joint_is_told_in_few_places(kind: str) -> None:
         "Pin": {"icsolve.statics.reaction_basis", "icsolve.read.ropes"},
         "Slide": {"icsolve.statics.reaction_basis", "icsolve.grade.mistakes.changed"},
     }.get(kind, set())
+
+
+@pytest.mark.parametrize(("family", "most"), [("Sliding", 4), ("Guided", 16), ("Rolling", 8), ("Mesh", 17)])
+def test_a_family_of_joints_is_asked_for_in_few_modules(family: str, most: int) -> None:
+    """As few as today, or fewer: what can be asked of every joint is a question that its class answers."""
+    asked = {
+        name
+        for name, file in modules().items()
+        for call in nodes(file)[ast.Call]
+        if family in {node.id for node in ast.walk(call.args[1]) if isinstance(node, ast.Name)}
+    }
+    assert len(asked) <= most, sorted(asked)
 
 
 def test_where_kinds_are_told_apart_the_type_checker_sees_to_it_that_all_are() -> None:

@@ -21,7 +21,6 @@ from operator import attrgetter
 from icsolve.answer import Centre
 from icsolve.assembly.workspace import Frame
 from icsolve.case import Case, Pair
-from icsolve.case.joints import Mesh
 from icsolve.case.names import ordered_pair
 from icsolve.kinematics.twists import Closure, is_dead, products, rate_sizes
 from icsolve.numbers.arithmetic import ROUNDING_NOISE, Arithmetic, Showing, all_vanish
@@ -311,7 +310,7 @@ class CentreFinder:
             if bond.a not in self.twists or bond.b not in self.twists:
                 continue
             pair = ordered(bond.a, bond.b)
-            if isinstance(bond.joint, Mesh):
+            if bond.pivots[0]:
                 primaries.setdefault(pair, (pitch_point(bond, self.points, self.arithmetic), "inspection"))
                 continue
             basis = freedoms(bond, self.points, self.arithmetic)

@@ -18,7 +18,6 @@ from typing import TypeVar
 from icsolve.assembly import Figure, place, placed_figure, solve_figure
 from icsolve.assembly.workspace import PlacedCase, names_of
 from icsolve.case import Case
-from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics import motion, speeds
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing
@@ -78,7 +77,7 @@ def prepare(case: Case, want: Want) -> Program:
     bonds = motion.needed_bonds(plan, top)
     figure = _figure(case, top, bonds, want)
     refusals.refuse_no_hanging(case, figure.points, figure.frame.scale)
-    if any(isinstance(joint, Mesh) for joint in case.joints):
+    if any(bond.pivots[0] for bond in top.bonds):
         from icsolve.assembly.conditions import refuse_misfit
 
         refuse_misfit(case, top, figure.points, figure.frame.scale)

@@ -32,7 +32,7 @@ def freedoms(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[Triple
     tuple[Triple, ...]
         One (pin, slide) or two (slot, contact, mesh). Two span the line of possible relative centres.
     """
-    if isinstance(bond.joint, Mesh):
+    if bond.pivots[0]:
         return _mesh(bond, points, arithmetic)
     return joint_freedoms(bond.joint, points, arithmetic)
 
@@ -52,7 +52,7 @@ def _twist(centre: JointCentre, points: Points, arithmetic: Arithmetic) -> Tripl
 
 def points_of(bond: Bond) -> tuple[str, ...]:
     """The points whose places the basis twists need."""
-    return bond.pivots if isinstance(bond.joint, Mesh) else joint_points(bond.joint)
+    return bond.pivots if bond.pivots[0] else joint_points(bond.joint)
 
 
 def joint_points(joint: Joint) -> tuple[str, ...]:

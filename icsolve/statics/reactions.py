@@ -267,7 +267,7 @@ def _open_parts(shown: Mapping[str, Reaction]) -> list[str]:
 
 
 def _remedy(ties: Sequence[Tie]) -> str:
-    meshed = [tie.joint for tie in ties if isinstance(tie.joint, Mesh) and tie.pivots[0]]
+    meshed = [tie.joint for tie in ties if tie.pivots[0]]
     if any(not joint.pulls and joint.pressure_angle is None for joint in meshed):
         return "Give the gears their `pressure angle` for the loads on their bearings."
     if any(joint.pulls for joint in meshed):

@@ -261,7 +261,7 @@ def mechanism(case: Case, top: Topology, frame: Frame, record: Record, ref: Mapp
             constraints += _immovable(joint, top, places, refusal)
         else:
             constraints += _conditions(joint, lines.get(i), shape, top.body_of)
-    constraints += [_meshed(bond, top, record) for bond in top.bonds if isinstance(bond.joint, Mesh)]
+    constraints += [_meshed(bond, top, record) for bond in top.bonds if bond.pivots[0]]
     constraints += [_roped(rope, top, frame, record, places) for rope in top.ropes]
     _base(spots, lines.values(), places)
     owners = _owners(case, top, spots, contacts)
