@@ -1,7 +1,8 @@
 """Positions of equilibrium of a mechanism with two freedoms: two data of its figure are what is asked.
 
-The powers of the loads in both motions vanish together. Newton's method runs from a grid over both ranges,
-all starts at once; what was searched is said, since no enclosure shows that nothing was missed.
+The powers of the loads in both motions vanish together. Newton's method runs from a grid over both ranges and
+from the cells of a finer one in which both change their signs, all starts at once; what was searched is said,
+since no enclosure shows that nothing was missed.
 """
 
 from __future__ import annotations
@@ -49,6 +50,8 @@ from icsolve.sweep.recorded_scene import motions_of
 from icsolve.tuples import NamedTuple, replace
 
 GRID = 48
+FINE = 257
+BLOCK = 4096
 STEPS = 40
 SAME = 1e-7
 NUDGE = 1e-6
@@ -121,7 +124,10 @@ def find_pairs(
                 found.append(position)
     found.sort(key=lambda one: [float(one.at[path]) for path in paths])  # type: ignore[arg-type]
     where = " and ".join(f"{p} from {a:g} to {b:g}" for p, (a, b) in zip(paths, limits, strict=True))
-    note = f"{where} were searched by Newton's method from {GRID} x {GRID} starts in each way of assembling."
+    note = (
+        f"{where} were searched by Newton's method from {GRID} x {GRID} starts in each way of assembling, "
+        f"and from the cells of {FINE - 1} x {FINE - 1} in which both loads change their signs."
+    )
     return FoundPairs(tuple(found), (note,))
 
 
@@ -240,12 +246,37 @@ def _grid(limits: Sequence[Span]) -> tuple[Array, Array]:
     return x.ravel(), y.ravel()
 
 
+def _starts(surface: Surface, limits: Sequence[Span]) -> tuple[Array, Array]:
+    """Where Newton's method starts: a grid over both ranges, and the cells of a finer one in which both
+    powers change their signs, or the figure ceases to assemble."""
+    code = Code(surface.compiled.record, [*surface.powers, *surface.margins])
+    axes = np.meshgrid(*(np.linspace(*ends, FINE) for ends in limits), indexing="ij")
+    x, y = (axis.ravel() for axis in axes)
+    blocks = []
+    for k in range(0, x.size, BLOCK):
+        given = dict(zip(surface.inputs, (x[k : k + BLOCK], y[k : k + BLOCK]), strict=True))
+        rows = min(BLOCK, x.size - k)
+        blocks.append(np.array([np.broadcast_to(v, rows) for v in code.run(given, rows)]))
+    values = np.concatenate(blocks, axis=1)
+    whole = np.isfinite(values[:2]).all(axis=0) & (values[2:] > 0.0).all(axis=0)
+    first = np.arange(FINE * (FINE - 1)).reshape(-1, FINE)[:, :-1].ravel()
+    corners = first + np.array([[0], [1], [FINE], [FINE + 1]])
+    signs = np.where(whole, np.sign(values[:2]), 0.0)[:, corners]
+    mixed = ((signs.max(axis=1) > 0.0) & (signs.min(axis=1) < 0.0)).all(axis=0)
+    some = whole[corners].sum(axis=0)
+    cells = corners[:, mixed | ((some > 0) & (some < 4))]
+    inside = whole[cells] / whole[cells].sum(axis=0)
+    cx, cy = ((at[cells] * inside).sum(axis=0) for at in (x, y))
+    gx, gy = _grid(limits)
+    return np.concatenate([gx, cx]), np.concatenate([gy, cy])
+
+
 def _zeros(
     surface: Surface, limits: Sequence[Span], whole: Sequence[bool], paths: Sequence[str]
 ) -> list[tuple[float, float]]:
     """Newton's method from every start of the grid at once."""
     code = Code(surface.compiled.record, [*surface.powers, *surface.slopes, *surface.margins])
-    x, y = _grid(limits)
+    x, y = _starts(surface, limits)
     size = np.array([b - a for a, b in limits])
     with np.errstate(all="ignore"):
         for _ in range(STEPS):
