@@ -99,10 +99,10 @@ def _kind(stability: str | None, stiffness: Stiffness | None, why: str, digits: 
         return ""
     if stiffness is None:
         return f": {stability} ({why.rstrip('.')})" if why else f": {stability}"
-    if isinstance(stiffness.value, float):
-        return f": {stability} (stiffness {_formatter(digits)(stiffness.value)} {stiffness.unit})"
-    rows = zip(stiffness.value, stiffness.unit, strict=True)
-    cells = [[f"{_formatter(digits)(v)} {u}" for v, u in zip(vs, us, strict=True)] for vs, us in rows]
+    values, units, show = stiffness.value, stiffness.unit, _formatter(digits)
+    rows = [([values], [units])] if isinstance(values, float) else zip(values, units, strict=True)
+    least = stiffness.error or 0.0
+    cells = [[f"{show(v if abs(v) > least else 0.0)} {u}" for v, u in zip(*row, strict=True)] for row in rows]
     return f": {stability} (stiffness {'; '.join(', '.join(row) for row in cells)})"
 
 

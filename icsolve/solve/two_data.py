@@ -23,6 +23,7 @@ from icsolve.case import Case, Load, TorsionSpring
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import varies
 from icsolve.numbers.replay import Array, Code
 from icsolve.scene import solve_scene
@@ -324,43 +325,47 @@ def _described(
         return None
     x, y = (min(max(v, a), b) for v, (a, b) in zip((x, y), limits, strict=True))
     values = (x, y)
-    slopes, rates = _derivatives(surface, values)
+    loads, spread = _derivatives(surface, values, off)
     case, frame = surface.compiled.setting.case, surface.compiled.scene.frame
-    loads = np.linalg.solve(rates, slopes) / (surface.force_scale * frame.scale)
     turns = [path.startswith("angles.") for path in paths]
-    matrix = [
-        [
-            -float(loads[i, j])
-            * (DEGREES * case.units.torque_per_force_length if turns[i] else 1.0)
-            * (DEGREES if turns[j] else 1.0)
-            for j in (0, 1)
-        ]
-        for i in (0, 1)
-    ]
+    rows = np.array([DEGREES * case.units.torque_per_force_length if turn else 1.0 for turn in turns])
+    scales = np.outer(rows, [DEGREES if turn else 1.0 for turn in turns]) / (
+        surface.force_scale * frame.scale
+    )
+    matrix, errors = -scales * loads, scales * spread
     units = case.units
     names = [
         [f"{units.torque if turns[i] else units.force}/{'rad' if turns[j] else units.length}" for j in (0, 1)]
         for i in (0, 1)
     ]
-    (a, b), (c, d) = matrix
-    eigenvalues = np.linalg.eigvalsh(np.array([[a, 0.5 * (b + c)], [0.5 * (b + c), d]]))
-    error = 1e-11 * float(np.abs(np.array(matrix)).max())
-    kind = "unstable" if eigenvalues[0] < -error else "stable" if eigenvalues[0] > error else "neutral"
-    stiffness = Stiffness(matrix, names, error)
+    least = float(np.linalg.eigvalsh(0.5 * (matrix + matrix.T))[0])
+    error = float(np.linalg.norm(errors))
+    kind = "unstable" if least < -error else "stable" if least > error else "neutral"
+    stiffness = Stiffness(matrix.tolist(), names, float(errors.max()))
     scene = solve_scene(_scene(surface, paths, values))
     shown = with_scene(scene, surface.links, 2, **asked)
-    at, errors = dict(zip(paths, values, strict=True)), dict(zip(paths, off, strict=True))
-    return EquilibriumPosition(at, errors, kind, stiffness, "", shown)
+    at, error_of = (dict(zip(paths, pair, strict=True)) for pair in (values, off))
+    return EquilibriumPosition(at, error_of, kind, stiffness, "", shown)
 
 
-def _derivatives(surface: Surface, values: Sequence[float]) -> tuple[Any, Any]:
-    """Derivatives of the powers by the data (motion, datum), and the rates of the data (motion, datum)."""
-    given = {k: np.array(v) for k, v in zip(surface.inputs, values, strict=True)}
-    found = Code(surface.compiled.record, [*surface.slopes, *surface.velocities]).run(given, 1)
-    flat = [float(np.ravel(v)[0]) for v in found]
-    rows = np.array(flat[4:]).reshape(-1, 4)  # the derivative by both data, the speed in both motions
-    rates, *_ = np.linalg.lstsq(rows[:, :2], rows[:, 2:], rcond=None)
-    return np.array(flat[:4]).reshape(2, 2), rates.T
+def _derivatives(surface: Surface, values: Sequence[float], off: Sequence[float]) -> tuple[Any, Any]:
+    """Derivatives of the generalised loads by the data (2, 2) in the record's scale, and bounds of their
+    errors to first order, from enclosures over all that the position may be."""
+    boxes = {
+        k: Interval(np.array([v - e]), np.array([v + e]))
+        for k, v, e in zip(surface.inputs, values, off, strict=True)
+    }
+    ends = enclose(surface.compiled.record, [*surface.slopes, *surface.velocities], boxes)
+    low, high = (np.array([float(np.ravel(end)[0]) for end in side]) for side in zip(*ends, strict=True))
+    middle, wide = 0.5 * (low + high), 0.5 * (high - low)
+    slopes, off_slopes = (flat[:4].reshape(2, 2) for flat in (middle, wide))  # (motion, datum)
+    rows, off_rows = (flat[4:].reshape(-1, 4) for flat in (middle, wide))  # by both data, in both motions
+    by_speed = np.linalg.pinv(rows[:, :2])
+    rates = (by_speed @ rows[:, 2:]).T  # of the data (motion, datum)
+    off_rates = (np.abs(by_speed) @ (off_rows[:, 2:] + off_rows[:, :2] @ np.abs(rates.T))).T
+    inverse = np.linalg.inv(rates)
+    loads = inverse @ slopes
+    return loads, 2.0 * np.abs(inverse) @ (off_slopes + off_rates @ np.abs(loads))
 
 
 def _scene(surface: Surface, paths: Sequence[str], values: Sequence[float]) -> Case:
@@ -397,9 +402,15 @@ def _to_the_last_digits(
 
     x, y = values
     here, _ = holding(x, y)
+
+    def change(dx: float, dy: float) -> Any:
+        try:
+            return holding(x + dx, y + dy)[0] - here
+        except SceneError:  # beyond a limit of the figure
+            return here - holding(x - dx, y - dy)[0]
+
     h, k = (NUDGE * (high - low) for low, high in limits)
-    columns = [(holding(x + h, y)[0] - here) / h, (holding(x, y + k)[0] - here) / k]
-    inverse = np.linalg.inv(np.stack(columns, axis=1))
+    inverse = np.linalg.inv(np.stack([change(h, 0.0) / h, change(0.0, k) / k], axis=1))
     for _ in range(4):
         dx, dy = (inverse @ here).tolist()
         x, y = x - dx, y - dy
