@@ -93,6 +93,9 @@ def test_no_force_raises_a_block_where_the_incline_and_the_angle_of_friction_mak
     assert found.holds == (exactly(100 * math.tan(math.radians(50) - math.atan(1.2))), math.inf)
     assert found.self_locking
     assert solved(incline(50, 1.2)).to_dict()["answers"]["P"]["holds"][1] is None
+    for mu, holds in ((1.2, True), (1.0, False)):  # of 1.0 the angle is 45 degrees: it slides down
+        said = [note for note in solved(incline(50, mu)).notes if note.startswith("self-locking")]
+        assert said == ["self-locking: it holds still with P = 0."] * holds
 
 
 def wedge(alpha: float, mu: float, motion: str = "") -> str:
