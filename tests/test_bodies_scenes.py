@@ -320,6 +320,21 @@ loads:
         solved(text)
 
 
+def test_a_structure_with_an_unknown_load_is_refused_as_one_and_says_what_carries_it() -> None:
+    text = """
+points: {A: [0, 0], B: [2, 0]}
+joints:
+  - {pin: [2, 1], at: A}
+  - {pin: [2, 1], at: B}
+loads:
+  P: {force: unknown, link: 2, at: B, angle: 90}
+"""
+    with pytest.raises(
+        icsolve.SceneError, match=r"^the links form a structure: .* Any value of the unknown load"
+    ):
+        solved(text)
+
+
 def test_loads_balance_to_the_digits_in_which_they_are_given() -> None:
     """T = 29.672 in print for 29.67219 (problem 13.8)."""
     text = """

@@ -68,7 +68,7 @@ def with_inertia(case: Case) -> tuple[Case, Accelerations, tuple[str, ...]]:
     """
     from icsolve.numbers.balls import Balls, MoreDigits
 
-    program = prepare(case, Want(rates=True, bodies=True))
+    program = prepare(case, Want(bodies=True))
     for digits in DIGITS:
         try:
             return _found(case, program, Balls(digits, highest=digits == DIGITS[-1]))
