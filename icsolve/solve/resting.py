@@ -16,8 +16,9 @@ from icsolve.kinematics.speeds import joint_order
 from icsolve.solve.branches import Branches, nearest
 from icsolve.solve.followed import NOT_ALL, led_mechanisms
 from icsolve.solve.load_function import TogetherError
-from icsolve.solve.positions import functions_of, refuse_unwritten, scene_at, search_modes, whole_range
+from icsolve.solve.positions import functions_of, refuse_unwritten, search_modes, whole_range
 from icsolve.solve.rest import PROBE, held
+from icsolve.solve.settled import scene_at
 from icsolve.tuples import NamedTuple, replace
 
 SAMPLES = 120

@@ -40,8 +40,9 @@ from icsolve.solve.load_function import (
     placed_with_margins,
     refuse_together,
 )
-from icsolve.solve.positions import DEGREES, refuse_ropes, refuse_unwritten, whole_range
+from icsolve.solve.positions import refuse_ropes, refuse_unwritten, whole_range
 from icsolve.solve.rest import held, with_scene
+from icsolve.solve.settled import DEGREES
 from icsolve.statics import power
 from icsolve.structure.topology import topology
 from icsolve.sweep.drivers import Drive

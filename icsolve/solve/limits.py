@@ -1,0 +1,142 @@
+"""Where the modes of a figure end, and the positions of equilibrium in which two of them meet there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from icsolve.answer import Answer
+from icsolve.errors import SceneError
+from icsolve.numbers.intervals import Interval, enclose
+from icsolve.numbers.replay import Code
+from icsolve.scene import solve_scene
+from icsolve.solve.branches import Branches
+from icsolve.solve.load_function import LoadFunction
+from icsolve.solve.rest import AT_LIMIT, Rest
+from icsolve.solve.settled import balancing_torque, plain_within, scene_at, told
+from icsolve.tuples import NamedTuple
+
+
+class Limit(NamedTuple):
+    """Where a mode ends: the last value at which it assembles, how far from it the limit may be, and on which
+    side the mode assembles (1: below)."""
+
+    mode: int
+    value: float
+    error: float
+    side: float
+
+
+def limits_of(functions: Sequence[LoadFunction], branches: Branches) -> list[Limit]:
+    """The ends of all modes in the range, also at its ends."""
+    found = []
+    low, high = branches.low, branches.high
+    beyond = np.array([low - branches.slack, high + branches.slack])
+    values = np.array([beyond[0], *branches.values, beyond[1]])
+    first, last = branches.assemble(beyond).T
+    for n, function in enumerate(functions):
+        whole = np.array([first[n], *branches.whole[n], last[n]])
+        for k in np.flatnonzero(whole[1:] != whole[:-1]).tolist():
+            inside, outside = (k, k + 1) if whole[k] else (k + 1, k)
+            value = _last(function, float(values[inside]), float(values[outside]))
+            side = 1.0 if inside < outside else -1.0
+            error = _reach(function, value, side, branches.slack)
+            if low - error <= value <= high + error:
+                found.append(Limit(n, min(max(value, low), high), error, side))
+    return found
+
+
+def _reach(function: LoadFunction, value: float, side: float, most: float) -> float:
+    """So far on either side of a limit it is certain that a mode assembles, and that it does not."""
+    reach = math.ulp(value)
+    while reach < most:
+        about = np.array([value - side * reach, value + side * reach])
+        margins = enclose(function.record, function.margins, function.enclosed(Interval(about, about)))
+        ends = [(np.ravel(margin.low)[0], np.ravel(margin.high)[-1]) for margin in margins]
+        if all(inside > 0.0 for inside, _ in ends) and any(outside < 0.0 for _, outside in ends):
+            break
+        reach *= 2.0
+    return reach
+
+
+def _last(function: LoadFunction, inside: float, outside: float) -> float:
+    """The last double at which a mode assembles, between one at which it does and one at which not."""
+    code = Code(function.record, function.margins)
+    while True:
+        middle = 0.5 * (inside + outside)
+        if middle in (inside, outside):
+            return inside
+        whole = all(float(np.ravel(m)[0]) > 0.0 for m in code.run(function.given(np.array(middle)), 1))
+        inside, outside = (middle, outside) if whole else (inside, middle)
+
+
+def at_limits(
+    functions: Sequence[LoadFunction],
+    branches: Branches,
+    kept: frozenset[int] | None,
+    limits: Sequence[Limit],
+) -> list[Rest]:
+    """Rests at limits of the free datum: there two modes meet, and the load changes its sign from one
+    to the other along the motion that the mechanism has."""
+    found = []
+    for k, one in enumerate(limits):
+        for other in limits[k + 1 :]:
+            near = abs(one.value - other.value) <= branches.slack
+            if not near or one.side != other.side or one.mode == other.mode:
+                continue
+            on = {branches.on(limit.mode, limit.value) for limit in (one, other)}
+            if kept is None or on & kept:
+                found += _between(functions[one.mode], functions[other.mode], one)
+    return found
+
+
+def _between(one: LoadFunction, two: LoadFunction, limit: Limit) -> list[Rest]:
+    """The position between two modes that meet at a limit, where the load changes its sign there."""
+    step = 1e-7 * max(1.0, abs(limit.value))
+    here = limit.value - limit.side * step
+    try:
+        a, b = solve_scene(scene_at(one, here), rates=True), solve_scene(scene_at(two, here), rates=True)
+        size = max((abs(c) for at in a.points.values() for c in at), default=1.0)
+        if any(math.dist(at, b.points[name]) > 0.02 * size for name, at in a.points.items()):
+            return []
+        link = _fastest(a, one.links)  # of the motion there: the link that is led stands still
+        last = limit.value - limit.side * 4.0 * limit.error
+        p, q = balancing_torque(one, last, link), balancing_torque(two, last, link)
+        if (p > 0.0) == (q > 0.0) and p != 0.0 and q != 0.0:
+            return []
+        far, away = balancing_torque(one, here, link), balancing_torque(two, here, link)
+        way = _swing(one, two, link, here)
+    except SceneError:
+        return []
+    rises = (away - far) * way
+    stability = "stable" if rises > 0.0 else "unstable" if rises < 0.0 else "neutral"
+    value = plain_within(limit.value, limit.error)
+    error = limit.error + abs(value - limit.value)
+    try:
+        return [told(one, value, error, stability, None, AT_LIMIT)]
+    except SceneError:
+        return [told(one, value, error, stability, None, AT_LIMIT, last)]
+
+
+def _fastest(answer: Answer, links: Sequence[str]) -> str:
+    """The link that turns fastest in a solved scene."""
+    rates = {link: rate for link, rate in (answer.rates or {}).items() if isinstance(rate, float)}
+    return max(links, key=lambda link: abs(rates.get(link, 0.0)))
+
+
+def _swing(one: LoadFunction, two: LoadFunction, link: str, value: float) -> float:
+    """The sense in which a link turns from one mode to the other through the limit."""
+    carried = [p for p in one.case.carries[link] if p in one.places]
+    first, second = solve_scene(scene_at(one, value)).points, solve_scene(scene_at(two, value)).points
+    a, b = max(
+        ((p, q) for p in carried for q in carried if p != q),
+        key=lambda pair: math.dist(first[pair[0]], first[pair[1]]),
+        default=("", ""),
+    )
+    if not a:
+        return 0.0
+    (ax, ay), (bx, by) = first[a], first[b]
+    (cx, cy), (dx, dy) = second[a], second[b]
+    return (bx - ax) * (dy - cy) - (by - ay) * (dx - cx)
