@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
 
 from icsolve.cams.pieces import TURN, CircularArc, Piece, Point, PolarPiece, Spline, Straight, spline, unit
 from icsolve.case import Number
@@ -371,18 +372,24 @@ def _bearing(end: Number | str, arc: Arc, places: Places, what: str) -> float:
 def _polar(shape: Radii, places: Places, what: str) -> PolarPiece:
     x, y = direction(shape.zero, places, f"the zero of {what}")
     turn = 1.0 if shape.turns == "ccw" else -1.0
-    radius = table_spline([(angle.value, r.value) for angle, r in shape.table])
-    curve = PolarPiece(places[shape.about], math.atan2(y, x), turn, radius)
-    if min(radius.at(curve.angle(k / 720.0))[0] for k in range(720)) <= 0.0:
+    radius = table_spline(tuple((angle.value, r.value) for angle, r in shape.table))
+    if not _is_positive(radius):
         raise SceneError(
             Status.INCONSISTENT,
             f"{what} crosses itself: between its values the spline through its radii falls to zero. Give "
             "more of them.",
         )
-    return curve
+    return PolarPiece(places[shape.about], math.atan2(y, x), turn, radius)
 
 
-def table_spline(table: Sequence[tuple[float, float]]) -> Spline:
+@lru_cache(maxsize=32)
+def _is_positive(radius: Spline) -> bool:
+    """Whether a radius is above zero at every half degree."""
+    return all(radius.at(math.radians(0.5 * k))[0] > 0.0 for k in range(720))
+
+
+@lru_cache(maxsize=32)
+def table_spline(table: tuple[tuple[float, float], ...]) -> Spline:
     """The periodic spline through radii [case length] by angle [degrees, in any order]; its own angle is in
     rad.
     """

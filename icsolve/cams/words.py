@@ -79,7 +79,7 @@ def left_open(shape: Shape, curve: Curve, foot: Foot, what: str) -> str:
     said = f"{what} is a periodic cubic spline through {len(table)} radii"
     if len(table) < 5:
         return f"{said}: too few to tell how far it can be trusted between them."
-    others = [table_spline([*table[:k], *table[k + 1 :]]) for k in range(NEAREST)]
+    others = [table_spline((*table[:k], *table[k + 1 :])) for k in range(NEAREST)]
     off, turned = zip(*(_apart(piece, piece._replace(radius=other), foot.u) for other in others), strict=True)
     return (
         f"{said}: without one of those near the contact it would lie up to {max(off):.2g} away there, "

@@ -26,6 +26,8 @@ System = Callable[[Sequence[Scalar]], tuple[Sequence[Scalar], Sequence[Mapping[i
 MOST_STEPS = 60
 WIDENINGS = 4
 ROUNDING = 2.0**-51
+FEW = 8
+"""Equations whose inverse is soon had in decimals."""
 WIDEST = 1e-6
 """A box that is wider says nothing of a root near the start (which lies in a frame of size 1)."""
 
@@ -75,7 +77,7 @@ def _enclosed(
     system: System, middle: list[Decimal], inverse: list[list[Decimal]], balls: Balls
 ) -> list[Ball] | None:
     """The root, with what is near the inverse of the Jacobian; None where it is not shown."""
-    middle, off = _refined(system, middle, inverse, balls)
+    middle, off, inverse = _refined(system, middle, inverse, balls)
     rough = [[float(c) for c in row] for row in inverse]
     radius = 4.0 * max(off) + 4.0 * balls.unit * (1.0 + max(abs(float(x)) for x in middle))
     for _ in range(WIDENINGS):
@@ -94,12 +96,15 @@ def _ball(balls: Balls, value: Decimal, radius: float) -> Ball:
 
 def _refined(
     system: System, middle: list[Decimal], inverse: list[list[Decimal]], balls: Balls
-) -> tuple[list[Decimal], list[float]]:
-    """The point after Newton steps with the inverse held, and bounds of the next step, C F."""
+) -> tuple[list[Decimal], list[float], list[list[Decimal]]]:
+    """The point after Newton steps, bounds of the next step, C F, and C: the inverse, which after a step is
+    taken again with all digits where that costs less than the steps that it saves."""
     best: float | None = None
     off: list[float] = []
-    for _ in range(MOST_STEPS):
-        values = system([balls.exactly(x) for x in middle])[0]
+    for n in range(MOST_STEPS):
+        values, rows = system([balls.exactly(x) for x in middle])
+        if 1 <= n <= 2 and len(rows) <= FEW:
+            inverse = _in_decimals(rows, balls) or inverse
         step = [_product(row, values, balls) for row in inverse]
         off = [abs(float(x)) + r for x, r in step]  # how they are rounded, `_left` has room for
         longest = max(off)
@@ -107,7 +112,7 @@ def _refined(
             break
         best = longest
         middle = [balls.subtract(x, d) for x, (d, _) in zip(middle, step, strict=True)]
-    return middle, off
+    return middle, off, inverse
 
 
 def _product(row: Sequence[Decimal], values: Sequence[Scalar], balls: Balls) -> tuple[Decimal, float]:
