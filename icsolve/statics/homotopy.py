@@ -301,7 +301,7 @@ def together(equations: Lengths, most: int) -> tuple[list[Y] | None, int]:
         constant[n], gradient[n] = -1.0, 1.0
         for k, matrix in enumerate(matrices):
             if (largest := float(np.abs(matrix).max())) > least:
-                hessian[k] = matrix * np.outer(turn, turn) * (2.0 / largest)
+                hessian[k] = matrix * np.outer(turn, turn) / largest
             else:  # nothing presses, whatever the load is: none
                 gradient[k, 1 + k] = 1.0
         zeros = every_zero(
