@@ -209,3 +209,20 @@ def test_the_slope_by_the_coefficient_of_a_rope_is_that_of_the_exponential() -> 
     grown = mp.log(truths[1.0] / truths[-1.0]) / 2  # mu beta, with the sense
     mu = mpf(text.partition("mu: {O: ")[2].partition("}")[0])
     assert slope == pytest.approx(float(truths[1.0] * grown / mu), rel=1e-12)
+
+
+@pytest.mark.parametrize("near", [0.4, 0.8, 1.1, 1.148, 1.3])
+def test_near_may_say_where_the_rope_puts_a_point(near: float) -> None:
+    """Starts from which no rope can be laid are none; where the point lies is as good a word as any."""
+    text = f"""icsolve: 1
+points: {{A: [0, 0], P: [1, 2], B: [0.3, 0.5], C: [1, unknown]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{slide: [3, 1], at: C, along: 90}}
+  - {{rope: [B, P, C], on: [2, 1, 3], length: 3.084, radii: {{P: 0.2}}, wraps: {{P: cw}}}}
+near: {{C: [1, {near}]}}
+loads: {{W: {{weight: 100, link: 3, at: C}}, T: {{torque: unknown, link: 2}}}}
+"""
+    case = icsolve.load(text)
+    assert icsolve.solve(case).points["C"][1] == pytest.approx(1.1479677368961603)
+    assert icsolve.sweep(case, {"points.A.y": [0.0]}).status.tolist() == ["ok"]

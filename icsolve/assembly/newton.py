@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from itertools import islice, product
 
 from icsolve.assembly.clusters import LooseFigure
@@ -129,7 +130,8 @@ class _NewtonSearch:
                 self.complete = True
                 return
             known = len(self.found)
-            self.beside = _least_residual(self.group, self.workspace, held, self.reach)
+            with suppress(SceneError):
+                self.beside = _least_residual(self.group, self.workspace, held, self.reach)
             if self.beside:
                 self._try(self.beside, MOST_STEPS)
             if len(self.found) > known:
@@ -143,7 +145,10 @@ class _NewtonSearch:
 
     def _try(self, start: Start, most: int) -> int:
         """Descend from a start; how many steps it took."""
-        descent = _descend(self.group, self.workspace, start, self.reach, most)
+        try:
+            descent = _descend(self.group, self.workspace, start, self.reach, most)
+        except SceneError:  # on the way no rope can be laid
+            return most
         if descent.off > CLOSED * self.reach * self.reach:
             self.closest = min(self.closest, descent, key=lambda each: each.off)
         elif not any(_same(descent.end, other, self.reach) for other in self.found):
@@ -160,7 +165,8 @@ class _NewtonSearch:
     def _starts(self, held: list[str]) -> Iterator[Start]:
         group, near = self.group, self.near
         for end in list(self.found):
-            yield _twin(group, self.workspace, end)
+            with suppress(SceneError):
+                yield _twin(group, self.workspace, end)
         if self.found:
             yield from _about(near, self.found[0])
         if held:
