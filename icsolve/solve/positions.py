@@ -233,12 +233,12 @@ def find_along(case: Case, along: str, low: float, high: float) -> list[Rest]:
     """The positions of equilibrium along a sweep of an ordinary case: by a datum that poses it, or by
     turning a link from the position as written (degrees)."""
     bare = replace(case, motion=(), expect=())
-    value = 0.0 if along in case.links else find_number(case, along).value
+    own, value = _as_written(bare, along)
     wide = (min(low, value), max(high, value))
     try:
         function = moved_by(bare, along, wide)
     except TogetherError:
-        return LedMechanism(bare, _own(bare, along), (low, high)).rests()
+        return LedMechanism(bare, own, (low, high)).rests()
     functions = with_other_ways(function, wide) if function.compiled.setting.moves else [function]
     branches = Branches(functions, *wide)
     kept = frozenset({branches.on(0, value)})
@@ -247,15 +247,18 @@ def find_along(case: Case, along: str, low: float, high: float) -> list[Rest]:
     return distinct(sorted(rests, key=lambda rest: rest.value))
 
 
-def _own(case: Case, along: str) -> str:
-    return along if along in case.links else find_number(case, along).path
+def _as_written(case: Case, along: str) -> tuple[str, float]:
+    """The path of a datum and its value; a link, which is turned from where it is."""
+    if along in case.links:
+        return along, 0.0
+    number = find_number(case, along)
+    return number.path, number.value
 
 
 def rest_of(case: Case, along: str) -> Rest:
     """The position as written, by a datum or a link; raises as `moved_by`."""
-    value = 0.0 if along in case.links else find_number(case, along).value
     try:
-        return described(moved_by(case, along), value, 0.0)
+        return described(moved_by(case, along), _as_written(case, along)[1], 0.0)
     except TogetherError:
         if along in case.links:
             raise
@@ -264,8 +267,8 @@ def rest_of(case: Case, along: str) -> Rest:
 
 def led_rest(case: Case, along: str) -> Rest:
     """The same where points only together have places."""
-    value = 0.0 if along in case.links else find_number(case, along).value
-    return LedMechanism(case, _own(case, along), (value, value)).described(value, 0.0)
+    own, value = _as_written(case, along)
+    return LedMechanism(case, own, (value, value)).described(value, 0.0)
 
 
 def moved_by(case: Case, along: str, span: tuple[float, float] | None = None) -> LoadFunction:
