@@ -108,8 +108,8 @@ def _refined(
         step = [_product(row, values, balls) for row in inverse]
         off = [abs(float(x)) + r for x, r in step]  # how they are rounded, `_left` has room for
         longest = max(off)
-        if best is not None and longest > 0.25 * best:
-            break
+        if n > 1 and best is not None and longest > 0.25 * best:
+            break  # not sooner: where a rub turns over, the first step may lead to the wrong side of zero
         best = longest
         middle = [balls.subtract(x, d) for x, (d, _) in zip(middle, step, strict=True)]
     return middle, off, inverse
