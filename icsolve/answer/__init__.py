@@ -12,8 +12,7 @@ from icsolve.errors import SceneError
 from icsolve.tuples import NamedTuple, dataclass, field
 
 if TYPE_CHECKING:
-    from icsolve.answer.bodies import FrictionFound, Reactions, Tension, Witness
-    from icsolve.answer.contacts import Touching
+    from icsolve.answer.bodies import FrictionFound, Reactions, Tension, Touching, Witness
     from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
     from icsolve.answer.space import Spatial
 

@@ -6,8 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from icsolve.case import Case
-from icsolve.case.names import pair_name
+from icsolve.case import Case, pair_name
 from icsolve.errors import SceneError
 
 if TYPE_CHECKING:

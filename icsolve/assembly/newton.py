@@ -18,8 +18,7 @@ from icsolve.assembly.refusals import Miss, datum_words, measure, plain
 from icsolve.assembly.steps import Given, Group, Meet, Step, needs, newton_step
 from icsolve.assembly.workspace import CORNER, LENGTH, LINE, ROPE, Workspace, data_in, facts_of
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.linear import inverse, solve_square
-from icsolve.numbers.sparse import Row
+from icsolve.numbers.linear import Row, inverse, solve_square
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 

@@ -43,7 +43,7 @@ from icsolve.assembly.workspace import (
 from icsolve.case import Coordinates, Number
 from icsolve.errors import Status
 from icsolve.numbers.arithmetic import Floats, turn_of
-from icsolve.numbers.given import numbers_in
+from icsolve.numbers.units import numbers_in
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 

@@ -32,7 +32,7 @@ from icsolve.assembly.workspace import (
 )
 from icsolve.case import Case
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, magnitude
-from icsolve.numbers.sparse import Row, eliminate
+from icsolve.numbers.linear import Row, eliminate
 from icsolve.screws.plane import Point
 from icsolve.tuples import NamedTuple
 

@@ -9,7 +9,7 @@ import math
 from contextlib import suppress
 from decimal import Decimal
 
-from icsolve.answer.contacts import Touching
+from icsolve.answer.bodies import Touching
 from icsolve.assembly import case_point, solve_figure
 from icsolve.cams.contact_candidates import (
     ALONG,

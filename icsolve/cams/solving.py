@@ -6,8 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from icsolve.answer import Answer, Deferred
-from icsolve.answer.bodies import Reactions, names_of
-from icsolve.answer.contacts import Touching
+from icsolve.answer.bodies import Reactions, Touching, names_of
 from icsolve.cams.contact_search import found
 from icsolve.cams.words import contact_said, lost_said
 from icsolve.case import Case

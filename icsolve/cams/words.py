@@ -13,7 +13,7 @@ from icsolve.case.profiles import Arcs, Circle, Polygon, Radii, Shape
 from icsolve.wording.sentences import listed, plural
 
 if TYPE_CHECKING:
-    from icsolve.answer.contacts import Touching
+    from icsolve.answer.bodies import Touching
 
 NEAREST = 3
 """Radii that are left out in turn to tell what interpolation leaves open."""

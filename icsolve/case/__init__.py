@@ -48,13 +48,14 @@ from icsolve.case.loads import (
     Toward,
     Weight,
 )
-from icsolve.numbers.given import Number
+from icsolve.numbers.units import Number
 from icsolve.tuples import dataclass, field
 
 if TYPE_CHECKING:
     from icsolve.case.expected import Expected, Tolerance, Variable
     from icsolve.case.profiles import Profiles
     from icsolve.case.space import Space
+
 
 __all__ = [
     "AlongRope",
@@ -166,3 +167,23 @@ class Case:
         """Its name and size; the fields of a whole case would fill a page."""
         counts = f"{len(self.links)} links, {len(self.joints)} joints, {len(self.loads)} loads"
         return f"<Case {self.name}: {counts}>"
+
+
+# --- names of links and of their centres: ``2-4``, ``crank-rocker`` -------------------------------------
+
+
+def link_order(case: Case, link: str) -> tuple[int, int]:
+    """Sorting key of a link: numbers ascending, then words in order of first mention."""
+    if link.isdecimal():
+        return (0, int(link))
+    return (1, case.links.index(link) if link in case.links else len(case.links))
+
+
+def ordered_pair(case: Case, a: str, b: str) -> Pair:
+    """Two links in the order in which their centre is named."""
+    return (a, b) if link_order(case, a) <= link_order(case, b) else (b, a)
+
+
+def pair_name(case: Case, pair: Pair) -> str:
+    """Name of the centre of two links, whichever way they are given."""
+    return "-".join(ordered_pair(case, *pair))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from icsolve.case.joints import Pair
-from icsolve.numbers.given import Number
+from icsolve.numbers.units import Number
 from icsolve.tuples import NamedTuple
 
 

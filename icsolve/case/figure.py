@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from icsolve.numbers.given import Number
-from icsolve.numbers.units import ExactRatio
+from icsolve.numbers.units import ExactRatio, Number
 from icsolve.tuples import NamedTuple
 
 Mark = tuple[int, int]

@@ -12,7 +12,7 @@ from __future__ import annotations
 from functools import cached_property
 
 from icsolve.case.figure import Guide
-from icsolve.numbers.given import Number
+from icsolve.numbers.units import Number
 from icsolve.tuples import NamedTuple
 
 Pair = tuple[str, str]

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from icsolve.case.bodies import Rope
-from icsolve.numbers.given import Number
-from icsolve.numbers.units import ExactRatio
+from icsolve.numbers.units import ExactRatio, Number
 from icsolve.tuples import NamedTuple
 
 

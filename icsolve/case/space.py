@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from icsolve.case.figure import Centroid
 from icsolve.case.loads import Magnitude, Spring, Toward, Weight
-from icsolve.numbers.given import Number
+from icsolve.numbers.units import Number
 from icsolve.tuples import NamedTuple
 
 

@@ -12,8 +12,7 @@ from icsolve.cli import BUG
 from icsolve.cli.faults import bug_report
 from icsolve.cli.inputs import STDIN, InputSource, sources
 from icsolve.cli.options import Verb
-from icsolve.cli.output import write_output
-from icsolve.cli.progress import watched
+from icsolve.cli.output import watched, write_output
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
 from icsolve.errors import CaseError, NotACase
 from icsolve.tuples import NamedTuple

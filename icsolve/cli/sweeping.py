@@ -167,7 +167,7 @@ def _path_of(case: Case, name: str) -> str:
 
 def _table(read: Case, path: str, asked: SweepOptions) -> int:
     """All rows, as a table or a picture."""
-    from icsolve.cli.progress import Progress
+    from icsolve.cli.output import Progress
     from icsolve.sweep import sweep
     from icsolve.sweep.table import FORMATS
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeVar
 import click
 
 from icsolve.cli.options import Verb
-from icsolve.cli.progress import watched
+from icsolve.cli.output import watched
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, refusing
 from icsolve.files import reading_text
 

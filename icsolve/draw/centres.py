@@ -10,9 +10,8 @@ from collections.abc import Iterable, Sequence
 import shapely
 
 from icsolve.answer import Centre
-from icsolve.case import Joint, Pair
+from icsolve.case import Joint, Pair, link_order, pair_name
 from icsolve.case.joints import Guided, Sliding
-from icsolve.case.names import link_order, pair_name
 from icsolve.draw.links import guide_in_picture
 from icsolve.draw.marks import (
     AreaMark,

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer.bodies import Reaction
-from icsolve.case.names import pair_name
+from icsolve.case import pair_name
 from icsolve.draw.marks import Mark, MarkGroup, TextMark, TextRun, bounds, text_width
 from icsolve.draw.svg import runs_of
 from icsolve.report.derivation import Known, Step

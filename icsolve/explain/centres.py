@@ -7,8 +7,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.answer import Centre
-from icsolve.case import Joint, Pair
-from icsolve.case.names import pair_name
+from icsolve.case import Joint, Pair, pair_name
 from icsolve.explain.document import Block, Inline, Items, Section, formula, words
 from icsolve.explain.formula import (
     Expr,

@@ -12,8 +12,8 @@ from icsolve.case import (
     Coordinates,
     Number,
     Units,
+    pair_name,
 )
-from icsolve.case.names import pair_name
 from icsolve.draw.words import name_runs
 from icsolve.explain.document import Block, Items, Section, ShownTable, words
 from icsolve.explain.formula import Name, Num, Quantity

@@ -31,8 +31,7 @@ from icsolve.case.expected import (
 from icsolve.errors import IcsolveError, SceneError
 from icsolve.grade.mistakes import solved_for
 from icsolve.grade.written.words import factors_between, unit_word
-from icsolve.numbers.given import numbers_in
-from icsolve.numbers.units import DIMENSIONS, Unit, nearest, parse_unit, split_quantity
+from icsolve.numbers.units import DIMENSIONS, Unit, nearest, numbers_in, parse_unit, split_quantity
 from icsolve.report.check import value_of
 from icsolve.scene.sensitivity import band
 from icsolve.tuples import replace

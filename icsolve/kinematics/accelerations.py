@@ -18,7 +18,7 @@ from icsolve.case.joints import CentreAt, CentreSquareTo, JointCentre, Mesh, Rol
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import LOOSE, NO_SPEED, fastest, meant, path_of, speed_of
 from icsolve.numbers.arithmetic import Scalar, all_vanish, decider
-from icsolve.numbers.sparse import SPENT, Row, eliminate
+from icsolve.numbers.linear import SPENT, Row, eliminate
 from icsolve.screws.joints import at_radius, freedoms, guide_direction, mesh_weights, transmitted
 from icsolve.screws.plane import Point, Triple, add, cross, pairing, subtract, velocity
 from icsolve.screws.ropes import part_changes, rope_parts

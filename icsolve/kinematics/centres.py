@@ -20,11 +20,10 @@ from operator import attrgetter
 
 from icsolve.answer import Centre
 from icsolve.assembly.workspace import Frame
-from icsolve.case import Case, Pair
-from icsolve.case.names import ordered_pair
+from icsolve.case import Case, Pair, ordered_pair
 from icsolve.kinematics.twists import Closure, is_dead, products, rate_sizes
 from icsolve.numbers.arithmetic import ROUNDING_NOISE, Arithmetic, Showing, all_vanish
-from icsolve.numbers.null_space import ROUNDING
+from icsolve.numbers.linear import ROUNDING
 from icsolve.screws.joints import Points, freedoms, joint_freedoms, joint_points, pitch_point
 from icsolve.screws.plane import Triple, cross, subtract
 from icsolve.structure.topology import Bond, Topology

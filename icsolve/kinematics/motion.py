@@ -29,8 +29,8 @@ from icsolve.kinematics.twists import (
     span,
 )
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, all_vanish, decider
-from icsolve.numbers.given import Number
-from icsolve.numbers.null_space import null_space
+from icsolve.numbers.linear import null_space
+from icsolve.numbers.units import Number
 from icsolve.screws.joints import Points, freedoms, guide_direction, transmitted
 from icsolve.screws.plane import Triple, add, cross, pairing, subtract, times, velocity
 from icsolve.screws.ropes import end_twist, rope_parts

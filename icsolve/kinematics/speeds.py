@@ -22,7 +22,7 @@ from icsolve.numbers.arithmetic import (
     decider,
     zero_of,
 )
-from icsolve.numbers.null_space import null_space
+from icsolve.numbers.linear import null_space
 from icsolve.screws.plane import Point, Triple, velocity
 from icsolve.tuples import NamedTuple
 

@@ -17,7 +17,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, all_vanish, decider, magnitude
-from icsolve.numbers.null_space import ZERO, NullSpace, Vanishes, null_space
+from icsolve.numbers.linear import ZERO, NullSpace, Vanishes, null_space
 from icsolve.screws.joints import transmitted, weights_of
 from icsolve.screws.plane import (
     Point,

@@ -10,8 +10,7 @@ import math
 from collections.abc import Callable, Iterable
 from typing import Any, Protocol
 
-from icsolve.numbers.given import Number
-from icsolve.numbers.units import ExactRatio, nearest
+from icsolve.numbers.units import ExactRatio, Number, nearest
 
 Scalar = Any
 """A float, an array of them, or any number type with + - * /."""

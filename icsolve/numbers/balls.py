@@ -28,8 +28,7 @@ from functools import cache
 from typing import Union, final
 
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.given import Number
-from icsolve.numbers.units import ExactRatio
+from icsolve.numbers.units import ExactRatio, Number
 
 UP = 1.0 + 2.0**-49
 """Times this, a few roundings of floats err upward."""

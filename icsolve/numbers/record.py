@@ -13,9 +13,8 @@ from enum import IntEnum
 from typing import Any
 
 from icsolve.numbers.arithmetic import ROUNDING_NOISE, Scalar, turn_of
-from icsolve.numbers.given import Number
 from icsolve.numbers.tape import decimal_noise
-from icsolve.numbers.units import ExactRatio, nearest
+from icsolve.numbers.units import ExactRatio, Number, nearest
 from icsolve.tuples import NamedTuple
 
 

@@ -14,8 +14,7 @@ from collections.abc import Iterable
 from typing import Union
 
 from icsolve.numbers.arithmetic import Scalar, turn_of
-from icsolve.numbers.given import Number
-from icsolve.numbers.units import ExactRatio, nearest
+from icsolve.numbers.units import ExactRatio, Number, nearest
 from icsolve.tuples import NamedTuple
 
 UNIT = 2.0**-53

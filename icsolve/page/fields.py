@@ -12,11 +12,10 @@ from typing import Any
 from icsolve.assembly.loci import Axis, CircleLocus, Locus
 from icsolve.assembly.steps import Given, Meet, Polar, Step
 from icsolve.assembly.workspace import LENGTH, RAY, Datum, X, number_of
-from icsolve.case import Area, Case, Force, Load, Number, TorsionSpring, Weight
-from icsolve.case.names import pair_name
+from icsolve.case import Area, Case, Force, Load, Number, TorsionSpring, Weight, pair_name
 from icsolve.draw.words import unit_word
 from icsolve.errors import CaseError
-from icsolve.numbers.given import numbers_in
+from icsolve.numbers.units import numbers_in
 from icsolve.read import load
 from icsolve.read.joints import JOINTS
 from icsolve.read.keys import LOADS

@@ -14,8 +14,7 @@ import numpy as np
 
 from icsolve.answer import Centre, Found
 from icsolve.answer.bodies import Reaction
-from icsolve.case import Force, ForceVector, Load, Pair, Spring, TorsionSpring, Toward, Weight
-from icsolve.case.names import pair_name
+from icsolve.case import Force, ForceVector, Load, Pair, Spring, TorsionSpring, Toward, Weight, pair_name
 from icsolve.draw.loads import axle
 from icsolve.draw.marks import Point, View
 from icsolve.draw.ropes import RopeCourse

@@ -21,9 +21,9 @@ from icsolve.case import (
     Pair,
     Rope,
     Torque,
+    pair_name,
 )
 from icsolve.case.joints import Guided, Mesh, without_friction
-from icsolve.case.names import pair_name
 from icsolve.draw.figure import genevas
 from icsolve.draw.plot import asymptotes, dead_centres
 from icsolve.draw.words import figure_number, unit_word

@@ -11,8 +11,7 @@ from collections.abc import Mapping as Table
 from typing import Any
 
 from icsolve.case import Like, Magnitude, Mark, Number, Slope
-from icsolve.numbers.given import BOUNDS
-from icsolve.numbers.units import exactly, nearest, quotient, split_quantity
+from icsolve.numbers.units import BOUNDS, exactly, nearest, quotient, split_quantity
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.keys import LIKE, Key, Rule
 from icsolve.read.names import shown, suggestion

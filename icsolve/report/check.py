@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from icsolve.answer import Answer, Centre, Found
-from icsolve.case import Case, Like, Load, Number, Pair, Torque
+from icsolve.case import Case, Like, Load, Number, Pair, Torque, pair_name
 from icsolve.case.expected import (
     ArmIs,
     CentreIs,
@@ -22,10 +22,8 @@ from icsolve.case.expected import (
     Target,
     TensionIs,
 )
-from icsolve.case.names import pair_name
 from icsolve.tuples import NamedTuple
-from icsolve.wording.bearings import bearing, same_way, turned_at_most
-from icsolve.wording.senses import holding
+from icsolve.wording.senses import bearing, holding, same_way, turned_at_most
 
 AGREES = "agrees"
 DISAGREES = "disagrees"

@@ -7,8 +7,7 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer, Centre, Found, Term
-from icsolve.case import Case, Coordinates, Pair, Torque
-from icsolve.case.names import link_order, pair_name
+from icsolve.case import Case, Coordinates, Pair, Torque, link_order, pair_name
 from icsolve.scene.parts import scene_of
 from icsolve.wording.senses import SPELT, holding, spelt
 

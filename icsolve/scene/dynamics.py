@@ -17,7 +17,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.kinematics.accelerations import Moving, moving
 from icsolve.kinematics.speeds import OPEN, moving_points
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.given import Number
+from icsolve.numbers.units import Number
 from icsolve.scene.program import Program, Want, evaluate, prepare
 from icsolve.statics.inertia import COUPLE, FORCE, inertia_forces
 from icsolve.tuples import NamedTuple, replace

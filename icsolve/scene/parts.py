@@ -9,8 +9,7 @@ from decimal import Decimal
 from functools import cached_property
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
-from icsolve.case import Case, Number, Pair
-from icsolve.case.names import link_order
+from icsolve.case import Case, Number, Pair, link_order
 from icsolve.errors import SceneError
 from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder

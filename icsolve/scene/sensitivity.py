@@ -13,7 +13,7 @@ from typing import Any
 from icsolve.answer import Answer, Found
 from icsolve.case import Case, Coordinates, Corner, Direction, Number
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.given import numbers_in
+from icsolve.numbers.units import numbers_in
 from icsolve.tuples import NamedTuple
 
 

@@ -12,7 +12,7 @@ from itertools import accumulate
 from typing import Generic, Protocol, TypeVar
 
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
-from icsolve.numbers.sparse import General, Row, eliminate
+from icsolve.numbers.linear import General, Row, eliminate
 from icsolve.screws import space
 from icsolve.statics.power import (
     Balance,

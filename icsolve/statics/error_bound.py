@@ -22,7 +22,7 @@ from icsolve.kinematics.speeds import Speed
 from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, size_of
 from icsolve.numbers.balls import Balls, MoreDigits
 from icsolve.numbers.krawczyk import enclosed_root
-from icsolve.numbers.sparse import Row, eliminate
+from icsolve.numbers.linear import Row, eliminate
 from icsolve.numbers.tape import SMALL
 from icsolve.statics.equilibrium import Rub, Statics, equations_of, equilibrium
 from icsolve.statics.free_bodies import Solved, carrying_flanks

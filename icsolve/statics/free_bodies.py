@@ -17,7 +17,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.kinematics.twists import FRAME
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing
-from icsolve.numbers.sparse import Row
+from icsolve.numbers.linear import Row
 from icsolve.screws.plane import velocity
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import Equilibrium, Statics, T, equilibrium

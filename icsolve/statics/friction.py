@@ -16,7 +16,7 @@ from icsolve.assembly import Frame
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import Speed, fastest
 from icsolve.numbers.arithmetic import FLOATS
-from icsolve.numbers.sparse import General, Row
+from icsolve.numbers.linear import General, Row
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import Statics, equilibrium
 from icsolve.statics.error_bound import (

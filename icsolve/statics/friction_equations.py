@@ -15,8 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from icsolve.numbers.linear import inverse, solve_square
-from icsolve.numbers.sparse import Row
+from icsolve.numbers.linear import Row, inverse, solve_square
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.witness import independent
 from icsolve.tuples import NamedTuple

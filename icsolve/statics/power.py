@@ -45,7 +45,7 @@ from icsolve.numbers.arithmetic import (
     magnitude,
     zero_of,
 )
-from icsolve.numbers.null_space import null_space
+from icsolve.numbers.linear import null_space
 from icsolve.numbers.tape import Tape
 from icsolve.screws.plane import Point, Triple, force_wrench, unit_between
 from icsolve.screws.ropes import rope_parts

@@ -11,9 +11,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from icsolve.answer.bodies import Reaction, Reactions, Tension, names_of
 from icsolve.assembly import Frame
-from icsolve.case import Case, Rope
+from icsolve.case import Case, Rope, ordered_pair
 from icsolve.case.joints import Mesh, Sliding
-from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, size_of, zero_of
 from icsolve.screws.plane import velocity

@@ -10,8 +10,7 @@ from collections.abc import Mapping, Sequence
 from icsolve.answer.bodies import Witness
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar, decider
-from icsolve.numbers.linear import inverse, solve_square
-from icsolve.numbers.sparse import Row
+from icsolve.numbers.linear import Row, inverse, solve_square
 from icsolve.screws import space
 from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Components, Equilibrium, T

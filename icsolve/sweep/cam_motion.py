@@ -18,7 +18,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from icsolve.answer.contacts import Touching
+from icsolve.answer.bodies import Touching
 from icsolve.cams.contact_candidates import (
     Candidate,
     Freedom,

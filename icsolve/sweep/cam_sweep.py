@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from icsolve.answer import Answer
-from icsolve.answer.contacts import Touching
+from icsolve.answer.bodies import Touching
 from icsolve.cams.contact_candidates import Turn
 from icsolve.cams.words import follower_driven, lost_rows, widest_pressure
 from icsolve.case import Case

@@ -29,7 +29,7 @@ from icsolve.case import Case, Coordinates, Number
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.sparse import Row, eliminate
+from icsolve.numbers.linear import Row, eliminate
 from icsolve.screws.plane import Point
 from icsolve.sweep.numbers import with_numbers
 from icsolve.tuples import NamedTuple, replace

@@ -24,9 +24,9 @@ from icsolve.case import (
     Slope,
     Spring,
     Weight,
+    ordered_pair,
 )
 from icsolve.case.joints import Guided, Mesh
-from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError
 from icsolve.kinematics import motion, speeds
 from icsolve.numbers.arithmetic import FLOATS, Scalar, turn_of

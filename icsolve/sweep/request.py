@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 from icsolve.assembly.workspace import names_of
 from icsolve.case import Case, Pair
-from icsolve.numbers.given import BOUNDS
 from icsolve.numbers.replay import Array
+from icsolve.numbers.units import BOUNDS
 from icsolve.read.names import pairs, shown, suggestion
 from icsolve.sweep.numbers import find_number, numbers_of
 from icsolve.sweep.program import RowRequest

@@ -14,8 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.answer import Answer, by_load
-from icsolve.case import Case, Coordinates
-from icsolve.case.names import link_order
+from icsolve.case import Case, Coordinates, link_order
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
 from icsolve.numbers.tape import UNIT

@@ -20,9 +20,9 @@ from icsolve.assembly.driven.poses import Moved, Places, Rotation, Spot, plus, r
 from icsolve.assembly.workspace import Workspace
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, RADIAN, Scalar
+from icsolve.numbers.linear import Row, eliminate
 from icsolve.numbers.record import Implicit, Op, Record, Traced
 from icsolve.numbers.replay import BLOCK, Array, Code
-from icsolve.numbers.sparse import Row, eliminate
 from icsolve.screws.plane import Point
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed

@@ -29,10 +29,10 @@ from icsolve.case import (
     TorsionSpring,
     Toward,
     Weight,
+    pair_name,
 )
 from icsolve.case.joints import Guided, Mesh, Sliding
 from icsolve.case.joints import without_friction as smooth
-from icsolve.case.names import pair_name
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.ropes import rope_parts, wrap_angle
 from icsolve.tuples import NamedTuple, replace

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
 from icsolve.answer import Answer
-from icsolve.case import Case, Load, Torque
+from icsolve.case import Case, Load, Torque, pair_name
 from icsolve.case.expected import (
     CentreIs,
     DistanceIs,
@@ -21,7 +21,6 @@ from icsolve.case.expected import (
     SpeedIs,
     Target,
 )
-from icsolve.case.names import pair_name
 from icsolve.errors import IcsolveError, SceneError
 from icsolve.grade.mistakes.changed import (
     Changed,

@@ -21,9 +21,8 @@ from icsolve.case import Case, ForceVector, Load, Mark, Number, Pair
 from icsolve.errors import IcsolveError
 from icsolve.grade.mistakes.changed import changed_loads, turned_loads
 from icsolve.grade.mistakes.engine import Known, solved_for
-from icsolve.numbers.given import numbers_in
 from icsolve.numbers.replay import Array
-from icsolve.numbers.units import converted, parse_unit, split_quantity
+from icsolve.numbers.units import converted, numbers_in, parse_unit, split_quantity
 from icsolve.read.document import Mapping as Tree
 from icsolve.read.document import Node, Scalar, parse
 from icsolve.read.document import Sequence as Items

@@ -8,9 +8,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from icsolve.answer import Answer, Centre, by_load
 from icsolve.answer.equilibrium import EquilibriumPosition
 from icsolve.assembly import Frame, case_point, solve_figure
-from icsolve.case import Case, Coordinates, ForceVector, Joint, Like, Load, Pair
+from icsolve.case import Case, Coordinates, ForceVector, Joint, Like, Load, Pair, ordered_pair
 from icsolve.case.figure import Unknown
-from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS, turn_of
 from icsolve.scene.parts import AnswerBuilder, scene_of

@@ -14,8 +14,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import combinations
 
 from icsolve.answer import Centre
-from icsolve.case import Case, Pair, Rope, Screw
-from icsolve.case.names import link_order
+from icsolve.case import Case, Pair, Rope, Screw, link_order
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ropes import moving_names
 from icsolve.scene.parts import wanted_pairs

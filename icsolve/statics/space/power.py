@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from icsolve.case import Case, Spring, Weight
 from icsolve.case.space import Load, SpatialForce, SpatialForceVector, SpatialTorque, TorqueVector
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider, magnitude
-from icsolve.numbers.sparse import Row, eliminate
+from icsolve.numbers.linear import Row, eliminate
 from icsolve.screws.space import AXES, ZERO, Components, Vec, moved
 from icsolve.statics.equilibrium import Action, Equilibrium, columns_of, load_action, solve_statics
 from icsolve.statics.free_bodies import carrying

@@ -9,8 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.answer import Term
 from icsolve.answer.space import SpatialReaction, SpatialReactions
-from icsolve.case import Case, Spring, Toward, Weight
-from icsolve.case.names import ordered_pair
+from icsolve.case import Case, Spring, Toward, Weight, ordered_pair
 from icsolve.case.space import (
     Along,
     FromTo,
@@ -25,7 +24,7 @@ from icsolve.case.space import (
 )
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, Showing, decider, zero_of
-from icsolve.numbers.sparse import Row
+from icsolve.numbers.linear import Row
 from icsolve.screws.space import AXES, Vec, cross, dot, size, square_to, sub, times, unit
 from icsolve.statics.equilibrium import value_of
 from icsolve.statics.power import unknown_loads

@@ -18,7 +18,7 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Showing
 from icsolve.numbers.balls import PRECISIONS, Balls, HalfUnits, MoreDigits, is_long
-from icsolve.numbers.given import numbers_in
+from icsolve.numbers.units import numbers_in
 from icsolve.statics.free_bodies import on_flanks
 from icsolve.statics.power import advantage, load_value
 from icsolve.statics.space.power import SpatialSolution, solution_of, wrenches
