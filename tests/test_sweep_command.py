@@ -16,7 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import icsolve
-from icsolve.cli import progress
+from icsolve.cli import output
 from icsolve.cli.spans import progression
 from shell import exit_status
 
@@ -198,10 +198,10 @@ class Terminal(io.StringIO):
 
 
 def test_a_bar_is_shown_of_long_work_on_a_terminal_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(progress, "PATIENCE", 0.0)
+    monkeypatch.setattr(output, "PATIENCE", 0.0)
     monkeypatch.setattr("sys.stderr", Terminal())
     for total, seen in ((10_000, True), (0, False)):
-        with progress.Progress(total) as bar:
+        with output.Progress(total) as bar:
             assert bar.told is not None
             if total:
                 icsolve.sweep(
@@ -210,7 +210,7 @@ def test_a_bar_is_shown_of_long_work_on_a_terminal_only(monkeypatch: pytest.Monk
         assert ("100%" in sys.stderr.getvalue()) == seen  # type: ignore[attr-defined]
         monkeypatch.setattr("sys.stderr", Terminal())
     monkeypatch.setattr("sys.stderr", io.StringIO())
-    assert progress.Progress(10).told is None
+    assert output.Progress(10).told is None
 
 
 @pytest.mark.parametrize("want", [("answers",), ("answers", "error")])
