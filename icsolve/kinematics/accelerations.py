@@ -18,7 +18,7 @@ from icsolve.case.joints import CentreAt, CentreSquareTo, JointCentre, Mesh, Rol
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import LOOSE, NO_SPEED, fastest, meant, path_of, speed_of
 from icsolve.numbers.arithmetic import Scalar, all_vanish, decider
-from icsolve.numbers.linear import SPENT, Row, eliminate
+from icsolve.numbers.linear import SPENT, General, Row, eliminate
 from icsolve.screws.joints import at_radius, freedoms, guide_direction, mesh_weights, transmitted
 from icsolve.screws.plane import Point, Triple, add, cross, pairing, subtract, velocity
 from icsolve.screws.ropes import part_changes, rope_parts
@@ -140,6 +140,29 @@ def rate_rows(place: PlacedCase, twists: Twists, drives: Sequence[Drive]) -> tup
     return rows, sizes
 
 
+def goes_on(place: PlacedCase, twists: Twists) -> bool | None:
+    """Whether the one motion that redundant joints leave extends to second order: there are accelerations.
+
+    Where there are none the links yield only for an instant (R. Connelly, W. Whiteley, SIAM J. Discrete Math.
+    9, 1996). None where a joint does not tell how it moves on. Raises MoreDigits of balls, where it is open.
+    """
+    try:
+        return _solved(place, twists, (), 0.0)[1]
+    except SceneError:
+        return None
+
+
+def _solved(place: PlacedCase, twists: Twists, drives: Sequence[Drive], slack: float) -> tuple[General, bool]:
+    """The rates of all bodies' twists in general, and whether there are any."""
+    arithmetic, known = place.arithmetic, 3 * len(place.top.members)
+    rows, sizes = rate_rows(place, twists, drives)
+    near, largest = min(NEAR, GROWN * slack), max(sizes, default=0.0)
+    general = eliminate(rows, known, near or SPENT, None if slack else decider(arithmetic))
+    rest = [left.get(known, 0.0) for left in general.left]
+    fits = all(abs(float(a)) <= near * largest or arithmetic.vanishes(a, largest) for a in rest)
+    return general, fits
+
+
 def _rates(
     place: PlacedCase, twists: Twists, drives: Sequence[Drive], slack: float
 ) -> tuple[list[Triple], set[str]]:
@@ -149,11 +172,8 @@ def _rates(
     """
     top, arithmetic = place.top, place.arithmetic
     known = 3 * len(top.members)
-    rows, sizes = rate_rows(place, twists, drives)
-    near = min(NEAR, GROWN * slack)
-    general = eliminate(rows, known, near or SPENT, None if slack else decider(arithmetic))
-    rest = [left.get(known, 0.0) for left in general.left]
-    if not all(abs(float(a)) <= near * max(sizes) or arithmetic.vanishes(a, max(sizes)) for a in rest):
+    general, fits = _solved(place, twists, drives, slack)
+    if not fits:
         raise SceneError(
             Status.CHANGE_POINT,
             "the links move only for an instant in this position (its joints do not fit together a moment "

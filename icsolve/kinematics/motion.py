@@ -1,17 +1,10 @@
 """All motions that the joints allow: by the plan where one freedom follows group by group, else from the loop
 equations of the whole scene. What is singular, redundant or rigid is said here.
-
-Links with redundant constraints go on moving, or yield only for an instant. Joint rates s are a first-order
-motion where the loops close, ``sum s_i $_i = 0``. They extend to second order where accelerations can make up
-for the brackets ``sum_{i<j} s_i s_j [$_i, $_j]``, that is, where every self-stress (a wrench system of the
-joints in balance without load) does no work on them. (J. M. Rico Martinez, J. Duffy, Mech. Mach. Theory 31,
-1996; R. Connelly, W. Whiteley, SIAM J. Discrete Math. 9, 1996.)
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 from icsolve.assembly.workspace import Frame
 from icsolve.case import Case
@@ -19,20 +12,16 @@ from icsolve.errors import SceneError, Status
 from icsolve.kinematics.twists import (
     ORIGIN,
     Bases,
-    Branch,
     Closure,
     LoopMotions,
     all_motions,
     is_singular,
-    loop_rows,
     run,
-    span,
 )
-from icsolve.numbers.arithmetic import Arithmetic, Scalar, all_vanish, decider
-from icsolve.numbers.linear import null_space
+from icsolve.numbers.arithmetic import Arithmetic, decider
 from icsolve.numbers.units import Number
-from icsolve.screws.joints import Points, freedoms, guide_direction, transmitted
-from icsolve.screws.plane import Triple, add, cross, pairing, subtract, times, velocity
+from icsolve.screws.joints import Points, freedoms, guide_direction
+from icsolve.screws.plane import Triple, cross, subtract, velocity
 from icsolve.screws.ropes import end_twist, rope_parts
 from icsolve.structure.plan import Plan
 from icsolve.structure.topology import Topology
@@ -214,72 +203,3 @@ def _off_place(top: Topology, bases: Bases, k: int, arithmetic: Arithmetic) -> f
         return None
     x, y, w = relative[0]
     return None if arithmetic.vanishes(w, max(abs(x), abs(y))) else math.hypot(x / w - px, y / w - py)
-
-
-def goes_on(top: Topology, bases: Bases, arithmetic: Arithmetic) -> bool | None:
-    """Whether the one motion of a redundant scene extends to second order.
-
-    Parameters
-    ----------
-    top : bodies and bonds
-    bases : by bond, its basis twists [frame of size 1]
-    arithmetic : of the bases
-
-    Returns
-    -------
-    bool | None
-        None where a joint has not one centre that goes with its links, or there is not one motion.
-
-    Raises
-    ------
-    MoreDigits
-        Of balls, where it is open.
-    """
-    if any(top.bonds[k].joint.freedom > 1 or not top.bonds[k].joint.stays_known for k in bases):
-        return None
-    tree = span(top, sorted(bases), (top.ground,), bases)
-    if any(body not in tree.branches for k in bases for body in (top.bonds[k].a, top.bonds[k].b)):
-        return None  # what no joint ties to the frame floats: more motions than one
-    rows = [row[:-1] for row in loop_rows(top, tree, bases, {top.ground: ORIGIN})]
-    vanishes = decider(arithmetic)
-    motion = null_space(rows, tree.columns, unit=1.0, vanishes=vanishes).basis
-    if len(motion) != 1:
-        return None
-    misfits: list[Scalar] = []
-    for k in tree.closing:
-        (one, ba), (two, bb) = (
-            _second(tree.branches[body], motion[0]) for body in (top.bonds[k].a, top.bonds[k].b)
-        )
-        misfit = subtract(subtract(bb, ba), bracket(one, two))
-        misfits += [pairing(wrench, misfit) for wrench in transmitted(bases[k])]
-    columns = [list(column) for column in zip(*rows, strict=True)]
-    stresses = null_space(columns, len(rows), unit=1.0, vanishes=vanishes).basis
-    return all_vanish(arithmetic, (_work(stress, misfits, motion[0]) for stress in stresses))
-
-
-def _second(branch: Branch, rates: Sequence[Scalar]) -> tuple[Triple, Triple]:
-    """Twist of a body, and the brackets of the joint rates on its path."""
-    twist, brackets = ORIGIN, ORIGIN
-    for column, basis in branch.path:
-        step = times(rates[column], basis)
-        brackets = add(brackets, bracket(twist, step))
-        twist = add(twist, step)
-    return twist, brackets
-
-
-def bracket(a: Triple, b: Triple) -> Triple:
-    """Lie bracket of two twists: how far two small motions fail to commute.
-
-    For ``a = (X, Y, W)``: ``(Ya Wb - Wa Yb, Wa Xb - Xa Wb, 0)``, a translation.
-    """
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], 0.0)
-
-
-def _work(
-    stress: Sequence[Scalar], misfits: Sequence[Scalar], rates: Sequence[Scalar]
-) -> tuple[Scalar, float]:
-    """Work of a self-stress on the second-order misfit, and the size of what it is summed from."""
-    work: Scalar = 0.0
-    for s, misfit in zip(stress, misfits, strict=True):
-        work = work + s * misfit
-    return work, max(map(abs, stress)) * max(map(abs, rates)) ** 2

@@ -9,13 +9,13 @@ from decimal import Decimal
 from functools import cached_property
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
+from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import Case, Number, Pair, link_order
 from icsolve.errors import SceneError
 from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
-from icsolve.kinematics.motion import Motions
 from icsolve.kinematics.speeds import Speed
-from icsolve.numbers.arithmetic import Arithmetic, Scalar, magnitude, zero_of
+from icsolve.numbers.arithmetic import Scalar, magnitude, zero_of
 from icsolve.numbers.balls import PRECISIONS, BelowZero, MoreDigits, MovedBalls
 from icsolve.scene.program import (
     EvaluatedScene,
@@ -385,7 +385,7 @@ def _notes(found: Evaluation) -> list[str]:
     program, (_, motions, _, solution) = found.program, found.outcome
     notes = [*program.case.noticed]
     if motions.redundant and not motions.notes:
-        notes.append(_redundancy(program, motions, found.arithmetic))
+        notes.append(_redundancy(found))
     if solution.idle and solution.values:
         count = sentences.plural(len(solution.idle), "passive freedom")
         ends = sentences.free_ends(program.top, program.case)
@@ -393,13 +393,17 @@ def _notes(found: Evaluation) -> list[str]:
     return notes
 
 
-def _redundancy(program: Program, motions: Motions, a: Arithmetic) -> str:
+def _redundancy(found: Evaluation) -> str:
     """What becomes of a motion that redundant constraints allow in this position."""
-    from icsolve.kinematics.motion import goes_on
+    from icsolve.kinematics.accelerations import goes_on
 
-    top, want = program.top, program.want
-    onward = goes_on(top, motions.bases, a)
-    return sentences.redundant(motions.redundant, onward, want.bodies, top.wedges)
+    case, top = found.program.case, found.program.top
+    motions = found.outcome.motions
+    onward = None
+    if motions.mobility == 1:
+        place = PlacedCase(case, top, found.program.figure.frame, found.outcome.points, found.arithmetic)
+        onward = goes_on(place, {link: one for link, (one,) in motions.twists.items()})
+    return sentences.redundant(motions.redundant, onward, found.program.want.bodies, top.wedges)
 
 
 def _skipped(program: Program, outcome: Outcome) -> tuple[str, ...]:
