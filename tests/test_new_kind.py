@@ -17,12 +17,14 @@ from icsolve.case import Case, Guide, Joint, Pin, Slot
 from icsolve.case.joints import (
     CentreAt,
     CentreSquareTo,
+    CentreToward,
     Friction,
     Guided,
     JointCentre,
     JointKind,
     Pair,
 )
+from icsolve.numbers.units import Number
 from icsolve.tuples import NamedTuple
 
 CASES = Path(__file__).parent.parent / "cases"
@@ -89,6 +91,52 @@ def test_it_moves_as_that_link_does() -> None:
     # rounding of two elimination orders: some hundred ulps of the largest force
     assert np.allclose(bar.answers["T12"], pinned.answers["T12"], rtol=0.0, atol=1e-11)
     assert np.allclose(bar.points["C"], pinned.points["C"], rtol=0.0, atol=1e-13)
+
+
+class _Pair(NamedTuple):
+    links: Pair
+
+
+class Parallel(_Pair, JointKind):
+    """Two links that keep the angle between them, as those of a drafting machine."""
+
+    @cached_property
+    def centres(self) -> tuple[JointCentre, ...]:
+        directions = (Number(degrees, 0.0, "", f"{degrees:g}") for degrees in (0.0, 90.0))
+        return tuple(CentreToward(degrees, self.links[0]) for degrees in directions)
+
+
+ON_TWO_SLIDES = """\
+icsolve: 1
+points: {A: [0, 0], B: [2, 1], C: [4, 3], E: [6, 2]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slot: [4, 1], at: E, along: 0}
+  - {slide: [9, 2], at: A, along: 30}
+  - {slide: [4, 9], at: C, along: 75}
+loads:
+  P: {force: 10, link: 4, at: E, angle: 0}
+  T12: {torque: unknown, link: 2}
+motion: {link: 2, speed: 3 rad/s}
+links: {4: {mass: 2 kg, centre: C}}
+"""
+
+
+def test_two_links_kept_parallel_are_those_on_two_slides() -> None:
+    """Without the link between the slides: force, accelerations, and motion."""
+    slid = icsolve.load(ON_TWO_SLIDES)
+    joints = (*slid.joints[:4], Parallel(("4", "2")))
+    carries = {link: points for link, points in slid.carries.items() if link != "9"}
+    kept = replace(slid, links=("1", "2", "3", "4"), joints=joints, carries=carries)  # type: ignore[arg-type]
+    for dynamic in (False, True):
+        ours, theirs = (icsolve.solve(case, dynamic=dynamic) for case in (kept, slid))
+        assert ours.answers["T12"].value == pytest.approx(theirs.answers["T12"].value, rel=1e-14)
+    angles, want = np.arange(0.0, 50.0, 10.0), ("answers", "status")
+    ours, theirs = (icsolve.sweep(case, drive={"2": angles}, want=want) for case in (kept, slid))
+    assert set(ours.status) == {"ok"}
+    assert np.allclose(ours.answers["T12"], theirs.answers["T12"], rtol=1e-12, atol=0.0)
 
 
 class _At(NamedTuple):

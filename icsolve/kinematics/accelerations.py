@@ -14,12 +14,12 @@ from collections.abc import Mapping, Sequence
 
 from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import Joint, Motion, Number, Rope
-from icsolve.case.joints import CentreAt, CentreSquareTo, JointCentre, Mesh, Rolling
+from icsolve.case.joints import CentreAt, JointCentre, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import LOOSE, NO_SPEED, fastest, meant, path_of, speed_of
 from icsolve.numbers.arithmetic import Scalar, all_vanish, decider
 from icsolve.numbers.linear import SPENT, General, Row, eliminate
-from icsolve.screws.joints import at_radius, freedoms, guide_direction, mesh_weights, transmitted
+from icsolve.screws.joints import at_radius, centre_twist, freedoms, mesh_weights, transmitted
 from icsolve.screws.plane import Point, Triple, add, cross, pairing, subtract, velocity
 from icsolve.screws.ropes import part_changes, rope_parts
 from icsolve.structure.topology import Bond, Topology
@@ -258,10 +258,9 @@ def _change(place: PlacedCase, twists: Twists, joint: Joint, centre: JointCentre
         raise SceneError(Status.UNSUPPORTED, why_no_acceleration(joint))
     if isinstance(centre, CentreAt):
         return _moved(velocity(twists[centre.link], place.points[centre.point]))
-    assert isinstance(centre, CentreSquareTo)
-    x, y = guide_direction(centre.guide, place.points, place.arithmetic)  # turns with its link
+    x, y, _ = centre_twist(centre, place.points, place.arithmetic)  # turns with its link
     omega = twists[centre.link][2]
-    return -(omega * x), -(omega * y), 0.0
+    return -(omega * y), omega * x, 0.0
 
 
 def _unknown(joint: Rolling, why: str) -> SceneError:

@@ -39,10 +39,11 @@ def freedoms(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[Triple
 
 def joint_freedoms(joint: Joint, points: Points, arithmetic: Arithmetic) -> tuple[Triple, ...]:
     """Basis twists of a joint that needs no pivots of its own links (any but a mesh), one or two."""
-    return tuple([_twist(centre, points, arithmetic) for centre in joint.centres])
+    return tuple([centre_twist(centre, points, arithmetic) for centre in joint.centres])
 
 
-def _twist(centre: JointCentre, points: Points, arithmetic: Arithmetic) -> Triple:
+def centre_twist(centre: JointCentre, points: Points, arithmetic: Arithmetic) -> Triple:
+    """Unit motion about a centre."""
     if isinstance(centre, CentreAt):
         return pin_twist(points[centre.point])
     if isinstance(centre, CentreSquareTo):

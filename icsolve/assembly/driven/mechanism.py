@@ -371,16 +371,16 @@ def _conditions(
 ) -> Iterator[Constraint]:
     """What the centres that span a joint's freedoms say of its links as they move; of a pin nothing, which is
     one spot of several bodies."""
-    if body_of[joint.links[0]] == body_of[joint.links[1]]:
+    one, two = (body_of[link] for link in joint.links[:2])
+    if one == two:
         return
     if line is not None and joint.at is not None:
-        yield OnLine((body_of[joint.links[0]], joint.at), line)
-        if joint.keeps_direction:
-            yield Turning(((body_of[joint.links[0]], 1.0), (line.body, -1.0)))
-        return
+        yield OnLine((one, joint.at), line)
+    if joint.keeps_direction:
+        yield Turning(((one, 1.0), (two, -1.0)))
     match joint.centres:
-        case (CentreAt(a, one), CentreAt(b, two)):
-            ends = (body_of[one], a), (body_of[two], b)
+        case (CentreAt(a, carrier), CentreAt(b, other)):
+            ends = (body_of[carrier], a), (body_of[other], b)
             yield SpotDistance(*ends, shape.span(*ends))
 
 
