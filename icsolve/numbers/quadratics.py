@@ -72,8 +72,8 @@ class Quadratics(NamedTuple):
 
     def bound(self, r: Array) -> Array:
         """Most that the terms of degree two change within radii (k, n): r'|H|r / 2, (k, m)."""
-        total: Array = np.einsum("mij,ki,kj->km", np.abs(self.hessian), r, r, optimize=True)
-        return total / 2.0
+        most = np.einsum("mij,kj->kmi", np.abs(self.hessian), r)
+        return np.asarray(np.einsum("kmi,ki->km", most, r) / 2.0)
 
 
 def every_zero(
@@ -155,15 +155,15 @@ class _Exclusion:
         self._again(low, high, before)
 
     def _narrow_linear(self, m: int, low: Array, high: Array) -> None:
-        row = self.system.gradient[m]
-        columns = np.flatnonzero(row)
-        for k in columns:
-            rest = [j for j in columns if j != k]
-            sides = np.stack([low[:, rest] * row[rest], high[:, rest] * row[rest]])
-            sums = np.stack([sides.min(axis=0).sum(axis=1), sides.max(axis=0).sum(axis=1)])
-            ends = -(self.system.constant[m] + sums) / row[k]
-            low[:, k] = np.maximum(low[:, k], ends.min(axis=0) - SLACK)
-            high[:, k] = np.minimum(high[:, k], ends.max(axis=0) + SLACK)
+        """Narrow every unknown of a linear equation by what the others leave it."""
+        columns = np.flatnonzero(self.system.gradient[m])
+        row = self.system.gradient[m, columns]
+        ends = np.stack([low[:, columns] * row, high[:, columns] * row])
+        least, most = ends.min(axis=0), ends.max(axis=0)
+        others = np.stack([least.sum(axis=1)[:, None] - least, most.sum(axis=1)[:, None] - most])
+        ends = -(self.system.constant[m] + others) / row
+        low[:, columns] = np.maximum(low[:, columns], ends.min(axis=0) - SLACK)
+        high[:, columns] = np.minimum(high[:, columns], ends.max(axis=0) + SLACK)
 
     def _by_inverse(
         self,

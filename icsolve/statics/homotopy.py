@@ -281,11 +281,14 @@ def together(equations: Lengths, most: int) -> tuple[list[Y] | None, int]:
     not negative, so their sum is made 1 and all solutions lie in a box, those at infinity too. An unknown
     that is no length but a load has either sign.
     """
+    n, scale = len(equations.lengths), scale_at(equations, [0.0] * len(equations.lengths))
+    if n == 1:
+        return _sound(equations, [[scale * y] for y in _of_one(equations, scale)]), 0
+
     import numpy as np
 
     from icsolve.numbers.quadratics import Quadratics, every_zero
 
-    n, scale = len(equations.lengths), scale_at(equations, [0.0] * len(equations.lengths))
     matrices = [np.array(_matrix(both)) for both in zip(equations.lengths, equations.vectors, strict=True)]
     for matrix in matrices:
         matrix[0] /= scale
@@ -312,6 +315,22 @@ def together(equations: Lengths, most: int) -> tuple[list[Y] | None, int]:
             return None, boxes
         rough += [scale * turn[1:] * u[1:] / u[0] for u in zeros.found if u[0] > AT_INFINITY]
     return _sound(equations, [[float(part) for part in y] for y in rough]), boxes
+
+
+def _of_one(equations: Lengths, scale: float) -> list[float]:
+    """The finite roots of a quadric in one unknown, over the scale."""
+    (c, b), (_, a) = _matrix((equations.lengths[0], equations.vectors[0]))
+    c, b = c / scale / scale, b / scale
+    if not max(abs(a), abs(b), abs(c)):
+        return [0.0]  # nothing presses, whatever the load is
+    rest = b * b - a * c
+    if abs(rest) <= EQUAL * (b * b + abs(a * c)):
+        rest = 0.0
+    if rest < 0.0:
+        return []
+    whole = -b - math.copysign(math.sqrt(rest), b)
+    ratios = [(whole, a), (c, whole)] if whole else [(0.0, a)]
+    return [y / w for y, w in ratios if abs(w) > AT_INFINITY * (abs(y) + abs(w))]
 
 
 def _matrix(quadric: tuple[Form, tuple[Form, ...]]) -> list[list[float]]:
