@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 
 from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import Joint, Motion, Number, Rope
-from icsolve.case.joints import CentreAt, JointCentre, Mesh, Rolling
+from icsolve.case.joints import CentreAt, JointCentre, JointKind, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import LOOSE, NO_SPEED, fastest, meant, path_of, speed_of
 from icsolve.numbers.arithmetic import Scalar, all_vanish, decider
@@ -246,9 +246,14 @@ def _changes(place: PlacedCase, twists: Twists, bond: Bond) -> tuple[Triple, ...
         (ax, ay), (bx, by_) = velocity(twists[by], a), velocity(twists[on], b)
         return (p * ax + q * bx, p * ay + q * by_, 0.0), (ay - by_, bx - ax, 0.0)
     if isinstance(joint, Rolling):
-        return (_moved(_contact_velocity(place, twists, joint)),)
-    if joint.curvature is not None:
-        return _slipping(place, twists, joint, joint.curvature)
+        if joint.radii is None:
+            raise _unknown(joint, "without `radii` nothing says how the contact moves on. Add them")
+        if sum(radius.value for radius in joint.radii) == 0.0:
+            raise _unknown(joint, "one fills the other, and touches it everywhere. Correct the `radii`")
+        radii = tuple(radius if radius.value else None for radius in joint.radii)
+        return _contact(place, twists, joint, radii, _normal(place, joint))[:1]
+    if joint.curvature is not None and joint.direction is not None:
+        return _contact(place, twists, joint, joint.curvature, place.arithmetic.turn(joint.direction))
     return tuple(_change(place, twists, joint, centre) for centre in joint.centres)
 
 
@@ -263,8 +268,9 @@ def _change(place: PlacedCase, twists: Twists, joint: Joint, centre: JointCentre
     return -(omega * y), omega * x, 0.0
 
 
-def _unknown(joint: Rolling, why: str) -> SceneError:
-    message = f"the rolling of links {listed(joint.links)} has no acceleration: {why}."
+def _unknown(joint: JointKind, why: str) -> SceneError:
+    what = "rolling" if isinstance(joint, Rolling) else "contact"
+    message = f"the {what} of links {listed(joint.links)} has no acceleration: {why}."
     return SceneError(Status.UNSUPPORTED, message)
 
 
@@ -272,13 +278,11 @@ def _moved(v: Point) -> Triple:
     return (v[0], v[1], 0.0)
 
 
-def _slipping(
-    place: PlacedCase,
-    twists: Twists,
-    joint: Joint,
-    radii: tuple[Number | None, Number | None],
-) -> tuple[Triple, Triple]:
-    """How the point and the normal of a contact move, by the radii r, s of curvature of the two links.
+def _contact(
+    place: PlacedCase, twists: Twists, joint: Joint, radii: tuple[Number | None, ...], normal: Point
+) -> tuple[Triple, ...]:
+    """How the point and the normal of a contact move, by the radii r, s of curvature of the two links (None:
+    straight).
 
     The centres of curvature C = P - r n and D = P + s n are points of the links whose distance stays for two
     derivatives. With t square to n, u the slip along t and w, o the links' rates, n turns at
@@ -286,47 +290,20 @@ def _slipping(
     A straight link is the limit of a large radius: each is a / b with b = 0 there.
     """
     assert joint.at is not None
-    assert joint.direction is not None
     (one, two), p = joint.links, place.points[joint.at]
     given, scale = place.arithmetic.given, place.frame.scale
     (a, b), (c, d) = ((1.0, 0.0) if r is None else (given(r) * scale, 1.0) for r in radii)
-    nx, ny = place.arithmetic.turn(joint.direction)
+    nx, ny = normal
     tx, ty = 0.0 - ny, nx
     (vx, vy), (ux, uy) = velocity(twists[one], p), velocity(twists[two], p)
     w, o = twists[one][2], twists[two][2]
     slip = (ux - vx) * tx + (uy - vy) * ty
     whole = a * d + b * c
     if not abs(whole) > 0.0:
-        said = f"the contact of links {listed(joint.links)} has no acceleration: it is one of two corners."
-        raise SceneError(Status.UNSUPPORTED, said)
+        raise _unknown(joint, "it is one of two corners")
     turning = (b * d * slip + b * c * o + a * d * w) / whole
     on = (a * d * slip + a * c * (o - w)) / whole
     return (vx + on * tx, vy + on * ty, 0.0), (turning * tx, turning * ty, 0.0)
-
-
-def _contact_velocity(place: PlacedCase, twists: Twists, joint: Rolling) -> Point:
-    """How the point moves at which two links roll on each other (it is of neither).
-
-    The centres of curvature are points of the links at the radii r, s along the normal n out of the first:
-    C = P - r n and D = P + s n. So P' = (s C' + r D') / (r + s); on a straight link n turns with it.
-    """
-    if joint.radii is None:
-        raise _unknown(joint, "without `radii` nothing says how the contact moves on. Add them")
-    (a, b), p = joint.links, place.points[joint.at]
-    r, s = (place.arithmetic.given(radius) * place.frame.scale for radius in joint.radii)
-    n = _normal(place, joint)
-    c, d = (p[0] - r * n[0], p[1] - r * n[1]), (p[0] + s * n[0], p[1] + s * n[1])
-    vc, vd = velocity(twists[a], c), velocity(twists[b], d)
-    if joint.radii[1].value == 0.0:
-        omega = twists[b][2]
-        return vc[0] - r * omega * n[1], vc[1] + r * omega * n[0]
-    if joint.radii[0].value == 0.0:
-        omega = twists[a][2]
-        return vd[0] + s * omega * n[1], vd[1] - s * omega * n[0]
-    whole = r + s
-    if joint.radii[0].value + joint.radii[1].value == 0.0:
-        raise _unknown(joint, "one fills the other, and touches it everywhere. Correct the `radii`")
-    return (s * vc[0] + r * vd[0]) / whole, (s * vc[1] + r * vd[1]) / whole
 
 
 def _normal(place: PlacedCase, joint: Rolling) -> Point:
