@@ -87,7 +87,7 @@ def many_digits(case: icsolve.Case, found: SlidingSolution) -> Exact:
     program = prepare(case, Want(bodies=True))
     digits = SixtyDigits()
     _, outcome = evaluate(program, digits)
-    position = Position(case, program.top, outcome.points, program.figure.frame.scale, {}, arithmetic=digits)
+    position = Position(*outcome.place, {})
     ties = ties_of(position)
     values = {column: mpf(value) for column, value in found.values.items()}
     columns = found.statics._replace(ties=ties, rubs=rubs_of(position, ties), arithmetic=digits)

@@ -17,7 +17,7 @@ from icsolve.case.joints import Guided
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.screws.plane import Point, unit_between
-from icsolve.structure.topology import Topology
+from icsolve.structure.topology import Topology, topology
 from icsolve.tuples import NamedTuple
 
 X, Y, MEAN, GUIDE, LINE, LENGTH, RAY, CORNER = "x", "y", "mean", "guide", "line", "length", "ray", "corner"
@@ -172,14 +172,25 @@ class Frame(NamedTuple):
 
 
 class PlacedCase(NamedTuple):
-    """A case in one position: the scale of its frame, places by name [frame], and the arithmetic of these and
-    of all that is made of them."""
+    """A case in one position.
+
+    Attributes
+    ----------
+    case : the case
+    frame : scale and origin of the frame of size 1
+    points : by name, (x, y) [frame]
+    arithmetic : of the points, and of all that is made of them
+    """
 
     case: Case
-    top: Topology
     frame: Frame
     points: Mapping[str, Point]
     arithmetic: Arithmetic
+
+    @property
+    def top(self) -> Topology:
+        """Its bodies and bonds."""
+        return topology(self.case)
 
 
 def case_point(frame: Frame, xy: tuple[float, float]) -> tuple[float, float]:

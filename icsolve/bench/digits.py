@@ -102,13 +102,13 @@ def _named(pair: Pair) -> str:
 
 def _rates(answer: Answer, program: Program, exact: Outcome, arithmetic: Any) -> Iterator[Shown]:
     case, frame, twists = program.case, program.figure.frame, exact.motions.twists
-    speed = speeds.speed_of(case, twists, frame, exact.points, arithmetic)
+    speed = speeds.speed_of(exact.place, twists)
     rates, velocities = answer.rates or {}, answer.velocities or {}
     largest = max(speeds.fastest(twists) * sum(map(abs, speed.particular)) / abs(speed.divisor), 1.0)
     for link, rate in speeds.link_rates(case, twists, speed).items():
         if not isinstance(rate, str):
             yield Shown(f"w{link}", float(rates[link]), rate, largest, answer.errors["rates"][link])
-    for key, both in speeds.point_velocities(case, twists, speed, frame, exact.points).items():
+    for key, both in speeds.point_velocities(exact.place, twists, speed).items():
         if not isinstance(both, str):
             for part, true in zip(velocities[key], both, strict=True):
                 value = float(part)  # type: ignore[arg-type]

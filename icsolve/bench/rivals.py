@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from icsolve.assembly import Frame
+from icsolve.assembly.workspace import Frame, PlacedCase
 from icsolve.case import Case, Coordinates
 from icsolve.kinematics.twists import Bases
 from icsolve.numbers.arithmetic import FLOATS
@@ -75,7 +75,8 @@ def posed(scene: RivalFigure, normalised: bool) -> Posed:
     raw = scene.raw or by_cosines(scene.case)
     points = {name: ((x - ox) * scale, (y - oy) * scale) for name, (x, y) in raw.items()}
     bases = {k: freedoms(bond, points, FLOATS) for k, bond in enumerate(scene.top.bonds)}
-    return Posed(scene.top, bases, power.wrenches(scene.case, Frame(0.0, 0.0, scale), points, FLOATS))
+    place = PlacedCase(scene.case, Frame(0.0, 0.0, scale), points, FLOATS)
+    return Posed(scene.top, bases, power.wrenches(place))
 
 
 def by_cosines(case: Case) -> dict[str, Point]:

@@ -82,10 +82,10 @@ def moving(place: PlacedCase, motions: Mapping[str, Sequence[Triple]], slack: fl
         Where no speed is given, where given motions contradict each other, where a joint does not tell how it
         moves on, and where the links move only for an instant.
     """
-    case, top, frame, points, arithmetic = place
+    case, top, arithmetic = place.case, place.top, place.arithmetic
     if not case.motion or any(given.speed is None for given in case.motion):
         raise SceneError(Status.MOBILITY, NO_SPEED)
-    speed = speed_of(case, motions, frame, points, arithmetic)
+    speed = speed_of(place, motions)
     twists: dict[str, Triple] = {}
     idle = set()
     for link in (link for link in motions if link in top.body_of):
@@ -104,7 +104,7 @@ Drive = tuple[Motion, Point | None, Scalar]
 
 def drives_of(place: PlacedCase, motions: Mapping[str, Sequence[Triple]]) -> list[Drive]:
     """What each given motion accelerates: as its speed goes, faster where that is positive."""
-    case, _, frame, points, arithmetic = place
+    case, frame, points, arithmetic = place
     found: list[Drive] = []
     for given in case.motion:
         assert given.speed is not None
@@ -202,7 +202,7 @@ def _between(top: Topology, bond: Bond, w: Triple, change: Scalar, known: int) -
 
 def _roped(place: PlacedCase, rope: Rope, twists: Twists) -> tuple[Row, Scalar]:
     """The condition that a rope goes on keeping its length, and what its turning parts make of it."""
-    _, top, frame, points, arithmetic = place
+    (_, frame, points, arithmetic), top = place, place.top
     row: Row = {}
     total: Scalar = 0.0
     centres = zip(rope.points, rope.points[1:], strict=False)

@@ -19,12 +19,12 @@ from functools import cache
 from operator import attrgetter
 
 from icsolve.answer import Centre
-from icsolve.assembly.workspace import Frame
-from icsolve.case import Case, Pair, ordered_pair
+from icsolve.assembly.workspace import PlacedCase
+from icsolve.case import Pair, ordered_pair
 from icsolve.kinematics.twists import Closure, is_dead, products, rate_sizes
 from icsolve.numbers.arithmetic import ROUNDING_NOISE, Arithmetic, Showing, all_vanish
 from icsolve.numbers.linear import ROUNDING
-from icsolve.screws.joints import Points, freedoms, joint_freedoms, joint_points, pitch_point
+from icsolve.screws.joints import freedoms, joint_freedoms, joint_points, pitch_point
 from icsolve.screws.plane import Triple, cross, subtract
 from icsolve.structure.topology import Bond, Topology
 from icsolve.tuples import NamedTuple
@@ -243,16 +243,14 @@ class CentreFinder:
 
     Parameters
     ----------
-    case, top, frame, points : the scene; points by name [frame]
+    place : the scene
     twists : by link, one twist for each motion that is meant [frame of size 1]
-    a : arithmetic of the twists, which give the places; the search for the lines that lead to them runs
-        on floats
+    a : arithmetic of these, which give the places; the search for the lines that lead to them runs on floats
     """
 
-    def __init__(
-        self, case: Case, top: Topology, twists: LinkTwists, frame: Frame, points: Points, a: Showing
-    ) -> None:
-        self.case, self.top, self.frame = case, top, frame
+    def __init__(self, place: PlacedCase, twists: LinkTwists, a: Showing) -> None:
+        self.case, self.frame, points, _ = place
+        self.top = top = place.top
         self.twists = {top.body_of[link]: twists[link] for link in top.body_of if link in twists}
         self.points, self.arithmetic = points, a
         self.fastest = max((_length(t) for ts in twists.values() for t in ts), default=0.0)

@@ -6,8 +6,7 @@ from __future__ import annotations
 
 import math
 
-from icsolve.assembly.workspace import Frame
-from icsolve.case import Case
+from icsolve.assembly.workspace import PlacedCase
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.twists import (
     ORIGIN,
@@ -20,7 +19,7 @@ from icsolve.kinematics.twists import (
 )
 from icsolve.numbers.arithmetic import Arithmetic, decider
 from icsolve.numbers.units import Number
-from icsolve.screws.joints import Points, freedoms, guide_direction
+from icsolve.screws.joints import freedoms, guide_direction
 from icsolve.screws.plane import Triple, cross, subtract, velocity
 from icsolve.screws.ropes import end_twist, rope_parts
 from icsolve.structure.plan import Plan
@@ -59,8 +58,9 @@ def needed_bonds(plan: Plan | None, top: Topology) -> tuple[int, ...]:
     return plan.bonds
 
 
-def by_plan(plan: Plan, top: Topology, points: Points, arithmetic: Arithmetic) -> Motions | None:
+def by_plan(plan: Plan, place: PlacedCase) -> Motions | None:
     """The one motion by the groups of the plan; None where a group is singular."""
+    top, points, arithmetic = place.top, place.points, place.arithmetic
     bases = {k: freedoms(top.bonds[k], points, arithmetic) for k in plan.bonds}
     found = run(plan, top, bases, arithmetic)
     if any(is_singular(closure, arithmetic) for closure in found.closures):
@@ -74,30 +74,24 @@ def by_plan(plan: Plan, top: Topology, points: Points, arithmetic: Arithmetic) -
     return Motions(twists, bases, 1, 0, found.closures, ())
 
 
-def by_loops(case: Case, top: Topology, points: Points, arithmetic: Arithmetic, frame: Frame) -> Motions:
+def by_loops(place: PlacedCase) -> Motions:
     """Every motion from the loop equations of the whole scene.
-
-    Parameters
-    ----------
-    case, top : the scene
-    points : by name [frame of size 1]
-    arithmetic : of the points
-    frame : scale of the frame, for distances that a refusal tells
 
     Raises
     ------
     SceneError
         For a structure, for given centres that contradict each other, and where the rank is in doubt.
     """
+    top, points, arithmetic = place.top, place.points, place.arithmetic
     bases = {k: freedoms(bond, points, arithmetic) for k, bond in enumerate(top.bonds)}
-    ropes = [rope_parts(rope, points, frame.scale, arithmetic) for rope in top.ropes]
+    ropes = [rope_parts(rope, points, place.frame.scale, arithmetic) for rope in top.ropes]
     motions = all_motions(top, bases, ropes=ropes, vanishes=decider(arithmetic))
     notes: tuple[str, ...] = ()
     exact = bool(motions.found.basis)
     if not exact and ropes:
         raise _rigid(top, motions)
     if not exact:
-        motions, notes = _almost(case, top, bases, motions, frame, arithmetic)
+        motions, notes = _almost(place, bases, motions)
     mobility = len(motions.found.basis)
     redundant = max(mobility - top.freedoms_by_count, 0)
     twists = {link: motions.twists[body] for body, links in enumerate(top.members) for link in links}
@@ -109,25 +103,25 @@ TURN = Number(6.283185307179586, 0.0, "turn", "6.283185307179586", 1.0, (2, 1, 1
 """Radians of a turn."""
 
 
-def with_ends(motions: Motions, case: Case, points: Points, scale: float, arithmetic: Arithmetic) -> Motions:
+def with_ends(motions: Motions, place: PlacedCase) -> Motions:
     """The motions with the turning of screws, cw as one looks along their axes, and with those of the ends of
     ropes that loads pull: under the names of what stands there for links.
 
-    A screw turns by ``2 pi / lead`` rad a length that its slide moves; ``scale`` has the frame lengths of a
-    case length.
+    A screw turns by ``2 pi / lead`` rad a length that its slide moves.
     """
+    case, frame, points, arithmetic = place
     if not (case.screws or case.ropes):
         return motions
     twists = dict(motions.twists)
     for screw in case.screws:
         x, y = guide_direction(screw.slide.guide, points, arithmetic)
-        per = arithmetic.given(TURN) / (arithmetic.given(screw.thread.lead) * scale)
+        per = arithmetic.given(TURN) / (arithmetic.given(screw.thread.lead) * frame.scale)
         by, on = (twists[link] for link in screw.links)
         both = [velocity(subtract(b, a), points[screw.slide.at]) for a, b in zip(by, on, strict=True)]
         twists[screw.rotor] = tuple((0.0, 0.0, per * (x * vx + y * vy)) for vx, vy in both)
     for rope in case.ropes:
         if rope.is_free:
-            parts = rope_parts(rope, points, scale, arithmetic)
+            parts = rope_parts(rope, points, frame.scale, arithmetic)
             each = [{link: ts[m] for link, ts in motions.twists.items()} for m in range(motions.mobility)]
             twists[rope.end] = tuple(end_twist(parts, one) for one in each)
     return motions._replace(twists=twists)
@@ -139,21 +133,19 @@ DOUBT = 1e-6
 """A structure whose last pivot is below this may move as far as its data can tell."""
 
 
-def _almost(
-    case: Case, top: Topology, bases: Bases, rigid: LoopMotions, frame: Frame, arithmetic: Arithmetic
-) -> tuple[LoopMotions, tuple[str, ...]]:
+def _almost(place: PlacedCase, bases: Bases, rigid: LoopMotions) -> tuple[LoopMotions, tuple[str, ...]]:
     """The motion that data of few digits just miss; refuses a structure and what is in doubt."""
+    top = place.top
     pivots = rigid.found.pivots
     last = pivots[-1] if pivots else 1.0
-    inexact = [joint for joint in case.joints if joint.has_written_centre]
+    inexact = [joint for joint in place.case.joints if joint.has_written_centre]
     if inexact and last < AGREE:
         motions = all_motions(top, bases, AGREE / len(pivots))
         if len(motions.found.basis) == 1:
             miss = f"{motions.found.dropped:.1g} of the figure's size"
             return motions, (f"the given centres and rolling contacts agree with each other to {miss}.",)
     if any(joint.stands_in for joint in inexact):
-        said = contradiction(top, bases, frame, case.units.length, arithmetic)
-        raise SceneError(Status.CONTRADICTORY, said)
+        raise SceneError(Status.CONTRADICTORY, contradiction(place, bases))
     raise _rigid(top, rigid)
 
 
@@ -166,13 +158,13 @@ def _rigid(top: Topology, motions: LoopMotions) -> SceneError:
     return SceneError(Status.STRUCTURE, structure(top))
 
 
-def contradiction(top: Topology, bases: Bases, frame: Frame, unit: str, arithmetic: Arithmetic) -> str:
+def contradiction(place: PlacedCase, bases: Bases) -> str:
     """Which given centre lies off the place that the others give it, and how far."""
     worst: tuple[float, str] | None = None
-    for k, bond in enumerate(top.bonds):
+    for k, bond in enumerate(place.top.bonds):
         if not bond.joint.stands_in:
             continue
-        off = _off_place(top, bases, k, arithmetic)
+        off = _off_place(place.top, bases, k, place.arithmetic)
         if off is not None and (worst is None or off < worst[0]):
             worst = (off, f"{bond.links[0]}-{bond.links[1]}")
     if worst is None:
@@ -180,7 +172,7 @@ def contradiction(top: Topology, bases: Bases, frame: Frame, unit: str, arithmet
             "the given centres contradict each other: no motion has all of them. Correct one, or leave it "
             "out."
         )
-    distance = worst[0] / frame.scale
+    distance, unit = worst[0] / place.frame.scale, place.case.units.length
     return (
         f"the given centres contradict each other: centre {worst[1]} lies {distance:.3g} {unit} from where "
         "the other centres and joints put it. Correct it, or leave it out."

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from icsolve.assembly.workspace import Frame
+from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import Case
 from icsolve.case import Motion as Given
 from icsolve.errors import SceneError, Status
@@ -82,9 +82,7 @@ def _dot(a: Sequence[Scalar], b: Sequence[Scalar]) -> Scalar:
     return sum((x * y for x, y in zip(a, b, strict=True)), 0.0)
 
 
-def speed_of(
-    case: Case, twists: Twists, frame: Frame, points: Mapping[str, Point], arithmetic: Arithmetic = FLOATS
-) -> Speed:
+def speed_of(place: PlacedCase, twists: Twists) -> Speed:
     """The motion that the case asks for, or the normalised one of the format.
 
     Without a given motion the first link that the joints name and that turns does so at +1 rad/s; where none
@@ -92,10 +90,8 @@ def speed_of(
 
     Parameters
     ----------
-    case : with its given motions
+    place : the case with its given motions
     twists : by link, one twist a freedom [frame lengths, radians]
-    frame, points : the scale of the frame, and the places in it
-    arithmetic : of the twists
 
     Raises
     ------
@@ -103,21 +99,22 @@ def speed_of(
         Where the given motion cannot be: at a dead centre, where given motions contradict each other, at an
         angle at which a point can't move, and where nothing moves.
     """
-    motions = len(next(iter(twists.values())))
+    case, motions = place.case, len(next(iter(twists.values())))
     if motions == 1 and len(case.motion) <= 1:
-        return _single(case, twists, frame, points, arithmetic)
-    rows = [_row(given, case, twists, frame, points, arithmetic) for given in case.motion]
+        return _single(place, twists)
+    rows = [_row(given, place, twists) for given in case.motion]
     if not rows:
-        rows = [_normal_row(case, twists, frame, arithmetic)[1:]]
-    return _combined(rows, motions, arithmetic)
+        rows = [_normal_row(place, twists)[1:]]
+    return _combined(rows, motions, place.arithmetic)
 
 
-def _single(case: Case, twists: Twists, frame: Frame, points: Mapping[str, Point], a: Arithmetic) -> Speed:
+def _single(place: PlacedCase, twists: Twists) -> Speed:
+    case, a = place.case, place.arithmetic
     if case.motion:
         given = case.motion[0]
-        values, target = _row(given, case, twists, frame, points, a)
+        values, target = _row(given, place, twists)
         return Speed((target,), (), values[0], (given.link, given.point), a)
-    link, values, target = _normal_row(case, twists, frame, a)
+    link, values, target = _normal_row(place, twists)
     turns = values[0] is twists[link][0][2]
     return Speed((target,), (), values[0], (link, None) if turns else None, a)
 
@@ -142,16 +139,15 @@ def _combined(rows: list[Row], motions: int, a: Arithmetic) -> Speed:
     return Speed(particular, open_, arithmetic=a)
 
 
-def _row(
-    given: Given, case: Case, twists: Twists, frame: Frame, points: Mapping[str, Point], a: Arithmetic
-) -> Row:
+def _row(given: Given, place: PlacedCase, twists: Twists) -> Row:
     """The condition that a given motion puts on the coefficients."""
-    if given.link == case.ground:
+    a = place.arithmetic
+    if given.link == place.case.ground:
         message = f"link {given.link} is the frame and has no motion: give the motion of another link."
         raise SceneError(Status.INCONSISTENT, message)
     link = twists[given.link]
     if given.point is not None:
-        return _point_row(given, link, fastest(twists), frame, points[given.point], a)
+        return _point_row(given, place, link, fastest(twists), place.points[given.point])
     rates = tuple(t[2] for t in link)
     largest = fastest(twists)
     if all_vanish(a, ((rate, largest) for rate in rates)):
@@ -172,11 +168,10 @@ def _cannot_turn(name: str, link: Sequence[Triple], largest: float, a: Arithmeti
     )
 
 
-def _point_row(
-    given: Given, link: Sequence[Triple], largest: float, frame: Frame, p: Point, a: Arithmetic
-) -> Row:
+def _point_row(given: Given, place: PlacedCase, link: Sequence[Triple], largest: float, p: Point) -> Row:
     assert given.speed is not None
-    target, (c, s) = a.given(given.speed) * frame.scale, path_of(given, link, largest, p, a)
+    a = place.arithmetic
+    target, (c, s) = a.given(given.speed) * place.frame.scale, path_of(given, link, largest, p, a)
     return tuple(vx * c + vy * s for vx, vy in (velocity(t, p) for t in link)), target
 
 
@@ -242,10 +237,9 @@ def joint_order(case: Case) -> list[str]:
     return list(dict.fromkeys(link for joint in (*case.joints, *case.ropes) for link in joint.links))
 
 
-def _normal_row(
-    case: Case, twists: Twists, frame: Frame, a: Arithmetic
-) -> tuple[str, tuple[Scalar, ...], Scalar]:
+def _normal_row(place: PlacedCase, twists: Twists) -> tuple[str, tuple[Scalar, ...], Scalar]:
     """The first link that turns does so at +1; where none turns, unit speed of the first that moves."""
+    case, frame, _, a = place
     largest = fastest(twists)
     for link in joint_order(case):
         rates = tuple(t[2] for t in twists.get(link, ()))
@@ -270,11 +264,12 @@ def link_rates(case: Case, twists: Twists, speed: Speed) -> dict[str, Scalar | s
 
 
 def point_velocities(
-    case: Case, twists: Twists, speed: Speed, frame: Frame, points: Mapping[str, Point]
+    place: PlacedCase, twists: Twists, speed: Speed
 ) -> dict[tuple[str, str], tuple[Scalar, Scalar] | str]:
     """Velocity (vx, vy) [case length/s] of every point on the links that carry it, by (point, link); a
     sentence where it is undetermined.
     """
+    case, frame, points, _ = place
     result: dict[tuple[str, str], tuple[Scalar, Scalar] | str] = {}
     largest = fastest(twists)
     for link in case.links:

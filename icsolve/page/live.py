@@ -155,6 +155,9 @@ class _ProgramWriter:
     def _points(self) -> Mapping[str, tuple[Scalar, Scalar]]:
         return {name: at for name, at in self.workspace.points.items() if isinstance(name, str)}
 
+    def _place(self) -> PlacedCase:
+        return PlacedCase(self.case, self.figure.frame, self._points(), self.record)
+
     # --- the figure -------------------------------------------------------------------------------
 
     def _written(self, step: Step, needed: Sequence[Step]) -> WrittenProgram:
@@ -234,7 +237,7 @@ class _ProgramWriter:
             for body in range(len(self.top.members))
         ]
         loads = []
-        for w in power.wrenches(self.case, self.workspace.frame, self._points(), self.record):
+        for w in power.wrenches(self._place()):
             loads.append([*w.unit, w.gain, w.ratio, self._value(w)])
         freed = [[list(twist) for twist in basis] for _, basis in sorted(bases.items())]
         courses = [[[p.length, *p.wrench, *p.along] for p in parts] for parts in ropes.values()]
@@ -256,10 +259,9 @@ class _ProgramWriter:
     def _dynamics(self) -> Iterable[tuple[str, list[Any]]]:
         """What the rates of the twists fulfil, as places and values of each row; then the wrenches of the
         inertia forces. Twists and rates of the bodies are inputs."""
-        case, points = self.case, self._points()
         assert self.motions is not None
-        still = PlacedCase(case, self.top, self.figure.frame, self.figure.points, FLOATS)
-        place = still._replace(points=points, arithmetic=self.record)
+        case, place = self.case, self._place()
+        still = place._replace(points=self.figure.points, arithmetic=FLOATS)
         now = moving(still, self.motions.twists, self.motions.slack)
         twists = self._inputs("t", now.twists)
         rows, _ = rate_rows(place, twists, drives_of(place, {link: [t] for link, t in twists.items()}))
@@ -271,7 +273,7 @@ class _ProgramWriter:
             if load.name == FORCE.format(load.link):
                 centre, force, _ = forces[load.link]
                 assert centre is not None and force is not None
-                found.append(force_wrench(force, points[centre]))
+                found.append(force_wrench(force, place.points[centre]))
             elif load.name == COUPLE.format(load.link):
                 found.append((0.0, 0.0, forces[load.link][2]))
         yield "inertia", found
@@ -357,7 +359,7 @@ class _ProgramWriter:
             "heavy": [link for link in case.inertia if is_loaded(case)],
             "inexact": any(joint.has_written_centre for joint in case.joints),
             "given": any(joint.stands_in for joint in case.joints),
-            "loads": [self._load(w) for w in self._wrenches()],
+            "loads": [self._load(w) for w in power.wrenches(self._place())],
             "moves": self._by_points(),
             "kinds": [type(bond.joint).__name__ for bond in top.bonds],
             "pivots": [list(bond.pivots) if bond.pivots[0] else None for bond in top.bonds],
@@ -499,9 +501,6 @@ class _ProgramWriter:
         found = {key: self.paths.index(number.path) for key, number in numbers.items() if number is not None}
         point = {} if given.point is None else {"point": place[given.point]}
         return {"link": given.link, "cw": given.turns == "cw", **point, **found}
-
-    def _wrenches(self) -> tuple[power.Wrench, ...]:
-        return power.wrenches(self.case, self.workspace.frame, self._points(), self.record)
 
     def _load(self, w: power.Wrench) -> dict[str, Any]:
         load = w.load

@@ -82,7 +82,7 @@ def with_inertia(case: Case) -> tuple[Case, Accelerations, tuple[str, ...]]:
 def _found(case: Case, program: Program, arithmetic: Balls) -> tuple[Case, Accelerations, tuple[str, ...]]:
     """The same with so many digits; raises MoreDigits where they leave something open."""
     program, outcome = evaluate(program, arithmetic)
-    place = PlacedCase(case, program.top, program.figure.frame, outcome.points, arithmetic)
+    place = outcome.place
     moves = moving(place, outcome.motions.twists, outcome.motions.slack)
     _refuse_open(case, moves)
 
@@ -132,7 +132,7 @@ def _refuse_open(case: Case, moves: Moving) -> None:
 
 def _shown(place: PlacedCase, moves: Moving, arithmetic: Balls) -> Accelerations:
     """Accelerations of every link and of every point on the links that carry it."""
-    (case, _, (_, _, scale), points, _), size = place, moves.size
+    (case, (_, _, scale), points, _), size = place, moves.size
     links: dict[str, float | str] = {}
     places: dict[tuple[str, str], tuple[float, float] | str] = {}
     for link in case.links:

@@ -31,8 +31,7 @@ def with_bodies(parts: AnswerBuilder, reactions: bool) -> Answer:
 def _bodies(found: Evaluation, power: Mapping[str, tuple[float, float]]) -> FreeBodies:
     if found.outcome.motions.slack:  # the given centres miss the motion: no digits would be right
         found = found._replace(outcome=plain(found.outcome), arithmetic=FLOATS)
-    frame, balance = found.program.figure.frame, found.outcome.balance
-    return free_bodies(_position(found), frame, balance, power, found.arithmetic)
+    return free_bodies(_position(found), found.outcome.balance, power, found.arithmetic)
 
 
 def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
@@ -45,7 +44,7 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
 
     outcome = parts.outcome
     position = _position(parts.first._replace(outcome=outcome, arithmetic=FLOATS))
-    scene = FrictionScene(position, parts.figure.frame, outcome.balance, outcome.solution, parts.speed)
+    scene = FrictionScene(position, outcome.balance, outcome.solution, parts.speed)
     scene = scene._replace(alone=parts.program.want.alone)
     if parts.scene.certain:
         scene = scene._replace(enclose=_enclose(parts), trace=lambda: parts.traced)
@@ -72,10 +71,8 @@ def _enclose(parts: AnswerBuilder) -> Enclose:
 
 def _position(found: Evaluation) -> Position:
     """An evaluated scene as free bodies take it."""
-    case, figure, (points, moves, *_) = found.program.case, found.program.figure, found.outcome
-    scale, a = figure.frame.scale, found.arithmetic
-    ropes = rope_ties(case, points, scale, a)
-    return Position(case, found.program.top, points, scale, moves.twists, float(moves.slack), ropes, a)
+    place, moves, *_ = found.outcome
+    return Position(*place, moves.twists, float(moves.slack), rope_ties(place))
 
 
 def structure(program: Program, bound: bool, refusal: SceneError) -> Answer:

@@ -9,7 +9,6 @@ from decimal import Decimal
 from functools import cached_property
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
-from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import Case, Number, Pair, link_order
 from icsolve.errors import SceneError
 from icsolve.kinematics import speeds
@@ -104,7 +103,7 @@ class AnswerBuilder:
     @cached_property
     def speed(self) -> speeds.Speed:
         """Which motion is meant, and how fast, in floats."""
-        return speeds.speed_of(self.case, self.outcome.motions.twists, self.figure.frame, self.figure.points)
+        return speeds.speed_of(self.outcome.place, self.outcome.motions.twists)
 
     @cached_property
     def unknowns(self) -> dict[str, Value]:
@@ -280,25 +279,23 @@ def scene_of(answer: Answer) -> AnswerBuilder | None:
 
 def speed_of(found: Evaluation) -> speeds.Speed:
     """Which motion is meant, and how fast."""
-    twists, points = found.outcome.motions.twists, found.outcome.points
-    frame = found.program.figure.frame
-    return speeds.speed_of(found.program.case, twists, frame, points, found.arithmetic)
+    return speeds.speed_of(found.outcome.place, found.outcome.motions.twists)
 
 
 def _moving(found: Evaluation) -> tuple[dict[str, float | str], dict[str, float], Velocities]:
     """Link rates, bounds of their errors, and point velocities."""
-    case, twists, frame = found.program.case, found.outcome.motions.twists, found.program.figure.frame
+    place, twists = found.outcome.place, found.outcome.motions.twists
     speed, a = speed_of(found), found.arithmetic
     rates: dict[str, float | str] = {}
     errors: dict[str, float] = {}
-    for link, rate in speeds.link_rates(case, twists, speed).items():
+    for link, rate in speeds.link_rates(place.case, twists, speed).items():
         if isinstance(rate, str):
             rates[link] = rate
         else:
             rates[link], error = a.rounded(rate)
             errors |= {link: error} if error < math.inf else {}
     velocities: Velocities = {}
-    for key, both in speeds.point_velocities(case, twists, speed, frame, found.outcome.points).items():
+    for key, both in speeds.point_velocities(place, twists, speed).items():
         velocities[key] = both if isinstance(both, str) else (a.rounded(both[0])[0], a.rounded(both[1])[0])
     return rates, errors, velocities
 
@@ -311,9 +308,7 @@ def _centres(found: Evaluation) -> dict[Pair, Centre]:
     if case.motion and motions.mobility > 1:
         speed = speed_of(found)
         twists = {link: speeds.meant(twists, speed, link) for link in twists}
-    finder = CentreFinder(
-        case, program.top, twists, program.figure.frame, found.outcome.points, found.arithmetic
-    )
+    finder = CentreFinder(found.outcome.place, twists, found.arithmetic)
     pairs = [pair for pair in wanted_pairs(case, program.want) if {*pair} <= twists.keys()]
     return finder.find(pairs, motions.slack)
 
@@ -397,12 +392,10 @@ def _redundancy(found: Evaluation) -> str:
     """What becomes of a motion that redundant constraints allow in this position."""
     from icsolve.kinematics.accelerations import goes_on
 
-    case, top = found.program.case, found.program.top
-    motions = found.outcome.motions
+    motions, top = found.outcome.motions, found.program.top
     onward = None
     if motions.mobility == 1:
-        place = PlacedCase(case, top, found.program.figure.frame, found.outcome.points, found.arithmetic)
-        onward = goes_on(place, {link: one for link, (one,) in motions.twists.items()})
+        onward = goes_on(found.outcome.place, {link: one for link, (one,) in motions.twists.items()})
     return sentences.redundant(motions.redundant, onward, found.program.want.bodies, top.wedges)
 
 

@@ -24,7 +24,7 @@ from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing
 from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, HalfUnits, MoreDigits
 from icsolve.numbers.tape import Tape
 from icsolve.scene import refusals
-from icsolve.screws.joints import Points, points_of
+from icsolve.screws.joints import points_of
 from icsolve.screws.plane import Triple
 from icsolve.statics import power
 from icsolve.statics.power import Bounded, Outcome, Value
@@ -132,12 +132,12 @@ def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want
     return list(dict.fromkeys(points))
 
 
-def _placed(program: Program, arithmetic: Arithmetic) -> Points:
-    """The points; refused where two of them should give a direction and are one."""
+def _placed(program: Program, arithmetic: Arithmetic) -> PlacedCase:
+    """The case with its points; refused where two of them should give a direction and are one."""
     figure = program.figure
     points = figure.points if arithmetic is FLOATS else place(figure, program.case, arithmetic).points
     refusals.refuse_no_direction(program.directions, points, arithmetic)
-    return points
+    return PlacedCase(program.case, figure.frame, points, arithmetic)
 
 
 def evaluate(program: Program, arithmetic: Arithmetic = FLOATS) -> tuple[Program, Outcome]:
@@ -146,36 +146,34 @@ def evaluate(program: Program, arithmetic: Arithmetic = FLOATS) -> tuple[Program
 
     Raises SceneError for a structure and for given centres that contradict each other.
     """
-    figure, case, top = program.figure, program.case, program.top
     # position
-    points = _placed(program, arithmetic)
+    place = _placed(program, arithmetic)
     # centres, which keep their weight: the twists of the links
     motions = None
     if program.plan is not None:
-        motions = motion.by_plan(program.plan, top, points, arithmetic)
+        motions = motion.by_plan(program.plan, place)
         if motions is None:
             return evaluate(without_plan(program), arithmetic)
     if motions is None:
-        motions = motion.by_loops(case, top, points, arithmetic, figure.frame)
-    motions = motion.with_ends(motions, case, points, figure.frame.scale, arithmetic)
+        motions = motion.by_loops(place)
+    motions = motion.with_ends(motions, place)
     # power
-    wrenches = power.wrenches(case, figure.frame, points, arithmetic)
+    case, wrenches = program.case, power.wrenches(place)
     if case.dynamic and case.inertia:
         from icsolve.statics.inertia import exactly, is_loaded
 
         if is_loaded(case):
-            wrenches = exactly(PlacedCase(case, top, figure.frame, points, arithmetic), motions, wrenches)
+            wrenches = exactly(place, motions, wrenches)
     balance = power.balance(wrenches, motions.twists, motions.mobility)
-    return program, Outcome(points, motions, balance, power.solve_balance(balance, arithmetic))
+    return program, Outcome(place, motions, balance, power.solve_balance(balance, arithmetic))
 
 
 def evaluate_still(program: Program, arithmetic: Arithmetic = FLOATS) -> tuple[Program, Outcome]:
     """The same of a structure: its places, and the loads on it; nothing moves."""
-    figure, case = program.figure, program.case
-    points = _placed(program, arithmetic)
+    case, place = program.case, _placed(program, arithmetic)
     still = motion.Motions(dict.fromkeys((*case.links, case.ground), ()), {}, 0, 0, (), ())
-    loads = power.wrenches(case, figure.frame, points, arithmetic)
-    return program, Outcome(points, still, power.Balance(loads, (), ()), power.Solution("balanced", {}))
+    nothing = power.Balance(power.wrenches(place), (), ())
+    return program, Outcome(place, still, nothing, power.Solution("balanced", {}))
 
 
 T = TypeVar("T")
@@ -334,8 +332,9 @@ def plain(outcome: Outcome) -> Outcome:
         w._replace(unit=floats(w.unit), gain=float(w.gain), ratio=float(w.ratio)) for w in balance.wrenches
     )
     factors = tuple(tuple(map(float, row)) for row in balance.factors)
+    points = {name: (float(x), float(y)) for name, (x, y) in outcome.points.items()}
     return outcome._replace(
-        points={name: (float(x), float(y)) for name, (x, y) in outcome.points.items()},
+        place=outcome.place._replace(points=points, arithmetic=FLOATS),
         motions=motions._replace(twists=twists),
         balance=balance._replace(wrenches=wrenches, factors=factors),
     )

@@ -339,7 +339,7 @@ def _on_sheet(
             f"the mechanism has {motions.mobility} degrees of freedom: as many data of its figure have to be "
             "unknown as it has.",
         )
-    wrenches = power.wrenches(case, scene.frame, scene.points, record, vectors=True)
+    wrenches = power.wrenches(scene.place, vectors=True)
     balance = power.balance(wrenches, motions.twists, 1)
     total = power.known_power(balance, 0, record)
     rate, poses = _rate(scene, motions.twists, given)

@@ -205,9 +205,7 @@ def _surface(compiled: CompiledSweep, paths: Sequence[str], margins: Sequence[Sc
             "many have to be.",
         )
     inputs = (compiled.inputs[paths[0]], compiled.inputs[paths[1]])
-    balance = power.balance(
-        power.wrenches(case, scene.frame, scene.points, record, vectors=True), motions.twists, 2
-    )
+    balance = power.balance(power.wrenches(scene.place, vectors=True), motions.twists, 2)
     totals = [power.known_power(balance, m, record) for m in (0, 1)]
     slopes = [v for total in totals for v in gradient(record, total, inputs).values()]
     velocities = []

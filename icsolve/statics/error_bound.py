@@ -72,8 +72,7 @@ def slopes(
     if weights is None or max(tape.doubts(SMALL), default=0.0):
         raise LookupError(TOO_CLOSE)
     placed = position._replace(points=outcome.points, arithmetic=tape)
-    ropes = rope_ties(position.case, placed.points, position.scale, tape)
-    placed = slipping(placed._replace(ropes=ropes), [tie.senses for tie in statics.ropes])
+    placed = slipping(placed._replace(ropes=rope_ties(outcome.place)), [tie.senses for tie in statics.ropes])
     ties = with_flanks(placed, ties_of(placed), carrying_flanks(position, statics.ties, solved))
     exact = statics._replace(ties=ties, rubs=rubs_of(placed, ties), ropes=placed.ropes, arithmetic=tape)
     rest = residuals(exact, placed, outcome.balance.wrenches, x, senses)

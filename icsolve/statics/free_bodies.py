@@ -11,7 +11,6 @@ from typing import Protocol, TypeVar
 
 from icsolve.answer import Answer
 from icsolve.answer.bodies import FrictionFound, Reactions, Tension, Witness
-from icsolve.assembly import Frame
 from icsolve.case import ForceVector, Number
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
@@ -73,7 +72,7 @@ class FreeBodies(NamedTuple):
 
 
 def free_bodies(
-    position: Position, frame: Frame, balance: Balance, power: Mapping[str, tuple[float, float]], a: Showing
+    position: Position, balance: Balance, power: Mapping[str, tuple[float, float]], a: Showing
 ) -> FreeBodies:
     """Equilibrium of every link; ``power`` has the unknown loads as power found them, and their bounds.
 
@@ -82,13 +81,12 @@ def free_bodies(
     known = position.mobility and not any(is_unknown(w.load) for w in balance.wrenches)
     left = refuse_imbalance(position, balance, a) if known else ()
     solved = frictionless(position, balance, ties_of(position))
-    found = told(position, frame, balance, solved, power, a)
+    found = told(position, balance, solved, power, a)
     return found._replace(notes=(*left, *found.notes))
 
 
 def told(
     position: Position,
-    frame: Frame,
     balance: Balance,
     solved: Solved,
     power: Mapping[str, tuple[float, float]] | None,
@@ -98,7 +96,7 @@ def told(
 
     Parameters
     ----------
-    position, frame, balance : the scene
+    position, balance : the scene
     solved : its equilibrium, with friction or without
     power : by unknown load its value by power and the bound of that [case units]; None where power says none
     a : arithmetic of the solution
@@ -118,7 +116,7 @@ def told(
             bounds = bounds_of(statics, powers_of(statics, balance), position.twists, terms)
         both = witnesses(power, {root: value for root, (value, _) in shown.items()}, bounds)
         refuse_apart(both, position.slack)
-    reactions = reactions_of(position, frame, statics, parameters, a)
+    reactions = reactions_of(position, statics, parameters, a)
     notes = notes_of(statics, reactions, names_by_tie(position.case, statics.ties))
     return FreeBodies(
         reactions, both, notes, tensions=tensions_of(statics, parameters, a, position.case.units.force)

@@ -12,7 +12,6 @@ from typing import Protocol, TypeVar
 
 from icsolve.answer import Answer, Deferred, Found
 from icsolve.answer.bodies import FrictionFound, Reactions, Rubbing, Tension
-from icsolve.assembly import Frame
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import Speed, fastest
 from icsolve.numbers.arithmetic import FLOATS
@@ -98,21 +97,21 @@ def in_motion(scene: FrictionScene, reactions: bool = False) -> Slipping:
     bodies = _bodies(scene, solved, slides[-1], rates)
     if reactions and not proven.why and scene.enclose is not None:
         with suppress(SceneError):
-            exact = scene.enclose(lambda placed: _enclosed_bodies(scene, placed, rough, senses))
+            exact = scene.enclose(lambda placed: _enclosed_bodies(placed, rough, senses))
             if exact is not None:
                 bodies = bodies._replace(reactions=exact[0], tensions=exact[1])
     return Slipping(scene, solved, senses, proven, bodies)
 
 
 def _enclosed_bodies(
-    scene: FrictionScene, placed: SceneOnBalls, solved: Solved, senses: Sequence[float]
+    placed: SceneOnBalls, solved: Solved, senses: Sequence[float]
 ) -> tuple[Reactions, tuple[Tension, ...]] | None:
     """The reactions of a solution and the pulls of its ropes, each number rounded once."""
     found = enclosed(placed, solved, senses)
     if found is None:
         return None
     statics, parameters, a = found.statics, found.parameters, placed.arithmetic
-    reactions = reactions_of(placed.position, scene.frame, statics, parameters, a)
+    reactions = reactions_of(placed.position, statics, parameters, a)
     return reactions, tensions_of(statics, parameters, a, placed.position.case.units.force)
 
 
@@ -317,7 +316,7 @@ def _bodies(scene: FrictionScene, solved: Solved, found: Slid, rates: RubbingRat
     statics, by_power = solved.statics, None
     if scene.solution.verdict not in ("no value", "any value"):
         by_power = {q: (value, 0.0) for q, value in _by_power(scene, solved).items()}
-    bodies = told(scene.position, scene.frame, scene.balance, solved, by_power, FLOATS)
+    bodies = told(scene.position, scene.balance, solved, by_power, FLOATS)
     of_ropes = _ropes_rubbing(scene, statics, bodies.tensions, rates)
     rubbing = (*rubbing_of(scene, solved, rates.rubs), *of_ropes)
     refuse_power(rubbing)
@@ -336,7 +335,7 @@ def _ropes_rubbing(
         for k, rate in enumerate(rates, start=1):
             if tie.rope.mu[k] is None or not pull.parts:
                 continue
-            speed = rate / scene.frame.scale
+            speed = rate / scene.position.scale
             apart = abs(pull.parts[k] - pull.parts[k - 1])
             value = -math.copysign(apart, rate) if rate else 0.0
             loss = apart * abs(speed)
@@ -426,7 +425,6 @@ class FrictionScene(NamedTuple):
     """What is known of a scene before its friction: position, sum of power, and the motion that is meant."""
 
     position: Position
-    frame: Frame
     balance: Balance
     solution: Solution
     speed: Speed
@@ -440,17 +438,19 @@ class FrictionScene(NamedTuple):
 
 def rubbing_of(scene: FrictionScene, solved: Solved, rates: Sequence[float]) -> tuple[Rubbing, ...]:
     """Friction, its limit, rate and loss at every rub, case units."""
-    statics, case = solved.statics, scene.position.case
+    statics, case, size = solved.statics, scene.position.case, scene.position.scale
     names = names_by_tie(case, statics.ties)
     rows = []
     for k, rub in enumerate(statics.rubs):
         tie, kind = statics.ties[rub.tie], statics.ties[rub.tie].kind
         turns = kind == "pin"
-        per_unit = statics.scale * (scene.frame.scale / case.units.torque_per_force_length if turns else 1.0)
-        rate = rates[k] / (1.0 if turns else scene.frame.scale)
-        loss = 0.0 - solved.friction[k] / statics.scale * (rates[k] / scene.frame.scale)
+        per_unit = statics.scale * (
+            scene.position.scale / case.units.torque_per_force_length if turns else 1.0
+        )
+        rate = rates[k] / (1.0 if turns else scene.position.scale)
+        loss = 0.0 - solved.friction[k] / statics.scale * (rates[k] / scene.position.scale)
         value = solved.friction[k] / per_unit + 0.0
-        radius = rub.limit / scene.frame.scale if turns else None
+        radius = rub.limit / size if turns else None
         rows.append(Rubbing(names[rub.tie], tie.where, kind, value, abs(value), rate, loss, radius))
     return tuple(rows)
 

@@ -73,7 +73,7 @@ InertiaForce = tuple[str | None, Point | None, Scalar | None]
 
 def inertia_forces(place: PlacedCase, moves: Moving) -> dict[str, InertiaForce]:
     """-m a and -I alpha of every link that has a mass."""
-    case, _, frame, points, arithmetic = place
+    case, frame, points, arithmetic = place
     newton = arithmetic.ratio(case.units.exact_newton)
     metre = arithmetic.ratio(exact_ratio(parse_unit("m"), parse_unit(case.units.length)))
     found: dict[str, InertiaForce] = {}

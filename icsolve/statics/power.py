@@ -13,7 +13,7 @@ from functools import reduce
 from operator import add, mul, sub
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-from icsolve.assembly.workspace import Frame
+from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import (
     AlongRope,
     Area,
@@ -91,23 +91,19 @@ Wrench = UnitWrench[Load]
 """Of a load in the plane."""
 
 
-def wrenches(
-    case: Case, frame: Frame, points: Points, arithmetic: Arithmetic, *, vectors: bool = False
-) -> tuple[Wrench, ...]:
+def wrenches(place: PlacedCase, *, vectors: bool = False) -> tuple[Wrench, ...]:
     """The unit wrenches of all loads of a case, in its order.
 
     Parameters
     ----------
-    case : the case
-    frame : the scale of the frame
-    points : by name [frame]; those that `points_of` tells of each load
-    arithmetic : of the points
+    place : with the points that `points_of` tells of each load
     vectors : whether the unit of a spring that is free at no length is its own vector [frame], and its gain
         the case length of a unit of it: the same force, smooth where its points meet
 
     A direction between two points at one place divides by zero; of a spring that is free at no length the
     wrench is zero there.
     """
+    case, frame, points, arithmetic = place
     by_name = {load.name: load for load in case.loads}
     result = []
     for load in case.loads:
@@ -116,7 +112,7 @@ def wrenches(
             (ax, ay), (bx, by) = (points[name] for name in points_of(load))
             unit, gain = force_wrench((bx - ax, by - ay), (ax, ay)), 1.0 / frame.scale
         else:
-            unit, gain = _unit_wrench(load, case, frame, points, arithmetic)
+            unit, gain = _unit_wrench(load, place)
         measure = frame.scale if isinstance(load, Torque | TorsionSpring) else 1.0
         reach = magnitude(gain) + beside(load, case)
         on = reacting(case, load)
@@ -178,9 +174,8 @@ def source_of(load: L, by_name: Mapping[str, L], arithmetic: Arithmetic) -> tupl
     return load, ratio
 
 
-def _unit_wrench(
-    load: Load, case: Case, frame: Frame, points: Points, arithmetic: Arithmetic
-) -> tuple[Triple, Scalar]:
+def _unit_wrench(load: Load, place: PlacedCase) -> tuple[Triple, Scalar]:
+    case, frame, points, arithmetic = place
     match load:
         case Torque():
             sign = -1.0 if load.turns == "cw" else 1.0
@@ -209,7 +204,7 @@ def _unit_wrench(
             gain = arithmetic.ratio(area.per) * _size_of(area, arithmetic)
             return force_wrench(direction(load, points, arithmetic), points[load.at]), gain
         case Force(over=Stretch() as over):
-            return _spread(load, over, frame, points, arithmetic)
+            return _spread(load, over, place)
         case Force(heading=AlongRope(rope)):
             along = rope_parts(rope, points, frame.scale, arithmetic)[-1].along
             return force_wrench(along, points[load.at]), 1.0
@@ -230,13 +225,12 @@ def _size_of(area: Area, arithmetic: Arithmetic) -> Scalar:
     return (bore - rod) * (bore + rod)
 
 
-def _spread(
-    load: Force, over: Stretch, frame: Frame, points: Points, arithmetic: Arithmetic
-) -> tuple[Triple, Scalar]:
+def _spread(load: Force, over: Stretch, place: PlacedCase) -> tuple[Triple, Scalar]:
     """The wrench of a force per length: of two triangles, one for the number at each end.
 
     A triangle's resultant is half its length times its number, at a third of the length from its high end.
     """
+    _, frame, points, arithmetic = place
     a, b = points[over.a], points[over.b]
     length = unit_between(a, b, arithmetic)[1] / frame.scale
     along, value = direction(load, points, arithmetic), load.value
@@ -596,12 +590,17 @@ def known_power(b: Balance, m: int, arithmetic: Arithmetic) -> Scalar:
 
 
 class Outcome(NamedTuple):
-    """A scene in one arithmetic: places (normalised), motions, the sum of power and what it gives."""
+    """A scene in one arithmetic: its place, motions, the sum of power and what it gives."""
 
-    points: Points
+    place: PlacedCase
     motions: Motions
     balance: Balance
     solution: Solution
+
+    @property
+    def points(self) -> Points:
+        """By name [frame]."""
+        return self.place.points
 
 
 class Value(NamedTuple):

@@ -12,15 +12,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
+from icsolve.assembly.workspace import Frame, PlacedCase
 from icsolve.case import Case, Guide, Joint, Pin, Rope, Screw, Slide, Thread
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import TURN
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
+from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.screws.joints import Points, at_radius, freedoms, guide_direction, pitch_point, transmitted
 from icsolve.screws.plane import Point, Triple, basis_at, shift, subtract, unit_between
 from icsolve.screws.ropes import RopePart, rope_parts, tension_ratios
-from icsolve.structure.topology import Bond, Topology, pairs_of
+from icsolve.structure.topology import Bond, Topology, pairs_of, topology
 from icsolve.tuples import NamedTuple
 
 Force = tuple[Scalar, Scalar, Scalar]
@@ -84,18 +85,26 @@ class RopeTie(NamedTuple):
 
 
 class Position(NamedTuple):
-    """A case in one position: normalised points, twists of the links (one per freedom; none: a structure)."""
+    """A case in one position and in motion: a `PlacedCase`, with the twists of the links (one per freedom;
+    none: a structure)."""
 
     case: Case
-    top: Topology
+    frame: Frame
     points: Points
-    scale: float
-    """normalised lengths per case length"""
+    arithmetic: Arithmetic
     twists: Mapping[str, tuple[Triple, ...]]
     slack: float = 0.0
     ropes: tuple[RopeTie, ...] = ()
-    arithmetic: Arithmetic = FLOATS
-    """of the points, the twists, and all that is made of them"""
+
+    @property
+    def top(self) -> Topology:
+        """Its bodies and bonds."""
+        return topology(self.case)
+
+    @property
+    def scale(self) -> float:
+        """Frame lengths a case length."""
+        return self.frame.scale
 
     @property
     def mobility(self) -> int:
@@ -130,19 +139,11 @@ def _rotor_tie(position: Position, screw: Screw) -> Tie:
     return Tie(joint, ground, screw.rotor, position.points[at], "", (X, Y))
 
 
-def rope_ties(
-    case: Case, points: Points, scale: float, arithmetic: Arithmetic = FLOATS
-) -> tuple[RopeTie, ...]:
-    """Every rope of a case, without friction: its tension is one.
-
-    Parameters
-    ----------
-    points : by name [frame]
-    scale : frame lengths a case length
-    """
+def rope_ties(place: PlacedCase) -> tuple[RopeTie, ...]:
+    """Every rope of a case, without friction: its tension is one."""
     found = []
-    for rope in case.ropes:
-        parts = rope_parts(rope, points, scale, arithmetic)
+    for rope in place.case.ropes:
+        parts = rope_parts(rope, place.points, place.frame.scale, place.arithmetic)
         found.append(RopeTie(rope, parts, (1.0,) * len(parts), (0.0,) * (len(parts) - 1)))
     return tuple(found)
 

@@ -10,7 +10,6 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from icsolve.answer.bodies import Reaction, Reactions, Tension, names_of
-from icsolve.assembly import Frame
 from icsolve.case import Case, Rope, ordered_pair
 from icsolve.case.joints import Mesh, Sliding
 from icsolve.errors import SceneError, Status
@@ -22,13 +21,12 @@ from icsolve.wording.sentences import listed, plural
 
 
 def reactions_of(
-    position: Position, frame: Frame, statics: Statics, parameters: Mapping[int, Scalar], a: Showing
+    position: Position, statics: Statics, parameters: Mapping[int, Scalar], a: Showing
 ) -> Reactions:
     """Every joint's reaction, by the names of the format (``F34``, ``F3-4@B``).
 
     Parameters
     ----------
-    frame : scale and origin of the frame, to bring places and couples back to case units
     statics : the general solution
     parameters : by column, the known loads, the unknown ones and the friction [scaled]
     a : arithmetic of all of it
@@ -55,7 +53,7 @@ def reactions_of(
         shares = tuple(
             (n, a.rounded(share if n in DEGREES else share / statics.scale)[0]) for n, share in parts
         )
-        found[name] = _reaction(position, frame, tie, kept, statics.scale, a)._replace(parts=shares)
+        found[name] = _reaction(position, tie, kept, statics.scale, a)._replace(parts=shares)
     return found
 
 
@@ -132,11 +130,9 @@ def _zeros(values: Sequence[tuple[Scalar, ...]], a: Showing) -> Callable[[Scalar
     return lambda value, n: zero_of(value) if a.vanishes(value, sizes[n]) else value
 
 
-def _reaction(
-    position: Position, frame: Frame, tie: Tie, kept: list[Scalar | None], scale: float, a: Showing
-) -> Reaction:
+def _reaction(position: Position, tie: Tie, kept: list[Scalar | None], scale: float, a: Showing) -> Reaction:
     """The numbers of a reaction, each rounded once."""
-    case = position.case
+    case, frame = position.case, position.frame
     ordered = ordered_pair(case, tie.by, tie.on) == (tie.by, tie.on)
     x, y, couple = (None if f is None else (f if ordered else 0.0 - f) / scale for f in kept)
     if couple is not None:

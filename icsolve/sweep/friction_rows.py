@@ -154,8 +154,7 @@ def rubbing(scene: RecordedScene, motions: Motions, balance: Balance) -> Frictio
     other = len(case.motion) > 1 or (turned is not None and turned.point is not None)
     if case.ropes or case.screws or other or motions.mobility != 1 or motions.slack or motions.redundant:
         return None
-    frame, record = scene.frame, scene.record
-    position = Position(case, scene.top, scene.points, frame.scale, motions.twists, arithmetic=record)
+    position = Position(*scene.place, motions.twists)
     ties = ties_of(position)
     if meshes(ties):
         return None

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 from icsolve.assembly.driven.mechanism import Mechanism
 from icsolve.assembly.driven.poses import Moved, Spot, plus, product
-from icsolve.assembly.workspace import Frame
+from icsolve.assembly.workspace import Frame, PlacedCase
 from icsolve.case import (
     AlongRope,
     Case,
@@ -64,6 +64,11 @@ class RecordedScene(NamedTuple):
     frame: Frame
     record: Record
     points: Points
+
+    @property
+    def place(self) -> PlacedCase:
+        """As the kernels take it."""
+        return PlacedCase(self.case, self.frame, self.points, self.record)
 
 
 class RecordedStatics(NamedTuple):
@@ -259,11 +264,11 @@ def statics(scene: RecordedScene, everything: bool) -> RecordedStatics:
     some = unknown and not (everything or case.ropes or case.screws)
     wanted = frozenset(top.body_of[link] for link in links) if some else None
     motions = motions_of(scene, wanted)
-    wrenches = power.wrenches(case, scene.frame, scene.points, scene.record)
+    wrenches = power.wrenches(scene.place)
     balance = power.balance(wrenches, motions.twists, motions.mobility)
     solution = power.solve_balance(balance, scene.record)
     try:
-        refusals.refuse_unbalanced(case, top, power.Outcome(scene.points, motions, balance, solution))
+        refusals.refuse_unbalanced(case, top, power.Outcome(scene.place, motions, balance, solution))
     except SceneError as error:
         return RecordedStatics({}, motions, error, balance)
     answers = {w.load.name: w.ratio * solution.values[w.root] for w in wrenches if w.root in solution.values}
@@ -276,18 +281,17 @@ def motions_of(scene: RecordedScene, wanted: Collection[int] | None = None) -> m
     plan = make_plan(top, wanted if wanted is not None else range(len(top.members)))
     found = None
     if plan is not None and plan.closed and not scene.case.ropes:
-        found = motion.by_plan(plan, top, scene.points, scene.record)
+        found = motion.by_plan(plan, scene.place)
     if found is None:
-        found = motion.by_loops(scene.case, top, scene.points, scene.record, scene.frame)
-    return motion.with_ends(found, scene.case, scene.points, scene.frame.scale, scene.record)
+        found = motion.by_loops(scene.place)
+    return motion.with_ends(found, scene.place)
 
 
 def pressing(
     scene: RecordedScene, found: RecordedStatics, contacts: Sequence[RestingContact]
 ) -> Iterator[tuple[str, Scalar]]:
     """The normal force of contacts (scaled), by their points; of those that equilibrium determines."""
-    frame, twists = scene.frame, found.motions.twists
-    position = Position(scene.case, scene.top, scene.points, frame.scale, twists, arithmetic=scene.record)
+    position = Position(*scene.place, found.motions.twists)
     loaded = {load.link for load in scene.case.loads if power.is_unknown(load)}
     # a follower's own equilibrium tells its force, that of the link with the unknown not in a dwell
     ties = sorted(ties_of(position), key=lambda tie: bool(loaded & {tie.by, tie.on}))
@@ -310,7 +314,7 @@ def pressing(
 def rates(scene: RecordedScene, found: motion.Motions) -> dict[str, Scalar]:
     """Angular velocity of every link in rad/s, scaled as in one scene; those left open are not there."""
     if found.mobility > 1:
-        speed = speeds.speed_of(scene.case, found.twists, scene.frame, scene.points)
+        speed = speeds.speed_of(scene.place._replace(arithmetic=FLOATS), found.twists)
         told = speeds.link_rates(scene.case, found.twists, speed)
         return {link: rate for link, rate in told.items() if not isinstance(rate, str)}
     divisor, target = _scale(scene, found.twists)
@@ -326,7 +330,7 @@ def _scale(scene: RecordedScene, twists: Mapping[str, tuple[Triple, ...]]) -> tu
     """What the rates are divided by, and what they are scaled to."""
     floats = {link: tuple((float(x), float(y), float(w)) for x, y, w in ts) for link, ts in twists.items()}
     places = {name: (float(x), float(y)) for name, (x, y) in scene.points.items()}
-    speed = speeds.speed_of(_plain(scene.case), floats, scene.frame, places)
+    speed = speeds.speed_of(PlacedCase(_plain(scene.case), scene.frame, places, FLOATS), floats)
     (target,) = speed.particular
     if speed.reference is not None:
         link, point = speed.reference

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from icsolve.answer import Answer, Centre, by_load
 from icsolve.answer.equilibrium import EquilibriumPosition
 from icsolve.assembly import Frame, case_point, solve_figure
+from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import Case, Coordinates, ForceVector, Joint, Like, Load, Pair, ordered_pair
 from icsolve.case.figure import Unknown
 from icsolve.errors import SceneError
@@ -311,8 +312,9 @@ def acting_loads(known: Known) -> list[Acting]:
     placed = [load for load in case.loads if set(points_of(load)) <= set(known.points)]
     names = {load.name for load in placed}
     placed = [load for load in placed if _like(load) in (None, *names)]
+    some = replace(case, loads=tuple(placed))
     try:
-        found = wrenches(replace(case, loads=tuple(placed)), Frame(0.0, 0.0, 1.0), known.points, FLOATS)
+        found = wrenches(PlacedCase(some, Frame(0.0, 0.0, 1.0), known.points, FLOATS))
     except (SceneError, ZeroDivisionError):
         return []
     return [_acting(known, w) for w in found]
