@@ -369,6 +369,69 @@ REFUSED = {
     "a title twice": ("units:", "title: x\nunits:", 3, 1, "given twice, the first time in line 2, column 1"),
     "a sign of YAML in a title": ("Four-bar press", "@home", 2, 8, "put the text in quotes"),
     "a name of two loads": ("  P: {", "  T12: {", 15, 3, "given twice, the first time in line 14, column 3"),
+    # brackets, dashes, quotation marks, spaces
+    "points in brackets": ("at: E", "at: [C, D]", 14, 32, "should be a point, or two coordinates [x, y]"),
+    "a place without brackets": ("at: E", "at: 3.5, 2.4", 14, 32, "in square brackets, [3.5, 2.4]"),
+    "loads that are not indented": (
+        "loads:\n  P: {force: 100, link: 4, at: E, angle: 180}\n  T12",
+        "loads:\nP: {force: 100, link: 4, at: E, angle: 180}\nT12",
+        14,
+        1,
+        "indent 'P' by two more spaces: it belongs under 'loads'",
+    ),
+    "keys that are not indented": (
+        "P: {force: 100, link: 4, at: E, angle: 180}",
+        "P:\n  force: 100\n  link: 4\n  at: E\n  angle: 180",
+        15,
+        3,
+        "indent 'force' by two more spaces: it belongs under 'P'",
+    ),
+    "all indented": ("title:", "  title:", 2, 3, "this line is indented otherwise"),
+    "points as equations": ("{A: [0, 0], D: [4, 0]}", "\n  A = [0, 0]\n  D = [4, 0]", 5, 3, "A: [0, 0]"),
+    "points as functions": ("{A: [0, 0], D: [4, 0]}", "\n  A(0, 0)\n  D(4, 0)", 5, 3, "name, A: [0, 0]"),
+    "a unit behind a bracket": ("[4, 0]", "[4, 0] in", 4, 31, "a unit goes with each number"),
+    "a semicolon and commas": ("[4, 0]", "[4,0; 0,0]", 4, 24, "[4.0, 0.0]"),
+    "no space before a bracket": ("D: [", "D:[", 4, 22, "write a space after the colon"),
+    "a capital": ("icsolve: 1", "Icsolve: 1", 1, 1, "did you mean 'icsolve'?"),
+    "out of a web page": ("icsolve: 1", "```yaml\nicsolve: 1", 1, 1, "take the lines with ``` away"),
+    "an apostrophe in a text": ("Four-bar press", "'Watt's press'", 2, 14, 'put it between " and "'),
+    "a number in brackets": ("Four-bar", "[3.4]", 2, 14, "starts with a bracket stands in quotes"),
+    "a dash in a title": ("Four-bar", "- Four-bar", 2, 8, "put the text in quotes"),
+    "a title of two lines": ("press", "press\nof mine", 3, 1, "this line has no colon"),
+    "a joint in round brackets": ("{pin: [1, 2], at: A}", "(pin: [1, 2], at: A)", 9, 17, "write braces"),
+    "coordinates in braces": ("[4, 0]", "{4, 0}", 4, 24, "write square brackets, D: [4, 0]"),
+    "links without brackets": ("pin: [1, 2]", "pin: 1, 2", 9, 11, "in square brackets, [1, 2]"),
+    "a link by its word": ("[1, 2]", "[1, link 2]", 9, 15, "write the name alone, 2"),
+    "no space after a dash": ("- {pin: [1", "-{pin: [1", 9, 3, "write a space after the dash"),
+    "stars for dashes": ("- {pin: [1", "* {pin: [1", 9, 3, "starts with a dash, not with '*'"),
+    "a star for the unknown": ("unknown", "*", 15, 17, "a value cannot start with '*'"),
+    "a bracket too many": ("CDE: 0}", "CDE: 0}}", 6, 25, "this bracket closes none"),
+    "no braces": ("{pin: [1, 2], at: A}", "pin: [1, 2], at: A", 9, 16, "stands in braces"),
+    "no colon": ("lengths: {", "lengths {", 5, 9, "before this bracket, lengths: {"),
+    "no colon and no bracket": ("joints:", "joints", 8, 1, "this line has no colon"),
+    "semicolons": ("AB: 1,", "AB: 1;", 5, 16, "write a comma between entries"),
+    "an arrow": ("AB: 1", "AB => 1", 5, 11, "in place of '=', AB: 1"),
+    "a no-break space at the start": ("  P: {", "\xa0\xa0P: {", 14, 1, "starts with a no-break space"),
+    # numbers and units, again
+    "a unit of the unknown": ("unknown", "unknown lbf*in", 15, 17, "write 'unknown' alone"),
+    "a letter for degrees": ("AB: 60", "AB: 60d", 6, 14, "did you mean 'deg'?"),
+    "a dash for a minus": ("force: 100", "force: \u2013100", 14, 14, "write -100"),
+    "a power of ten": ("force: 100", "force: 1x10^2", 14, 14, "with an e, 1e3 for 1*10^3"),
+    "a space in a number": ("force: 100", "force: 1 000", 14, 14, "without separators"),
+    "a value": ("force: 100", "value: 100", 14, 7, "as in {force: 100} or {torque: 5}"),
+    "components by name": ("force: 100", "Fx: 100", 14, 7, "{force: [30, -40]}"),
+    "a letter for a kind": ("torque: unknown", "T: unknown", 15, 9, "did you mean 'torque'?"),
+    "a link by a word in one": ("link: 4", "link: link4", 14, 25, "did you mean '4'?"),
+    "a Greek letter": ("at: A}", "at: A, \u03bc: 0.2, radius: 1}", 9, 26, "did you mean 'mu'?"),
+    "a sense in other words": ("link: 2}", "link: 2, turns: anti-clockwise}", 15, 42, "mean 'ccw'?"),
+    "an unknown direction": ("angle: 180", "angle: unknown", 14, 42, "'force: [unknown, unknown]'"),
+    "a sum": ("AB: 60", "AB: 90 + 30", 6, 14, "write the number that it comes to"),
+    "two units": ("BC: 3.5", "BC: 3 ft 2 in", 5, 22, "with one number and one unit"),
+    "a mixed fraction": ("BC: 3.5", "BC: 3-1/2 in", 5, 22, "write the fraction as decimals"),
+    "about so much": ("BC: 3.5", "BC: ~3.5", 5, 22, "write 3.5"),
+    "a variable that is not there": ("BC: 3.5", "BC: $L", 5, 22, "a number under 'variables'"),
+    "a unit in brackets": ("DE: 1.5", "DE: 1.5 [in]", 5, 44, "behind its number without brackets"),
+    "a unit with the name": ("AB: 1", "AB (in): 1", 5, 11, "write the name alone, AB"),
     "gravity downward": ("title:", "gravity: -9.81\ntitle:", 2, 10, "given by its size"),
 }
 
@@ -492,6 +555,8 @@ SCENES = {
         "underdetermined",
         "nothing but angles.CDF names point F",
     ),
+    "a length in small letters": ([("AB: 1", "ab: 1")], "underdetermined", "did you mean A-B?"),
+    "a load on the frame by its number": ([("title:", "ground: 4\ntitle:")], "", "link 4, the frame"),
     "two unknowns": ([("force: 100", "force: unknown")], "mobility", "Give one of them a number"),
 }
 
@@ -538,5 +603,5 @@ def test_a_file_without_its_ending_is_named(
     assert "did you mean" not in capsys.readouterr().err
 
 
-def test_there_are_three_times_fifty() -> None:
-    assert len(REFUSED) + len(SCENES) >= 150
+def test_there_are_four_times_fifty() -> None:
+    assert len(REFUSED) + len(SCENES) >= 200

@@ -250,6 +250,7 @@ _MEANT = {
     "lbm's": "'lbm'",
     "K": "'kip' or 'kN'",
     "k": "'kip' or 'kN'",
+    **dict.fromkeys(("d", "o", "Grad", "grad"), "'deg'"),
 }
 
 

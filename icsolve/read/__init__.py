@@ -8,7 +8,8 @@ from collections.abc import Mapping as Named
 from icsolve.case import Case
 from icsolve.errors import CaseError, NotACase
 from icsolve.read.build import build, check_version, is_in_space
-from icsolve.read.document import Mapping, Node, checked, parse, text_of
+from icsolve.read.document import Mapping, Node, checked, parse, take_in, text_of
+from icsolve.read.keys import SECTIONS
 from icsolve.read.names import Problems, Stop
 from icsolve.read.reading import measures
 
@@ -103,6 +104,7 @@ def _set(root: Mapping, settings: Settings, problems: Problems) -> None:
 def _built(root: Mapping, problems: Problems, name: str) -> Case:
     """The case of a tree, planar or in space; whether it may be used, the problems tell."""
     check_version(root, problems)
+    take_in(root, root.items.keys() - SECTIONS.keys(), problems)
     measured = measures(root.items.get("units"), problems)
     if not is_in_space(root):
         return build(root, problems, name, measured)

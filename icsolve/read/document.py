@@ -2,14 +2,14 @@
 
 Only PyYAML's event parser is used: it builds no typed values (which turn ``3:4`` into 184 and raise
 what is not a YAMLError) and does not recurse. Anchors, aliases and tags are refused, as is what is
-too deep, too large, or given twice. What YAML's own errors mean is said in the words of someone who
-wrote the file by hand.
+too deep, too large, or given twice.
 """
 
 from __future__ import annotations
 
 import os
 import re
+from collections.abc import Container
 from typing import TYPE_CHECKING, Any
 
 import yaml
@@ -27,6 +27,7 @@ from yaml.events import (
 from icsolve.case import Mark
 from icsolve.files import reading
 from icsolve.read.names import Problems, Stop, meant_by, shown
+from icsolve.read.syntax import explained, missing_space
 from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
@@ -128,129 +129,6 @@ def _place(text: str, index: int) -> Mark:
     start = text.rfind("\n", 0, index) + 1
     return text.count("\n", 0, index) + 1, index - start + 1
 
-
-_OF_A_COLON = ("mapping values are not allowed", "could not find expected ':'", "expected <document start>")
-_OF_A_START = ("expected key", "expected <block end>", "expected '-' indicator")
-_LOOKBACK = 5
-"""Lines before YAML's complaint among which its cause is sought."""
-
-
-def explained(error: yaml.MarkedYAMLError, text: str) -> tuple[Mark, str]:
-    """Place and wording of a syntax error."""
-    mark = error.problem_mark or error.context_mark
-    place = (mark.line + 1, mark.column + 1) if mark else (1, 1)
-    lines = text.splitlines()
-    line = lines[place[0] - 1] if place[0] <= len(lines) else ""
-    return _known(error, place, lines, line) or (place, f"this is not YAML: {_plain(error)}")
-
-
-def _known(error: yaml.MarkedYAMLError, place: Mark, lines: list[str], line: str) -> tuple[Mark, str] | None:
-    """Causes that are met often."""
-    return (
-        _of_characters(error, place, line)
-        or _of_another_language(error.problem or "", place[0], lines)
-        or _of_lines(error, place, lines, line)
-    )
-
-
-def _of_characters(error: yaml.MarkedYAMLError, place: Mark, line: str) -> tuple[Mark, str] | None:
-    """A character that YAML takes otherwise than it was meant."""
-    here, before = line[place[1] - 1 : place[1]], line[max(place[1] - 2, 0) : place[1] - 1]
-    if "\t" in line[: len(line) - len(line.lstrip())] or here == "\t":
-        column = line.index("\t") + 1
-        return (place[0], column), "a tab stands here; YAML is indented with spaces only"
-    curly = [line.index(sign) + 1 for sign in "\u201c\u201d" if sign in line]
-    if curly:
-        said = 'these quotation marks are letters to YAML; write straight ones (")'
-        return (place[0], min(curly)), said
-    asked = re.search(r"[\[{,:]\s*\?(?=\s*[,\]}])", line)
-    if asked or here == "?" or (here and before == "?"):
-        at = (place[0], asked.end()) if asked else place
-        return at, "a '?' cannot stand here; write 'unknown' for what is to find"
-    if here == "," and "node content" in (error.problem or ""):
-        return place, "a value is missing before this comma"
-    if "found unexpected ':'" in (error.problem or "") and re.search(r":\s*,", line):
-        return place, "there is no value between the colon and the comma"
-    if here and here in "@`%&*!|>":
-        return place, f"a value cannot start with '{here}'; put the text in quotes"
-    return None
-
-
-def _of_lines(
-    error: yaml.MarkedYAMLError, place: Mark, lines: list[str], line: str
-) -> tuple[Mark, str] | None:
-    """Colons, brackets, quotation marks and the beginnings of lines."""
-    problem = error.problem or ""
-    if line[place[1] - 1 : place[1]] == "," and not line[place[1] :].strip():
-        return place, "take this comma away: entries that stand in lines of their own have none between"
-    if any(sign in problem for sign in _OF_A_COLON):
-        cause = _unspaced_line(place[0], lines)
-        if cause:
-            return cause, "write a space after the colon"
-        text = re.match(r"\s*(\w+): +(?=[^\s\[{\"'])(.*: .*)", line)
-        if text:
-            quoted = f'{text[1]}: "{text[2].strip()[:60]}"'
-            return (place[0], text.start(2) + 1), f"a text with a colon in it stands in quotes, {quoted}"
-    if "'[' or" in problem or "or ']'" in problem or "or '}'" in problem:
-        return place, f"a bracket{_opened(error)} is not closed, or a comma is missing before this"
-    if "quoted scalar" in (error.context or "") and "end of stream" in problem:
-        return place, f"a quotation mark{_opened(error)} is not closed"
-    if any(sign in problem for sign in (*_OF_A_START, *_OF_A_COLON)):
-        before = lines[place[0] - 2] if place[0] > 1 else ""
-        if before.lstrip().startswith("{") and line.lstrip().startswith("-"):
-            return (
-                place[0] - 1,
-                before.index("{") + 1,
-            ), "an item of a list starts with a dash, as in - {...}"
-    if any(sign in problem for sign in _OF_A_START):
-        return place, "this line is indented otherwise than the lines that it should stand beside"
-    return None
-
-
-def _of_another_language(problem: str, last: int, lines: list[str]) -> tuple[Mark, str] | None:
-    """What is a comment, or gives a value, elsewhere, in the line of a problem or the one before it."""
-    if not any(sign in problem for sign in (*_OF_A_COLON, *_OF_A_START)):
-        return None
-    for at in range(min(last, len(lines)), max(last - 2, 0), -1):
-        line = lines[at - 1]
-        comment = re.search(r"(?:^\s*|[\]}]\s*)(//|/\*)|^\s*(--|%)", line)
-        if comment:
-            sign = comment[1] or comment[2]
-            return (at, comment.end() - len(sign) + 1), f"a comment starts with '#', not with '{sign}'"
-        given = re.match(r"\s*(\w+)\s*=\s*(.*)", line)
-        if given:
-            return (at, given.start(1) + 1), f"write a colon in place of '=', {given[1]}: {given[2][:60]}"
-    return None
-
-
-def _opened(error: yaml.MarkedYAMLError) -> str:
-    mark = error.context_mark
-    return f" (opened in line {mark.line + 1}, column {mark.column + 1})" if mark else ""
-
-
-def _unspaced_line(number: int, lines: list[str]) -> Mark | None:
-    """The nearest line, from line ``number`` up, whose colon has no space after it."""
-    for at in range(min(number, len(lines)), max(number - _LOOKBACK, 0), -1):
-        line = lines[at - 1]
-        key = line.strip().removeprefix("- ").split(" ")[0]
-        if missing_space(key):
-            return at, line.index(":") + 1
-    return None
-
-
-def missing_space(key: str) -> bool:
-    """Whether a key looks like ``x:1``: a colon with something right after it."""
-    before, colon, after = key.partition(":")
-    return bool(colon and after and before) and not after.startswith("//")
-
-
-def _plain(error: yaml.MarkedYAMLError) -> str:
-    parts = [part for part in (error.context, error.problem) if part]
-    return ", ".join(parts) or "it cannot be parsed"
-
-
-if TYPE_CHECKING:
-    from fractions import Fraction
 
 LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 """libyaml's parser; the pure one where libyaml is missing."""
@@ -414,9 +292,12 @@ class _Tree:
             said = f"'{before.text},{name}' is cut at its comma; {_uncut(before.text, name)}"
         elif re.fullmatch(r"-?[\d.]+", name) and re.fullmatch(r"-?[\d.]+", before.text):
             said = f"two numbers stand in square brackets, [{before.text}, {name}]"
+        elif re.fullmatch(r"[A-Z]\w?'?", name) and re.fullmatch(r"[A-Z]\w?'?", before.text):
+            said = f"two points stand in square brackets, [{before.text}, {name}]"
         else:
             return False
         self.problems.refuse(before.mark, said)
+        self.problems.cut.add(before.mark)
         return True
 
     def _enter(self, mapping: Mapping, key: tuple[str, Mark], node: Node) -> None:
@@ -437,6 +318,22 @@ class _Tree:
                 return
         mapping.keys[name] = mark
         mapping.items[name] = node
+
+
+def take_in(section: Mapping, strays: Container[str], problems: Problems) -> None:
+    """Put keys that stand beside the empty key that they belong under, unindented, in it; told once."""
+    over = ""
+    for key, node in list(section.items.items()):
+        if not over or key not in strays:
+            over = key if is_null(node) and key not in strays else ""
+            continue
+        inner = section.items[over]
+        if type(inner) is not Mapping:
+            problems.refuse(
+                section.keys[key], f"indent {shown(key)} by two more spaces: it belongs under '{over}'"
+            )
+            inner = section.items[over] = Mapping({}, {}, section.keys[key])
+        inner.items[key], inner.keys[key] = section.items.pop(key), section.keys.pop(key)
 
 
 def _uncut(before: str, after: str) -> str:

@@ -230,7 +230,7 @@ class Entry:
         if type(node) is not Sequence:
             return self.reading.point(node, what)
         axes = self.reading.axes
-        if len(node.items) != len(axes):
+        if len(node.items) != len(axes) or all(_is_word(one) for one in node.items):
             count = "two" if len(axes) == 2 else "three"
             self.refuse(node.mark, f"{what} should be a point, or {count} coordinates [{', '.join(axes)}]")
             return None
@@ -389,6 +389,10 @@ def _no_mapping(kind: str, node: Mapping) -> str:
         " ".join(part.text for part in parts if type(part) is Scalar) or next(iter(node.items), "") or "100"
     )
     return f"a number stands here without braces, '{kind}: {text}', or the name of another load, {{like: M2}}"
+
+
+def _is_word(node: Node) -> bool:
+    return type(node) is Scalar and node.text[:1].isalpha()
 
 
 MOST_TEETH = 1e9

@@ -33,12 +33,13 @@ from icsolve.case import (
     Unknown,
     Weight,
 )
-from icsolve.read.document import Mapping, Node, Scalar, Sequence
+from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.entry import Entry
 from icsolve.read.keys import CENTROID, MASSES, MASSES_TIES, UNKNOWN
 from icsolve.read.names import Names, point_key, shown, suggestion
 from icsolve.read.reading import COMPASS, Reading, number
 from icsolve.tuples import NamedTuple
+from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:
     from icsolve.case.space import SpatialPoint
@@ -70,8 +71,6 @@ def _coordinates(reading: Reading, name: str, node: Node) -> Coordinates | Spati
     """A point by its coordinates, in the plane one of them unknown or none."""
     axes = reading.axes
     if type(node) is not Sequence or len(node.items) != len(axes):
-        if any((problem.line, problem.column) == node.mark for problem in reading.problems.found):
-            return None  # refused where the comma cut it
         form = decimals(node) or "as in [3, 0.5] or [unknown, 0.5]"
         said = f"point {name} should have two coordinates, {form}"
         if len(axes) == 3:
@@ -96,13 +95,15 @@ def decimals(node: Node) -> str:
     """How four numbers in place of two, two in one text, or numbers in round brackets, are to be written."""
     if type(node) is Scalar and node.text[:1] == "(":
         return "in square brackets, as in [3, 0.5]"
-    if type(node) is Sequence and len(node.items) == 1 and type(node.items[0]) is Scalar:
-        two = re.split(r"[;\s]+", node.items[0].text)
-        return f"with a comma between, [{two[0]}, {two[1]}]" if len(two) == 2 else ""
-    if type(node) is not Sequence or len(node.items) != 4:
+    if type(node) is not Sequence or not all(type(item) is Scalar for item in node.items):
         return ""
-    a, b, c, d = (item.text if type(item) is Scalar else "" for item in node.items)
-    return f"with decimal points, [{a}.{b}, {c}.{d}]" if b.isdigit() and d.isdigit() else ""
+    texts = [item.text for item in node.items if type(item) is Scalar]
+    two = re.split(r"\s*;\s*" if ";" in "".join(texts) else r"\s+", ",".join(texts))
+    if len(two) == 2:
+        return f"with a comma between, [{two[0].replace(',', '.')}, {two[1].replace(',', '.')}]"
+    if len(texts) != 4 or not texts[1].isdigit() or not texts[3].isdigit():
+        return ""
+    return f"with decimal points, [{texts[0]}.{texts[1]}, {texts[2]}.{texts[3]}]"
 
 
 def _centroid(reading: Reading, name: str, node: Mapping) -> Centroid | None:
@@ -110,6 +111,9 @@ def _centroid(reading: Reading, name: str, node: Mapping) -> Centroid | None:
     if node.items and node.items.keys() <= {"x", "y"}:
         x, y = (at.text if type(at := node.items.get(axis)) is Scalar else "unknown" for axis in "xy")
         reading.refuse(node.mark, f"point {name} is written by its two numbers alone, {name}: [{x}, {y}]")
+        return None
+    if node.items and all(map(is_null, node.items.values())):
+        reading.refuse(node.mark, f"write square brackets, {name}: [{', '.join(node.items)}]")
         return None
     reading.check_keys(node, CENTROID, f"point {name}")
     value = node.items.get("centroid")
@@ -328,16 +332,19 @@ def check_given(reading: Reading) -> None:
 
 
 def stray_points(reading: Reading, figure: FigureData) -> list[str]:
-    """Sentences on points that an angle alone names, which places nothing."""
+    """Sentences on points that an angle, or both that a length, alone names: it places nothing."""
     names = Counter(name for datum in (*figure.lengths, *figure.angles) for name in datum[:-1])
     shaped = {name for names in figure.further.values() for name in names}
     known = {*figure.points, *shaped, *reading.used, *reading.on_guides}
-    return [
-        f"nothing but {angle.value.path} names point {name}."
-        for angle in figure.angles
-        for name in dict.fromkeys(angle[:-1])
-        if names[name] == 1 and name not in known
-    ]
+    said = []
+    for datum in (*figure.angles, *figure.lengths):
+        alone = [name for name in dict.fromkeys(datum[:-1]) if names[name] == 1 and name not in known]
+        if alone and (len(alone) > 1 or not isinstance(datum, Length)):
+            cased = [name.swapcase() if name.swapcase() in names else name for name in datum[:-1]]
+            meant = f"; did you mean {'-'.join(cased)}?" if not {*cased} & {*alone} else "."
+            points = f"point{'s' * (len(alone) > 1)} {listed(alone)}"
+            said.append(f"nothing but {datum.value.path} names {points}{meant}")
+    return said
 
 
 def _given_backwards(reading: Reading) -> set[str]:
@@ -355,8 +362,6 @@ def _never_given(reading: Reading, name: str, given: set[str]) -> str:
     of = next((point for point, others in reading.centroids.items() if name in others), None)
     if of is None:
         return said
-    from icsolve.wording.sentences import listed
-
     return f"{said}; {of} is the centroid of {listed(reading.centroids[of])}: give {name}, or {of} by lengths"
 
 
@@ -540,6 +545,8 @@ class _Owners:
         own = self.own.get(link, set())
         if point in own or point in self.centres or point.startswith("@"):
             return [], False
+        if point in self._fixed_to(link):
+            return [], False
         by_joints = [other for other, points in self.own.items() if point in points]
         if by_joints or point not in self.dimensioned:
             return by_joints, False
@@ -554,7 +561,7 @@ class _Owners:
     def _fixed_to(self, link: str) -> set[str]:
         """The points of a link, and those that two dimensions each fix to these."""
         if link not in self.fixed:
-            found = set(self.own[link])
+            found = set(self.own.get(link, ()))
             while more := set(_tied(self.figure, found)) - found:
                 found |= more
             self.fixed[link] = found

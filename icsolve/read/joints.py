@@ -53,7 +53,7 @@ Builders = Table[str, Callable[[Entry, Any, Values], T | None]]
 
 def mention_links(reading: Reading, section: Node | None) -> None:
     """The links of all joints, faulty ones too, in order of first mention: other sections know them."""
-    if type(section) is not Sequence or not section.items:
+    if type(section) is not Sequence or not section.items or any(type(n) is Scalar for n in section.items):
         return
     reading.links = {}
     for item in section.items:

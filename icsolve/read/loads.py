@@ -22,7 +22,7 @@ from icsolve.case import (
     Weight,
 )
 from icsolve.numbers.units import exact_ratio, times
-from icsolve.read.document import Mapping, Node, Scalar, Sequence
+from icsolve.read.document import Mapping, Node, Scalar, Sequence, take_in
 from icsolve.read.entry import Entry, Values
 from icsolve.read.keys import LOADS, MOTION_OF_LINK, MOTION_OF_POINT, PULLS, EntryKind
 from icsolve.read.names import is_name, point_key, shown, suggestion, why_no_name
@@ -56,6 +56,8 @@ def dimension_of(kind: str) -> str:
 
 def read_section(reading: Reading, section: Mapping, forms: Forms[T]) -> tuple[T, ...]:
     """The loads that could be read."""
+    parts = {key for kind in forms.kinds.values() for key in kind.keys}
+    take_in(section, parts | forms.own_keys().keys(), reading.problems)
     for key, node in section.items.items():
         reading.kinds[key] = _kind_of(node, forms)
     found: list[T] = []
@@ -112,6 +114,10 @@ def _own_key(entry: Entry, forms: Forms[T]) -> str | None:
         parts = {key for one in forms.kinds.values() for key in one.keys}
         strange = [key for key in entry.node.items if key not in parts]
         likely = suggestion(strange[0], own) if strange else ""
+        if strange and strange[0] in ("type", "kind", "value", "magnitude", "size"):
+            likely = "; its number stands under the name of its kind, as in {force: 100} or {torque: 5}"
+        elif strange and strange[0].lower() in ("fx", "fy", "x", "y"):
+            likely = "; a force by its components is {force: [30, -40]}"
         mark = entry.mark(strange[0]) if strange else entry.node.mark
         entry.refuse(mark, f"{entry.what} has none of {', '.join(own)}{likely}")
     return key if key and entry.reading.kinds[entry.path.removeprefix("loads.")] else None

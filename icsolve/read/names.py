@@ -19,9 +19,13 @@ class Stop(Exception):
 
 
 class Problems:
-    """Notes problems of one file; ``noted`` counts them, those told before too."""
+    """Notes problems of one file; ``noted`` counts them, those told before too.
+
+    ``cut`` are the places of values that a comma cuts: that is said, and nothing else about what is left.
+    """
 
     def __init__(self, path: str) -> None:
+        self.cut: set[Mark] = set()
         self.path = path
         self.found: list[Problem] = []
         self.noted = 0
@@ -30,7 +34,7 @@ class Problems:
         """Note a problem; stops at the hundredth."""
         self.noted += 1
         problem = Problem(printable(self.path), mark[0], mark[1], printable(message))
-        if problem not in self.found:
+        if problem not in self.found and mark not in self.cut:
             self.found.append(problem)
         if len(self.found) == MOST:
             self.found.append(problem._replace(message="and perhaps more: reading stopped here"))
@@ -56,7 +60,7 @@ def shown(text: str) -> str:
 
 
 _OTHER_WORDS = {
-    "torque": "moment couple twist momentum drehmoment",
+    "torque": "moment couple twist momentum drehmoment t",
     "force": "load pull push thrust tension f kraft",
     "weight": "gravity_force w",
     "angle": "direction dir orientation theta bearing heading degrees inclination",
@@ -84,11 +88,11 @@ _OTHER_WORDS = {
     "motion": "speed speeds velocity input",
     "along": "direction dir axis angle guide",
     "through": "on passing",
-    "mu": "friction coefficient",
+    "mu": "friction coefficient µ μ",
     "speed": "omega velocity rate w v",
     "turns": "sense rotation direction",
     "cw": "clockwise right negative",
-    "ccw": "counterclockwise anticlockwise counter-clockwise left positive",
+    "ccw": "counterclockwise anticlockwise anti-clockwise counter-clockwise left positive",
     "free": "unstretched natural length rest free_length l0",
     "spring": "stiffness k",
     "centroid": "midpoint middle mean centre center",
@@ -119,7 +123,8 @@ def meant_by(name: str, options: Iterable[str]) -> str:
 
     known = list(islice(options, _MOST_OPTIONS))
     word = name.lower().strip()
-    lower = [option for option in known if option.lower() == word]
+    alone = re.sub(r"^(?:link|point|body|bar|gear)[ _]?(?=.)", "", word)
+    lower = [option for option in known if option.lower() in (word, alone)]
     other = [option for option in known if word.replace(" ", "_") in _OTHER_WORDS.get(option, "").split()]
     near = lower or other or get_close_matches(name[:60], known, 1, 0.6)
     return near[0] if near else ""
@@ -141,8 +146,12 @@ def why_no_name(text: str) -> str:
     """What a name is, for a text that is none."""
     before, sign, after = (part.strip() for part in text.partition("="))
     if sign:
-        return f"write a colon in place of '=', {before}: {after}"
+        return f"write a colon in place of '=', {before}: {after.lstrip('> ')}"
     words = text.replace(",", " ").split()
+    if len(words) == 2 and words[0].lower() in ("link", "point", "joint", "body", "gear", "load"):
+        return f"write the name alone, {words[1]}"
+    if "(" in text:
+        return f"write the name alone, {text.partition('(')[0].strip()}"
     if len(words) > 1:
         return f"with a comma between, {', '.join(words)}, these are two names"
     if "’" in text or "′" in text:

@@ -25,9 +25,10 @@ from icsolve.numbers.units import (
     split_quantity,
     times,
 )
-from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null, missing_space
+from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.keys import UNITS as UNIT_KEYS
 from icsolve.read.names import Problems, is_name, meant_by, shown, suggestion, why_no_name
+from icsolve.read.syntax import missing_space
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -102,6 +103,10 @@ class Reading:
             self.refuse(node.mark, f"{said}; write a space after each colon")
         else:
             told = "; take the dashes or brackets of a list away" if type(node) is Sequence else ""
+            given = re.match(r"(\w+)\s*(?:=\s*|(?=\())(.*?)(?=\s\w+\s*(?:=|\()|$)", getattr(node, "text", ""))
+            if given:
+                value = given[2].replace("(", "[").replace(")", "]")
+                told = f"; write a colon and a space after the name, {given[1]}: {value[:60]}"
             self.refuse(node.mark, f"{what} should be a mapping, {form}{told}")
         return None
 
@@ -258,27 +263,29 @@ def _is_of_radians(value: float, numeral: Numeral) -> bool:
     return 0.1 < abs(value) < 13.0 and near and (numeral.exponent <= -3 or abs(value) in (1.57, 3.14, 6.28))
 
 
+_NO_UNITS = {
+    r",\d": "write a decimal point, not a comma",
+    r"[- ]?\d+/\d": "write the fraction as decimals, 3.5 for 3 1/2",
+    r"\d|[_'’]\d": "write the digits of a number without separators",
+    r"[a-z]+\.?\s*\d+\.?\d*\s*[a-z]+$": "write it with one number and one unit, as decimals",
+    r"%$": "write the number itself, 0.2 for 20 %",
+    r"/\s*\d+$": "write the quotient as one decimal number",
+    r"[x×*·]\s*10\s*\^": "write a power of ten with an e, 1e3 for 1*10^3",
+    r"[*+]": "write the number that it comes to",
+    r"-\s*\d+$": "one value is wanted here; a range is what `icsolve sweep --vary` goes through",
+    r"°\d": "write minutes as decimals of the degree, 60.5 for 60°30'",
+}
+"""What begins the text behind a number where it is no unit, and what is to be written."""
 _STROKES = {'"': "in", "''": "in", "″": "in", "'": "ft", "′": "ft"}
 
 
 def _fitting(reading: Reading, text: str, dimension: str) -> Unit:
     """The unit, of the wanted dimension."""
-    if text[0] == "," and text[1:2].isdigit():
-        raise UnitError("write a decimal point, not a comma")
-    if text[0] in "_'’" and text[1:2].isdigit():
-        raise UnitError("write the digits of a number without separators")
-    if text == "%":
-        raise UnitError("write the number itself, 0.2 for 20 %")
+    said = next((said for pattern, said in _NO_UNITS.items() if re.match(pattern, text)), "")
+    if said:
+        raise UnitError(said)
     if dimension == "number" and text.isalpha():
         raise UnitError(f"a bare number is wanted here, without '{text}'")
-    if text[0] == "/" and text[1:].strip().isdigit():
-        raise UnitError("write the quotient as one decimal number")
-    if text[0] == "*":
-        raise UnitError("write the number that it comes to")
-    if text[0] == "-" and text[1:].strip().isdigit():
-        raise UnitError("one value is wanted here; a range is what `icsolve sweep --vary` goes through")
-    if text[0] == "°" and text[1:2].isdigit():
-        raise UnitError("write minutes as decimals of the degree, 60.5 for 60°30'")
     if text in _STROKES and dimension == "length":
         raise UnitError(f"write '{_STROKES[text]}' for {text}")
     sense = re.search(r"\b(c?cw|(?:counter)?clockwise)$", text)
@@ -359,23 +366,37 @@ def _no_number(node: Scalar, text: str, dimension: str, path: str) -> str:
     if dimension == "angle" and text.lower() in COMPASS:
         return f"an angle is in degrees counterclockwise from +x: write {COMPASS[text.lower()]} for '{text}'"
     if text == "unknown":
-        return f"'unknown' cannot stand here; {wanted} is wanted"
+        way = path.startswith("loads.") and path.endswith(".angle")
+        wanted = (
+            "a force of unknown direction is 'force: [unknown, unknown]'" if way else f"{wanted} is wanted"
+        )
+        return f"'unknown' cannot stand here; {wanted}"
+    if text.startswith("unknown "):
+        return "write 'unknown' alone; its unit follows from those of the case"
     likely = suggestion(text, ("unknown",)) or _meant(text, dimension, path)
     return f"{wanted} should stand here, but {shown(text)} does not start with a number{likely}"
 
 
 def _meant(text: str, dimension: str, path: str) -> str:
     """What a text that is no number may mean, and how it is written."""
+    if text[0] in "–—‐‑~≈=" and text[1:2].isdigit():
+        return f"; write {'' if text[0] in '~≈=' else '-'}{text[1:]}"
+    if text[0] == "$":
+        return f"; {text} stands for a number under 'variables', which this case has not"
     digits = text.translate(str.maketrans("OoIl", "0011"))
     if digits != text and re.fullmatch(r"-?[\d.]+", digits):
         return f"; write digits, {digits}"
     if re.fullmatch(r"[a-z]+\(.*\)", text):
         return "; write the number that it comes to"
-    if path.startswith("loads.") and dimension in ("torque", "force", "mass", "pressure") and is_name(text):
+    if (
+        path.startswith("loads.")
+        and dimension in ("torque", "force", "mass", "pressure")
+        and is_name(text.lstrip("-"))
+    ):
         return "; write a number, or 'unknown' for what is to find"
     if path.endswith(".along") and is_name(text):
-        other = "B" if text == "A" else "A"
-        return f"; two points of the guide stand in brackets, as in [{other}, {text}]"
+        two = text if len(text) == 2 else ("B" if text == "A" else "A") + text[:1]
+        return f"; two points of the guide stand in brackets, as in [{two[0]}, {two[1]}]"
     share = re.fullmatch(r"(-?)(\d*)\s*\*?\s*(?:pi|π)\s*(?:/\s*(\d+))?", text)
     if dimension == "angle" and share:
         degrees = 180.0 * int(share[2] or 1) / max(int(share[3] or 1), 1)
