@@ -26,6 +26,7 @@ import icsolve
 from equilibrium_cases import POTENTIALS
 from icsolve.answer.equilibrium import EquilibriumPosition, position_dict
 from icsolve.errors import CaseError, SceneError
+from icsolve.manual import template
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import Record
 from icsolve.report.derivation.known import known_of
@@ -1319,3 +1320,20 @@ def test_a_sweep_of_positions_says_what_it_leaves_out(
     ):
         assert exit_status("sweep", str(file), *words.split()) == 2
         assert "angles.AB is unknown" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("link", ["2", "3"])
+@pytest.mark.parametrize("kind", ["double-pendulum", "bracket"])
+def test_one_link_of_two_freedoms_has_no_stability_of_its_own(link: str, kind: str) -> None:
+    """Its stiffness while the other link does not turn may be positive where the position is unstable."""
+    upright = """
+icsolve: 1
+points: {A: [0, 0], B: [0, -1], C: [0, -0.5]}
+links: {3: [C]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}]
+loads: {V: {weight: 50, link: 2, at: B}, W: {weight: 10, link: 3, at: C}}
+"""
+    case = icsolve.load(template(kind) if kind == "bracket" else upright)
+    with pytest.raises(SceneError, match="2 degrees of freedom") as refused:
+        with_stability(case, icsolve.solve(case), link)
+    assert refused.value.status == "mobility"

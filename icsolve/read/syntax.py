@@ -154,7 +154,7 @@ def _of_starts(problem: str, place: Mark, lines: list[str], line: str) -> tuple[
         return at, "an item of a list starts with a dash, as in - {...}"
     for number, text in ((place[0] - 1, before), (place[0], line)):
         if "\xa0" in text[: len(text) - len(text.lstrip())]:
-            return (number, text.index("\xa0") + 1), "this line starts with a no-break space; write ordinary ones"
+            return (number, text.index("\xa0") + 1), "this line starts with a no-break space"
     return (place, _ASKEW) if any(sign in problem for sign in _OF_A_START) else None
 
 

@@ -6,11 +6,12 @@ import math
 from collections.abc import Callable
 from itertools import pairwise
 
-from icsolve.answer import Answer
+from icsolve.answer import Answer, by_load
 from icsolve.answer.equilibrium import Stiffness
 from icsolve.case import Case, ForceVector, Number
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
+from icsolve.scene import solve_scene
 from icsolve.solve.positions import led_rest, moved_by, rest_of
 from icsolve.solve.rest import Rest, balances
 from icsolve.statics.power import has_friction, is_unknown
@@ -35,13 +36,13 @@ def with_stability(case: Case, answer: Answer, of: str) -> Answer:
 
 def holding(case: Case, answer: Answer) -> Case:
     """The case with its unknown loads at the values that were found."""
-    loads = []
+    loads, found = [], by_load(answer.answers)
     for load in case.loads:
         if is_unknown(load) and not isinstance(load, ForceVector):
-            value = answer.answers[load.name].value
+            value = found[load.name].value
             load = load._replace(value=Number(value, 0.0, f"loads.{load.name}", repr(value)))  # noqa: PLW2901
         loads.append(load)
-    return replace(case, loads=tuple(loads), expect=(), motion=())
+    return replace(case, loads=tuple(loads), directed=(), expect=(), motion=())
 
 
 def rest_as_written(case: Case, of: str) -> Rest:
@@ -49,6 +50,13 @@ def rest_as_written(case: Case, of: str) -> Rest:
     if has_friction(case):
         said = "with friction a position is one of a range, and has no stability: leave out the friction."
         raise SceneError(Status.UNSUPPORTED, said)
+    freedoms = solve_scene(replace(case, loads=(), dynamic=False), bound=False).mobility or 0
+    if freedoms > 1 and of in case.links:
+        raise SceneError(
+            Status.MOBILITY,
+            f"the mechanism has {freedoms} degrees of freedom: how stiff it is by link {of} alone says "
+            "nothing of the others. Let as many data of its figure be `unknown` as it has.",
+        )
     try:
         return rest_of(case, of)
     except SceneError as refusal:

@@ -21,7 +21,7 @@ from icsolve.case.expected import (
     SpeedIs,
     Target,
 )
-from icsolve.errors import IcsolveError, SceneError
+from icsolve.errors import IcsolveError, SceneError, Status
 from icsolve.grade.mistakes.changed import (
     Changed,
     Place,
@@ -37,7 +37,7 @@ from icsolve.grade.mistakes.changed import (
 from icsolve.grade.mistakes.lookup import FACTORS, Wrong, plain_wrongs
 from icsolve.report.check import value_of
 from icsolve.statics.power import reacting
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 
 _NOTHING = 1e-9
 """A component below this part of the other is rounding."""
@@ -48,9 +48,9 @@ Known = Mapping[str, Sequence[Answer | None]]
 """Changed cases solved before, by their kind and in their order."""
 
 
-def solved_for(case: Case, target: Target | None = None) -> Answer:
+def solved_for(case: Case, target: Target | None = None, final: tuple[str, ...] = ()) -> Answer:
     """The case solved with all that a target and the wrong answers need; of loads the bare answer, where
-    centres and rates can't be had.
+    centres and rates can't be had for a reason that is not ``final``.
 
     Raises SceneError where it has no answer.
     """
@@ -59,8 +59,8 @@ def solved_for(case: Case, target: Target | None = None) -> Answer:
     bodies = isinstance(target, OfBodies)
     try:
         return solve(case, all_centres=True, rates=True, bound=False, reactions=bodies)
-    except SceneError:
-        if target is not None and not isinstance(target, LoadIs):
+    except SceneError as error:
+        if (target is not None and not isinstance(target, LoadIs)) or error.status in final:
             raise
         return solve(case, bound=False)
 
@@ -101,9 +101,16 @@ class WrongAnswers:
 
     def _solved(self, kind: str, some: Iterable[Changed]) -> list[Solution]:
         changes = list(some)
-        answers = self._known.get(kind) or [_tried(changed.case, self._target) for changed in changes]
+        answers = self._known.get(kind) or [_tried(self._begun(one.case), self._target) for one in changes]
         found = zip(changes, answers, strict=True)
         return [(changed, answer) for changed, answer in found if answer is not None]
+
+    def _begun(self, changed: Case) -> Case:
+        """A changed case that starts from the right figure: that is nearer than the `near` of the file."""
+        case, points = self.answer.case, self._pose.points
+        if changed.near is not case.near:
+            return changed
+        return replace(changed, near={name: points.get(name, at) for name, at in case.near.items()})
 
     def of(self, target: Target, value: float | None = None) -> list[Wrong]:
         """The wrong values of a target that is one number, ``value``."""
@@ -220,7 +227,7 @@ class WrongAnswers:
 def _tried(case: Case, target: Target | None = None) -> Answer | None:
     """A changed case solved; None where it can't be, which is no one's mistake then."""
     try:
-        return solved_for(case, target)
+        return solved_for(case, target, (Status.CANNOT_ASSEMBLE, Status.AMBIGUOUS))
     except (IcsolveError, ArithmeticError):
         return None
 
