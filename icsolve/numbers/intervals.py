@@ -9,6 +9,7 @@ there is none the root is 0: whoever asks whether a figure exists asks the radic
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 
 import numpy as np
 
@@ -39,35 +40,53 @@ def enclose(record: Record, wanted: Sequence[int], given: Mapping[int, Interval]
     Returns
     -------
     list[Interval]
-        Ends of shape (n,); () where nothing that is given leads to the node. Constants are widened by their
+        Ends of shape (n,); (1,) where nothing that is given leads to the node. Constants are widened by their
         noise; an input that is not given keeps the value with which it was recorded.
     """
     nodes = record.nodes
-    found: dict[int, Interval] = dict(given)
+    found = {k: np.array([-one.low, one.high]) for k, one in given.items()}
     with np.errstate(all="ignore"):
         for k in live(record, wanted, given):
             if k in found:
                 continue
             node = nodes[k]
             if node.op == Op.INPUT:
-                found[k] = Interval(np.array(node.value), np.array(node.value))
+                found[k] = _exactly(node.value)
                 continue
             if node.op in (Op.COS, Op.SIN):
                 cosine = k if node.op == Op.COS else node.b
-                found[cosine], found[cosine + 1] = _turned(_of(record, node.a, found))
+                low, high = _ends(_of(record, node.a, found))
+                found[cosine], found[cosine + 1] = _wave(low, high, 0.0), _wave(low, high, 90.0)
                 continue
             parts = [_of(record, n, found) for n in operands(record, k)]
             found[k] = _run(node.op, parts, node.a == node.b)
-    return [_of(record, k, found) for k in wanted]
+    return [Interval(*_ends(_of(record, k, found))) for k in wanted]
 
 
-def _of(record: Record, k: int, found: Mapping[int, Interval]) -> Interval:
+# --- operations on (2, n): minus the lower ends and the upper ones, so that upward is outward -------------
+
+SIGNS = np.array([[-1.0], [1.0]])
+PRODUCTS = np.array([[[-1.0], [1.0], [1.0], [-1.0]], [[1.0], [-1.0], [-1.0], [1.0]]])
+"""By which the products of ends, as they stand, become minus those of the true ends, and these."""
+
+
+def _exactly(value: float) -> Array:
+    return np.array([[-value], [value]])
+
+
+def _ends(a: Array) -> tuple[Array, Array]:
+    """The lower and the upper ends."""
+    return -a[0], a[1]
+
+
+def _of(record: Record, k: int, found: Mapping[int, Array]) -> Array:
     if k in found:
         return found[k]
-    value, noise = np.array(record.nodes[k].value), _still(record, k)
-    return _out(value - noise, value + noise) if noise else Interval(value, value)
+    here, noise = _exactly(record.nodes[k].value), _still(record, k)
+    return _out(here + noise) if noise else here
 
 
+@lru_cache(maxsize=4096)
 def _still(record: Record, k: int) -> float:
     """A bound of the error of a value that is the same in every row."""
     from icsolve.numbers.adjoint import still_noise
@@ -75,64 +94,56 @@ def _still(record: Record, k: int) -> float:
     return 2.0 * still_noise(record, k)
 
 
-def _out(low: Array, high: Array) -> Interval:
+def _out(a: Array) -> Array:
     """Rounded outward by an ulp; what is no number is unbounded."""
-    low, high = np.nextafter(low, -np.inf), np.nextafter(high, np.inf)
-    return Interval(np.where(np.isnan(low), -np.inf, low), np.where(np.isnan(high), np.inf, high))
+    a = np.nextafter(a, np.inf)
+    return np.where(np.isnan(a), np.inf, a)
 
 
-def _run(op: Op, parts: Sequence[Interval], same: bool) -> Interval:
+def _run(op: Op, parts: Sequence[Array], same: bool) -> Array:
     a, b = parts[0], parts[-1]
     match op:
         case Op.ADD:
-            return _out(a.low + b.low, a.high + b.high)
+            return _out(a + b)
         case Op.SUB:
-            return _out(a.low - b.high, a.high - b.low)
+            return _out(a + b[::-1])
         case Op.MUL:
             return _square(a) if same else _product(a, b)
         case Op.DIV:
             return _quotient(a, b)
         case Op.NEG:
-            return Interval(-a.high, -a.low)
+            return a[::-1]
         case Op.SQRT:
-            low = np.sqrt(np.maximum(a.low, 0.0))
-            wide = _out(low, np.sqrt(np.maximum(a.high, 0.0)))
-            return Interval(np.maximum(wide.low, 0.0), wide.high)
+            return _not_negative(_out(np.sqrt(np.maximum(a * SIGNS, 0.0)) * SIGNS))
         case Op.ANGLE:
-            return _angle(a, b)
+            return _angle(_ends(a), _ends(b))
         case Op.NEAREST:
-            return Interval(np.rint(a.low), np.rint(a.high))
+            return np.asarray(np.rint(a))
     raise TypeError(op.name)
 
 
-def _square(a: Interval) -> Interval:
-    one, two = a.low * a.low, a.high * a.high
-    low = np.where((a.low <= 0.0) & (a.high >= 0.0), 0.0, np.minimum(one, two))
-    wide = _out(low, np.maximum(one, two))
-    return Interval(np.maximum(wide.low, 0.0), wide.high)
+def _not_negative(a: Array) -> Array:
+    return np.array([np.minimum(a[0], 0.0), a[1]])
 
 
-def _product(a: Interval, b: Interval) -> Interval:
-    products = (a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high)
-    ends = [np.where(np.isnan(end), 0.0, end) for end in products]  # zero times what has no bound
-    low, high = np.minimum(ends[0], ends[1]), np.maximum(ends[0], ends[1])
-    return _out(np.minimum(low, np.minimum(ends[2], ends[3])), np.maximum(high, np.maximum(ends[2], ends[3])))
+def _square(a: Array) -> Array:
+    squares = a * a
+    low = np.where((a >= 0.0).all(axis=0), 0.0, squares.min(axis=0))
+    return _not_negative(_out(np.array([-low, squares.max(axis=0)])))
 
 
-def _quotient(a: Interval, b: Interval) -> Interval:
-    through = (b.low <= 0.0) & (b.high >= 0.0)
-    found = _product(a, _out(1.0 / b.high, 1.0 / b.low))
-    return Interval(np.where(through, -np.inf, found.low), np.where(through, np.inf, found.high))
+def _product(a: Array, b: Array) -> Array:
+    products = a[:, None] * b
+    every = products.reshape(4, -1)
+    return _out(np.fmax.reduce(PRODUCTS * every, axis=1))  # passes over zero times what has no bound
 
 
-def _turned(a: Interval) -> tuple[Interval, Interval]:
-    """Cosine and sine of angles in degrees."""
-    low, high = np.broadcast_arrays(a.low, a.high)
-    return _wave(low, high, 0.0), _wave(low, high, 90.0)
+def _quotient(a: Array, b: Array) -> Array:
+    return np.where((b >= 0.0).all(axis=0), np.inf, _product(a, _out(-1.0 / b[::-1])))
 
 
-def _wave(low: Array, high: Array, crest: float) -> Interval:
-    """Cosine of an angle less ``crest`` degrees: 1 at whole turns from the crest, -1 halfway between."""
+def _wave(low: Array, high: Array, crest: float) -> Array:
+    """Cosine of angles less ``crest`` degrees: 1 at whole turns from the crest, -1 halfway between."""
     ends = [np.cos(np.radians(np.remainder(x, 360.0) - crest)) for x in (low, high)]
     slack = TURN_ULPS * 2.0**-53
     least, most = np.minimum(*ends) - slack, np.maximum(*ends) + slack
@@ -142,15 +153,15 @@ def _wave(low: Array, high: Array, crest: float) -> Interval:
 
     most = np.where(passes(crest), 1.0, np.minimum(most, 1.0))
     least = np.where(passes(crest + 180.0), -1.0, np.maximum(least, -1.0))
-    return Interval(least, most)
+    return np.array([-least, most])
 
 
-def _angle(x: Interval, y: Interval) -> Interval:
+def _angle(x: tuple[Array, Array], y: tuple[Array, Array]) -> Array:
     """Directions of vectors in degrees, but for whole turns; all of one where the box holds the origin."""
-    both_sides = (x.low <= 0.0) & (y.low <= 0.0) & (y.high >= 0.0)
+    both_sides = (x[0] <= 0.0) & (y[0] <= 0.0) & (y[1] >= 0.0)
     corners = [np.degrees(np.arctan2(b, a)) for a in x for b in y]
     corners = [np.where(both_sides & (corner < 0.0), corner + 360.0, corner) for corner in corners]
     low, high = np.minimum.reduce(corners), np.maximum.reduce(corners)
     slack = 8.0 * 2.0**-53 * 180.0
-    origin = both_sides & (x.high >= 0.0)
-    return Interval(np.where(origin, -180.0, low - slack), np.where(origin, 180.0, high + slack))
+    origin = both_sides & (x[1] >= 0.0)
+    return np.array([np.where(origin, 180.0, slack - low), np.where(origin, 180.0, high + slack)])

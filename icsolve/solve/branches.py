@@ -260,7 +260,12 @@ def _pass(function: LoadFunction, cells: Interval) -> tuple[Interval, list[tuple
     for margin in margins:
         apart |= np.broadcast_to(margin.high < 0.0, shape)
         whole &= np.broadcast_to(margin.low > 0.0, shape)
-    (centre,) = enclose(record, [function.power], function.enclosed(Interval(middle, middle)))
+    places = np.concatenate([middle, cells.low, cells.high])
+    (power,) = enclose(record, [function.power], function.enclosed(Interval(places, places)))
+    centre, at_low, at_high = (
+        Interval(*ends)
+        for ends in zip(*(np.split(np.broadcast_to(side, places.shape), 3) for side in power), strict=True)
+    )
     with np.errstate(all="ignore"):
         half = np.nextafter(0.5 * (cells.high - cells.low), np.inf) * (1.0 + 1e-15)
         reach = half * np.maximum(np.abs(slope.low), np.abs(slope.high))
@@ -269,20 +274,17 @@ def _pass(function: LoadFunction, cells: Interval) -> tuple[Interval, list[tuple
         high = np.minimum(value.high, np.where(whole, np.nextafter(centre.high + reach, np.inf), np.inf))
     possible = ~apart & ~(low > 0.0) & ~(high < 0.0)
     steady = whole & np.broadcast_to((slope.low > 0.0) | (slope.high < 0.0), shape)
-    at_low = _signs(function, cells.low)
-    at_high = _signs(function, cells.high)
-    decided = possible & steady & (at_low != 0) & (at_high != 0)
-    crossing = decided & (at_low != at_high)
+    before, after = _signs(at_low), _signs(at_high)
+    decided = possible & steady & (before != 0) & (after != 0)
+    crossing = decided & (before != after)
     found = list(zip(cells.low[crossing].tolist(), cells.high[crossing].tolist(), strict=True))
     left = possible & ~decided
     return Interval(cells.low[left], cells.high[left]), found
 
 
-def _signs(function: LoadFunction, at: Array) -> Array:
-    """Signs of the power; 0 where rounding leaves them open."""
-    (value,) = enclose(function.record, [function.power], function.enclosed(Interval(at, at)))
-    signs = np.where(value.low > 0.0, 1, np.where(value.high < 0.0, -1, 0))
-    return np.broadcast_to(signs, at.shape)
+def _signs(value: Interval) -> npt.NDArray[np.int64]:
+    """Signs of enclosed values; 0 where rounding leaves them open."""
+    return np.where(value.low > 0.0, 1, np.where(value.high < 0.0, -1, 0))
 
 
 def _clusters(low: Array, high: Array) -> list[tuple[float, float]]:
