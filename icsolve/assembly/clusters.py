@@ -278,8 +278,8 @@ def _cost(cluster: Cluster, one: Candidate, two: Candidate, step: Step) -> Cost:
 def candidates_of(cluster: Cluster, point: str, after: tuple[str, ...] = ()) -> Iterator[Candidate]:
     """The loci of a point on a cluster; ``after`` are points that already lean on it."""
     for datum in cluster.drawing.facts.of.get(point, ()):
-        if cluster.number == 0 or datum.kind in (LENGTH, CORNER, LINE):
-            yield from KINDS[datum.kind](cluster, datum, point)
+        if datum.kind in LOCI and (cluster.number == 0 or datum.kind in (LENGTH, CORNER, LINE)):
+            yield from LOCI[datum.kind](cluster, datum, point)
     yield from _rays(cluster, point)
     yield from _derived(cluster, point)
     yield from _shifted(cluster, point, after)
@@ -347,14 +347,10 @@ def _axis(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
     yield EXACT, Axis(datum)
 
 
-def _nothing(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
-    yield from ()
-
-
-KINDS: dict[str, Callable[[Cluster, Datum, str], Iterator[Candidate]]] = {
-    X: _axis, Y: _axis, MEAN: _nothing, GUIDE: _guided, LINE: _lined,
-    LENGTH: _circle, RAY: _nothing, CORNER: _seen, ROPE: _tethered,
+LOCI: dict[str, Callable[[Cluster, Datum, str], Iterator[Candidate]]] = {
+    X: _axis, Y: _axis, GUIDE: _guided, LINE: _lined, LENGTH: _circle, CORNER: _seen, ROPE: _tethered,
 }  # fmt: skip
+"""By kind of datum, the loci on which one puts a point."""
 
 
 def _rays(cluster: Cluster, point: str) -> Iterator[Candidate]:

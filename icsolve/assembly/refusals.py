@@ -5,8 +5,7 @@ for: the facts of a step that failed, and of redundant data, which are compared 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Mapping
 
 from icsolve.assembly.conditions import CONDITIONS, ROUNDING, parts_of, residual, scale_of
 from icsolve.assembly.loci import (
@@ -19,7 +18,7 @@ from icsolve.assembly.loci import (
     Tether,
     is_round,
 )
-from icsolve.assembly.steps import Base, Group, Mean, Meet, Polar, Step, Turned, leading_to
+from icsolve.assembly.steps import Base, Given, Group, Mean, Meet, Polar, Step, Turned, leading_to
 from icsolve.assembly.workspace import (
     CORNER,
     GUIDE,
@@ -109,53 +108,35 @@ def locus_words(locus: Locus) -> str:
 
 def step_words(step: Step) -> str:
     """A step of a construction as a sentence."""
-    names = ", ".join(map(plain, step.targets))
-    return f"{names}: {SENTENCES[type(step).__name__](step)}"
+    return f"{', '.join(map(plain, step.targets))}: {_how(step)}"
 
 
-def _given(step: Step) -> str:
-    return "by coordinates"
-
-
-def _mean(step: Mean) -> str:
-    of = ", ".join(map(plain, step.datum.points[1:]))
-    return (
-        f"centroid of {of}" if step.centroid is None else f"from {plain(step.centroid)}, the centroid of {of}"
-    )
-
-
-def _polar(step: Polar) -> str:
-    return f"from {plain(step.base)} by {span_words(step.span)} along {direction_words(step.direction)}"
-
-
-def _meet(step: Meet) -> str:
-    words = f"where {locus_words(step.first)} meets {locus_words(step.second)}"
-    if step.sign == 0:
-        return f"{words} (touching)" if is_round(step.second) else words
-    side = ("left", "right") if is_round(step.first) else ("farther", "nearer")
-    return f"{words} ({side[step.sign < 0]})"
-
-
-def _base(step: Base) -> str:
-    return f"{span_words(step.span)} apart, a shape still to be placed"
-
-
-def _turned(step: Turned) -> str:
-    root, turns = step.direction.root, step.direction.turns
-    held = direction_words(step.direction)
-    if isinstance(root, Apart) and root.a == step.base and not turns:
-        held = plain(root.b)
-    return f"carried by the shape that {plain(step.base)} and {held} hold"
-
-
-def _group(step: Group) -> str:
-    return f"together, by Newton's method on their {len(step.equations)} data"
-
-
-SENTENCES: dict[str, Callable[[Any], str]] = {
-    "Given": _given, "Mean": _mean, "Polar": _polar, "Meet": _meet,
-    "Base": _base, "Turned": _turned, "Group": _group,
-}  # fmt: skip
+def _how(step: Step) -> str:
+    match step:
+        case Given():
+            return "by coordinates"
+        case Mean(_, datum, _, centroid):
+            of = ", ".join(map(plain, datum.points[1:]))
+            return (
+                f"centroid of {of}" if centroid is None else f"from {plain(centroid)}, the centroid of {of}"
+            )
+        case Polar(_, base, span, direction):
+            return f"from {plain(base)} by {span_words(span)} along {direction_words(direction)}"
+        case Meet(_, first, second, sign):
+            words = f"where {locus_words(first)} meets {locus_words(second)}"
+            if sign == 0:
+                return f"{words} (touching)" if is_round(second) else words
+            side = ("left", "right") if is_round(first) else ("farther", "nearer")
+            return f"{words} ({side[sign < 0]})"
+        case Base(_, _, span):
+            return f"{span_words(span)} apart, a shape still to be placed"
+        case Turned(_, base, direction):
+            root, held = direction.root, direction_words(direction)
+            if isinstance(root, Apart) and root.a == base and not direction.turns:
+                held = plain(root.b)
+            return f"carried by the shape that {plain(base)} and {held} hold"
+        case Group(_, equations):
+            return f"together, by Newton's method on their {len(equations)} data"
 
 
 class Miss(NamedTuple):

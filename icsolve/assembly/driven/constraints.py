@@ -6,11 +6,11 @@ alike) and an `OnLine`; a slot is an `OnLine`; gears and belts are a `Turning`; 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from itertools import pairwise
 
 from icsolve.assembly.conditions import FigureEquation, at_distance, on_line
-from icsolve.assembly.driven.poses import Places, Rotation, Shape, Spot, dot, minus, scaled, square
+from icsolve.assembly.driven.poses import Places, Rotation, Shape, Spot, dot, minus, plus, scaled, square
 from icsolve.assembly.workspace import Datum, Workspace
 from icsolve.case import Rope
 from icsolve.errors import SceneError
@@ -256,6 +256,10 @@ class ConditionRow(NamedTuple):
     by: dict[tuple[int, int], Scalar]
 
 
+Push = tuple[int, Point, Point]
+"""A body, a force on it, and where it acts: its work on a step of the body is a derivative."""
+
+
 class ConditionRows:
     """The equations of constraints on bodies that are at places."""
 
@@ -265,106 +269,87 @@ class ConditionRows:
     def of(self, constraint: Constraint) -> ConditionRow:
         """The equation of a constraint."""
         match constraint:
-            case OnLine():
-                return self._on_line(constraint)
-            case SpotDistance():
-                return self._apart(constraint)
-            case Turning():
-                return self._turning(constraint)
-            case Pointed():
-                return self._pointed(constraint)
-            case RolledStraight():
-                return self._straight(constraint)
-            case RolledRound():
-                return self._round(constraint)
-            case Roped():
-                return self._roped(constraint)
+            case Turning() as c:
+                by = {(body, 2): factor for body, factor in c.terms if body in self.bases}
+                if not c.alike:
+                    return ConditionRow(self._left(c), by)
+                a, b = (self.places.vector(body, (1.0, 0.0)) for body, _ in c.terms)
+                return ConditionRow(dot(square(b), a), by)
+            case Pointed(body, rotation):
+                z = self.places.vector(body, rotation.ref)
+                return ConditionRow(dot(square(rotation.z), z), {(body, 2): dot(rotation.z, z)})
             case Immovable():
-                return self._immovable(constraint)
-        return self._drawn(constraint)
+                return ConditionRow(0.0, self._power(constraint))
+        value, pushes = self._pushing(constraint)
+        return self._pushed(value, pushes)
 
     def pinned(self, one: Spot, two: Spot) -> list[ConditionRow]:
         """The two equations of a pin."""
         p, q = self.places.place(one), self.places.place(two)
-        rows = []
-        for axis in (0, 1):
-            w = (1.0 - axis, float(axis))
-            rows.append(ConditionRow(p[axis] - q[axis], self._pushed((one[0], w, p), (two[0], _less(w), q))))
-        return rows
+        return [
+            self._pushed(p[n] - q[n], [(one[0], w, p), (two[0], _less(w), q)]) for n, w in enumerate(AXES)
+        ]
 
     def held(self, spot: Spot, at: Point) -> list[ConditionRow]:
         """The two equations of a pin whose place is known."""
         p = self.places.place(spot)
-        axes = (((1.0, 0.0), p[0] - at[0]), ((0.0, 1.0), p[1] - at[1]))
-        return [ConditionRow(value, self._pushed((spot[0], w, p))) for w, value in axes]
+        return [self._pushed(p[n] - at[n], [(spot[0], w, p)]) for n, w in enumerate(AXES)]
 
-    def _pushed(self, *pushes: tuple[int, Point, Point]) -> dict[tuple[int, int], Scalar]:
-        """Derivatives of a force's work: (body, force, point) for each."""
+    def _pushed(self, value: Scalar, pushes: Iterable[Push]) -> ConditionRow:
+        """An equation with the derivatives that forces make by their work."""
         by: dict[tuple[int, int], Scalar] = {}
         for body, w, p in pushes:
             if body == self.shape.ground or body not in self.bases:
                 continue
             arm = minus(p, self.places.place(self.bases[body]))
-            for part, value in enumerate((w[0], w[1], dot(w, square(arm)))):
-                by[body, part] = by.get((body, part), 0.0) + value
-        return by
+            for part, share in enumerate((w[0], w[1], dot(w, square(arm)))):
+                by[body, part] = by.get((body, part), 0.0) + share
+        return ConditionRow(value, by)
 
-    def _on_line(self, c: OnLine) -> ConditionRow:
-        p, through = self.places.place(c.spot), self.places.point(c.line.body, c.line.through)
-        value, (pull, back) = on_line(p, through, self.places.vector(c.line.body, c.line.along), c.offset)
-        return ConditionRow(value, self._pushed((c.spot[0], pull, p), (c.line.body, back, p)))
-
-    def _apart(self, c: SpotDistance) -> ConditionRow:
-        p, q = self.places.place(c.one), self.places.place(c.two)
-        value, (pull, back) = at_distance(p, q, c.distance)
-        return ConditionRow(value, self._pushed((c.one[0], pull, p), (c.two[0], back, q)))
-
-    def _turning(self, c: Turning) -> ConditionRow:
-        by = {(body, 2): factor for body, factor in c.terms if body in self.bases}
-        if c.alike:
-            a, b = (self.places.vector(body, (1.0, 0.0)) for body, _ in c.terms)
-            return ConditionRow(dot(square(b), a), by)
-        return ConditionRow(self._left(c) * RADIAN, by)
+    def _pushing(
+        self, c: OnLine | SpotDistance | RolledStraight | RolledRound | Roped | Drawn
+    ) -> tuple[Scalar, list[Push]]:
+        """The value of a condition on places, and the forces that are its derivatives by them."""
+        places = self.places
+        match c:
+            case OnLine(spot, line, offset):
+                p, through = places.place(spot), places.point(line.body, line.through)
+                value, (pull, back) = on_line(p, through, places.vector(line.body, line.along), offset)
+                return value, [(spot[0], pull, p), (line.body, back, p)]
+            case SpotDistance(one, two, distance):
+                p, q = places.place(one), places.place(two)
+                value, (pull, back) = at_distance(p, q, distance)
+                return value, [(one[0], pull, p), (two[0], back, q)]
+            case RolledStraight(centre, line, radius):
+                along = places.vector(line.body, line.along)
+                contact = minus(places.place(centre), scaled(radius, square(along)))
+                return self._left(c), [(centre[0], along, contact), (line.body, _less(along), contact)]
+            case RolledRound(one, two, (r, s)):
+                p, whole = places.place(one), r + s
+                normal = scaled(1.0 / whole, minus(places.place(two), p))
+                along, contact = square(normal), plus(p, scaled(r, normal))
+                around = whole * 360.0 * RADIAN  # the line of the centres may have turned any number of times
+                value = self._left(c)
+                value = value - around * self.shape.record.nearest(value / around)
+                return value, [(one[0], along, contact), (two[0], _less(along), contact)]
+            case Roped():  # each part pulls at the points of its links on its line
+                pulls: list[Push] = []
+                for k, (one, two) in enumerate(pairwise(c.spots)):
+                    part = c.part(k, places, self.shape.record)
+                    pulls += [(one[0], _less(part.along), part.at), (two[0], part.along, part.at)]
+                return self._left(c), pulls
+        points, bodies = self.workspace.points, {name: body for body, name in c.owners}
+        points |= {spot[1]: places.place(spot) for spot in c.owners}
+        value, forces = FigureEquation(c.datum).at(self.workspace)
+        return value, [(bodies[p], w, points[p]) for p, w in zip(c.datum.points, forces, strict=True)]
 
     def _left(self, c: Spinning) -> Scalar:
-        """The sum of the terms and the rest [degrees times a factor]."""
-        return c.rest(self.shape, self.places, self.shape.record.angle) + spun(c.terms, self.places)
+        """The sum of the terms and the rest [radians times a factor]."""
+        return (
+            c.rest(self.shape, self.places, self.shape.record.angle) + spun(c.terms, self.places)
+        ) * RADIAN
 
-    def _pointed(self, c: Pointed) -> ConditionRow:
-        z = self.places.vector(c.body, c.rotation.ref)
-        return ConditionRow(dot(square(c.rotation.z), z), {(c.body, 2): dot(c.rotation.z, z)})
-
-    def _straight(self, c: RolledStraight) -> ConditionRow:
-        o, b = self.places.place(c.centre), c.line.body
-        along = self.places.vector(b, c.line.along)
-        contact = minus(o, scaled(c.radius, square(along)))
-        pushes = self._pushed((c.centre[0], along, contact), (b, _less(along), contact))
-        return ConditionRow(self._left(c) * RADIAN, pushes)
-
-    def _round(self, c: RolledRound) -> ConditionRow:
-        """Slip of the arcs; the line of the centres may have turned any number of times."""
-        (one, two), (r, q) = (c.one, c.two), c.radii
-        p = self.places.place(one)
-        e, whole = minus(self.places.place(two), p), r + q
-        value, around = self._left(c), whole * 360.0
-        value = value - around * self.shape.record.nearest(value / around)
-        normal = (e[0] / whole, e[1] / whole)
-        along = square(normal)
-        contact = (p[0] + r * normal[0], p[1] + r * normal[1])
-        return ConditionRow(
-            value * RADIAN, self._pushed((one[0], along, contact), (two[0], _less(along), contact))
-        )
-
-    def _roped(self, c: Roped) -> ConditionRow:
-        """Each part pulls at the points of its links on its line."""
-        record = self.shape.record
-        pulls = []
-        for k, (one, two) in enumerate(pairwise(c.spots)):
-            part = c.part(k, self.places, record)
-            pulls += [(one[0], _less(part.along), part.at), (two[0], part.along, part.at)]
-        return ConditionRow(self._left(c) * RADIAN, self._pushed(*pulls))
-
-    def _immovable(self, c: Immovable) -> ConditionRow:
+    def _power(self, c: Immovable) -> dict[tuple[int, int], Scalar]:
         """Power of the wrench on the relative step of the two bodies."""
         x, y, m = c.wrench
         by: dict[tuple[int, int], Scalar] = {}
@@ -373,16 +358,10 @@ class ConditionRows:
                 px, py = self.places.place(self.bases[body])
                 for part, value in enumerate((y, -x, x * px + y * py + m)):
                     by[body, part] = sign * value
-        return ConditionRow(0.0, by)
+        return by
 
-    def _drawn(self, c: Drawn) -> ConditionRow:
-        owners = {name: (body, name) for body, name in c.owners}
-        for name, spot in owners.items():
-            self.workspace.points[name] = self.places.place(spot)
-        value, pulls = FigureEquation(c.datum).at(self.workspace)
-        pairs = zip(c.datum.points, pulls, strict=True)
-        pushes = ((owners[name][0], pull, self.workspace.points[name]) for name, pull in pairs)
-        return ConditionRow(value, self._pushed(*pushes))
+
+AXES: tuple[Point, Point] = ((1.0, 0.0), (0.0, 1.0))
 
 
 def _less(v: Point) -> Point:
