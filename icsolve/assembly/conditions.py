@@ -33,7 +33,7 @@ from icsolve.numbers.arithmetic import Scalar
 from icsolve.screws.joints import Points
 from icsolve.screws.plane import Point
 from icsolve.screws.ropes import rope_parts
-from icsolve.structure.topology import Topology
+from icsolve.structure.topology import topology
 from icsolve.tuples import NamedTuple
 
 Unknown = tuple[str, int]
@@ -265,9 +265,9 @@ MISFIT = 2e-3
 """Pivots may miss the distance of the pitch radii by this fraction of it."""
 
 
-def refuse_misfit(case: Case, top: Topology, points: Points, scale: float) -> None:
+def refuse_misfit(case: Case, points: Points, scale: float) -> None:
     """Refuse teeth whose pitch circles do not touch on their pivots, as far as these are among the points."""
-    for bond in top.bonds:
+    for bond in topology(case).bonds:
         if not isinstance(bond.joint, Mesh) or not {*bond.pivots} <= points.keys():
             continue
         if (module := bond.joint.pitch) is None:

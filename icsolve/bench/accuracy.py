@@ -96,7 +96,7 @@ def truth(case: Case) -> Truth:
     """
     program = prepare(case, Want())
     _, outcome = evaluate(program, AsRead())
-    refusals.refuse_unbalanced(case, program.top, outcome)
+    refusals.refuse_unbalanced(outcome._replace(place=outcome.place._replace(arithmetic=FLOATS)))
     _, written = evaluate(program, AsWritten())
     values = [next(iter(one.solution.values.values())) for one in (outcome, written)]
     return Truth(values[0], condition(program), values[1])

@@ -18,7 +18,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.balls import is_long
 from icsolve.scene import refusals
 from icsolve.scene.parts import AnswerBuilder
-from icsolve.scene.program import EvaluatedScene, Evaluation, Want, prepare
+from icsolve.scene.program import EvaluatedScene, Want, prepare
 from icsolve.statics.power import is_unknown
 
 
@@ -122,7 +122,7 @@ def judged(parts: AnswerBuilder, reactions: bool) -> Answer:
     """The answer of an evaluated scene; refused where power does not determine it."""
     rubs = parts.program.want.bodies and refusals.rubs(parts.case)
     if not (rubs and refusals.is_workless(parts.outcome)):
-        parts.scene.ask(_refuse_unbalanced)
+        parts.scene.ask(lambda found: refusals.refuse_unbalanced(found.outcome))
     if rubs:
         from icsolve.scene.free_bodies import with_friction
 
@@ -133,8 +133,3 @@ def judged(parts: AnswerBuilder, reactions: bool) -> Answer:
 
         return with_bodies(parts, reactions)
     return parts.answer()
-
-
-def _refuse_unbalanced(found: Evaluation) -> None:
-    """Refuse unknown loads that power does not determine."""
-    refusals.refuse_unbalanced(found.program.case, found.program.top, found.outcome, found.arithmetic)

@@ -69,7 +69,7 @@ def prepare(case: Case, want: Want) -> Program:
     Raises SceneError where a link is loose, the figure can't be constructed, or teeth do not fit.
     """
     top = topology(case)
-    refusals.refuse_loose(case, top)
+    refusals.refuse_loose(case)
     wanted = _wanted_bodies(case, top, want)
     plan = make_plan(top, wanted)
     if plan is not None and (case.ropes or not plan.closed):
@@ -80,8 +80,8 @@ def prepare(case: Case, want: Want) -> Program:
     if any(bond.pivots[0] for bond in top.bonds):
         from icsolve.assembly.conditions import refuse_misfit
 
-        refuse_misfit(case, top, figure.points, figure.frame.scale)
-    return Program(case, want, top, plan, figure, refusals.directions(case, top))
+        refuse_misfit(case, figure.points, figure.frame.scale)
+    return Program(case, want, top, plan, figure, refusals.directions(case))
 
 
 def without_plan(program: Program) -> Program:

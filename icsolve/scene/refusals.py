@@ -12,12 +12,13 @@ from icsolve.numbers.arithmetic import FLOATS, Arithmetic, all_vanish
 from icsolve.screws.joints import Points
 from icsolve.screws.ropes import rope_parts
 from icsolve.statics import power
-from icsolve.structure.topology import Topology, reached
+from icsolve.structure.topology import Topology, reached, topology
 from icsolve.wording import sentences
 
 
-def refuse_loose(case: Case, top: Topology) -> None:
+def refuse_loose(case: Case) -> None:
     """Refuse links that no chain of joints ties to the frame."""
+    top = topology(case)
     held = [{top.body_of[link] for link in rope.links} for rope in case.ropes]
 
     def beside(body: int) -> list[int]:
@@ -29,10 +30,10 @@ def refuse_loose(case: Case, top: Topology) -> None:
         raise SceneError(Status.LOOSE, sentences.loose(case, names))
 
 
-def directions(case: Case, top: Topology) -> tuple[tuple[str, tuple[str, str]], ...]:
+def directions(case: Case) -> tuple[tuple[str, tuple[str, str]], ...]:
     """What has its direction from two points, and these: loads, guides and wheels."""
     lines = [(f"load {load.name}", power.line_of(load)) for load in case.loads if not power.may_vanish(load)]
-    for bond in top.bonds:
+    for bond in topology(case).bonds:
         names = sentences.listed(bond.links)
         guide = bond.joint.guide
         lines.append((f"the guide of links {names}", guide.ends if guide is not None else None))
@@ -83,11 +84,9 @@ def is_workless(outcome: power.Outcome) -> bool:
     return outcome.solution.verdict in ("no value", "any value") and outcome.motions.mobility == 1
 
 
-def refuse_unbalanced(
-    case: Case, top: Topology, outcome: power.Outcome, arithmetic: Arithmetic = FLOATS
-) -> None:
+def refuse_unbalanced(outcome: power.Outcome) -> None:
     """Refuse unknown loads that have no value, or any, or are not as many as the freedoms."""
-    motions, solution = outcome.motions, outcome.solution
+    (_, motions, _, solution), case, top = outcome, outcome.place.case, outcome.place.top
     unknowns = sum(power.is_unknown(load) for load in case.loads)
     if solution.verdict == "balanced" or not unknowns:
         return
@@ -99,12 +98,13 @@ def refuse_unbalanced(
         ends = sentences.free_ends(top, case)
         message = sentences.wrong_count(motions.mobility, unknowns, len(solution.idle), ends)
         raise SceneError(Status.MOBILITY, message)
-    raise _no_work(case, top, outcome, arithmetic)
+    raise _no_work(outcome)
 
 
-def _no_work(case: Case, top: Topology, outcome: power.Outcome, arithmetic: Arithmetic) -> SceneError:
+def _no_work(outcome: power.Outcome) -> SceneError:
     """An unknown that does no work: a dead centre, no value, or any value."""
-    _, motions, balance, solution = outcome
+    place, motions, balance, solution = outcome
+    top, arithmetic = place.top, place.arithmetic
     culprit = next(w for w in balance.wrenches if w.load.name == solution.culprit)
     others = solution.verdict == "no value"
     if culprit.load.link == culprit.against:
@@ -117,7 +117,7 @@ def _no_work(case: Case, top: Topology, outcome: power.Outcome, arithmetic: Arit
     clause = _why_at_rest(top, motions, culprit.load.link, arithmetic) if at_rest else ""
     slack = culprit.gain == 0.0 or arithmetic.vanishes(culprit.gain, culprit.reach)
     message = sentences.workless(culprit.load.name, culprit.load.link, at_rest, others, clause, slack)
-    if len(top.members) > 2 and (ends := sentences.free_ends(top, case)):
+    if len(top.members) > 2 and (ends := sentences.free_ends(top, place.case)):
         message += f" Is a joint missing? {ends[0].upper()}{ends[1:]}."
     status = Status.DEAD_CENTRE if at_rest and others else Status.NO_VALUE if others else Status.ANY_VALUE
     return SceneError(status, message)

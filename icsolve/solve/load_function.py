@@ -131,7 +131,7 @@ def load_functions(
     where it is to be ``whole``, for more modes than are looked at.
     """
     top = topology(case)
-    refusals.refuse_loose(case, top)
+    refusals.refuse_loose(case)
     values = [low + (high - low) * (k + 0.37) / SAMPLES for k in range(SAMPLES)]
     refusal: SceneError | None = None
     found: list[LoadFunction] = []

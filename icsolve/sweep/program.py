@@ -120,9 +120,9 @@ def setting_of(case: Case, paths: Sequence[str], links: Sequence[str], *, posing
     """
     own = tuple(find_number(case, path).path for path in paths)
     top = topology(case)
-    refusals.refuse_loose(case, top)
+    refusals.refuse_loose(case)
     figure = placed_figure(case, *wanted_points(case))
-    refuse_misfit(case, top, figure.points, figure.frame.scale)
+    refuse_misfit(case, figure.points, figure.frame.scale)
     drive = Drive((), (), ())
     if links or any(path.split(".")[0] in ("points", "lengths", "angles") for path in own):
         drive = _drive(case, top, figure, own, links, posing=posing)
@@ -149,7 +149,7 @@ def _drive(
     case: Case, top: Topology, figure: Figure, paths: Sequence[str], links: Sequence[str], *, posing: bool
 ) -> Drive:
     """What moves, found on a record that is thrown away."""
-    scratch = mechanism(case, top, figure.frame, Record(), figure.points)
+    scratch = mechanism(case, figure.frame, Record(), figure.points)
     poses = [path for path in paths if posing or _poses(case, figure, scratch, path)]
     return drive_of(scratch, poses, links)
 
@@ -237,7 +237,7 @@ def _motion(
 ) -> DrivenMotion:
     """The mechanism driven by the inputs."""
     case, numbers, drive = setting.case, numbers_of(setting.case), setting.drive
-    held: Mechanism = mechanism(case, setting.top, setting.figure.frame, record, ref)
+    held: Mechanism = mechanism(case, setting.figure.frame, record, ref)
     drivers: list[Constraint] = []
     for link in setting.links:
         node = record.input(link, 180.0 * nudge)

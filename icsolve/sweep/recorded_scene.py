@@ -258,17 +258,18 @@ def rested(scene: RecordedScene, contacts: Sequence[RestingContact], inputs: dic
 
 def statics(scene: RecordedScene, everything: bool) -> RecordedStatics:
     """Unknown loads and twists of the scene on the record; with ``everything`` the twist of every link."""
-    case, top = scene.case, scene.top
+    case, top, place = scene.case, scene.top, scene.place
     links = {link for load in case.loads for link in (load.link, power.reacting(case, load))}
     unknown = any(power.is_unknown(load) for load in case.loads)
     some = unknown and not (everything or case.ropes or case.screws)
     wanted = frozenset(top.body_of[link] for link in links) if some else None
     motions = motions_of(scene, wanted)
-    wrenches = power.wrenches(scene.place)
+    wrenches = power.wrenches(place)
     balance = power.balance(wrenches, motions.twists, motions.mobility)
     solution = power.solve_balance(balance, scene.record)
     try:
-        refusals.refuse_unbalanced(case, top, power.Outcome(scene.place, motions, balance, solution))
+        floats = place._replace(arithmetic=FLOATS)
+        refusals.refuse_unbalanced(power.Outcome(floats, motions, balance, solution))
     except SceneError as error:
         return RecordedStatics({}, motions, error, balance)
     answers = {w.load.name: w.ratio * solution.values[w.root] for w in wrenches if w.root in solution.values}

@@ -29,7 +29,7 @@ from icsolve.numbers.record import Record
 from icsolve.screws.joints import at_radius, guide_direction, joint_freedoms, transmitted
 from icsolve.screws.plane import Point
 from icsolve.screws.ropes import offsets_of, rope_parts
-from icsolve.structure.topology import Bond, Topology
+from icsolve.structure.topology import Bond, Topology, topology
 from icsolve.tuples import NamedTuple
 from icsolve.wording.joints import why_not_moved
 
@@ -221,12 +221,12 @@ class Mechanism(NamedTuple):
     contacts: dict[str, RollingContact]
 
 
-def mechanism(case: Case, top: Topology, frame: Frame, record: Record, ref: Mapping[str, Point]) -> Mechanism:
+def mechanism(case: Case, frame: Frame, record: Record, ref: Mapping[str, Point]) -> Mechanism:
     """The mechanism of a case in the position as written.
 
     Parameters
     ----------
-    case, top : the case
+    case : the case
     frame : scale of the frame
     record : on which a motion will be written
     ref : by name, places as written [frame]
@@ -234,7 +234,7 @@ def mechanism(case: Case, top: Topology, frame: Frame, record: Record, ref: Mapp
     A joint that is known as written only becomes an `Immovable`, with the reason: it is refused by whoever
     moves it.
     """
-    places = dict(ref)
+    top, places = topology(case), dict(ref)
     spots = _spots(case, top, places)
     joined = _joined(case, top)
     shape = Shape(record, places, joined, _spans(case, frame, record, places), top.ground)
