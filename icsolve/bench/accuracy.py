@@ -13,6 +13,7 @@ from icsolve.bench.families import ALL_JOINTS, BOUNDED, EXACT, SIX_BARS, Draw, F
 from icsolve.bench.rivals import Failed, Method, OtherData, RivalFigure, drawn
 from icsolve.case import Case, Coordinates, Force, Number
 from icsolve.errors import SceneError
+from icsolve.numbers.arithmetic import FLOATS
 from icsolve.numbers.units import ExactRatio
 from icsolve.read import load
 from icsolve.scene import refusals

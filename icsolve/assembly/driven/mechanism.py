@@ -69,13 +69,15 @@ class Rolled(NamedTuple):
 
 
 class RollingSide(NamedTuple):
-    """A link of a rolling joint: its body, its signed radius (normalised), the points it carries."""
+    """A link of a rolling joint: its body, its signed radius (normalised), the points it carries; on which side
+    of the contact its centre lies along the normal out of the first link: -1 of that link, 1 of the other."""
 
     link: str
     body: int
     radius: Scalar
     points: tuple[str, ...]
     pins: frozenset[str]
+    side: float
 
 
 def rolling(joint: Rolling, sides: tuple[RollingSide, RollingSide], ref: Mapping[str, Point]) -> Rolled:
@@ -83,60 +85,36 @@ def rolling(joint: Rolling, sides: tuple[RollingSide, RollingSide], ref: Mapping
 
     Raises SceneError where the radii are not given, or no point lies at a radius from the contact.
     """
-    a, b = sides
-    if float(a.radius) == 0.0 and float(b.radius) == 0.0:
+    if all(float(side.radius) == 0.0 for side in sides):
         raise _refusal(
             joint, "both `radii` are 0, and straight links cannot roll on one another. Correct them"
         )
-    contact = ref[joint.at]
-    found = _centres(joint, (a, b), ref)
-    normal = _normal(joint, (a, b), found, ref)
-    centres: dict[str, Point] = {}
-    spots = []
-    for side, name, sense in ((a, found[0], -1.0), (b, found[1], 1.0)):
-        own = name or f"@centre of {side.link} on {joint.at}"
-        if name is None:
-            centres[own] = plus(contact, scaled(sense * side.radius, normal))
-        spots.append((side.body, own))
-    places = {**ref, **centres}
-    if float(a.radius) == 0.0 or float(b.radius) == 0.0:
-        return _on_flank(a, b, (spots[0], spots[1]), normal, contact, places, centres)
-    return _on_round((a, b), (spots[0], spots[1]), centres)
-
-
-def _on_flank(
-    a: RollingSide,
-    b: RollingSide,
-    spots: tuple[Spot, Spot],
-    normal: Point,
-    contact: Point,
-    places: Mapping[str, Point],
-    centres: dict[str, Point],
-) -> Rolled:
-    """One of the two is straight: ``normal`` points from a into b."""
-    first = float(b.radius) == 0.0
-    side, centre, flank = (a, spots[0], b.body) if first else (b, spots[1], a.body)
-    out = normal if first else (-normal[0], -normal[1])
-    along = square(out)  # the centre is on its left: minus the outward normal is along turned by 90 degrees
-    line = BodyLine(flank, contact, along)
+    contact, found = ref[joint.at], _centres(joint, sides, ref)
+    normal = _normal(joint, sides, found, ref)
+    names = [name or f"@centre of {side.link} on {joint.at}" for side, name in zip(sides, found, strict=True)]
+    centres = {
+        own: plus(contact, scaled(side.side * side.radius, normal))
+        for side, name, own in zip(sides, found, names, strict=True)
+        if name is None
+    }
+    one, two = ((side.body, own) for side, own in zip(sides, names, strict=True))
+    flat = next((n for n, side in enumerate(sides) if float(side.radius) == 0.0), None)
+    if flat is None:
+        radii = (sides[0].radius, sides[1].radius)
+        whole = radii[0] + radii[1]
+        distance = whole if float(whole) > 0.0 else -whole
+        conditions = (SpotDistance(one, two, distance), RolledRound(one, two, radii))
+        return Rolled(conditions, RollingContact(one, radii[0], None, two, whole), centres)
+    side, centre = sides[1 - flat], (one, two)[1 - flat]
+    # the centre is on the left of the flank: minus the outward normal is along turned by 90 degrees
+    line = BodyLine(sides[flat].body, contact, square(scaled(-side.side, normal)))
     radius = side.radius if float(side.radius) > 0.0 else -side.radius
-    away = minus(places[centre[1]], contact)
-    offset = square(along)[0] * away[0] + square(along)[1] * away[1]
+    offset = dot(square(line.along), minus({**ref, **centres}[centre[1]], contact))
     if abs(float(offset) - float(radius)) <= ROUNDED:
         offset = radius
     kept = {name: place for name, place in centres.items() if name == centre[1]}
-    conditions = (OnLine(centre, line, offset), RolledStraight(centre, line, radius))
-    return Rolled(conditions, RollingContact(centre, offset, line, None), kept)
-
-
-def _on_round(
-    sides: tuple[RollingSide, RollingSide], spots: tuple[Spot, Spot], centres: dict[str, Point]
-) -> Rolled:
-    radii = (sides[0].radius, sides[1].radius)
-    whole = radii[0] + radii[1]
-    distance = whole if float(whole) > 0.0 else -whole
-    conditions = (SpotDistance(*spots, distance), RolledRound(*spots, radii))
-    return Rolled(conditions, RollingContact(spots[0], radii[0], None, spots[1], whole), centres)
+    rolls = (OnLine(centre, line, offset), RolledStraight(centre, line, radius))
+    return Rolled(rolls, RollingContact(centre, offset, line, None), kept)
 
 
 def _centres(
@@ -183,12 +161,12 @@ def _normal(
     ref: Mapping[str, Point],
 ) -> Point:
     """Unit normal out of the first link into the second."""
-    for side, name, sense in zip(sides, found, (-1.0, 1.0), strict=True):
+    for side, name in zip(sides, found, strict=True):
         if name is not None:
             x, y = minus(ref[name], ref[joint.at])
             r = math.copysign(math.hypot(float(x), float(y)), float(side.radius))
             size = side.radius if abs(r - float(side.radius)) <= ROUNDED else r
-            return (sense * x / size, sense * y / size)
+            return (side.side * x / size, side.side * y / size)
     raise AssertionError(joint)
 
 
@@ -395,7 +373,7 @@ def _sides(
         body = top.body_of[link]
         points = tuple(dict.fromkeys(p for name in top.members[body] for p in case.carries.get(name, ())))
         radius = record.given(joint.radii[k]) * frame.scale
-        sides.append(RollingSide(link, body, radius, points, pins))
+        sides.append(RollingSide(link, body, radius, points, pins, 2.0 * k - 1.0))
     return sides[0], sides[1]
 
 
