@@ -69,8 +69,9 @@ class Rolled(NamedTuple):
 
 
 class RollingSide(NamedTuple):
-    """A link of a rolling joint: its body, its signed radius (normalised), the points it carries; on which side
-    of the contact its centre lies along the normal out of the first link: -1 of that link, 1 of the other."""
+    """A link of a rolling joint: its body, its signed radius (normalised), the points it carries; on which
+    side of the contact its centre lies along the normal out of the first link: -1 of that, 1 of the other.
+    """
 
     link: str
     body: int
