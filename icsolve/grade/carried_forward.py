@@ -18,8 +18,7 @@ from icsolve.grade.case_store import CaseStore
 from icsolve.grade.judge import WRONG, feedback, share_of
 from icsolve.grade.keys import NumberKey, PlaceKey
 from icsolve.grade.mistakes import Wrong, WrongAnswers
-from icsolve.grade.mistakes.changed import Place
-from icsolve.grade.mistakes.engine import centres_of
+from icsolve.grade.mistakes.engine import centres_of, quotient
 from icsolve.grade.results import Marked
 from icsolve.grade.solved import SolvedCase, unknowns
 from icsolve.grade.tables.columns import StoredAnswer
@@ -169,9 +168,7 @@ def _by_place(answer: Answer, i: Intermediate, own: str, links: Mapping[str, str
     mine, its = centres_of(answer, first).get(ground), centres_of(answer, second).get(ground)
     if (mine is None and its is None) or ground in i.target.pair:
         return
-    right, wrong = (
-        _rates(place, mine, its) for place in ((i.right[0], i.right[1]), (i.given[0], i.given[1]))
-    )
+    right, wrong = (quotient((at[0], at[1]), mine, its) for at in (i.right, i.given))
     if not right or not wrong:
         return
     rho = wrong / right
@@ -181,13 +178,6 @@ def _by_place(answer: Answer, i: Intermediate, own: str, links: Mapping[str, str
     elif any(scale != 1.0 for scale in forward.values()):
         yield forward
     yield dict.fromkeys(links, rho)
-
-
-def _rates(place: Place, mine: Place | None, its: Place | None) -> float:
-    """Rate of the second link over that of the first; a centre at infinity counts for nothing."""
-    below = math.dist(place, its) if its is not None else 1.0
-    above = math.dist(place, mine) if mine is not None else 1.0
-    return above / below if below else 0.0
 
 
 Found = tuple[StoredAnswer, Marked]
@@ -208,7 +198,8 @@ class CarriedForward:
         for case in dict.fromkeys(item.partition(":")[0] for item in wrong):
             finals = self._finals(case)
             own = [marked[item] for item in wrong if item.startswith(f"{case}:") and item not in finals]
-            last = [item for item in finals if item in marked and _is_wrong_number(marked[item][1])]
+            given = [item for item in finals if item in marked and marked[item][1].judged.value is not None]
+            last = [item for item in given if marked[item][1].judged.verdict == WRONG]
             for item in last:
                 marked[item] = self._again(marked[item], self._from_steps(marked[item][0], own))
             last.sort(key=lambda item: not marked[item][1].judged.mistakes)
@@ -271,10 +262,6 @@ class CarriedForward:
         again = Marked(before.item, before.raw, judged, before.points, told, before.written)
         self._keep(again)
         return again
-
-
-def _is_wrong_number(marked: Marked) -> bool:
-    return marked.judged.verdict == WRONG and marked.judged.value is not None
 
 
 def _steps(solved: SolvedCase, wrong: list[Found]) -> Iterator[Intermediate]:

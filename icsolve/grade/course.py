@@ -10,10 +10,9 @@ from typing import Any
 
 from icsolve.case.expected import Tolerance
 from icsolve.errors import CaseError
-from icsolve.files import reading
 from icsolve.grade.mistakes.lookup import CODES
-from icsolve.grade.tables.columns import HeaderError, TableColumns, identifier
-from icsolve.grade.tables.text import AnswerTable
+from icsolve.grade.tables.columns import HeaderError, TableColumns, identifier, read_table
+from icsolve.grade.tables.text import Report
 from icsolve.grade.tolerance import DEFAULT
 from icsolve.read.document import Mapping, Node, Scalar, checked, is_null, parse, text_of
 from icsolve.read.expect import tolerance_of
@@ -283,9 +282,6 @@ _POLICY: Readers = {
 }
 
 
-Report = Callable[[int, str], None]
-
-
 class Person(NamedTuple):
     """One student of a roster; ``others`` are the other ids under which a platform may know them."""
 
@@ -339,6 +335,15 @@ class Roster:
         return ""
 
 
+def student_named(text: str, roster: Roster | None) -> str:
+    """The student of an id in a cell: by the roster, else the id as it is written.
+
+    Raises ValueError for an id that several students share.
+    """
+    name = identifier(text)
+    return (roster.match((name,)) if roster is not None else None) or name
+
+
 def read_roster(path: str | os.PathLike[str], report: Report) -> Roster:
     """The roster of a CSV file: canonical, or a platform's own (Gradescope, Canvas, Moodle).
 
@@ -351,25 +356,21 @@ def read_roster(path: str | os.PathLike[str], report: Report) -> Roster:
 
 
 def _read(path: str | os.PathLike[str], report: Report) -> Roster:
-    with reading(path) as file:
-        table = AnswerTable(file, report)
-        columns = TableColumns(table.header, (), lambda text: None)
-        at = _id_columns(columns)
-        rest = [columns.field(name) for name in ("email", "first_name", "last_name", "section")]
-        people: dict[str, Person] = {}
-        for row in table.rows():
-            person = _person(row.cells, at, rest)
-            if row.trouble:
-                report(row.line, row.trouble)
-            if person is None:
-                report(row.line, "this row of the roster has no student's id and is passed over")
-            elif person.student_id in people:
-                report(
-                    row.line,
-                    f"the student {person.student_id!r} is in the roster twice; the first row counts",
-                )
-            elif not person.student_id.startswith(("Student, Test", "    Points")):
-                people[person.student_id] = person
+    columns, rows = read_table(path, report)
+    at = _id_columns(columns)
+    rest = [columns.field(name) for name in ("email", "first_name", "last_name", "section")]
+    people: dict[str, Person] = {}
+    for row in rows:
+        person = _person(row.cells, at, rest)
+        if row.trouble:
+            report(row.line, row.trouble)
+        if person is None:
+            report(row.line, "this row of the roster has no student's id and is passed over")
+        elif person.student_id in people:
+            said = f"the student {person.student_id!r} is in the roster twice; the first row counts"
+            report(row.line, said)
+        elif not person.student_id.startswith(("Student, Test", "    Points")):
+            people[person.student_id] = person
     return Roster(people.values())
 
 

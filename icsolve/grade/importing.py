@@ -11,7 +11,7 @@ from array import array
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack
 from itertools import islice, pairwise
-from typing import IO
+from typing import IO, TYPE_CHECKING
 
 from icsolve.files import is_plain, reading, scratch
 from icsolve.grade.case_store import CaseStore
@@ -30,6 +30,9 @@ from icsolve.grade.tables.columns import (
 from icsolve.grade.tables.platforms import METADATA, exported, recognise, submissions
 from icsolve.grade.tables.text import AnswerTable
 from icsolve.tuples import NamedTuple
+
+if TYPE_CHECKING:
+    import sqlite3
 
 _LONGEST = 500
 """Characters of an answer that are kept; the reader takes far fewer."""
@@ -84,7 +87,7 @@ class Import:
             self._matched((student,))
             self.issues.note(path, 0, f"{student} handed in no file of answers")
             return
-        with _opened(path) as file:
+        with io.BytesIO(sys.stdin.buffer.read()) if path == "-" else reading(path) as file:
             table = AnswerTable(file, lambda line, why: self.issues.note(path, line, why))
             near = self.case_store.near
             columns = TableColumns(table.header, mapping, self.case_store.find, lambda text: bool(near(text)))
@@ -112,17 +115,13 @@ class Import:
     def _told(self, entries: Iterator[StoredAnswer], file: IO[bytes], path: str) -> Iterator[StoredAnswer]:
         """The entries, with a report of how much of the file is read."""
         try:
-            size = os.fstat(file.fileno()).st_size
+            size = os.fstat(file.fileno()).st_size or 1
         except OSError:
-            return entries
-        return self._counted(entries, file, path, size or 1)
-
-    def _counted(
-        self, entries: Iterator[StoredAnswer], file: IO[bytes], path: str, size: int
-    ) -> Iterator[StoredAnswer]:
+            size = 0
         while some := list(islice(entries, _STEP)):
             yield from some
-            self._progress(f"reading {path}", file.tell() / size)
+            if size:
+                self._progress(f"reading {path}", file.tell() / size)
 
     def _entries(self, table: AnswerTable, layout: TableLayout) -> Iterator[StoredAnswer]:
         if layout.cells_of is not None:
@@ -162,7 +161,8 @@ class Import:
         if trouble:
             self.issues.note(self._path, s.line, trouble, serious=True)
         elif self.roster is not None and student not in self.roster.people:
-            self.issues.note(self._path, s.line, self._stranger(student, ids))
+            said = f"the student {student!r} is not on the roster, and is graded all the same"
+            self.issues.note(self._path, s.line, f"{said}{self.roster.hint(ids)}")
         answer = s.answer if len(s.answer) <= _LONGEST else s.answer[:_LONGEST] + "..."
         time = year_first(s.time, self._order) if self._order else s.time
         texts = [text[:_LONGEST] for text in (s.unit, s.direction, s.attempt, s.variant, time)]
@@ -177,12 +177,8 @@ class Import:
         except ValueError as error:
             return self._nobody(ids, str(error))
         if not good and ids[0]:
-            return self._nobody(
-                ids,
-                f"the id {ids[0]!r} was rounded by a spreadsheet, and may be that of several students: "
-                f"export the "
-                "table again, or give its column the format Text",
-            )
+            why = f"the id {ids[0]!r} was rounded by a spreadsheet, and may be that of several students"
+            return self._nobody(ids, f"{why}: export the table again, or give its column the format Text")
         student = found if found is not None else (good or ids)[0][:_LONGEST_NAME]
         student = student.encode("utf-8", "replace").decode("utf-8")
         if len(self._people) < 200_000:
@@ -202,12 +198,6 @@ class Import:
             return self._dates
         with reading(path) as file:
             return order_of(file)
-
-    def _stranger(self, student: str, ids: tuple[str, ...]) -> str:
-        assert self.roster is not None
-        return (
-            f"the student {student!r} is not on the roster, and is graded all the same{self.roster.hint(ids)}"
-        )
 
     def _item(self, text: str) -> tuple[str, str]:
         """The question that a text names, and why it names none."""
@@ -232,11 +222,6 @@ def _are_results(path: str) -> bool:
             return file.read(len(head)) == head
     except OSError:
         return False
-
-
-def _opened(path: str) -> IO[bytes]:
-    """A file; ``-`` is standard input."""
-    return io.BytesIO(sys.stdin.buffer.read()) if path == "-" else reading(path)
 
 
 def expand(paths: Iterable[str]) -> list[tuple[str, str]]:
@@ -290,7 +275,8 @@ class Issues:
 
     def note(self, path: str, line: int, reason: str, serious: bool = False) -> None:
         """A line of a file and what is wrong there; line 0 for the file itself."""
-        key = (path, _on_one_line(reason), serious)
+        shown = "".join(c if c.isprintable() else " " for c in reason[:600])  # it can't break a terminal
+        key = (path, shown, serious)
         if key not in self._lines and len(self._lines) >= MOST:
             key = (path, OTHERS if serious else OTHER_NOTES, serious)
         self._lines.setdefault(key, array("q")).append(line)
@@ -322,11 +308,6 @@ def ranges(lines: tuple[int, ...]) -> str:
     return f"{word} {shown}" + (f" and {more} more" if more else "")
 
 
-def _on_one_line(text: str) -> str:
-    """Without what could break or colour a terminal."""
-    return "".join(c if c.isprintable() else " " for c in text[:600])
-
-
 _CREATE = (
     "create table s (student text, item text, line integer, answer text, unit text, direction text,"
     " attempt text, variant text, time text, trouble text)"
@@ -339,12 +320,13 @@ IN_MEMORY = 110_000
 
 
 class Store:
-    """Entries; those on disk are in a temporary file, gone when closed."""
+    """Entries; many are in a temporary file, which is gone when closed."""
 
     def __init__(self, most: int = IN_MEMORY) -> None:
         self._few: list[StoredAnswer] = []
         self._most = most
-        self._disk: Disk | None = None
+        self._disk: sqlite3.Connection | None = None
+        self._own = ExitStack()
 
     def add(self, entries: Iterable[StoredAnswer]) -> int:
         """Store entries; how many there were."""
@@ -352,56 +334,38 @@ class Store:
         source = iter(entries)
         while batch := list(islice(source, _BATCH)):
             count += len(batch)
-            if self._disk is not None:
-                self._disk.add(batch)
-                continue
             self._few += batch
-            if len(self._few) > self._most:
-                self._disk = Disk()
-                self._disk.add(self._few)
-                self._few = []
+            if self._disk is not None or len(self._few) > self._most:
+                self._to_disk()
         return count
+
+    def _to_disk(self) -> None:
+        """Put what is in memory into the temporary file."""
+        if self._disk is None:
+            import sqlite3
+
+            path = os.path.join(self._own.enter_context(scratch()), "answers.sqlite")
+            self._disk = sqlite3.connect(path, isolation_level=None)
+            for pragma in ("journal_mode=off", "synchronous=off", "cache_size=-20000", "temp_store=file"):
+                self._disk.execute(f"pragma {pragma}")
+            self._disk.execute(_CREATE)
+        self._disk.execute("begin")
+        self._disk.executemany(_INSERT, self._few)
+        self._disk.execute("commit")
+        self._few = []
 
     def sorted(self) -> Iterator[StoredAnswer]:
         """Entries by student, question and line."""
-        if self._disk is not None:
-            return self._disk.sorted()
-        self._few.sort()
-        return iter(self._few)
+        if self._disk is None:
+            self._few.sort()
+            yield from self._few
+            return
+        cursor = self._disk.execute(_SELECT)
+        while batch := cursor.fetchmany(_BATCH):
+            yield from map(StoredAnswer._make, batch)
 
     def close(self) -> None:
         """Forget all, and delete the file."""
         if self._disk is not None:
             self._disk.close()
-
-
-class Disk:
-    """A temporary database of entries."""
-
-    def __init__(self) -> None:
-        import sqlite3
-
-        self._own = ExitStack()
-        path = os.path.join(self._own.enter_context(scratch()), "answers.sqlite")
-        self._database = sqlite3.connect(path, isolation_level=None)
-        for pragma in ("journal_mode=off", "synchronous=off", "cache_size=-20000", "temp_store=file"):
-            self._database.execute(f"pragma {pragma}")
-        self._database.execute(_CREATE)
-
-    def add(self, entries: list[StoredAnswer]) -> None:
-        """Store entries."""
-        cursor = self._database.cursor()
-        cursor.execute("begin")
-        cursor.executemany(_INSERT, entries)
-        cursor.execute("commit")
-
-    def sorted(self) -> Iterator[StoredAnswer]:
-        """Entries in order."""
-        cursor = self._database.execute(_SELECT)
-        while batch := cursor.fetchmany(_BATCH):
-            yield from map(StoredAnswer._make, batch)
-
-    def close(self) -> None:
-        """Close and delete it."""
-        self._database.close()
         self._own.close()

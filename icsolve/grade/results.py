@@ -13,12 +13,10 @@ from functools import lru_cache
 from itertools import groupby
 from typing import Any
 
-from icsolve.files import reading
 from icsolve.grade.case_store import CaseStore
-from icsolve.grade.course import Roster
+from icsolve.grade.course import Roster, student_named
 from icsolve.grade.judge import OPEN, Judgement
-from icsolve.grade.tables.columns import TableColumns, identifier
-from icsolve.grade.tables.text import AnswerTable
+from icsolve.grade.tables.columns import read_table, without_apostrophe
 from icsolve.grade.written.answer import WrittenAnswer
 from icsolve.grade.written.words import UnitWord
 from icsolve.tuples import NamedTuple
@@ -302,35 +300,32 @@ def read_overrides(path: str, store: CaseStore, roster: Roster | None) -> dict[t
     Raises ValueError, with the file's name and line, for a row that can't be used; OSError.
     """
     found: dict[tuple[str, str], Override] = {}
-    with reading(path) as file:
-        table = AnswerTable(file, lambda line, why: None)
-        columns = TableColumns(table.header, (), lambda text: None)
-        if not columns.has("student_id", "case", "score"):
-            raise ValueError(f"{path}: it needs the columns student_id,case,score; it has {columns.listed()}")
-        at = [columns.names.index(name) for name in ("student_id", "case", "score")]
-        comment_at = columns.names.index("comment") if columns.has("comment") else None
-        for row in table.rows():
-            where = f"{path}:{row.line}"
-            if row.trouble or len(row.cells) < len(table.header):
-                raise ValueError(f"{where}: {row.trouble or 'this row is cut short'}")
-            students, case, score = (row.cells[i].strip() for i in at)
-            if not score:
-                continue
-            question = store.find(case)
-            if question is None:
-                raise ValueError(f"{where}: {store.no_case(case)}")
-            question = store.canonical(question)
-            points = store.course.policy_of(question).points
-            said = row.cells[comment_at].strip() if comment_at is not None else ""
-            override = Override(_given_score(score, points, where), _plain(said), row.line)
-            for text in students.split(";"):
-                name = identifier(text)
-                student = (roster.match((name,)) if roster is not None else None) or name
-                before = found.get((student, question))
-                if before is not None and before.score != override.score:
-                    other = f"{student} has another score for {question} in line {before.line}"
-                    raise ValueError(f"{where}: {other}")
-                found[student, question] = override
+    columns, rows = read_table(path, lambda line, why: None)
+    if not columns.has("student_id", "case", "score"):
+        raise ValueError(f"{path}: it needs the columns student_id,case,score; it has {columns.listed()}")
+    at = [columns.names.index(name) for name in ("student_id", "case", "score")]
+    comment_at = columns.names.index("comment") if columns.has("comment") else None
+    for row in rows:
+        where = f"{path}:{row.line}"
+        if row.trouble or len(row.cells) < len(columns.header):
+            raise ValueError(f"{where}: {row.trouble or 'this row is cut short'}")
+        students, case, score = (row.cells[i].strip() for i in at)
+        if not score:
+            continue
+        question = store.find(case)
+        if question is None:
+            raise ValueError(f"{where}: {store.no_case(case)}")
+        question = store.canonical(question)
+        points = store.course.policy_of(question).points
+        said = without_apostrophe(row.cells[comment_at]) if comment_at is not None else ""
+        override = Override(_given_score(score, points, where), said, row.line)
+        for text in students.split(";"):
+            student = student_named(text, roster)
+            before = found.get((student, question))
+            if before is not None and before.score != override.score:
+                other = f"{student} has another score for {question} in line {before.line}"
+                raise ValueError(f"{where}: {other}")
+            found[student, question] = override
     return found
 
 
@@ -345,10 +340,6 @@ def _given_score(text: str, points: float, where: str) -> float:
         wanted = f"should be a number from 0 to {points:g}, or a percentage"
         raise ValueError(f"{where}: the score {text!r} {wanted}")
     return value
-
-
-def _plain(text: str) -> str:
-    return text[1:] if text[:1] == "'" else text
 
 
 # --- the queue --------------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Container
+from collections.abc import Container, Iterator
 from typing import TYPE_CHECKING, Any
 
 import yaml
@@ -170,6 +170,18 @@ Node = Scalar | Sequence | Mapping
 def is_null(node: Node) -> bool:
     """Whether nothing is given: an empty value, ``null`` or ``~``."""
     return type(node) is Scalar and node.plain and node.text in ("", "~", "null")
+
+
+def scalars(node: Node | None) -> Iterator[Scalar]:
+    """The scalars of a tree, in the order of the file."""
+    if type(node) is Scalar:
+        yield node
+    elif type(node) is Mapping:
+        for item in node.items.values():
+            yield from scalars(item)
+    elif type(node) is Sequence:
+        for item in node.items:
+            yield from scalars(item)
 
 
 def parse(text: str, problems: Problems) -> Node | None:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from collections.abc import Mapping as Named
 
 from icsolve.case import Mark
-from icsolve.read.document import Mapping, Node, Scalar, Sequence, parse
+from icsolve.read.document import Mapping, Node, Scalar, Sequence, parse, scalars
 from icsolve.read.joints import JOINTS, NAMES
 from icsolve.read.keys import LOADS
 from icsolve.read.names import Problems, parts, shown, suggestion
@@ -234,29 +234,17 @@ def places(text: str, paths: Iterable[str]) -> dict[str, tuple[int, int]]:
     """Where in a text the number at each path stands, from character to character; of a number that is not
     written (or not so that it could be set) nothing is said."""
     problems = Problems("<text>")
-    written = {scalar.mark: scalar for scalar in _scalars(parse(text, problems))}
+    written = {scalar.mark: scalar for scalar in scalars(parse(text, problems))}
     starts = [0, *(found.end() for found in re.finditer("\n", text))]
     found = {}
     for path in paths:
         root = parse(text, problems)
         if type(root) is not Mapping or _set(root, path, _SOUGHT):
             continue
-        mark = next((scalar.mark for scalar in _scalars(root) if scalar.text == _SOUGHT), None)
+        mark = next((scalar.mark for scalar in scalars(root) if scalar.text == _SOUGHT), None)
         old = written.get(mark) if mark is not None else None
         if old is not None:
             at = starts[old.mark[0] - 1] + old.mark[1] - 1
             if text[at : at + len(old.text)] == old.text:
                 found[path] = (at, at + len(old.text))
     return found
-
-
-def _scalars(node: Node | None) -> Iterator[Scalar]:
-    """The scalars of a tree."""
-    if type(node) is Scalar:
-        yield node
-    elif type(node) is Mapping:
-        for item in node.items.values():
-            yield from _scalars(item)
-    elif type(node) is Sequence:
-        for item in node.items:
-            yield from _scalars(item)

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from itertools import islice
+from typing import TypeVar
 
 from icsolve.answer import Answer
 from icsolve.case import (
@@ -61,8 +62,10 @@ def changed_figures(case: Case, answer: Answer) -> Iterator[Changed]:
         changed = _in_radians(case, figure, loads)
         if changed is not None:
             yield Changed("deg-rad", changed)
-    for other in _with_other_meshes(case):
-        yield Changed("mesh-sense", other)
+    for joint in case.joints:
+        if isinstance(joint, Mesh):
+            turned = _instead(case.joints, joint, joint.turned_round())
+            yield Changed("mesh-sense", replace(case, joints=turned))
     for other in _other_modes(case, answer):
         yield Changed("other-mode", other)
     smooth = without_friction(case)
@@ -222,7 +225,8 @@ def _in_radians(case: Case, figure: bool, loads: bool) -> Case | None:
     """The case with its degrees taken for radians, in the figure or in the loads; None where it has none."""
     angles, forces, joints = case.angles, case.loads, case.joints
     if figure:
-        angles = tuple(_fed(angle) if _is_given(angle, case) else angle for angle in angles)
+        fed = (a._replace(value=_as_radians(a.value)) if _is_given(a, case) else a for a in angles)
+        angles = tuple(fed)
         joints = tuple(_fed_joint(joint) for joint in joints)
     if loads:
         forces = tuple(_fed_load(load) for load in forces)
@@ -249,15 +253,12 @@ def _fed_joint(joint: Joint) -> Joint:
     return joint
 
 
-def _with_other_meshes(case: Case) -> Iterator[Case]:
-    """The case with one mesh or belt turning its wheels the other way."""
-    for n, joint in enumerate(case.joints):
-        if isinstance(joint, Mesh):
-            yield replace(case, joints=(*case.joints[:n], joint.turned_round(), *case.joints[n + 1 :]))
+T = TypeVar("T")
 
 
-def _fed(angle: Direction | Corner) -> Direction | Corner:
-    return angle._replace(value=_as_radians(angle.value))
+def _instead(items: tuple[T, ...], old: T, new: T) -> tuple[T, ...]:
+    """The items with one of them replaced."""
+    return tuple(new if item is old else item for item in items)
 
 
 def _as_radians(angle: Number) -> Number:
@@ -345,13 +346,12 @@ def same_kind(a: Load, b: Load) -> bool:
 
 def _changed_angles(case: Case) -> Iterator[Changed]:
     """One given angle fed in radians, its sine taken for its cosine, or turned round."""
-    for n, angle in enumerate(case.angles):
+    for angle in case.angles:
         if not _is_given(angle, case):
             continue
         name = angle.a + angle.at + angle.b if isinstance(angle, Corner) else angle.a + angle.b
         for code, value in _misread(angle.value, len(case.angles) > 1):
-            other: Direction | Corner = angle._replace(value=value)
-            angles = (*case.angles[:n], other, *case.angles[n + 1 :])
+            angles = _instead(case.angles, angle, angle._replace(value=value))
             yield Changed(code, replace(case, angles=angles), f"angle {name}")
     for load in known_loads(case):
         if isinstance(load, Force) and isinstance(load.heading, Number):
@@ -374,15 +374,14 @@ def _misread(angle: Number, alone: bool) -> Iterator[tuple[str, Number]]:
 
 def _without_stages(case: Case) -> Iterator[Changed]:
     """The case with the ratio of one mesh or belt left out."""
-    for n, joint in enumerate(case.joints):
+    for joint in case.joints:
         if not isinstance(joint, Mesh):
             continue
         first, second = joint.sizes
         if abs(first.value) != abs(second.value):
             alike = _written(second, math.copysign(first.value, second.value * first.value))
-            other = joint.resized((first, alike))
             links = pair_name(case, (joint.links[0], joint.links[1]))
-            joints = (*case.joints[:n], other, *case.joints[n + 1 :])
+            joints = _instead(case.joints, joint, joint.resized((first, alike)))
             yield Changed("missed-stage", replace(case, joints=joints), links)
 
 
@@ -392,14 +391,13 @@ RPM = 30.0 / math.pi
 
 def _misread_bodies(case: Case, answer: Answer) -> Iterator[Changed]:
     """The case with its ropes, screws and inertia forces misread; ``answer`` has its points."""
-    for n, rope in enumerate(case.ropes):
+    for rope in case.ropes:
         for code, other in _ropes(rope, answer):
-            ropes = (*case.ropes[:n], other, *case.ropes[n + 1 :])
+            ropes = _instead(case.ropes, rope, other)
             yield Changed(code, replace(case, ropes=ropes), f"rope {rope.name}")
-    for n, joint in enumerate(case.joints):
+    for joint in case.joints:
         for other_slide in _screws(joint) if isinstance(joint, Slide) and joint.thread is not None else ():
-            joints = (*case.joints[:n], other_slide, *case.joints[n + 1 :])
-            yield Changed("lead", replace(case, joints=joints))
+            yield Changed("lead", replace(case, joints=_instead(case.joints, joint, other_slide)))
     if case.dynamic:
         own = tuple(load for load in case.loads if not load.name.startswith("inertia "))
         yield from _masses(replace(case, loads=own))
@@ -423,7 +421,8 @@ def _ropes(rope: Rope, answer: Answer) -> Iterator[tuple[str, Rope]]:
         angles += [beta - whole, beta - TURN, beta + TURN] if whole else []
         for code, angle in [*(("wrap", a) for a in angles), ("deg-rad", math.degrees(beta))]:
             if angle > 0.0 and beta and mu.value * angle < 700.0:
-                yield code, _with_mu(rope, k, _written(mu, mu.value * angle / beta))
+                other = _written(mu, mu.value * angle / beta)
+                yield code, rope._replace(mu=(*rope.mu[:k], other, *rope.mu[k + 1 :]))
 
 
 def _without(rope: Rope, places: tuple[int, ...]) -> Rope:
@@ -437,10 +436,6 @@ def _without(rope: Rope, places: tuple[int, ...]) -> Rope:
         mu=tuple(rope.mu[k] for k in kept),
         turns=tuple(rope.turns[k] for k in kept if rope.turns),
     )
-
-
-def _with_mu(rope: Rope, k: int, mu: Number) -> Rope:
-    return rope._replace(mu=(*rope.mu[:k], mu, *rope.mu[k + 1 :]))
 
 
 def _screws(slide: Slide) -> Iterator[Slide]:
@@ -466,14 +461,10 @@ def _masses(case: Case) -> Iterator[Changed]:
     if any(given.acceleration is not None for given in case.motion):
         steady = tuple(given._replace(acceleration=None) for given in case.motion)
         yield Changed("no-acceleration", replace(case, motion=steady))
-        turned = tuple(_slowing(given) for given in case.motion)
-        yield Changed("no-acceleration", replace(case, motion=turned))
+        turned = (given.acceleration and _times(given.acceleration, -1.0) for given in case.motion)
+        slowing = (given._replace(acceleration=a) for given, a in zip(case.motion, turned, strict=True))
+        yield Changed("no-acceleration", replace(case, motion=tuple(slowing)))
 
 
 def _faster(given: Motion, factor: float) -> Motion:
-    return given._replace(speed=_written(given.speed, given.speed.value * factor)) if given.speed else given
-
-
-def _slowing(given: Motion) -> Motion:
-    more = given.acceleration
-    return given._replace(acceleration=_written(more, -more.value)) if more is not None else given
+    return given._replace(speed=_times(given.speed, factor)) if given.speed else given

@@ -372,10 +372,10 @@ def _of_ratio(answer: Answer, load: Load, own: Load) -> Iterator[WrongStep]:
     if above and below:
         yield WrongStep("one-arm", below, where)
         yield WrongStep("one-arm", 1.0 / above, where)
-    right = _quotient(common, first, second)
+    right = quotient(common, first, second)
     for centres, link in ((its, load.link), (mine, own.link)) if first or second else ():
         for other, centre in centres.items():
-            wrong = _quotient(centre, first, second)
+            wrong = quotient(centre, first, second)
             if right and wrong and {other, link} != {load.link, own.link} and other != ground:
                 yield WrongStep("wrong-ic", wrong / right, f"I{pair_name(answer.case, (link, other))}")
 
@@ -398,7 +398,7 @@ def _of_rates(answer: Answer, link: str, own: str, where: str) -> Iterator[Wrong
                 yield WrongStep("missed-stage", -stage, f"link {name}")
 
 
-def _quotient(centre: Place, first: Place | None, second: Place | None) -> float | None:
+def quotient(centre: Place, first: Place | None, second: Place | None) -> float | None:
     """Distance from the first over that from the second; one at infinity counts for nothing: of a link that
     only slides, the ratio is the distance of the common centre from the other one's."""
     below = math.dist(centre, second) if second is not None else 1.0

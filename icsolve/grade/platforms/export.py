@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import io
 import json
 import os
 import shlex
 import uuid
-import zipfile
 from collections.abc import Callable, Iterator, Mapping
 from html import escape
 
@@ -16,7 +14,16 @@ from icsolve.files import reading_text, write_whole
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course, read_roster
 from icsolve.grade.keys import ChoiceKey, RangeKey, numbers_of
-from icsolve.grade.platforms.questions import SMALLEST, Question, asked, figure, gift, moodle_xml, qti_zip
+from icsolve.grade.platforms.questions import (
+    SMALLEST,
+    Question,
+    asked,
+    figure,
+    gift,
+    moodle_xml,
+    qti_zip,
+    zipped,
+)
 from icsolve.grade.solved import SolvedCase, unknowns
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import KEYS, VALUES, read_records
@@ -309,21 +316,13 @@ def autograder_zip(source: AutograderSource) -> bytes:
     options = f" \\\n  --seed {shlex.quote(source.seed)}" if source.seed else ""
     options += " \\\n  --roster roster.csv" if source.roster else ""
     options += " \\\n  --variants variants" if source.records else ""
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        pins = " ".join(f'"{pin}"' for pin in pinned()[1:])
-        _add(archive, "setup.sh", _SETUP.format(pins=pins).encode(), executable=True)
-        _add(archive, "run_autograder", _RUN.format(options=options).encode(), executable=True)
-        for name, text in sorted(source.cases.items()):
-            _add(archive, f"cases/{name}", text.encode("utf-8"))
-        for name, text in (("cases/course.yaml", source.course), ("roster.csv", source.roster)):
-            if text:
-                _add(archive, name, text.encode("utf-8"))
-        for name, text in sorted(source.records.items()):
-            _add(archive, f"variants/{name}", text.encode("utf-8"))
-        for name, data in _package():
-            _add(archive, name, data)
-    return buffer.getvalue()
+    pins = " ".join(f'"{pin}"' for pin in pinned()[1:])
+    programs = {"setup.sh": _SETUP.format(pins=pins), "run_autograder": _RUN.format(options=options)}
+    texts = programs | {f"cases/{name}": text for name, text in sorted(source.cases.items())}
+    own = {"cases/course.yaml": source.course, "roster.csv": source.roster}
+    texts |= {name: text for name, text in own.items() if text}
+    texts |= {f"variants/{name}": text for name, text in sorted(source.records.items())}
+    return zipped([*((name, text.encode("utf-8")) for name, text in texts.items()), *_package()], programs)
 
 
 def _package() -> Iterator[tuple[str, bytes]]:
@@ -338,11 +337,3 @@ def _package() -> Iterator[tuple[str, bytes]]:
                 path = os.path.join(folder, name)
                 with open(path, "rb") as file:
                     yield "icsolve/" + os.path.relpath(path, root).replace(os.sep, "/"), file.read()
-
-
-def _add(archive: zipfile.ZipFile, name: str, data: bytes, executable: bool = False) -> None:
-    entry = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
-    entry.external_attr = (0o100755 if executable else 0o100644) << 16
-    entry.create_system = 3
-    entry.compress_type = zipfile.ZIP_DEFLATED
-    archive.writestr(entry, data)

@@ -300,12 +300,19 @@ def qti_zip(questions: Iterable[Question], title: str) -> bytes:
         f"{quiz}/{quiz}.xml": _quiz(quiz, title, found),
         **figures,
     }
+    return zipped((name, text.encode("utf-8")) for name, text in parts.items())
+
+
+def zipped(files: Iterable[tuple[str, bytes]], programs: Iterable[str] = ()) -> bytes:
+    """Files in a zip, the ``programs`` among them to be run; the same files give the same bytes."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, text in parts.items():
+        for name, data in files:
             entry = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
+            entry.external_attr = (0o100755 if name in programs else 0o100644) << 16
+            entry.create_system = 3
             entry.compress_type = zipfile.ZIP_DEFLATED
-            archive.writestr(entry, text.encode("utf-8"))
+            archive.writestr(entry, data)
     return buffer.getvalue()
 
 

@@ -66,8 +66,7 @@ def _gradebook(order: PlatformFile) -> str:
     students = by_student(order.results)
     if order.template:
         return _filled(order, gradebook_filled(_content(order.template), students, order.people, order.total))
-    write_whole(order.path, canvas_gradebook(students, order.people, order.total), order.force)
-    return ""
+    return _whole(order, canvas_gradebook(students, order.people, order.total))
 
 
 def _own_gradebook(order: PlatformFile) -> str:
@@ -78,10 +77,9 @@ def _own_gradebook(order: PlatformFile) -> str:
 
 def _moodle(order: PlatformFile) -> str:
     students = by_student(order.results)
-    if not order.template:
-        write_whole(order.path, moodle_worksheet(students, order.people), order.force)
-        return ""
-    return _filled(order, moodle_filled(_content(order.template), students, order.people))
+    if order.template:
+        return _filled(order, moodle_filled(_content(order.template), students, order.people))
+    return _whole(order, moodle_worksheet(students, order.people))
 
 
 def _filled(order: PlatformFile, made: Filled) -> str:
@@ -119,13 +117,9 @@ def _json(entry: dict[str, object]) -> str:
     return json.dumps(entry, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def _prairielearn_csv(order: PlatformFile) -> str:
-    write_whole(order.path, prairielearn_scores(by_student(order.results)), order.force)
-    return ""
-
-
-def _junit(order: PlatformFile) -> str:
-    write_whole(order.path, junit_report(read_results(order.results)), order.force)
+def _whole(order: PlatformFile, text: str) -> str:
+    """One file for all students, of which nothing is to tell."""
+    write_whole(order.path, text, order.force)
     return ""
 
 
@@ -136,8 +130,8 @@ KINDS: dict[str, Callable[[PlatformFile], str]] = {
     "moodle": _moodle,
     "gradescope": lambda order: _single(order, gradescope_results),
     "prairielearn": lambda order: _single(order, prairielearn_results),
-    "prairielearn-csv": _prairielearn_csv,
-    "junit": _junit,
+    "prairielearn-csv": lambda order: _whole(order, prairielearn_scores(by_student(order.results))),
+    "junit": lambda order: _whole(order, junit_report(read_results(order.results))),
 }
 """Every kind by its name on the command line."""
 

@@ -4,12 +4,14 @@ platforms write them.
 
 from __future__ import annotations
 
+import os
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from datetime import UTC, datetime
 from typing import IO
 
-from icsolve.grade.tables.text import TableRow
+from icsolve.files import reading
+from icsolve.grade.tables.text import AnswerTable, Report, TableRow
 from icsolve.tuples import NamedTuple
 
 
@@ -225,6 +227,22 @@ class TableColumns:
         """The columns, for a message."""
         shown = ", ".join(f"'{text[:40]}'" for text in self.header[:20])
         return shown + (", ..." if len(self.header) > 20 else "")
+
+
+def read_table(path: str | os.PathLike[str], report: Report) -> tuple[TableColumns, Iterator[TableRow]]:
+    """The columns and rows of a table in which no column is a question: a roster, a record, marks by hand.
+
+    Raises ValueError, with a sentence, where it is none; OSError.
+    """
+    with reading(path) as file:
+        table = AnswerTable(file, report)
+        return TableColumns(table.header, (), lambda text: None), iter([*table.rows()])
+
+
+def without_apostrophe(cell: str) -> str:
+    """A cell without the apostrophe that keeps a spreadsheet from taking it for a formula."""
+    text = cell.strip()
+    return text[1:] if text[:1] == "'" else text
 
 
 def candidates(header: str) -> Iterable[str]:

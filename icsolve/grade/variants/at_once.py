@@ -24,8 +24,7 @@ from icsolve.grade.mistakes.engine import Known, solved_for
 from icsolve.numbers.replay import Array
 from icsolve.numbers.units import converted, numbers_in, parse_unit, split_quantity
 from icsolve.read.document import Mapping as Tree
-from icsolve.read.document import Node, Scalar, parse
-from icsolve.read.document import Sequence as Items
+from icsolve.read.document import parse, scalars
 from icsolve.read.names import Problems
 from icsolve.read.variables import names_in, replaced
 from icsolve.solve import solve
@@ -251,7 +250,6 @@ def _centre(pair: Pair, triple: Sequence[float]) -> Centre:
 
 # --- the numbers of a variant --------------------------------------------------------------------------
 
-_KINDS = ("force", "torque", "weight", "mass", "spring")
 _FREE = ("title", "source", "reconstructed", "variables")
 """Sections in which a variable changes no number."""
 
@@ -266,13 +264,19 @@ class VariedNumbers:
     def __init__(self, text: str, case: Case) -> None:
         root = parse(text, Problems(case.path))
         assert type(root) is Tree
-        nodes = {path: node for path in numbers_of(case) if (node := _node_at(root, path)) is not None}
-        nodes = {path: node for path, node in nodes.items() if names_in(node.text)}
+        written = {node.mark: node for node in scalars(root) if names_in(node.text)}
+        section = root.items.get("loads")
+        loads = section.items if type(section) is Tree else {}
+        powers = {f"loads.{name}" for name, load in loads.items() if "power" in getattr(load, "items", ())}
+        sizes = {f"loads.{load.name}" for load in case.loads} - powers  # a power gives a torque by its speed
+        of_figure = ("points.", "lengths.", "angles.")
+        paths = [path for path in numbers_of(case) if path in sizes or path.startswith(of_figure)]
+        nodes = {path: node for path in paths if (node := written.get(case.marks[path])) is not None}
         self.case = case
         self._texts = {path: (node.text, parse_unit(_unit_at(path, case))) for path, node in nodes.items()}
-        loads = {path: node for path, node in nodes.items() if path.startswith("loads.")}
-        inside = {name for node in loads.values() for name in names_in(node.text)}
-        self.of_loads = frozenset(inside - _elsewhere(root, {node.mark for node in loads.values()}))
+        on_loads = [node for path, node in nodes.items() if path in sizes]
+        inside = {name for node in on_loads for name in names_in(node.text)}
+        self.of_loads = frozenset(inside - _elsewhere(root, {node.mark for node in on_loads}))
         self.whole = not _elsewhere(root, {node.mark for node in nodes.values()})
         self._written = [(f"loads.{load.name}", number_of(load)) for load in case.loads]
 
@@ -317,27 +321,6 @@ def number_of(load: Load) -> float | None:
     return 1.0 if hasattr(load, "x") else None
 
 
-def _node_at(root: Tree, path: str) -> Scalar | None:
-    """Where a coordinate, a length, an angle or the size of a load is written; None for other numbers."""
-    section, _, rest = path.partition(".")
-    node: Node | None = root.items.get(section)
-    keys: tuple[str | int, ...] = ()
-    if section in ("lengths", "angles"):
-        keys = (rest,)
-    elif section == "points":
-        name, _, axis = rest.rpartition(".")
-        keys = (name, "xy".index(axis)) if axis in ("x", "y") else ()
-    elif section == "loads" and type(node) is Tree and type(node.items.get(rest)) is Tree:
-        load = node.items[rest]
-        keys = (rest, *(kind for kind in _KINDS if type(load) is Tree and kind in load.items))
-    for key in keys:
-        if type(node) is Tree and isinstance(key, str):
-            node = node.items.get(key)
-        else:
-            node = node.items[key] if type(node) is Items and isinstance(key, int) else None
-    return node if keys and type(node) is Scalar else None
-
-
 def _unit_at(path: str, case: Case) -> str:
     """The unit in which a case keeps a number."""
     section, _, name = path.partition(".")
@@ -352,14 +335,5 @@ def _unit_at(path: str, case: Case) -> str:
 
 def _elsewhere(root: Tree, within: set[Mark]) -> set[str]:
     """Variables that stand outside these places; titles and the like do not count."""
-    found: set[str] = set()
-    stack: list[Node] = [node for key, node in root.items.items() if key not in _FREE]
-    while stack:
-        node = stack.pop()
-        if type(node) is Scalar:
-            found |= set() if node.mark in within else set(names_in(node.text))
-        elif type(node) is Tree:
-            stack.extend(node.items.values())
-        elif type(node) is Items:
-            stack.extend(node.items)
-    return found
+    nodes = (node for key, section in root.items.items() if key not in _FREE for node in scalars(section))
+    return {name for node in nodes if node.mark not in within for name in names_in(node.text)}

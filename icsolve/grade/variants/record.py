@@ -12,16 +12,15 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator
 from html import escape
 
-from icsolve.files import is_plain, reading
+from icsolve.files import is_plain
 from icsolve.grade.case_store import CaseStore
-from icsolve.grade.course import Person, Roster
+from icsolve.grade.course import Person, Roster, student_named
 from icsolve.grade.keys import NumberKey, numbers_of
 from icsolve.grade.platforms.questions import asked
 from icsolve.grade.platforms.questions import figure as drawn
 from icsolve.grade.results import csv_text, safe
 from icsolve.grade.solved import unknowns
-from icsolve.grade.tables.columns import TableColumns, identifier
-from icsolve.grade.tables.text import AnswerTable
+from icsolve.grade.tables.columns import TableColumns, read_table, without_apostrophe
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import Draw, Handed, VariantRecord, Varied
 from icsolve.grade.written.numerals import figures
@@ -80,11 +79,11 @@ def _read(path: str, store: CaseStore, roster: Roster | None) -> tuple[str, Vari
         places[variable.name] = columns.header.index(variable.name)
     handed: dict[str, Handed] = {}
     for cells in rows:
-        student = _student(cells[at], roster)
-        values = {variable: _plain(cells[i]) for variable, i in places.items()}
+        student = student_named(cells[at], roster)
+        values = {variable: without_apostrophe(cells[i]) for variable, i in places.items()}
         if student in handed and handed[student].values != values:
             raise ValueError(f"the student {student} stands in it twice, with other numbers")
-        handed[student] = Handed(_plain(cells[label]) if label is not None else "", values)
+        handed[student] = Handed(without_apostrophe(cells[label]) if label is not None else "", values)
     return name, VariantRecord(path, handed, dict(_keys(os.path.join(os.path.dirname(path), KEYS), roster)))
 
 
@@ -114,35 +113,23 @@ def _keys(path: str, roster: Roster | None) -> Iterator[tuple[tuple[str, str], t
     student, case, value, unit = (columns.names.index(n) for n in ("student_id", "case", "value", "unit"))
     for cells in rows:
         try:
-            yield (cells[case], _student(cells[student], roster)), (float(_plain(cells[value])), cells[unit])
+            key = (float(without_apostrophe(cells[value])), cells[unit])
+            yield (cells[case], student_named(cells[student], roster)), key
         except ValueError:
             raise ValueError(f"{KEYS} beside it has a value that is no number: {cells[value]!r}") from None
 
 
 def _table(path: str) -> tuple[TableColumns, list[list[str]]]:
     troubles: list[str] = []
-    with reading(path) as file:
-        table = AnswerTable(file, lambda line, why: troubles.append(f"line {line}: {why}"))
-        columns = TableColumns(table.header, (), lambda text: None)
-        rows = []
-        for row in table.rows():
-            if row.trouble or len(row.cells) != len(table.header):
-                troubles.append(f"line {row.line}: {row.trouble or 'this row is not whole'}")
-            rows.append(row.cells)
+    columns, rows = read_table(path, lambda line, why: troubles.append(f"line {line}: {why}"))
+    found = []
+    for row in rows:
+        if row.trouble or len(row.cells) != len(columns.header):
+            troubles.append(f"line {row.line}: {row.trouble or 'this row is not whole'}")
+        found.append(row.cells)
     if troubles:
         raise ValueError(troubles[0])
-    return columns, rows
-
-
-def _student(text: str, roster: Roster | None) -> str:
-    name = identifier(text)
-    return (roster.match((name,)) if roster is not None else None) or name
-
-
-def _plain(cell: str) -> str:
-    """A cell without the apostrophe that keeps it from being a formula."""
-    text = cell.strip()
-    return text[1:] if text[:1] == "'" else text
+    return columns, found
 
 
 # --- what has changed since -------------------------------------------------------------------------
