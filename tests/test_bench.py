@@ -22,10 +22,10 @@ from icsolve.bench.accuracy import (
     FORWARD_FAMILIES,
     Law,
     Score,
-    bits,
-    bounds,
-    forward,
+    bits_kept,
+    bound_over_error,
     forward_error,
+    held,
     scenes,
     scored,
 )
@@ -161,7 +161,7 @@ def check(laws: list[Law], median: float) -> None:
 
 def test_the_forward_error_on_random_six_bars() -> None:
     """At most 4 (kappa + 1) u against the doubles as read; `icsolve bench --full` holds it on 10,000."""
-    check(forward(150), 1.0)
+    check(held(forward_error, FORWARD_FAMILIES, 150), 1.0)
 
 
 @pytest.mark.parametrize("seed", [3091, 7224, 8452])
@@ -186,7 +186,7 @@ def test_the_forward_error_on_every_family() -> None:
 def test_powers_of_two_change_no_bit() -> None:
     """Lengths times 2^-37 and loads times 2^11, on scenes of all joint kinds and from lengths; `--full` holds
     more."""
-    found = bits(60)
+    found = held(bits_kept, BOUNDED, 60)
     assert [law.broken for law in found] == [0] * len(found)
     assert all(law.scenes for law in found)
 
@@ -201,12 +201,10 @@ def test_a_changed_bit_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_the_bound_on_scenes_of_all_joint_kinds() -> None:
     """Never broken against the decimals, and in the median at most 100 times the error; 100,000 in full."""
-    check(bounds(60), 100.0)
+    check(held(bound_over_error, BOUNDED, 60), 100.0)
 
 
 def test_a_broken_law_is_counted() -> None:
-    from icsolve.bench.accuracy import held
-
     found = held(lambda case: -5.0, [Family("any", linkage("01 12 23 03"))], 3)
     assert found == [Law("any", 3, 3, 5.0, 5.0)]
 

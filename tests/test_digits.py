@@ -22,7 +22,7 @@ import loading
 import mechanisms
 import transcribe
 from figures import from_lengths, without_order
-from icsolve.bench.digits import every_row, shown
+from icsolve.bench.accuracy import every_row, shown
 from icsolve.bench.families import EXACT, Family
 from icsolve.errors import SceneError
 from icsolve.manual import template

@@ -17,7 +17,7 @@ import icsolve
 from icsolve import case as c
 from icsolve.answer import Answer
 from icsolve.answer.bodies import Reaction
-from icsolve.bench.digits import Shown
+from icsolve.bench.accuracy import Shown
 from icsolve.scene.program import Want, evaluate, prepare
 from icsolve.statics.power import is_unknown, number_of
 from more_digits import SixtyDigits

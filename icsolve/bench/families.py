@@ -47,6 +47,11 @@ class FamilySheet:
         self.joints.append(f"  - {{pin: [{i}, {j}], at: {point}}}")
         return point
 
+    def four_bar(self, *places: Spot) -> None:
+        """Links 1 to 4 in a ring, pinned at these places, or anywhere."""
+        for n in range(4):
+            self.pin(n + 1, (n + 1) % 4 + 1, places[n] if places else None)
+
     def angle(self) -> float:
         """A direction in whole or decimal degrees."""
         return self.rng.choice([float(self.rng.randrange(0, 180, 5)), round(self.rng.uniform(0, 180), 3)])
@@ -161,9 +166,7 @@ def near_toggle(delta: float) -> Draw:
         one, two = rng.uniform(1.0, 3.0), rng.uniform(1.0, 3.0)
         ground, a = sheet.spot(), sheet.spot()
         b = (a[0] + one * c - delta * s, a[1] + one * s + delta * c)
-        for pair, at in zip(((1, 2), (2, 3), (3, 4)), (ground, a, b), strict=True):
-            sheet.pin(*pair, at)
-        sheet.pin(4, 1, (a[0] + (one + two) * c, a[1] + (one + two) * s))
+        sheet.four_bar(ground, a, b, (a[0] + (one + two) * c, a[1] + (one + two) * s))
         return sheet.text(torques(4, 2))
 
     return draw
@@ -180,8 +183,7 @@ def nearly_parallel(delta: float) -> Draw:
         other = direction + delta
         a = (ground[0] + one * math.cos(direction), ground[1] + one * math.sin(direction))
         b = (far[0] + two * math.cos(other), far[1] + two * math.sin(other))
-        for pair, at in zip(((1, 2), (2, 3), (3, 4), (4, 1)), (ground, a, b, far), strict=True):
-            sheet.pin(*pair, at)
+        sheet.four_bar(ground, a, b, far)
         return sheet.text(torques(4, 2))
 
     return draw
@@ -227,7 +229,7 @@ def moved(draw: Draw, offset: float = 0.0, scale: float = 1.0, exact: bool = Fal
     return drawn
 
 
-def by_sides(draw: Draw, angle: tuple[int, int], ground: int = 1) -> Draw:
+def by_sides(draw: Draw, angle: tuple[int, int]) -> Draw:
     """A pinned linkage by the sides of its links: the frame's pins stay, an angle poses the rest."""
 
     def drawn(rng: Random) -> str:
@@ -244,7 +246,7 @@ def by_sides(draw: Draw, angle: tuple[int, int], ground: int = 1) -> Draw:
                 links, _, point = line.partition("], at: ")
                 for link in links.partition("[")[2].split(", "):
                     carried.setdefault(int(link), []).append(point.strip("}"))
-        still = carried.pop(ground)
+        still = carried.pop(1)
         sides = [pair for pins in carried.values() for pair in combinations(pins, 2)]
         points = "\n".join(f"  {p}: [{at[p][0]!r}, {at[p][1]!r}]" for p in still)
         lengths = "\n".join(f"  {p}-{q}: {math.dist(at[p], at[q])!r}" for p, q in sides)
@@ -393,8 +395,7 @@ def near(draw: Callable[[float], Draw]) -> Draw:
 def coupler_slot(rng: Random) -> str:
     """A four-bar with a slot in its coupler that drives a lever's pin."""
     sheet = FamilySheet(rng)
-    for i, j in ((1, 2), (2, 3), (3, 4), (4, 1)):
-        sheet.pin(i, j)
+    sheet.four_bar()
     sheet.joints.append(f"  - {{slot: [5, 3], at: {sheet.point()}, along: {sheet.angle()}}}")
     sheet.pin(5, 1)
     return sheet.text(torques(5, 2))

@@ -6,10 +6,23 @@ import os
 import platform
 from collections.abc import Callable, Iterator, Sequence
 
-from icsolve.bench.accuracy import FORWARD, PESSIMISM, Law, Score, bits, bounds, forward, held, scenes, scored
+from icsolve.bench.accuracy import (
+    FORWARD,
+    FORWARD_FAMILIES,
+    PESSIMISM,
+    Law,
+    Score,
+    bits_kept,
+    bound_over_error,
+    every_number,
+    every_row,
+    forward_error,
+    held,
+    scenes,
+    scored,
+)
 from icsolve.bench.closed import compiler_version
-from icsolve.bench.digits import every_number, every_row
-from icsolve.bench.families import EXACT, FAMILIES
+from icsolve.bench.families import BOUNDED, EXACT, FAMILIES
 from icsolve.bench.gates import FULL, USUAL, Effort, Kept, gate_table, lawful, nothing, table, table_row
 from icsolve.bench.rivals import METHODS, OWN
 
@@ -84,12 +97,12 @@ def _micros(score: Score | None) -> str:
 
 def laws(effort: Effort, kept: Kept) -> Iterator[str]:
     """The forward error, the error bound and powers of two, family by family."""
-    found = forward(effort.forward, effort.jobs)
+    found = held(forward_error, FORWARD_FAMILIES, effort.forward, effort.jobs)
     worst, count = max(law.worst for law in found), _scenes(found)
     what = f"forward error over (kappa + 1) u, worst of {count} random six-bars and all joints"
     kept.gates.append(lawful(what, worst, FORWARD))
     yield _laws(f"forward error / (kappa + 1) u, at most {FORWARD:g}", found)
-    found = bounds(effort.bounds, effort.jobs)
+    found = held(bound_over_error, BOUNDED, effort.bounds, effort.jobs)
     broken, count = _broken(found), _scenes(found)
     enough = min(ENOUGH, max(law.scenes for law in found))
     middle = max(law.median for law in found if law.scenes >= enough)
@@ -102,7 +115,7 @@ def laws(effort: Effort, kept: Kept) -> Iterator[str]:
         kept.gates.append(lawful(f"{name} that are not the exact ones, in {count} scenes", broken, 0))
         rows = [[law.family, str(law.scenes), str(law.broken), f"{law.median:g}"] for law in found]
         yield table((f"{name} against 140 digits", "scenes", "broken", "median a scene"), rows)
-    found = bits(effort.bits, effort.jobs)
+    found = held(bits_kept, BOUNDED, effort.bits, effort.jobs)
     broken, count = _broken(found), _scenes(found)
     kept.gates.append(lawful(f"answers changed by a scale of a power of two, of {count}", broken, 0))
     rows = [[law.family, str(law.scenes), str(law.broken)] for law in found]

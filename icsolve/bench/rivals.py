@@ -69,7 +69,7 @@ def drawn(case: Case) -> RivalFigure:
     return RivalFigure(program, {} if case.lengths else raw)
 
 
-def posed(scene: RivalFigure, normalised: bool) -> Posed:
+def posed(scene: RivalFigure, normalised: bool = False) -> Posed:
     """The scene in raw coordinates, or moved to an input pin and scaled by a power of two."""
     ox, oy, scale = scene.program.figure.frame if normalised else (0.0, 0.0, 1.0)
     raw = scene.raw or by_cosines(scene.case)
@@ -186,12 +186,10 @@ class Homogeneous:
 
     def join(self, p: Triple, q: Triple) -> Triple:
         """Made to unit length, so that nothing overflows."""
-        return self._unit(cross(p, q))
+        both = cross(p, q)
+        return times(1.0 / math.sqrt(pairing(both, both)), both)
 
     meet = line = join
-
-    def _unit(self, a: Triple) -> Triple:
-        return times(1.0 / math.sqrt(pairing(a, a)), a)
 
     def twists(self, centres: dict[Pair, Triple], bodies: int, ground: int) -> list[Triple]:
         """By the first moving body: a t_i - b t_j is a multiple of the centre of i and j."""
@@ -272,15 +270,15 @@ class Cartesian:
 Matrix = npt.NDArray[np.float64]
 
 
-def by_svd(scene: RivalFigure, normalised: bool) -> float:
+def by_svd(scene: RivalFigure) -> float:
     """Twists as the last right singular vector of the joints' conditions."""
-    pose = posed(scene, normalised)
+    pose = posed(scene)
     return balanced(pose, _twists(pose, np.linalg.svd(_conditions(pose))[2][-1]))
 
 
-def by_lu(scene: RivalFigure, normalised: bool) -> float:
+def by_lu(scene: RivalFigure) -> float:
     """Twists by LU with the rate of one joint at the frame fixed to 1."""
-    pose = posed(scene, normalised)
+    pose = posed(scene)
     rows = _conditions(pose)
     top = pose.top
     if rows.shape[0] + 1 != rows.shape[1]:
@@ -295,9 +293,9 @@ def by_lu(scene: RivalFigure, normalised: bool) -> float:
     return balanced(pose, _twists(pose, _solved(np.vstack([rows, drive]), right)))
 
 
-def by_free_bodies(scene: RivalFigure, normalised: bool) -> float:
+def by_free_bodies(scene: RivalFigure) -> float:
     """The wrenches of all joints and the unknown load from the equilibrium of every body, by LU."""
-    pose = posed(scene, normalised)
+    pose = posed(scene)
     rows, columns = _conditions(pose), _columns(pose)
     known, unknown, measure = np.zeros(rows.shape[1]), np.zeros(rows.shape[1]), 1.0
     for w in pose.wrenches:
@@ -318,11 +316,11 @@ def by_free_bodies(scene: RivalFigure, normalised: bool) -> float:
     return float(_solved(matrix, -known)[-1]) / measure
 
 
-def by_newton(scene: RivalFigure, normalised: bool) -> float:
+def by_newton(scene: RivalFigure) -> float:
     """The pins of a four-bar from its lengths by Newton's method, started at ``near``; then SVD."""
     if scene.raw:
         raise OtherData("only for figures that are given by lengths")
-    return by_svd(scene._replace(raw=_assembled(scene.case)), normalised)
+    return by_svd(scene._replace(raw=_assembled(scene.case)))
 
 
 def _solved(matrix: Matrix, right: Matrix) -> Matrix:
@@ -391,25 +389,17 @@ class Method(NamedTuple):
     """whether it answers for the decimals of the file; the others for the doubles nearest to them"""
 
 
-def _icsolve(scene: RivalFigure) -> float:
-    return solve(scene.case, bound=False).answers["U"].value
-
-
-def _bounded(scene: RivalFigure) -> float:
-    return solve(scene.case).answers["U"].value
-
-
 OWN = ("icsolve", "icsolve with bound")
 """The names of our own, the one with bounds last."""
 
 METHODS: tuple[Method, ...] = (
-    Method(OWN[0], _icsolve),
-    Method(OWN[1], _bounded, as_written=True),
+    Method(OWN[0], lambda scene: solve(scene.case, bound=False).answers["U"].value),
+    Method(OWN[1], lambda scene: solve(scene.case).answers["U"].value, as_written=True),
     Method("slope and intercept", lambda scene: closed(scene, Cartesian(), False)),
     Method("homogeneous, raw", lambda scene: closed(scene, Homogeneous(), False)),
     Method("homogeneous, normalised", lambda scene: closed(scene, Homogeneous(), True)),
-    Method("SVD null space", lambda scene: by_svd(scene, False)),
-    Method("LU, input fixed", lambda scene: by_lu(scene, False)),
-    Method("free bodies, LU", lambda scene: by_free_bodies(scene, False)),
-    Method("Newton and SVD", lambda scene: by_newton(scene, False)),
+    Method("SVD null space", by_svd),
+    Method("LU, input fixed", by_lu),
+    Method("free bodies, LU", by_free_bodies),
+    Method("Newton and SVD", by_newton),
 )

@@ -44,6 +44,12 @@ class Timed(NamedTuple):
     error: float
     per_unit: float
 
+    @property
+    def score(self) -> Score:
+        """The full turn as one family of scenes."""
+        micros = 1e6 * self.seconds / self.positions
+        return Score(self.method, self.mechanism, self.error, self.per_unit, micros, 0, 0, self.positions)
+
 
 def full_turns(positions: int, seconds: float) -> dict[str, dict[str, Timed]]:
     """Every mechanism at so many positions of its crank, by every method; C where it compiles."""
@@ -173,7 +179,7 @@ def full_turn(effort: Effort, kept: Kept) -> str:
         for name, by in full_turns(positions, 3.0 * effort.seconds).items():
             rows.append(row(name, by))
             kept.gates.extend(_turn_gates(name, by))
-            kept.turns.extend(_as_score(timed) for timed in by.values() if positions == TURN)
+            kept.turns.extend(timed.score for timed in by.values() if positions == TURN)
     used = memory()
     said = "" if used is None else f"\n\nA million positions of the four-bar take a process of {used:.0f} MB."
     if used is not None:
@@ -184,7 +190,6 @@ def full_turn(effort: Effort, kept: Kept) -> str:
 
 
 def _turn_gates(name: str, by: dict[str, Timed]) -> list[Gate]:
-
     swept = by[SWEPT]
     what, short = f"{name}, {swept.positions} positions", swept.positions == TURN
     gates = [ratio(f"{what}: sweep / numpy by hand", swept.seconds / by[BY_HAND].seconds, 3)] if short else []
@@ -192,11 +197,6 @@ def _turn_gates(name: str, by: dict[str, Timed]) -> list[Gate]:
         gates.append(ratio(f"{what}: sweep / C -O3", swept.seconds / by[IN_C].seconds, 5 if short else 3))
     gates.append(ratio(f"{what}: with bounds / without", by[BOUNDED].seconds / swept.seconds, 6))
     return [*gates, lawful(f"{what}: worst error over (kappa + 1) u", swept.per_unit, FORWARD)]
-
-
-def _as_score(t: Timed) -> Score:
-    """A full turn as one family of scenes."""
-    return Score(t.method, t.mechanism, t.error, t.per_unit, 1e6 * t.seconds / t.positions, 0, 0, t.positions)
 
 
 def other_programs(effort: Effort, kept: Kept) -> str:
@@ -208,7 +208,11 @@ def other_programs(effort: Effort, kept: Kept) -> str:
     found = [ran(peer, effort.rounds) for peer in PEERS]
     rows = [["icsolve", "torque", "1", f"{1e3 * seconds:.3g}", f"{own.error:.1e}"]]
     rows += [_peer_row(peer, seconds) for peer in found]
-    kept.turns.extend(_peer_score(peer, POSITIONS) for peer in found if not peer.why)
+    for peer in found:
+        if not peer.why:
+            name = peer.name.partition(" ")[0] + (f" ({peer.gives})" if peer.gives != TORQUE else "")
+            micros = 1e6 * peer.seconds / POSITIONS
+            kept.turns.append(Score(name, "four-bar", peer.error, math.nan, micros, 0, 0, POSITIONS))
     kept.absent.extend(f"{peer.name}: {peer.why}" for peer in found if peer.why)
     forceful = [peer.seconds for peer in found if peer.gives == TORQUE and not peer.why]
     if forceful:
@@ -222,9 +226,3 @@ def _peer_row(peer: Ran, own: float) -> list[str]:
         return [peer.name, peer.gives, "-", "-", peer.why]
     times = [f"{peer.seconds / own:.3g}", f"{1e3 * peer.seconds:.3g}"]
     return [peer.name, peer.gives, *times, f"{peer.error:.1e}"]
-
-
-def _peer_score(peer: Ran, positions: int) -> Score:
-    name = peer.name.partition(" ")[0]
-    method = name if peer.gives == "torque" else f"{name} ({peer.gives})"
-    return Score(method, "four-bar", peer.error, math.nan, 1e6 * peer.seconds / positions, 0, 0, positions)

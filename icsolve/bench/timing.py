@@ -14,18 +14,22 @@ from collections.abc import Callable, Sequence
 Call = Callable[[], object]
 TURN = 20
 """Batches before another call has its turn."""
+BATCH = 1e-4
+"""Seconds of a batch."""
 LONG = 5e-3
 """Seconds of a call that is alone a turn."""
 
 
-def least(calls: Sequence[Call], seconds: float, batch: float = 1e-4) -> list[float]:
+def least(calls: Sequence[Call], seconds: float) -> list[float]:
     """Seconds a call of each, that a tenth of its batches keep; about so many CPU seconds in all.
 
     The calls take turns of several batches each, of which the first warms the caches again. The very
     least would be that of a moment in which the processor ran faster.
     """
-    rough = [_rough(call) for call in calls]
-    sizes = [max(1, int(batch / took)) for took in rough]
+    for call in calls:
+        call()  # warm
+    rough = [max(once(call), 1e-7) for call in calls]
+    sizes = [max(1, int(BATCH / took)) for took in rough]
     turns = [1 if took > LONG else TURN for took in rough]
     found: list[list[float]] = [[] for _ in calls]
     end = time.process_time() + seconds
@@ -43,12 +47,6 @@ def once(call: Call, times: int = 1) -> float:
     for _ in range(times):
         call()
     return time.process_time() - start
-
-
-def _rough(call: Call) -> float:
-    """About how long a call takes, warm."""
-    call()
-    return max(once(call), 1e-7)
 
 
 def cpu_seconds(command: list[str]) -> float:

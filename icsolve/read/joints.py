@@ -114,7 +114,7 @@ def _joint(
     pair = "-".join(links) if links else "?"
     at = _at(node)
     where = f"joints.{at}" if shared[at] == 1 and at else f"joints.{pair}@{at}" if at else f"joints.{pair}"
-    where = _unlike(where, reading.marks)  # two joints of one pair: a path has one value
+    where = unlike(where, reading.marks)  # two joints of one pair: a path has one value
     reading.marks[where] = node.mark
     keys = kinds[kind].keys
     name = "gear pair" if kind == "gears" else kind
@@ -161,8 +161,8 @@ def _rubbing(entry: Entry, in_space: bool) -> tuple[str, ...]:
     return ("mu", "radius", "length")
 
 
-def _unlike(where: str, taken: Container[str]) -> str:
-    """The path, with ``#2``, ``#3`` ... behind it where another joint has it already."""
+def unlike(where: str, taken: Container[str]) -> str:
+    """The path, with ``#2``, ``#3`` ... behind it where another joint or rope has it already."""
     ways = chain((where,), (f"{where}#{n}" for n in count(2)))
     return next(way for way in ways if way not in taken)
 

@@ -319,6 +319,17 @@ SPACE_DIRECTION = {
     "away": Key("a point away from which it acts"),
 }
 """One of these gives a force in space its direction."""
+
+
+def _spatial(kind: EntryKind) -> EntryKind:
+    """A load of the plane where points have three coordinates."""
+    keys = {}
+    for name, key in kind.keys.items():
+        says = key.says.replace("[x, y]", "[x, y, z]")
+        keys[name] = key._replace(says=says, form="spot" if key.form == "place" else key.form)
+    return kind._replace(says=kind.says.replace("-y", "-z"), keys=keys)
+
+
 SPACE_LOADS = {
     "force": EntryKind(
         "a force",
@@ -336,23 +347,7 @@ SPACE_LOADS = {
         },
         ties=(Rule("direction", ("along",)),),
     ),
-    "weight": EntryKind("a weight, along -z", _size(_TORQUE, "force"), {"link": _LINK, "at": _SPOT}),
-    "mass": EntryKind(
-        "a weight by its mass, with its unit",
-        _size(_TORQUE, "mass", "load with unit", "not negative"),
-        {"link": _LINK, "at": _SPOT},
-    ),
-    "spring": EntryKind(
-        "a spring: it pulls when longer than `free`",
-        _size(_STIFFNESS, "stiffness", "load", "not negative"),
-        {
-            "free": _FREE,
-            "link": _LINK,
-            "at": needed(_SPOT, "the point of its link that it is fixed to, or [x, y, z]"),
-            "against": _AGAINST,
-            "to": needed(_SPOT, "the point of its other end, or [x, y, z]"),
-        },
-    ),
+    **{name: _spatial(LOADS[name]) for name in ("weight", "mass", "spring")},
     "power": EntryKind(
         "the torque that transmits a power at a speed",
         _size("the power, with its unit", "torque", "power"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from icsolve.case import AlongRope, Force, Joint, Load, Number, Pin, Rope, Weight
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry
-from icsolve.read.joints import JOINTS
+from icsolve.read.joints import JOINTS, unlike
 from icsolve.read.keys import PULLS
 from icsolve.read.names import shown, suggestion
 from icsolve.read.reading import Reading
@@ -37,7 +37,7 @@ def _rope(reading: Reading, node: Mapping) -> Rope | None:
     points = tuple(item.text for item in names or ())
     for item in names or ():
         reading.used.setdefault(item.text, item.mark)
-    path = _unlike(f"joints.{'-'.join(points) or '?'}", reading)
+    path = unlike(f"joints.{'-'.join(points) or '?'}", reading.marks)
     name = path.partition(".")[2]
     reading.marks[path] = node.mark
     entry = Entry(reading, node, path, f"the rope {name}", JOINTS["rope"].keys)
@@ -52,14 +52,6 @@ def _rope(reading: Reading, node: Mapping) -> Rope | None:
     radii, wraps, mu, turns = (v[key] or none for key in ("radii", "wraps", "mu", "turns"))
     _check_wraps(entry, points, len(v["on"]))
     return Rope(name, points, v["on"], radii, wraps, mu, v["length"], turns)
-
-
-def _unlike(path: str, reading: Reading) -> str:
-    """The path, with ``#2`` ... behind it where another rope runs through the same points."""
-    n, own = 2, path
-    while own in reading.marks:
-        own, n = f"{path}#{n}", n + 1
-    return own
 
 
 def _through(entry: Entry) -> tuple[str, ...]:
