@@ -256,6 +256,7 @@ STARTS = (
     ("solve", DISK, PLAIN, 1.6),
     ("sweep", FOUR_BAR_CASE, NUMPY, 1.15),
     ("draw", FOUR_BAR_CASE, SHAPELY, 1.5),
+    ("page", FOUR_BAR_CASE, SHAPELY, 1.5),
 )
 NAMED = {FOUR_BAR_CASE: "four-bar", MOVING: "friction", DISK: "cam"}
 
@@ -270,8 +271,9 @@ def _starts(effort: Effort, kept: Kept, files: int) -> str:
             path = os.path.join(folder, f"{NAMED[text]}.yaml")
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
-            more = {"sweep": ["--vary", "angles.AB=0:359:1", "-o"], "draw": ["-o"]}.get(verb, [])
-            out = [os.path.join(folder, {"sweep": "o.csv", "draw": "o.svg"}[verb])] if more else []
+            more = ["--vary", "angles.AB=0:359:1"] if verb == "sweep" else []
+            kind = {"sweep": "csv", "draw": "svg", "page": "html"}.get(verb)
+            out = ["-o", os.path.join(folder, f"o.{kind}")] if kind else []
             runs[f"icsolve {verb} {NAMED[text]}.yaml"] = ["-m", "icsolve", verb, path, *more, *out]
         for _ in range(effort.rounds + 1):
             for name, arguments in runs.items():

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import csv
 import os
 from collections.abc import Callable, Mapping
-from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -188,6 +186,8 @@ def _students(variants: str | None, student: str | None) -> list[tuple[str, Valu
         if student is not None:
             raise ValueError("it needs --variants, the numbers that students have")
         return [("", {})]
+    import csv
+
     with open(variants, encoding="utf-8-sig", newline="") as file:
         table = csv.DictReader(file)
         rows = [{key: (cell or "").lstrip("'") for key, cell in row.items() if key} for row in table]
@@ -202,7 +202,7 @@ def _students(variants: str | None, student: str | None) -> list[tuple[str, Valu
 def form_of(verb: str, case: str, output: str | None, endings: Mapping[str, str]) -> str | None:
     """What a file's ending asks for; the first of the forms without one, None where it is not known (the case
     itself is refused when it comes to writing)."""
-    ending = PurePath(output or "").suffix.lower()
+    ending = os.path.splitext(output or "")[1].lower()
     itself = output is not None and os.path.exists(output) and os.path.exists(case)
     if ending in endings or not ending or (itself and os.path.samefile(output or "", case)):
         return endings.get(ending, next(iter(endings.values())))

@@ -8,7 +8,6 @@ import json
 import math
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -47,7 +46,7 @@ class SweepOptions(NamedTuple):
     @property
     def suffix(self) -> str:
         """The ending of the table's file."""
-        return Path(self.output).suffix.lower() if self.output not in (None, "-") else ".csv"
+        return os.path.splitext(self.output)[1].lower() if self.output not in (None, "-") else ".csv"
 
 
 @click.command("sweep", cls=Verb)
@@ -123,7 +122,7 @@ def _wrong(asked: SweepOptions) -> str | None:
 
 def _unplottable(path: str, ranges: int) -> str | None:
     """Why no picture can be made of so many ranges, or under such a name."""
-    if path != "-" and Path(path).suffix.lower() != ".svg":
+    if path != "-" and os.path.splitext(path)[1].lower() != ".svg":
         return f"{path} should end in .svg, which is what --plot writes"
     if ranges != 1:
         return "--plot draws the answers over one range: give one --vary or --drive"

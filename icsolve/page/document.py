@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import os
 import re
 from collections.abc import Iterable
 from functools import cache
 from html import escape
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -148,25 +148,30 @@ def ratio_unit(known: Known, root: Acting, of: Acting) -> str:
 # --- script, style sheet and policy ----------------------------------------------------------------------
 
 
-HERE = Path(__file__).parent
+def _file(*names: str) -> str:
+    """A file of this room."""
+    with open(os.path.join(os.path.dirname(__file__), *names), encoding="utf-8") as file:
+        return file.read()
+
 
 NAMES = "data scene rest live moving centres labels words position construction turn fields see"
 PARTS = NAMES.split()
 """The parts of the script, in the order in which they run: each uses those before it."""
 
 
-_SPACES = re.compile(r" *([{}()\[\];,:?=+\-*<>&|!%]) *")
+_SIGN = r"[{}()\[\];,:?=+\-*<>&|!%]"
+_SPACES = re.compile(rf"(?<={_SIGN}) +| +(?={_SIGN})")
 
 
 @cache
 def _parts() -> str:
     """What is the same in the script of every page, without its comments, indents and (in lines without any
     quote or slash) spaces around signs."""
-    text = "".join((HERE / "script" / f"{part}.js").read_text(encoding="utf-8") for part in PARTS)
+    text = "".join(_file("script", f"{part}.js") for part in PARTS)
     text = re.sub(r"^\s*/\*.*?\*/\s*|^\s+", "", text, flags=re.MULTILINE | re.DOTALL)
     lines = text.split("\n")
     return "\n".join(
-        line if re.search(r"[\"'`/]|[-+] [-+]", line) else _SPACES.sub(r"\1", line) for line in lines
+        line if re.search(r"[\"'`/]|[-+] [-+]", line) else _SPACES.sub("", line) for line in lines
     )
 
 
@@ -179,7 +184,7 @@ def script(live: Live | None) -> str:
 @cache
 def style() -> str:
     """The style sheet of the page around the pictures."""
-    return (HERE / "page.css").read_text(encoding="utf-8")
+    return _file("page.css")
 
 
 def policy(styles: str, scripts: str) -> str:

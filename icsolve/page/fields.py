@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping
 from contextlib import suppress
 from html import escape
-from pathlib import Path
 from typing import Any
 
 from icsolve.assembly.loci import Axis, CircleLocus, Locus
@@ -230,7 +229,8 @@ def _along(locus: Locus, number: Callable[[Datum], int]) -> Iterable[list[Any]]:
 def text_of(case: Case) -> str | None:
     """The text of a case's file, where it still says what the case says (but for numbers that were set)."""
     with suppress(OSError, UnicodeDecodeError, CaseError, ValueError):
-        text = Path(case.path).read_bytes().decode("utf-8-sig")
+        with open(case.path, encoding="utf-8-sig", newline="") as file:
+            text = file.read()
         again = load(text) if "\n" in text else None
         if again is not None and numbers_of(again).keys() == numbers_of(case).keys():
             return text.replace("\r\n", "\n")
