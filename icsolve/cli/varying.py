@@ -163,11 +163,12 @@ _WORTH_TWO = 50
 def _draw(varied: Varied, groups: list[list[VariantTask]], folder: str, force: bool, quiet: bool) -> None:
     """The figure of each group of students with the same variant, and their sheets."""
     from icsolve.files import write_whole
-    from icsolve.grade.variants.record import figure, sheet
+    from icsolve.grade.platforms.questions import figure
+    from icsolve.grade.variants.record import sheet
 
     with watched(groups, len(groups), "figures", quiet) as bar:
         for tasks in bar:
-            picture = figure(varied, tasks[0].draw)
+            picture = figure(varied.read(tasks[0].draw.values))
             write_whole(_figure_path(folder, tasks[0].draw.label), picture, force)
             for task in tasks:
                 write_whole(_sheet_path(folder, task), sheet(varied, task, picture), force)

@@ -27,8 +27,11 @@ class CaseStore:
         self.folder = os.fspath(folder)
         self.paths: dict[str, str] = {}
         self.twice: dict[str, tuple[str, str]] = {}
-        for path in _yaml_files(os.fspath(folder)):
-            self._add(path)
+        for path in _yaml_files(self.folder):
+            name = case_name(path)
+            if name in self.paths:
+                self.twice[name] = (self.paths[name], path)
+            self.paths.setdefault(name, path)
         self.varied = False
         """whether a case with variables has been met"""
         self._lower = {name.lower(): name for name in self.paths}
@@ -37,12 +40,6 @@ class CaseStore:
         self._cases: dict[str, Case] = {}
         self.records: dict[str, VariantRecord] = {}
         """the numbers that were handed out, by case"""
-
-    def _add(self, path: str) -> None:
-        name = case_name(path)
-        if name in self.paths:
-            self.twice[name] = (self.paths[name], path)
-        self.paths.setdefault(name, path)
 
     def find(self, text: str) -> str | None:
         """The question that a text names, by the name of its case's file and what is asked of it."""
@@ -183,9 +180,8 @@ class CaseStore:
 
     def variant_of(self, question: str, student: str) -> str:
         """The label of the student's values; '' for a case without variables."""
-        varied = (
-            self.variation(question.partition(":")[0]) if question.partition(":")[0] in self.paths else None
-        )
+        name = question.partition(":")[0]
+        varied = self.variation(name) if name in self.paths else None
         if varied is None:
             return ""
         try:

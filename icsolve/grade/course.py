@@ -129,9 +129,7 @@ def _only(node: Mapping, known: tuple[str, ...], what: str, problems: Problems) 
             problems.refuse(node.keys[key], f"{what} has no key {shown(key)}{suggestion(key, known)}")
 
 
-def _fields(
-    node: Mapping, readers: dict[str, tuple[str, Callable[[Node], Any]]], problems: Problems
-) -> Fields:
+def _fields(node: Mapping, readers: Readers, problems: Problems) -> Fields:
     """The fields whose keys stand there; a reader's ValueError is noted at its value."""
     found = {}
     for key, (field, read) in readers.items():
@@ -145,15 +143,20 @@ def _fields(
     return found
 
 
+def _mapping(node: Node | None, key: str, form: str, problems: Problems) -> Mapping:
+    """The mapping under a key; an empty one where nothing, or something else, stands there."""
+    if type(node) is Mapping:
+        return node
+    if node is not None and not is_null(node):
+        problems.refuse(node.mark, f"'{key}' should be a mapping, as in {form}")
+    return Mapping({}, {}, (1, 1))
+
+
 def _questions(node: Node | None, problems: Problems) -> tuple[tuple[str, tuple[tuple[str, Any], ...]], ...]:
     """``cases``: what single questions have of their own; or a bare list of them."""
-    if node is None or is_null(node):
-        return ()
-    if type(node) is not Mapping:
-        problems.refuse(node.mark, "'cases' should be a mapping, as in {press: {points: 5}, bolt-cutter: {}}")
-        return ()
     found = []
-    for question, value in node.items.items():
+    cases = _mapping(node, "cases", "{press: {points: 5}, bolt-cutter: {}}", problems)
+    for question, value in cases.items.items():
         fields: Fields = {}
         if type(value) is Mapping:
             _only(value, tuple(_POLICY), f"the case {question}", problems)
@@ -165,15 +168,9 @@ def _questions(node: Node | None, problems: Problems) -> tuple[tuple[str, tuple[
 
 
 def _columns(node: Node | None, problems: Problems) -> tuple[tuple[str, str], ...]:
-    if node is None or is_null(node):
-        return ()
-    if type(node) is not Mapping:
-        problems.refuse(
-            node.mark, "'map' should be a mapping, as in {student_id: Email Address, Q3: bolt-cutter}"
-        )
-        return ()
     pairs = []
-    for key, value in node.items.items():
+    form = "{student_id: Email Address, Q3: bolt-cutter}"
+    for key, value in _mapping(node, "map", form, problems).items.items():
         if type(value) is Scalar and value.text:
             pairs.append((key, value.text))
         else:

@@ -8,7 +8,6 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from icsolve.grade.course import Policy
 from icsolve.grade.keys import (
     AGAINST,
     NEITHER,
@@ -25,7 +24,7 @@ from icsolve.grade.tolerance import SLACK
 from icsolve.grade.written.answer import MISSING, NO_NUMBER, Combined, WrittenAnswer, flagged
 from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, figures, plain
 from icsolve.grade.written.two_numbers import WrittenPlace, WrittenRange, read_place, read_range
-from icsolve.grade.written.words import CASE, ENERGY, WrittenDirection, unit_word
+from icsolve.grade.written.words import CASE, ENERGY, unit_word
 from icsolve.grade.written.words import direction as direction_of
 from icsolve.tuples import NamedTuple
 
@@ -201,7 +200,8 @@ def relative(off: float, size: float) -> float | None:
 def _in_full(key: NumberKey, written: WrittenAnswer) -> Judgement:
     """Number, unit and direction apart."""
     factor = key.factor(written.unit)
-    sign = key.sign(_words(key, written))
+    words = written.direction if key.policy.direction != "ignored" and key.expected.any else None
+    sign = key.sign(words)
     value = key.nearest(written.number * (factor or 1.0) * (sign or 1))
     size = abs(key.value)
     number = abs(abs(value) - size) <= key.half
@@ -219,19 +219,13 @@ def _in_full(key: NumberKey, written: WrittenAnswer) -> Judgement:
     if not number:
         return _wrong_size(key, value, unit, direction, written)
     parts = (number, unit, direction)
-    mistakes = _seen(key, written, value, parts, sign)
-    return Judgement(WRONG, share_of(key, parts, mistakes), parts, value, off, _codes(mistakes), mistakes)
+    return _wrong(key, parts, _seen(key, written, value, parts, sign), value, off)
 
 
 def _unjudged(flag: str) -> Judgement:
     """What holds a number is for a person to read; what holds none is no answer."""
     verdict = {MISSING: MISSING, NO_NUMBER: INVALID}.get(flag, IN_REVIEW)
     return Judgement(verdict, 0.0, _NO_PARTS, code=flag)
-
-
-def _words(key: NumberKey, written: WrittenAnswer) -> WrittenDirection | None:
-    """The answer's direction in words, where those are looked at."""
-    return written.direction if key.policy.direction != "ignored" and key.expected.any else None
 
 
 def _unit_is_right(key: NumberKey, written: WrittenAnswer, factor: float | None) -> bool:
@@ -259,9 +253,7 @@ def _direction_is_right(key: NumberKey, written: WrittenAnswer, value: float, si
 def _right(key: NumberKey, written: WrittenAnswer, value: float, off: float | None) -> Judgement:
     """Right, unless too few figures are written."""
     if key.policy.figures and written.digits and figures(written.digits)[1] < key.policy.figures:
-        mistakes = (Wrong("figures", value),)
-        share = share_of(key, (False, True, True), mistakes)
-        return Judgement(WRONG, share, (False, True, True), value, off, "figures", mistakes)
+        return _wrong(key, (False, True, True), (Wrong("figures", value),), value, off)
     return Judgement(RIGHT, 1.0, _ALL_PARTS, value, off, written.note if written.unit else "")
 
 
@@ -298,7 +290,11 @@ def share_of(key: AnyKey, parts: tuple[bool, bool, bool], mistakes: tuple[Wrong,
     policy = key.policy
     if policy.credit is None and not policy.mistakes:
         return 0.0
-    earned = _earned(policy, parts, _asked_parts(key)) if policy.credit is not None else 0.0
+    asked, earned = _asked_parts(key), 0.0
+    whole = sum(share for share, has in zip(policy.credit or (), asked, strict=False) if has)
+    if policy.credit is not None and whole:
+        good = (part and has for part, has in zip(parts, asked, strict=True))
+        earned = sum(share for share, right in zip(policy.credit, good, strict=True) if right) / whole
     known = dict(policy.mistakes)
     return min(1.0, max([earned, *(known.get(mistake.code, 0.0) for mistake in mistakes[:1])]))
 
@@ -313,12 +309,15 @@ def _asked_parts(key: AnyKey) -> tuple[bool, bool, bool]:
     return True, bool(key.unit_name) and key.policy.unit != "ignored", directed and bool(end.value)
 
 
-def _earned(policy: Policy, parts: tuple[bool, bool, bool], asked: tuple[bool, bool, bool]) -> float:
-    """The credit of the right parts over that of all that are asked."""
-    shares = [share for share, has in zip(policy.credit or (), asked, strict=True) if has]
-    right = [part for part, has in zip(parts, asked, strict=True) if has]
-    whole = sum(shares)
-    return sum(share for share, good in zip(shares, right, strict=True) if good) / whole if whole else 0.0
+def _wrong(
+    key: AnyKey,
+    parts: tuple[bool, bool, bool],
+    mistakes: tuple[Wrong, ...],
+    value: float | None = None,
+    off: float | None = None,
+) -> Judgement:
+    """A wrong answer with its causes."""
+    return Judgement(WRONG, share_of(key, parts, mistakes), parts, value, off, _codes(mistakes), mistakes)
 
 
 def _codes(mistakes: tuple[Wrong, ...]) -> str:
@@ -393,16 +392,12 @@ def _judged(key: PlaceKey, at: tuple[float, float], off: float, unit: bool) -> J
     part = relative(off * (key.policy.tolerance.relative or 0.01), key.half)
     if number and unit:
         return Judgement(RIGHT, 1.0, parts, None, part)
-    mistakes = (Wrong("unit", 0.0),) if number else _mistakes(key, at, off)
-    share = share_of(key, parts, mistakes)
-    return Judgement(WRONG, share, parts, None, part, " ".join(m.code for m in mistakes), mistakes)
-
-
-def _mistakes(key: PlaceKey, at: tuple[float, float], off: float) -> tuple[Wrong, ...]:
+    if number:
+        return _wrong(key, parts, (Wrong("unit", 0.0),), None, part)
     found = {w.code: w for x, y, w in reversed(key.wrongs) if math.dist(at, (x, y)) <= key.half}
     if off <= near_miss(key.half, 0.0):
         found["near-miss"] = Wrong("near-miss", 0.0)
-    return tuple(found.values())[:3]
+    return _wrong(key, parts, tuple(found.values())[:3], None, part)
 
 
 def _far(key: PlaceKey, written: WrittenPlace) -> Judgement:
@@ -433,8 +428,7 @@ def judge_range(key: RangeKey, written: WrittenRange) -> Judgement:
     parts = (all(fits), unit, sign != NEITHER)
     if all(parts):
         return Judgement(RIGHT, 1.0, _ALL_PARTS)
-    mistakes = _of_range(key, parts, fits, (low, high))
-    return Judgement(WRONG, share_of(key, parts, mistakes), parts, None, None, _codes(mistakes), mistakes)
+    return _wrong(key, parts, _of_range(key, parts, fits, (low, high)))
 
 
 def _is_end(key: NumberKey | None, value: float | None) -> bool:

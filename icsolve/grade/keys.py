@@ -45,6 +45,8 @@ _SQUARE = 5.0
 """Degrees: words this near to square to the answer say neither way."""
 _ROUNDING = 1e-6
 """Degrees: 45 is within 45."""
+_PLAIN = ("assumed", "signed", False, 0)
+"""Unit, direction, capitals and figures where nothing of them is asked."""
 _DEGREE = 1.0
 """Degrees within which a direction that is asked for is right."""
 
@@ -354,7 +356,8 @@ def _key(
     """A key with what follows from its value, unit, and half and own width."""
     half, width = widths
     accepted, rule = range_in_words(value, half, unit[0]), in_words(policy.tolerance)
-    plain = _is_plain(policy) and value != 0.0 and not expected.asked
+    plain = (policy.unit, policy.direction, policy.strict_case, policy.figures) == _PLAIN
+    plain = plain and value != 0.0 and not expected.asked
     foreseen = Wrongs(wrongs, value, half)
     return NumberKey(
         question, value, *unit, half, expected, foreseen, policy, accepted, rule, {}, {}, width, kind, plain
@@ -421,11 +424,6 @@ def scaled_range(key: RangeKey, factor: float) -> RangeKey:
     """The same of a load that holds over a range."""
     low, high = (None if end is None else scaled_key(end, factor) for end in (key.low, key.high))
     return _range(key.question, low, high, key.policy)
-
-
-def _is_plain(policy: Policy) -> bool:
-    asked = (policy.unit, policy.direction, policy.strict_case, policy.figures)
-    return asked == ("assumed", "signed", False, 0)
 
 
 def _expected(target: Target, answer: Answer) -> ExpectedDirection:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import reduce
 from itertools import chain, groupby, islice, pairwise
 from operator import itemgetter
 
@@ -95,15 +96,8 @@ class Marker:
     def _endless(self, student: str, entries: Iterator[StoredAnswer]) -> Iterator[Result]:
         """Question by question, without what looks at all of them together."""
         for _, attempts in groupby(entries, key=itemgetter(1)):
-            entry = self._last_of(attempts)
+            entry = reduce(lambda chosen, other: self._chosen([chosen, other]), attempts)
             yield self._result(entry, self._marked(entry))
-
-    def _last_of(self, attempts: Iterator[StoredAnswer]) -> StoredAnswer:
-        """The attempt that counts of any number of them."""
-        chosen = next(attempts)
-        for entry in attempts:
-            chosen = self._chosen([chosen, entry])
-        return chosen
 
     def _student(self, student: str, chosen: list[StoredAnswer]) -> Iterator[Result]:
         """One student's results, with what is missing, in order of the questions."""
@@ -114,10 +108,8 @@ class Marker:
         if student:
             self._add_missing(student, found)
         for entry, judged in found:
-            marked = self._final(entry, judged)
-            marked.count += 1
-            variant = (self._variant(entry) if self.case_store.varied else "") or entry.variant
-            yield Result(student, entry.item, variant, entry.attempt, entry.line, marked)
+            variant = self._variant(entry) if self.case_store.varied else ""
+            yield self._result(entry, judged, variant)
 
     def _add_missing(self, student: str, found: list[tuple[StoredAnswer, Marked]]) -> None:
         """What the student owes and did not answer; an answer under a name that is nearly that of a case
@@ -127,14 +119,12 @@ class Marker:
             meant = {self.case_store.meant(entry.item) for entry, _ in found if entry.trouble}
             missing -= {item for item in meant if (student, item) not in self._overrides}
             for item in missing:
-                self._owes(student, item)
-            found += [(StoredAnswer(student, item, 0), self._absent(item)) for item in missing]
+                names = self.owing.setdefault(item, [])
+                if len(names) < NAMED:
+                    names.append(student)
+            absent = (StoredAnswer(student, item, 0) for item in missing)
+            found += [(entry, self._absent(entry)) for entry in absent]
             found.sort(key=lambda pair: pair[0].item)
-
-    def _owes(self, student: str, item: str) -> None:
-        names = self.owing.setdefault(item, [])
-        if len(names) < NAMED:
-            names.append(student)
 
     def _final(self, entry: StoredAnswer, marked: Marked) -> Marked:
         """An answer as it was judged, or with the mark that was given by hand."""
@@ -153,10 +143,11 @@ class Marker:
         self._once(found)
         return found
 
-    def _result(self, entry: StoredAnswer, marked: Marked) -> Result:
+    def _result(self, entry: StoredAnswer, marked: Marked, variant: str = "") -> Result:
+        """Counted, as the line of the variant that is the student's own, or that the answer names."""
         marked = self._final(entry, marked)
         marked.count += 1
-        return Result(entry.student, entry.item, entry.variant, entry.attempt, entry.line, marked)
+        return Result(entry.student, entry.item, variant or entry.variant, entry.attempt, entry.line, marked)
 
     def _chosen(self, attempts: list[StoredAnswer]) -> StoredAnswer:
         """The attempt that counts, of several in order of their lines; what nothing tells apart is listed."""
@@ -169,7 +160,9 @@ class Marker:
                 return self._two_orders(ranked[at], by_day[at])
         for before, entry in pairwise(ranked):
             if self._rank(before) == self._rank(entry):
-                self._duplicate(before, entry)
+                line, which = (entry if self.course.attempt == "first" else before).line, self.course.attempt
+                said = f"the same student answers the same question again; the {which} row counts"
+                self.issues.note(self.path, line, said)
         if self.course.attempt == "first":
             return ranked[0]
         if self.course.attempt == "best":
@@ -179,9 +172,8 @@ class Marker:
     def _two_orders(self, entry: StoredAnswer, other: StoredAnswer) -> StoredAnswer:
         """Two attempts of which either may be the one that counts, as their dates are read."""
         why = (
-            f"{entry.time!r} and {other.time!r} can be read month first or day first, and another "
-            f"attempt counts "
-            "then; --dates month or --dates day says which"
+            f"{entry.time!r} and {other.time!r} can be read month first or day first, and another attempt "
+            "counts then; --dates month or --dates day says which"
         )
         self.issues.note(self.path, entry.line, why, serious=True)
         return entry._replace(trouble=why)
@@ -193,11 +185,6 @@ class Marker:
             why = "this time can't be read; the order of the rows tells which is last"
             self.issues.note(self.path, entry.line, why)
         return attempt_number(entry.attempt), NEVER if time is None else time
-
-    def _duplicate(self, before: StoredAnswer, entry: StoredAnswer) -> None:
-        line = entry.line if self.course.attempt == "first" else before.line
-        reason = f"the same student answers the same question again; the {self.course.attempt} row counts"
-        self.issues.note(self.path, line, reason)
 
     def _marked(self, entry: StoredAnswer) -> Marked:
         if entry.trouble:
@@ -290,25 +277,25 @@ class Marker:
 
     def _troubled(self, entry: StoredAnswer, why: str) -> Marked:
         """A row that can't be graded: for a person to look at."""
-        judged = Judgement(IN_REVIEW, 0.0, (False, False, False), code="not-graded")
-        marked = Marked(entry.item, entry.answer, judged, self._points(entry.item), f"Not graded: {why}")
+        marked = self._unjudged(entry, IN_REVIEW, "not-graded", f"Not graded: {why}")
         self._once(marked)
         return marked
 
     def _of_another(self, entry: StoredAnswer) -> Marked:
         """An answer to numbers that are not the student's: a person must say whose it is."""
-        judged = Judgement(IN_REVIEW, 0.0, (False, False, False), code="other-variant")
         told = "this answer names another variant than the student's; --variants values.csv takes the numbers"
         self.issues.note(self.path, entry.line, f"{told} that were handed out")
         why = f"This is an answer to variant {entry.variant}; yours is {self._variant(entry)}."
-        return Marked(entry.item, entry.answer, judged, self._points(entry.item), why)
+        return self._unjudged(entry, IN_REVIEW, "other-variant", why)
 
-    def _points(self, item: str) -> float:
-        return self.course.policy_of(item).points
-
-    def _absent(self, item: str) -> Marked:
-        found = self._missing.get(item)
+    def _absent(self, entry: StoredAnswer) -> Marked:
+        found = self._missing.get(entry.item)
         if found is None:
-            judged = Judgement(MISSING, 0.0, (False, False, False), code=MISSING)
-            found = self._missing[item] = Marked(item, "", judged, self._points(item), "No answer was given.")
+            found = self._unjudged(entry, MISSING, MISSING, "No answer was given.")
+            self._missing[entry.item] = found
         return found
+
+    def _unjudged(self, entry: StoredAnswer, verdict: str, code: str, told: str) -> Marked:
+        """An answer that nothing was read of."""
+        judged = Judgement(verdict, 0.0, (False, False, False), code=code)
+        return Marked(entry.item, entry.answer, judged, self.course.policy_of(entry.item).points, told)

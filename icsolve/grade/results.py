@@ -214,8 +214,8 @@ def json_line(result: Result) -> str:
 NOT_GRADED = "not-graded"
 OVERRIDE = "override"
 """The code of a mark given by hand."""
-NO_CASE = ("there is no case", "this row names no case")
-"""How the reason of a row begins that names no question."""
+_OF_NONE = tuple(f"Not graded: {why}" for why in ("there is no case", "this row names no case"))
+"""How the feedback of a row begins that names no question."""
 
 
 class ResultRow(NamedTuple):
@@ -257,11 +257,27 @@ def _unsafe(cell: str) -> str:
 def by_student(path: str, graded: bool = True) -> Iterator[tuple[str, list[ResultRow]]]:
     """Each student's lines together; with ``graded`` without those that are of no question."""
     for student, rows in groupby(read_results(path), key=lambda row: row.student_id):
-        yield student, [row for row in rows if not graded or not _is_strange(row)]
+        own = list(rows)
+        if graded:
+            own = [row for row in own if row.code != NOT_GRADED or not row.feedback.startswith(_OF_NONE)]
+        yield student, own
 
 
-def _is_strange(row: ResultRow) -> bool:
-    return row.code == NOT_GRADED and row.feedback.removeprefix("Not graded: ").startswith(NO_CASE)
+class StudentMarks(NamedTuple):
+    """Of one student's answers: the marks of those that were judged, the most that these could earn, how many
+    were judged, and how many wait for a person."""
+
+    score: float
+    most: float
+    judged: int
+    waiting: int
+
+
+def marks_of(rows: Sequence[ResultRow]) -> StudentMarks:
+    """The marks of one student's lines."""
+    judged = [row for row in rows if row.score is not None]
+    score, most = sum(row.score or 0.0 for row in judged), sum(row.max_score for row in judged)
+    return StudentMarks(score, most, len(judged), len(rows) - len(judged))
 
 
 def shown(number: float) -> str:

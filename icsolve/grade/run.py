@@ -137,13 +137,14 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
         paths = expand(job.submissions)
         _take_in(imported, paths, job)
         questions = tuple(sorted(set(job.course.questions) or _asked(imported)))
-        students = sorted(set(imported.students) | set(_expected(job, roster)))
+        owing = () if roster is None or job.student else roster.people  # all answers may be one student's
+        students = sorted({*imported.students, *owing})
         if not imported.count:
             raise ValueError(f"there is no table of answers in {', '.join(job.submissions)}")
         if sinks.csv is not None:
             sinks.csv.write(HEADER + "\n")
         case_store.ready(students)
-        neighbours = _neighbours(case_store, students)
+        neighbours = Neighbours(case_store, students) if case_store.varied else None
         marker = Marker(case_store, _shown(paths), issues, questions, neighbours, overrides)
         _judged(store.sorted(), students, marker, sinks, lambda n: progress("judging", n / imported.count))
     finally:
@@ -191,13 +192,6 @@ def _take_in(imported: Import, paths: Iterable[tuple[str, str]], job: Job) -> No
         raise first
 
 
-def _neighbours(case_store: CaseStore, students: Iterable[str]) -> Neighbours | None:
-    """The right answers of all students, where a case gives each other numbers."""
-    if not case_store.varied:
-        return None
-    return Neighbours(case_store, students)
-
-
 def _note_other_seeds(job: Job, case_store: CaseStore, given: list[GivenValue], issues: Issues) -> None:
     """Say of a case most of whose answers are to the numbers of another seed which one that is."""
     from icsolve.grade.variants.record import other_seed
@@ -226,11 +220,6 @@ def _keep_to_record(job: Job, case_store: CaseStore, roster: Roster | None, issu
         if varied is not None:
             for told in changes(varied, record):
                 issues.note(record.path, 0, told)
-
-
-def _expected(job: Job, roster: Roster | None) -> Iterable[str]:
-    """Who is to hand in; where all answers are one student's, nobody else."""
-    return () if roster is None or job.student else roster.people
 
 
 def _shown(paths: list[tuple[str, str]]) -> str:

@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 
 from icsolve.grade.course import Person
-from icsolve.grade.results import Marked, ResultRow, by_student
+from icsolve.grade.results import Marked, ResultRow, by_student, marks_of
 from icsolve.tuples import NamedTuple
 
 _LEAST = 10
@@ -81,16 +81,11 @@ def statistics(results: str, people: Mapping[str, Person]) -> Statistics:
     totals: list[Total] = []
     for student, rows in by_student(results):
         if student and rows:
-            totals.append(_total(student, rows, people))
+            score, most, _, waiting = marks_of(rows)
+            section = people[student].section if student in people else ""
+            totals.append(Total(student, section, score, most, waiting))
             _count(sums, [row for row in rows if row.score is not None and row.max_score])
     return Statistics({name: sums[name].item() for name in sorted(sums)}, totals, _sections(totals))
-
-
-def _total(student: str, rows: Sequence[ResultRow], people: Mapping[str, Person]) -> Total:
-    judged = [row for row in rows if row.score is not None]
-    section = people[student].section if student in people else ""
-    score, most = sum(row.score or 0.0 for row in judged), sum(row.max_score for row in judged)
-    return Total(student, section, score, most, len(rows) - len(judged))
 
 
 def _count(sums: dict[str, _Sums], rows: Sequence[ResultRow]) -> None:

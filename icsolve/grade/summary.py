@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 
 from icsolve.grade.mistakes import CODES
-from icsolve.grade.results import ResultRow
+from icsolve.grade.results import ResultRow, marks_of
 from icsolve.grade.run import Graded
 from icsolve.grade.statistics import BINS, Counts, Statistics
 
@@ -24,7 +24,8 @@ def summary(graded: Graded) -> str:
     lines += [told for item, counts in graded.counts.items() if (told := mostly_unread(item, counts))]
     for item, counts in graded.counts.items():
         lines += ["", *_question(item, counts)]
-    return "\n".join([*lines, *_missing(graded)])
+    lines += [f"no answer to {item}: {_owing(graded, item)}" for item in graded.owing]
+    return "\n".join(lines)
 
 
 def _received(graded: Graded) -> str:
@@ -59,12 +60,18 @@ def _question(item: str, counts: Counts) -> Iterator[str]:
         yield f"  {sum(n for _, n in named[_SHOWN:])} of {wrong} wrong answers: other causes"
     if counts.mistakes[""]:
         yield f"  {counts.mistakes['']} of {wrong} wrong answers: no known cause"
-    common = [(value, n) for value, n in counts.unexplained.most_common(3) if n > 1]
+    common = _unexplained(counts, 3)
     if common:
-        yield "  the commonest of them: " + ", ".join(f"{value} ({n} times)" for value, n in common)
+        yield f"  the commonest of them: {common}"
     if counts.unread:
         yield "  not judged: " + ", ".join(f"{n} {code}" for code, n in counts.unread.most_common(_SHOWN))
     yield from blocks(counts)
+
+
+def _unexplained(counts: Counts, most: int) -> str:
+    """The commonest wrong values whose cause is not known: many alike have one."""
+    common = [(value, n) for value, n in counts.unexplained.most_common(most) if n > 1]
+    return ", ".join(f"{value} ({n} times)" for value, n in common)
 
 
 def by_count(mistakes: Counter[str]) -> list[tuple[str, int]]:
@@ -94,12 +101,12 @@ def blocks(counts: Counts) -> Iterator[str]:
     yield "   " + " " * place + "^ right; left and right of it -2 to 2 times, and beyond"
 
 
-def _missing(graded: Graded) -> Iterator[str]:
-    """Who gave no answer."""
-    for item, students in graded.owing.items():
-        count = graded.counts[item].verdicts["missing"] if item in graded.counts else len(students)
-        more = f" and {count - len(students)} more" if count > len(students) else ""
-        yield f"no answer to {item}: {', '.join(students)}{more}"
+def _owing(graded: Graded, item: str) -> str:
+    """Who gave no answer to a question; '' where all did."""
+    students = graded.owing.get(item, ())
+    count = graded.counts[item].verdicts["missing"] if item in graded.counts else 0
+    more = count - len(students)
+    return ", ".join(students) + (f" and {more} more" if students and more > 0 else "")
 
 
 _WIDTH, _HEIGHT, _HEAD, _FOOT = 720.0, 160.0, 16.0, 20.0
@@ -304,28 +311,11 @@ def _section(graded: Graded, n: int, item: str, counts: Counts) -> str:
         drawn = histogram(counts, graded.marks.get(item, ()))
         about = f'role="region" aria-label="Histogram of {escape(item)}" tabindex="0"'
         picture = f'<div class="wide" {about}>{drawn}</div>'
-    return (
-        f'<h2 id="q{n}">{escape(item)}</h2><p>{said}</p>{accepted}{table}{_unexplained(counts)}{picture}'
-        f"{_owing(graded.owing.get(item, ()), counts)}"
-    )
-
-
-def _unexplained(counts: Counts) -> str:
-    """The commonest wrong values whose cause is not known: many alike have one."""
-    common = [(value, n) for value, n in counts.unexplained.most_common(_TEXTS) if n > 1]
-    if not common:
-        return ""
-    said = ", ".join(f"{escape(value)} ({n} times)" for value, n in common)
-    return f"<p>The commonest wrong answers of no known cause: {said}</p>"
-
-
-def _owing(students: tuple[str, ...], counts: Counts) -> str:
-    """Who gave no answer."""
-    if not students:
-        return ""
-    more = counts.verdicts["missing"] - len(students)
-    rest = f" and {more} more" if more > 0 else ""
-    return f"<p>No answer: {escape(', '.join(students))}{rest}</p>"
+    common, students = _unexplained(counts, _TEXTS), _owing(graded, item)
+    strange = f"<p>The commonest wrong answers of no known cause: {escape(common)}</p>" if common else ""
+    owing = f"<p>No answer: {escape(students)}</p>" if students else ""
+    head = f'<h2 id="q{n}">{escape(item)}</h2><p>{said}</p>'
+    return f"{head}{accepted}{table}{strange}{picture}{owing}"
 
 
 def _mistake(code: str, number: int, wrong: int) -> list[str]:
@@ -362,19 +352,13 @@ def student_page(student: str, rows: Sequence[ResultRow], title: str = "") -> st
             escape(row.case),
             _text(row.raw_answer),
             row.verdict,
-            _marks(row),
+            f"{row.score:.10g} of {row.max_score:.10g}" if row.score is not None else "waiting",
             escape(_ACCEPTED.sub("Right.", row.feedback)),
         ]
         for row in rows
     ]
-    judged = [row for row in rows if row.score is not None]
-    score, most = sum(row.score or 0.0 for row in judged), sum(row.max_score for row in judged)
-    waiting = len(rows) - len(judged)
+    score, most, _, waiting = marks_of(rows)
     rest = f" {waiting} not judged yet." if waiting else ""
     heads = ("question", "your answer", "verdict", "marks", "feedback")
     body = f"<p>{escape(student)}: {score:.10g} of {most:.10g} marks.{rest}</p>"
     return _document(title or "Marks", body + _table("Your answers", heads, cells, range(3, 4)))
-
-
-def _marks(row: ResultRow) -> str:
-    return f"{row.score:.10g} of {row.max_score:.10g}" if row.score is not None else "waiting"

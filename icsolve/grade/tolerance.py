@@ -54,9 +54,8 @@ def half_width(tolerance: Tolerance, value: float, absolute: float, zero: float)
     if value == 0.0:
         return max(zero, absolute)
     size = abs(value)
-    unit_of_figure = (
-        10.0 ** (math.floor(math.log10(size)) - tolerance.figures + 1) if tolerance.figures else 0.0
-    )
+    figures = tolerance.figures
+    unit_of_figure = 10.0 ** (math.floor(math.log10(size)) - figures + 1) if figures else 0.0
     return max(tolerance.relative * size, absolute, 0.5 * unit_of_figure * _FIGURES) + SLACK * size
 
 
@@ -277,8 +276,7 @@ def _exact(target: Target, answer: Answer) -> dict[str, float]:
 
 def _differences(target: Target, answer: Answer) -> dict[str, float]:
     """Derivatives by every number of the figure; of a place, how far it goes."""
-    case = answer.case
-    numbers = numbers_in(case.points, case.lengths, case.angles)
+    numbers = numbers_in(answer.case.points, answer.case.lengths, answer.case.angles)
     return {number.path: _slope(target, answer, number.path, number.value) for number in numbers}
 
 

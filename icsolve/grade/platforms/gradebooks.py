@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from icsolve.grade.course import Person
-from icsolve.grade.results import ResultRow, csv_text, safe, shown
+from icsolve.grade.results import ResultRow, csv_text, marks_of, safe, shown
 from icsolve.grade.tables.columns import FIELDS, plain_name
 from icsolve.tuples import NamedTuple
 
@@ -95,9 +95,8 @@ def aliases(marks: dict[str, list[ResultRow]], people: dict[str, Person]) -> dic
 
 def total_of(rows: Sequence[ResultRow]) -> tuple[float | None, float]:
     """The marks of all questions together, None while one of them waits for a person; and the most."""
-    most = sum(row.max_score for row in rows)
-    scores = [row.score for row in rows if row.score is not None]
-    return (sum(scores) if len(scores) == len(rows) else None), most
+    score, _, _, waiting = marks_of(rows)
+    return None if waiting else score, sum(row.max_score for row in rows)
 
 
 def _questions(all_rows: Iterable[Sequence[ResultRow]]) -> dict[str, float]:

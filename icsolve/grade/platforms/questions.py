@@ -220,7 +220,8 @@ def gift(questions: Iterable[Question], category: str) -> str:
 def _gift_question(question: Question) -> str:
     key = question.key
     values = "; ".join(f"{name} = {value}" for name, value in question.given)
-    text = _gift(f"{_sentence(question.title)}Given: {values}. {question.asked}")
+    title = f"{question.title.rstrip('. ')}. " if question.title else ""
+    text = _gift(f"{title}Given: {values}. {question.asked}")
     told = _gift(f"Right: {key.accepted} is accepted.")
     rows = [f"=%100%{number(right)}:{number(own.half)}#{told}" for own, right in rights(question)]
     for wrong, share, reach in wrong_rows(key):
@@ -230,11 +231,6 @@ def _gift_question(question: Question) -> str:
     return (
         f"::{_gift(question.name)}::{text} {{#\n{body}\n####{_gift(f'Accepted is an answer {key.rule}.')}\n}}"
     )
-
-
-def _sentence(title: str) -> str:
-    """A title before other sentences."""
-    return f"{title.rstrip('. ')}. " if title else ""
 
 
 def _gift(text: str) -> str:

@@ -22,7 +22,7 @@ from icsolve.grade.platforms.gradebooks import (
     moodle_filled,
     moodle_worksheet,
 )
-from icsolve.grade.results import ResultRow, by_student, csv_text, read_results
+from icsolve.grade.results import ResultRow, by_student, csv_text, marks_of, read_results
 from icsolve.grade.tables.text import encoding_of
 from icsolve.grade.variants.record import file_name
 from icsolve.tuples import NamedTuple
@@ -140,9 +140,8 @@ _STATUS = {"right": "passed"}
 
 
 def _told(rows: list[ResultRow]) -> str:
-    judged = [row for row in rows if row.score is not None]
-    waiting = len(rows) - len(judged)
-    said = f"{sum(row.verdict == 'right' for row in judged)} of {len(judged)} answers are right."
+    _, _, judged, waiting = marks_of(rows)
+    said = f"{sum(row.verdict == 'right' for row in rows)} of {judged} answers are right."
     return said if not waiting else f"{said} {waiting} not judged yet."
 
 
@@ -180,15 +179,14 @@ def _test(row: ResultRow, number: int) -> dict[str, Any]:
 def prairielearn_results(rows: Iterable[ResultRow]) -> dict[str, Any]:
     """The object of ``/grade/results/results.json`` for one student; what was not judged costs no attempt."""
     rows = list(rows)
-    judged = [row for row in rows if row.score is not None]
-    most = sum(row.max_score for row in judged)
+    score, most, _, waiting = marks_of(rows)
     entry: dict[str, Any] = {
-        "gradable": len(judged) == len(rows),
-        "score": sum(row.score or 0.0 for row in judged) / most if most else 0.0,
+        "gradable": not waiting,
+        "score": score / most if most else 0.0,
         "message": _told(rows),
-        "tests": [_points(row) for row in judged],
+        "tests": [_points(row) for row in rows if row.score is not None],
     }
-    if len(judged) < len(rows):
+    if waiting:
         entry["format_errors"] = [f"{row.case}: {row.feedback}" for row in rows if row.score is None]
     return entry
 
@@ -225,7 +223,10 @@ def junit_report(rows: Iterable[ResultRow]) -> str:
     suites: dict[str, list[ResultRow]] = {}
     for row in rows:
         suites.setdefault(row.case, []).append(row)
-    body = "".join(_suite(case, own) for case, own in sorted(suites.items()))
+    body = "".join(
+        f"<testsuite name={_attribute(case)} {_counts(own)}>\n{''.join(map(_testcase, own))}</testsuite>\n"
+        for case, own in sorted(suites.items())
+    )
     counts = _counts([row for own in suites.values() for row in own])
     head = '<?xml version="1.0" encoding="UTF-8"?>'
     return f'{head}\n<testsuites name="icsolve grade" {counts}>\n{body}</testsuites>\n'
@@ -237,11 +238,6 @@ def _counts(rows: list[ResultRow]) -> str:
 
     bad = f'failures="{count(_WRONG)}" errors="{count(_UNREAD)}" skipped="{count(_OPEN)}"'
     return f'tests="{len(rows)}" {bad} time="0"'
-
-
-def _suite(case: str, rows: list[ResultRow]) -> str:
-    tests = "".join(_testcase(row) for row in rows)
-    return f"<testsuite name={_attribute(case)} {_counts(rows)}>\n{tests}</testsuite>\n"
 
 
 def _testcase(row: ResultRow) -> str:

@@ -115,7 +115,9 @@ def _wrong_width(cells: Sequence[str], width: int) -> str:
 
 def _wide(columns: TableColumns, kind: str) -> TableLayout:
     """A column a question."""
-    ids = [i for name in _IDS.get(kind, _ANY_ID) if (i := _id_column(columns, name)) is not None]
+    at = {name: index for index, name in reversed([*enumerate(columns.names)])}
+    by_name = (columns.field(n) if n in FIELDS else at.get(n) for n in _IDS.get(kind, _ANY_ID))
+    ids = [i for i in by_name if i is not None]
     if not ids:
         raise HeaderError(
             f'no column holds the student\'s id: {columns.listed()}; name it with --map student_id="..."'
@@ -158,14 +160,6 @@ def _rows(
         ]
 
     return read
-
-
-def _id_column(columns: TableColumns, name: str) -> int | None:
-    return columns.field(name) if name in FIELDS else _index(columns, name)
-
-
-def _index(columns: TableColumns, name: str) -> int | None:
-    return columns.names.index(name) if name in columns.names else None
 
 
 def _questions(columns: TableColumns, kind: str, ids: set[int]) -> tuple[dict[int, str], list[int]]:

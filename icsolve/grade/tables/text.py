@@ -30,6 +30,8 @@ _DELIMITERS = ",;\t|"
 _SAMPLE = 65536
 _START = 2000
 """Characters of a line that is too long which are kept."""
+_NO_TEXT = (b"\xd0\xcf\x11\xe0", b"%PDF", b"\x89PNG", b"\x1f\x8b")
+"""How an archive, a picture or a spreadsheet's own format begins."""
 TOO_LONG = f"this line is longer than {LARGEST} characters"
 
 UNCLOSED = "a quoted cell starts here and does not end"
@@ -81,7 +83,7 @@ class AnswerTable:
             file = as_csv(file)
             sample = file.read(_SAMPLE)
             file.seek(0)
-        if not _is_text(sample):
+        if sample.startswith(_NO_TEXT):
             raise ValueError("this is not a text file; save it as CSV")
         encoding = encoding_of(sample)
         errors = "icsolve-windows" if encoding.startswith("utf-8") else "replace"
@@ -127,7 +129,8 @@ class AnswerTable:
         for cells in reader:
             line = lines.number
             if len(pending) > 1 or lines.ended:
-                if (lines.ended and _is_open(pending)) or self._swallows(pending):
+                is_open = sum(line.count('"') for line in pending) % 2 == 1
+                if (lines.ended and is_open) or self._swallows(pending):
                     raise _RunawayError
                 line -= len(pending) - 1
             pending.clear()
@@ -146,16 +149,6 @@ class AnswerTable:
         width = len(self.header) if self.header else 0
         alone = (next(csv.reader([line], delimiter=self.delimiter), []) for line in lines[1:])
         return width > 2 and any(len(cells) == width for cells in alone)
-
-
-def _is_text(sample: bytes) -> bool:
-    """Not an archive, a picture or a spreadsheet's own format."""
-    return not sample.startswith((b"\xd0\xcf\x11\xe0", b"%PDF", b"\x89PNG", b"\x1f\x8b"))
-
-
-def _is_open(lines: list[str]) -> bool:
-    """Whether a quote is open at the end of a record's lines."""
-    return sum(line.count('"') for line in lines) % 2 == 1
 
 
 class _RunawayError(Exception):
@@ -198,19 +191,14 @@ class _Lines:
     def _mended(self, line: str) -> str:
         """Without nul characters; of an overlong line the start, which may say whose it is."""
         if len(line) == LARGEST and line[-1] not in "\r\n":
-            self._skip_rest()
+            more = line
+            while more and more[-1] not in "\r\n":
+                more = self._file.readline(LARGEST)
             self.cut.add(self.number)
             line = line[:_START].replace('"', "") + "\n"
         if "\0" in line:
             self._report(self.number, "nul characters are taken out of this line")
         return line.replace("\0", "")
-
-    def _skip_rest(self) -> None:
-        """Pass over what is left of a line that is too long."""
-        while True:
-            more = self._file.readline(LARGEST)
-            if not more or more[-1] in "\r\n":
-                return
 
     def push_back(self, line: str) -> None:
         """Read this line once more."""

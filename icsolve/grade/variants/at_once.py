@@ -134,11 +134,8 @@ def _modes(case: Case) -> list[Case]:
     if not found.complete or len(found.ways) != 2 ** len(case.near):
         raise ValueError("the ways of assembling are not as many as the points that are placed by near")
     ways = [{name: way.points[name] for name in case.near} for way in found.ways]
-    return [replace(case, near=way) for way in sorted(ways, key=lambda way: _off(way, case))]
-
-
-def _off(way: Mapping[str, tuple[float, float]], case: Case) -> float:
-    return sum(math.dist(way[name], place) ** 2 for name, place in case.near.items())
+    ways.sort(key=lambda way: sum(math.dist(way[name], place) ** 2 for name, place in case.near.items()))
+    return [replace(case, near=way) for way in ways]
 
 
 def _by_mode(modes: Sequence[Case], columns: Columns) -> Iterator[tuple[Case, Rows]]:

@@ -17,12 +17,11 @@ from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Person, Roster, student_named
 from icsolve.grade.keys import NumberKey, numbers_of
 from icsolve.grade.platforms.questions import asked
-from icsolve.grade.platforms.questions import figure as drawn
 from icsolve.grade.results import csv_text, safe
 from icsolve.grade.solved import unknowns
 from icsolve.grade.tables.columns import TableColumns, read_table, without_apostrophe
 from icsolve.grade.tolerance import NoKeyError
-from icsolve.grade.variants.varied import Draw, Handed, VariantRecord, Varied
+from icsolve.grade.variants.varied import Draw, VariantRecord, Varied
 from icsolve.grade.written.numerals import figures
 from icsolve.tuples import NamedTuple
 from icsolve.wording.statement import Statement
@@ -77,13 +76,13 @@ def _read(path: str, store: CaseStore, roster: Roster | None) -> tuple[str, Vari
         if variable.name not in columns.header:
             raise ValueError(f"it has no column for the variable {variable.name} of {name}")
         places[variable.name] = columns.header.index(variable.name)
-    handed: dict[str, Handed] = {}
+    handed: dict[str, Draw] = {}
     for cells in rows:
         student = student_named(cells[at], roster)
         values = {variable: without_apostrophe(cells[i]) for variable, i in places.items()}
         if student in handed and handed[student].values != values:
             raise ValueError(f"the student {student} stands in it twice, with other numbers")
-        handed[student] = Handed(without_apostrophe(cells[label]) if label is not None else "", values)
+        handed[student] = Draw(without_apostrophe(cells[label]) if label is not None else "", values)
     return name, VariantRecord(path, handed, dict(_keys(os.path.join(os.path.dirname(path), KEYS), roster)))
 
 
@@ -333,11 +332,6 @@ def sense(varied: Varied, draw: Draw, key: NumberKey) -> str:
     name = getattr(solved.target(key.question), "load", "")
     found = solved.answer.answers.get(name)
     return found.sense if found is not None else ""
-
-
-def figure(varied: Varied, draw: Draw) -> str:
-    """The variant drawn without its answer, as SVG."""
-    return drawn(varied.read(draw.values))
 
 
 def sheet(varied: Varied, task: VariantTask, picture: str) -> str:

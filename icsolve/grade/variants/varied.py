@@ -118,14 +118,7 @@ _UNFIT = Seen(False, frozenset())
 
 
 class Draw(NamedTuple):
-    """A student's variant: its label and its values."""
-
-    label: str
-    values: Texts
-
-
-class Handed(NamedTuple):
-    """What one student was given: the label of the variant, and its values as text."""
+    """A student's variant, as drawn or as it was handed out: its label and its values."""
 
     label: str
     values: Texts
@@ -135,7 +128,7 @@ class VariantRecord(NamedTuple):
     """The numbers of one case by student, and the keys of that time by question and student."""
 
     path: str
-    handed: dict[str, Handed]
+    handed: dict[str, Draw]
     keys: dict[tuple[str, str], tuple[float, str]]
 
 
@@ -211,7 +204,7 @@ class Varied:
         """Whether values are a draw of this student by the present seed, whatever the filter says of it."""
         return any(self._values(student, trial) == values for trial in range(TRIALS))
 
-    def drawn_otherwise(self, handed: Mapping[str, Handed]) -> list[str]:
+    def drawn_otherwise(self, handed: Mapping[str, Draw]) -> list[str]:
         """Of some students those who would now be given other numbers than were handed out."""
         fresh = Varied(self.name, self.text, self.path, self.course)
         fresh.ready(handed)
