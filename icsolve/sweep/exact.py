@@ -15,6 +15,7 @@ from functools import lru_cache
 from icsolve.case import Case, Centroid, Coordinates, Number, TorsionSpring
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.linear import solve_square
 from icsolve.numbers.record import Implicit, Op, Record, Root, Traced, live, operands, terms_of
 from icsolve.numbers.replay import BINARY
 from icsolve.statics.power import Points, spring_angle
@@ -419,22 +420,9 @@ def least_squares(j: Sequence[Sequence[Decimal]], f: Sequence[Decimal]) -> list[
     Unreached
         Where it is singular.
     """
-    count = len(j[0])
-    if len(j) != count:
+    if len(j) != len(j[0]):
         j, f = _normal_equations(j, f)
-    rows = [[*row, right] for row, right in zip(j, f, strict=True)]
-    for k in range(count):
-        best = max(range(k, count), key=lambda n: abs(rows[n][k]))
-        rows[k], rows[best] = rows[best], rows[k]
-        pivot = rows[k][k]
-        if not pivot or not pivot.is_finite():
-            raise Unreached
-        for n in range(k + 1, count):
-            factor = rows[n][k] / pivot
-            if factor:
-                rows[n] = [a - factor * b for a, b in zip(rows[n], rows[k], strict=True)]
-    x: list[Decimal] = [Decimal(0)] * count
-    for k in reversed(range(count)):
-        known = sum((rows[k][n] * x[n] for n in range(k + 1, count)), Decimal(0))
-        x[k] = (rows[k][count] - known) / rows[k][k]
-    return x
+    found = solve_square(j, f, lambda pivot, _: not pivot or not pivot.is_finite())
+    if found is None:
+        raise Unreached
+    return found
