@@ -19,8 +19,8 @@ from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import LOOSE, NO_SPEED, fastest, meant, path_of, speed_of
 from icsolve.numbers.arithmetic import Scalar, all_vanish, decider
 from icsolve.numbers.linear import SPENT, General, Row, eliminate
-from icsolve.screws.joints import at_radius, centre_twist, freedoms, mesh_weights, transmitted
-from icsolve.screws.plane import Point, Triple, add, cross, pairing, subtract, velocity
+from icsolve.screws.joints import centre_twist, freedoms, mesh_weights, rolling_centres, transmitted
+from icsolve.screws.plane import Point, Triple, add, cross, pairing, subtract, unit_between, velocity
 from icsolve.screws.ropes import part_changes, rope_parts
 from icsolve.structure.topology import Bond, Topology
 from icsolve.tuples import NamedTuple
@@ -246,12 +246,11 @@ def _changes(place: PlacedCase, twists: Twists, bond: Bond) -> tuple[Triple, ...
         (ax, ay), (bx, by_) = velocity(twists[by], a), velocity(twists[on], b)
         return (p * ax + q * bx, p * ay + q * by_, 0.0), (ay - by_, bx - ax, 0.0)
     if isinstance(joint, Rolling):
-        if joint.radii is None:
-            raise _unknown(joint, "without `radii` nothing says how the contact moves on. Add them")
-        if sum(radius.value for radius in joint.radii) == 0.0:
+        normal, given = _normal(place, joint), joint.radii or ()
+        if sum(radius.value for radius in given) == 0.0:
             raise _unknown(joint, "one fills the other, and touches it everywhere. Correct the `radii`")
-        radii = tuple(radius if radius.value else None for radius in joint.radii)
-        return _contact(place, twists, joint, radii, _normal(place, joint))[:1]
+        radii = tuple(radius if radius.value else None for radius in given)
+        return _contact(place, twists, joint, radii, normal)[:1]
     if joint.curvature is not None and joint.direction is not None:
         return _contact(place, twists, joint, joint.curvature, place.arithmetic.turn(joint.direction))
     return tuple(_change(place, twists, joint, centre) for centre in joint.centres)
@@ -308,15 +307,12 @@ def _contact(
 
 def _normal(place: PlacedCase, joint: Rolling) -> Point:
     """Unit normal at a rolling contact, out of the first link: along the line to a round link's centre."""
-    assert joint.radii is not None
-    px, py = place.points[joint.at]
-    pins = place.case.pivots()
-    for link, radius, sense in zip(joint.links, joint.radii, (-1.0, 1.0), strict=True):
-        carried, reach = place.case.carries.get(link, ()), radius.value * place.frame.scale
-        near = at_radius(carried, joint.at, reach, place.points)
-        if near:
-            x, y = place.points[min(near, key=lambda p: p not in pins)]
-            x, y = x - px, y - py
-            size, sign = place.arithmetic.sqrt(x * x + y * y), sense if reach > 0.0 else -sense
-            return sign * x / size, sign * y / size
-    raise _unknown(joint, "no point of its round link lies at its radius. Name its centre, under `links`")
+    try:
+        found = rolling_centres(joint, place.case, place.points, place.frame.scale)
+    except LookupError as why:
+        raise _unknown(joint, why.args[0]) from None
+    sides = zip(found, joint.radii or (), (-1.0, 1.0), strict=True)
+    centre, radius, side = next((p, radius, side) for p, radius, side in sides if p is not None)
+    (x, y), _ = unit_between(place.points[joint.at], place.points[centre], place.arithmetic)
+    sign = side if radius.value > 0.0 else -side
+    return sign * x, sign * y

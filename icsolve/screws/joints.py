@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from itertools import product
 
-from icsolve.case import Guide, Joint
-from icsolve.case.joints import CentreAt, CentreSquareTo, JointCentre, Mesh
+from icsolve.case import Case, Guide, Joint
+from icsolve.case.joints import CentreAt, CentreSquareTo, JointCentre, Mesh, Rolling
 from icsolve.numbers.arithmetic import Arithmetic
 from icsolve.screws.plane import Point, Triple, normal_twist, pin_twist, slide_twist, unit_between
-from icsolve.structure.topology import Bond
+from icsolve.structure.topology import Bond, topology
 
 Points = Mapping[str, Point]
 
@@ -85,6 +86,58 @@ def at_radius(names: Iterable[str], contact: str, radius: float, points: Points)
     placed = [p for p in names if p != contact and p in points]
     off = {p: abs(math.dist(points[p], points[contact]) - r) for p in placed}
     return sorted((p for p in off if off[p] <= OFF_RADIUS * r and r), key=off.__getitem__)
+
+
+def rolling_centres(
+    joint: Rolling, case: Case, points: Points, scale: float
+) -> tuple[str | None, str | None]:
+    """The points of two links that roll on each other which are their centres: at their radii from where they
+    touch; None of a straight link, and where only the other has one.
+
+    Of two such points those most nearly in line with the contact; else a pin before others.
+
+    Parameters
+    ----------
+    points : by name, as written [frame]
+    scale : frame lengths a case length
+
+    Raises
+    ------
+    LookupError
+        With what would mend it, where the radii are not given or no one point can be the centre.
+    """
+    if joint.radii is None:
+        raise LookupError("without `radii` nothing says how the contact moves on. Add them")
+    if all(radius.value == 0.0 for radius in joint.radii):
+        raise LookupError("both `radii` are 0, and straight links cannot roll on one another. Correct them")
+    top, pins, sides = topology(case), case.pivots(), list(zip(joint.links, joint.radii, strict=True))
+    options = []
+    for link, radius in sides:
+        welded = top.members[top.body_of[link]]
+        own = dict.fromkeys(p for name in welded for p in case.carries.get(name, ()))
+        options.append(at_radius(own, joint.at, radius.value * scale, points))
+    one, two = options
+    if one and two:
+        return min(product(one, two), key=lambda pair: _bend(points[joint.at], *(points[p] for p in pair)))
+    for (link, _), found in zip(sides, options, strict=True):
+        named = [name for name in found if name in pins] or found
+        if len(named) > 1:
+            raise LookupError(
+                f"{' and '.join(named)} of link {link} both lie at its radius from {joint.at}, and nothing "
+                "says which is the centre. Name the centre of the other link too, under `links`, or take one "
+                "of them out"
+            )
+        if named:
+            return (named[0], None) if found is one else (None, named[0])
+    link, radius = next(side for side in sides if side[1].value != 0.0)
+    off = f"no point of link {link} lies {abs(radius.value):g} from {joint.at}"
+    raise LookupError(f"{off}. Name its centre, under `links`")
+
+
+def _bend(at: Point, p: Point, q: Point) -> float:
+    """How far two centres and the contact are from one line."""
+    (ax, ay), (bx, by) = ((float(x - at[0]), float(y - at[1])) for x, y in (p, q))
+    return abs(ax * by - ay * bx) / (math.hypot(ax, ay) * math.hypot(bx, by))
 
 
 def guide_direction(guide: Guide, points: Points, arithmetic: Arithmetic) -> Point:

@@ -20,13 +20,13 @@ from icsolve.assembly.driven.constraints import (
     Turning,
 )
 from icsolve.assembly.driven.poses import Places, Shape, Spot, dot, minus, plus, scaled, square
-from icsolve.assembly.workspace import Frame
+from icsolve.assembly.workspace import Frame, PlacedCase
 from icsolve.case import Case, Centroid, Guide, Joint, Rope, Toward
 from icsolve.case.joints import CentreAt, Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.numbers.record import Record
-from icsolve.screws.joints import at_radius, guide_direction, joint_freedoms, transmitted
+from icsolve.screws.joints import guide_direction, joint_freedoms, rolling_centres, transmitted
 from icsolve.screws.plane import Point
 from icsolve.screws.ropes import offsets_of, rope_parts
 from icsolve.structure.topology import Bond, Topology, topology
@@ -69,36 +69,27 @@ class Rolled(NamedTuple):
 
 
 class RollingSide(NamedTuple):
-    """A link of a rolling joint: its body, its signed radius (normalised), the points it carries; on which
-    side of the contact its centre lies along the normal out of the first link: -1 of that, 1 of the other.
+    """A link of a rolling joint: its body, its signed radius (normalised), the point that is its centre, and
+    on which side of the contact that lies along the normal out of the first link: -1 of that, 1 of the other.
     """
 
     link: str
     body: int
     radius: Scalar
-    points: tuple[str, ...]
-    pins: frozenset[str]
+    centre: str | None
     side: float
 
 
 def rolling(joint: Rolling, sides: tuple[RollingSide, RollingSide], ref: Mapping[str, Point]) -> Rolled:
-    """The conditions of a rolling joint (``ref``: places as written).
-
-    Raises SceneError where the radii are not given, or no point lies at a radius from the contact.
-    """
-    if all(float(side.radius) == 0.0 for side in sides):
-        raise _refusal(
-            joint, "both `radii` are 0, and straight links cannot roll on one another. Correct them"
-        )
-    contact, found = ref[joint.at], _centres(joint, sides, ref)
-    normal = _normal(joint, sides, found, ref)
-    names = [name or f"@centre of {side.link} on {joint.at}" for side, name in zip(sides, found, strict=True)]
+    """The conditions of a rolling joint (``ref``: places as written)."""
+    contact, normal = ref[joint.at], _normal(joint, sides, ref)
+    names = [side.centre or f"@centre of {side.link} on {joint.at}" for side in sides]
     centres = {
-        own: plus(contact, scaled(side.side * side.radius, normal))
-        for side, name, own in zip(sides, found, names, strict=True)
-        if name is None
+        name: plus(contact, scaled(side.side * side.radius, normal))
+        for side, name in zip(sides, names, strict=True)
+        if side.centre is None
     }
-    one, two = ((side.body, own) for side, own in zip(sides, names, strict=True))
+    one, two = ((side.body, name) for side, name in zip(sides, names, strict=True))
     flat = next((n for n, side in enumerate(sides) if float(side.radius) == 0.0), None)
     if flat is None:
         radii = (sides[0].radius, sides[1].radius)
@@ -118,53 +109,11 @@ def rolling(joint: Rolling, sides: tuple[RollingSide, RollingSide], ref: Mapping
     return Rolled(rolls, RollingContact(centre, offset, line, None), kept)
 
 
-def _centres(
-    joint: Rolling, sides: tuple[RollingSide, RollingSide], ref: Mapping[str, Point]
-) -> tuple[str | None, str | None]:
-    """A point of each round link that lies at its radius from the contact; None where there is none."""
-    at = ref[joint.at]
-    one, two = (at_radius(side.points, joint.at, float(side.radius), ref) for side in sides)
-    if one and two:
-        return min(((p, q) for p in one for q in two), key=lambda pair: _bend(at, ref[pair[0]], ref[pair[1]]))
-    if one:
-        return _only(joint, sides[0], one), None
-    if two:
-        return None, _only(joint, sides[1], two)
-    assert joint.radii is not None
-    link, radius = next((s.link, n) for s, n in zip(sides, joint.radii, strict=True) if n.value != 0.0)
-    off = f"no point of link {link} lies {abs(radius.value):g} from {joint.at}"
-    raise _refusal(joint, f"{off}. Name its centre, under `links`")
-
-
-def _only(joint: Rolling, side: RollingSide, options: list[str]) -> str:
-    """The one point that can be the centre; a pin before others."""
-    named = [name for name in options if name in side.pins] or options
-    if len(named) == 1:
-        return named[0]
-    raise _refusal(
-        joint,
-        f"{' and '.join(named)} of link {side.link} both lie at its radius from {joint.at}, and nothing says "
-        "which is the centre. Name the centre of the other link too, under `links`, or take one of them out",
-    )
-
-
-def _bend(at: Point, p: Point, q: Point) -> float:
-    """How far two centres and the contact are from one line."""
-    (ax, ay), (bx, by) = minus(p, at), minus(q, at)
-    size = math.hypot(float(ax), float(ay)) * math.hypot(float(bx), float(by))
-    return abs(float(ax * by - ay * bx)) / size
-
-
-def _normal(
-    joint: Rolling,
-    sides: tuple[RollingSide, RollingSide],
-    found: tuple[str | None, str | None],
-    ref: Mapping[str, Point],
-) -> Point:
+def _normal(joint: Rolling, sides: Iterable[RollingSide], ref: Mapping[str, Point]) -> Point:
     """Unit normal out of the first link into the second."""
-    for side, name in zip(sides, found, strict=True):
-        if name is not None:
-            x, y = minus(ref[name], ref[joint.at])
+    for side in sides:
+        if side.centre is not None:
+            x, y = minus(ref[side.centre], ref[joint.at])
             r = math.copysign(math.hypot(float(x), float(y)), float(side.radius))
             size = side.radius if abs(r - float(side.radius)) <= ROUNDED else r
             return (side.side * x / size, side.side * y / size)
@@ -227,7 +176,7 @@ def mechanism(case: Case, frame: Frame, record: Record, ref: Mapping[str, Point]
     for i, joint in enumerate(case.joints):
         if isinstance(joint, Rolling):
             try:
-                found = rolling(joint, _sides(joint, case, top, frame, record), places)
+                found = rolling(joint, _sides(joint, PlacedCase(case, frame, places, record)), places)
             except SceneError as unknown:
                 constraints += _immovable(joint, top, places, unknown)
                 continue
@@ -363,19 +312,21 @@ def _conditions(
             yield SpotDistance(*ends, shape.span(*ends))
 
 
-def _sides(
-    joint: Rolling, case: Case, top: Topology, frame: Frame, record: Record
-) -> tuple[RollingSide, RollingSide]:
-    if joint.radii is None:
-        raise _refusal(joint, "without `radii` nothing says how the contact moves on. Add them")
-    pins = frozenset(case.pivots())
-    sides = []
-    for k, link in enumerate(joint.links):
-        body = top.body_of[link]
-        points = tuple(dict.fromkeys(p for name in top.members[body] for p in case.carries.get(name, ())))
-        radius = record.given(joint.radii[k]) * frame.scale
-        sides.append(RollingSide(link, body, radius, points, pins, 2.0 * k - 1.0))
-    return sides[0], sides[1]
+def _sides(joint: Rolling, place: PlacedCase) -> tuple[RollingSide, RollingSide]:
+    """Both links.
+
+    Raises SceneError where the radii are not given, and where no point lies at one from the contact.
+    """
+    try:
+        found = rolling_centres(joint, place.case, place.points, place.frame.scale)
+    except LookupError as why:
+        raise _refusal(joint, why.args[0]) from None
+    given, scale = place.arithmetic.given, place.frame.scale
+    one, two = (
+        RollingSide(link, place.top.body_of[link], given(radius) * scale, centre, side)
+        for link, radius, centre, side in zip(joint.links, joint.radii or (), found, (-1.0, 1.0), strict=True)
+    )
+    return one, two
 
 
 def _carry(spots: dict[int, list[Spot]], constraints: Iterable[Constraint]) -> None:
