@@ -52,6 +52,10 @@ class Transmits(Protocol):
         """The name of its point."""
 
     @property
+    def at(self) -> Components:
+        """Its point [frame]."""
+
+    @property
     def units(self) -> tuple[Components, ...]:
         """What passes, each a force with its couple about the joint's point."""
 
@@ -284,39 +288,31 @@ def _moved(force: Components, at: Components, about: Components) -> Components:
     return (x, y, couple + px * y - py * x)
 
 
-def tie_actions(ties: Sequence[Tie], first: Sequence[int]) -> Iterator[Action]:
-    """What the units of the ties do, on the rotor of a screw too."""
-    for tie, column in zip(ties, first, strict=True):
+def tie_actions(statics: Equilibrium[T]) -> Iterator[Action]:
+    """What the units of the ties do."""
+    for tie, column in zip(statics.ties, statics.first, strict=True):
         for n, unit in enumerate(tie.units):
             yield Action(column + n, tie.on, tie.by, tie.at, unit)
-            if tie.screw is not None and tie.couples[n]:
-                yield Action(column + n, tie.screw.rotor, "", tie.at, (0.0, 0.0, tie.couples[n]))
-
-
-def rope_actions(ropes: Sequence[RopeTie], first: int) -> Iterator[Action]:
-    """The pull of every part of each rope on both of its links (of the last, on the free end)."""
-    for column, rope in enumerate(ropes, start=first):
-        for k, part in enumerate(rope.parts):
-            at, unit = rope.unit(k)
-            yield Action(column, part.links[0], part.links[1] or rope.rope.end, at, unit)
-
-
-def rub_actions(ties: Sequence[Tie], rubs: Sequence[Rub], first: int) -> Iterator[Action]:
-    """A unit of friction at every rub, on the rotor of a screw too."""
-    for column, rub in enumerate(rubs, start=first):
-        tie = ties[rub.tie]
-        yield Action(column, tie.on, tie.by, tie.at, rub.unit)
-        if tie.screw is not None and rub.spin:
-            yield Action(column, tie.screw.rotor, "", tie.at, (0.0, 0.0, rub.spin))
 
 
 def actions_of(statics: Statics, position: Position, wrenches: Sequence[Wrench]) -> Iterator[Action]:
-    """What every column does, in the arithmetic of the position: joints, ropes, loads, friction."""
-    yield from tie_actions(statics.ties, statics.first)
-    yield from rope_actions(statics.ropes, statics.tension(0))
+    """What every column does, in the arithmetic of the position: joints, screws on their rotors, each part of
+    a rope on both of its links (of the last, on the free end), loads, friction."""
+    yield from tie_actions(statics)
+    for tie, column in zip(statics.ties, statics.first, strict=True):
+        for n, couple in enumerate(tie.couples if tie.screw is not None else ()):
+            if couple and tie.screw is not None:
+                yield Action(column + n, tie.screw.rotor, "", tie.at, (0.0, 0.0, couple))
+    for n, rope in enumerate(statics.ropes):
+        for k, part in enumerate(rope.parts):
+            yield Action(statics.tension(n), part.links[0], part.links[1] or rope.rope.end, *rope.unit(k))
     for w in wrenches:
         yield _load_action(w, statics, position)
-    yield from rub_actions(statics.ties, statics.rubs, statics.rub(0))
+    for n, rub in enumerate(statics.rubs):
+        tie = statics.ties[rub.tie]
+        yield Action(statics.rub(n), tie.on, tie.by, tie.at, rub.unit)
+        if tie.screw is not None and rub.spin:
+            yield Action(statics.rub(n), tie.screw.rotor, "", tie.at, (0.0, 0.0, rub.spin))
 
 
 def equations_of(statics: Statics, position: Position, wrenches: Sequence[Wrench]) -> Equations:

@@ -16,7 +16,14 @@ from icsolve.case.space import Load, SpatialForce, SpatialForceVector, SpatialTo
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider, magnitude
 from icsolve.numbers.linear import Row, eliminate
 from icsolve.screws.space import AXES, ZERO, Components, Vec, moved
-from icsolve.statics.equilibrium import Action, Equilibrium, columns_of, load_action, solve_statics
+from icsolve.statics.equilibrium import (
+    Action,
+    Equilibrium,
+    columns_of,
+    load_action,
+    solve_statics,
+    tie_actions,
+)
 from icsolve.statics.free_bodies import carrying
 from icsolve.statics.power import (
     PowerFactors,
@@ -240,9 +247,7 @@ def _actions(
     statics: SpatialStatics, figure: SpatialFigure, loads: Sequence[SpatialWrench]
 ) -> Iterator[Action]:
     """What the units of the ties, and the loads, do."""
-    for tie, column in zip(statics.ties, statics.first, strict=True):
-        for n, force in enumerate(tie.units):
-            yield Action(column + n, tie.on, tie.by, tie.at, force)
+    yield from tie_actions(statics)
     for w in loads:
         at = place_of(w.load, figure)
         yield load_action(w, statics, at or ZERO, (*w.unit[:3], *ZERO) if at else w.unit)
