@@ -64,7 +64,7 @@ SWAPS: dict[type, list[type]] = {
 }
 EQUIVALENT: dict[str, str] = {
     "icsolve/numbers/tape.py Taped.__truediv__ #18: 0.0 -> 1.0": "of an operand that is not there",
-    "icsolve/statics/homotopy.py _moved #13: off <= NEAR -> off < NEAR": "two half steps instead",
+    "icsolve/statics/friction/solutions.py _moved #13: off <= NEAR -> off < NEAR": "two half steps instead",
     "icsolve/numbers/quadratics.py _Exclusion._refined #0: 6 -> 7": "six steps of Newton find all digits",
     "icsolve/scene/dynamics.py with_inertia #2: -1 -> 1": "the last of two",
     "icsolve/assembly/newton.py module #13: 100 -> 150.0": "how many equations an inverse is taken of",

@@ -18,8 +18,8 @@ import rubbing
 import transcribe
 from growth import random_mechanism
 from icsolve.answer import Answer, Found
-from icsolve.statics import homotopy
-from icsolve.statics.friction_equations import Lengths, fixed_point
+from icsolve.statics.friction import solutions as homotopy
+from icsolve.statics.friction.equations import Lengths, fixed_point
 from reference import frame_of, motions, points_of
 from sizes import MORE
 

@@ -56,7 +56,7 @@ def test_one_scene_of_a_cam_needs_neither(name: str) -> None:
     modules = imported("-m", "icsolve", "solve", f"cases/cams/{name}.yaml")
     assert "icsolve.cams.solving" in modules
     assert not {name for name in modules if name.partition(".")[0] in {"numpy", "shapely", "fractions"}}
-    assert "icsolve.statics.homotopy" not in modules
+    assert "icsolve.statics.friction.solutions" not in modules
 
 
 def test_importing_the_library_imports_no_room() -> None:

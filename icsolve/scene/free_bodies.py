@@ -15,8 +15,8 @@ from icsolve.statics.power import Value, has_friction, is_unknown
 from icsolve.statics.reaction_basis import Position, rope_ties
 
 if TYPE_CHECKING:
-    from icsolve.statics.error_bound import SceneOnBalls
-    from icsolve.statics.friction import Enclose
+    from icsolve.statics.friction.enclosure import SceneOnBalls
+    from icsolve.statics.friction.scene import Enclose
 
 T = TypeVar("T")
 
@@ -36,7 +36,7 @@ def _bodies(found: Evaluation, power: Mapping[str, tuple[float, float]]) -> Free
 
 def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     """The answer with friction, from free bodies; its motion or the range in which it holds."""
-    from icsolve.statics.friction import FrictionScene, solved
+    from icsolve.statics.friction.scene import FrictionScene, solved
 
     def answer_with(values: Mapping[str, Value]) -> Answer:
         parts.given = dict(values)
@@ -53,7 +53,7 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
 
 def _enclose(parts: AnswerBuilder) -> Enclose:
     """Asks the scene on balls."""
-    from icsolve.statics.error_bound import SceneOnBalls
+    from icsolve.statics.friction.enclosure import SceneOnBalls
 
     known: dict[int, SceneOnBalls] = {}
 

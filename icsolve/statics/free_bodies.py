@@ -20,7 +20,7 @@ from icsolve.numbers.linear import Row
 from icsolve.screws.plane import velocity
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import Equilibrium, Statics, T, equilibrium
-from icsolve.statics.friction_interface import efficiency, friction_terms
+from icsolve.statics.friction.interface import efficiency, friction_terms
 from icsolve.statics.power import (
     Balance,
     Wrench,

@@ -1,7 +1,7 @@
 """Friction in all rows at once: the equations of the rubs on the record, their senses as masks.
 
 Every force that presses where links rub is affine in the frictions, with coefficients that the record gives
-row by row (`statics.friction_equations`). Where the sizes of these forces are the one fixed point of a
+row by row (`statics.friction.equations`). Where the sizes of these forces are the one fixed point of a
 contraction, iteration finds them in all rows together; every other row is a scene of its own.
 """
 
@@ -19,8 +19,8 @@ from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Traced, varies
 from icsolve.numbers.replay import Array
 from icsolve.statics.equilibrium import Statics, equilibrium
-from icsolve.statics.friction_equations import forces_of
-from icsolve.statics.friction_interface import rates_of, rubs_of
+from icsolve.statics.friction.equations import forces_of
+from icsolve.statics.friction.interface import rates_of, rubs_of
 from icsolve.statics.power import Balance
 from icsolve.statics.reaction_basis import Position, meshes, ties_of
 from icsolve.sweep.recorded_scene import RecordedScene

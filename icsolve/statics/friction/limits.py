@@ -22,7 +22,7 @@ from itertools import pairwise, product
 
 from icsolve.errors import SceneError, Status
 from icsolve.statics.equilibrium import Statics
-from icsolve.statics.friction_equations import (
+from icsolve.statics.friction.equations import (
     Reduced,
     at,
     contraction,
@@ -33,7 +33,7 @@ from icsolve.statics.friction_equations import (
     reduced,
     reduced_workless,
 )
-from icsolve.statics.homotopy import (
+from icsolve.statics.friction.solutions import (
     COUNTED,
     Solutions,
     Y,

@@ -26,8 +26,8 @@ from icsolve.numbers.linear import Row, eliminate
 from icsolve.numbers.tape import SMALL
 from icsolve.statics.equilibrium import Rub, Statics, equations_of, equilibrium
 from icsolve.statics.free_bodies import Solved, carrying_flanks
-from icsolve.statics.friction_equations import forces_of
-from icsolve.statics.friction_interface import rubbing_rates, rubs_of
+from icsolve.statics.friction.equations import forces_of
+from icsolve.statics.friction.interface import rubbing_rates, rubs_of
 from icsolve.statics.power import Balance, Bounded, Wrench
 from icsolve.statics.reaction_basis import Position, rope_ties, slipping, ties_of, with_flanks
 from icsolve.statics.witness import independent

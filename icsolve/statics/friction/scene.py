@@ -18,7 +18,8 @@ from icsolve.numbers.arithmetic import FLOATS
 from icsolve.numbers.linear import General, Row
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import Statics, equilibrium
-from icsolve.statics.error_bound import (
+from icsolve.statics.free_bodies import FreeBodies, Solved, carrying_flanks, frictionless, on_flanks, told
+from icsolve.statics.friction.enclosure import (
     MISSED,
     TOO_CLOSE,
     UNBOUND,
@@ -27,16 +28,15 @@ from icsolve.statics.error_bound import (
     enclosed,
     slopes,
 )
-from icsolve.statics.free_bodies import FreeBodies, Solved, carrying_flanks, frictionless, on_flanks, told
-from icsolve.statics.friction_equations import forces_of
-from icsolve.statics.friction_interface import (
+from icsolve.statics.friction.equations import forces_of
+from icsolve.statics.friction.interface import (
     RubbingRates,
     place_of,
     rubbing_rates,
     rubs_of,
     unknowns_by_power,
 )
-from icsolve.statics.friction_limits import (
+from icsolve.statics.friction.limits import (
     End,
     Slid,
     StaticRange,

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 
 from icsolve.numbers.linear import solve_square
-from icsolve.statics.friction_equations import (
+from icsolve.statics.friction.equations import (
     Form,
     Lengths,
     contraction,
