@@ -93,6 +93,26 @@ class PositionIs(NamedTuple):
 Target = LoadIs | PositionIs | CentreIs | DistanceIs | RatioIs | RateIs | SpeedIs | OfBodies
 
 
+def dimension_of(target: Target) -> str:
+    """The dimension of what is expected; '' of a load, which has its own."""
+    match target:
+        case LoadIs():
+            return ""
+        case RatioIs():
+            return "number"
+        case RateIs():
+            return "angular speed"
+        case SpeedIs():
+            return "speed"
+        case PositionIs(path) if path.startswith("angles."):
+            return "angle"
+        case ReactionIs(part=part):
+            return "torque" if part.partition(" ")[0] in ("moment", "couple") else "force"
+        case TensionIs():
+            return "force"
+    return "length"
+
+
 class Expected(NamedTuple):
     """A published value.
 

@@ -77,7 +77,7 @@ def canonical(case: Case, name: str, what: str) -> str:
 
 def _reading(case: Case) -> Reading:
     """What the reader of keys needs to know of a case."""
-    reading = Reading(Problems(case.path), {}, {})
+    reading = Reading(Problems(case.path), case.units)
     reading.kinds = dict.fromkeys((*case.directed, *(load.name for load in case.loads)), "force")
     reading.unknowns = list(case.unknowns)
     reading.given = set(case.points)

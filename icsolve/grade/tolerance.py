@@ -27,11 +27,13 @@ from icsolve.case.expected import (
     Target,
     TensionIs,
     Tolerance,
+    dimension_of,
 )
 from icsolve.errors import IcsolveError, SceneError
 from icsolve.grade.mistakes import solved_for
 from icsolve.grade.written.words import factors_between, unit_word
 from icsolve.numbers.units import DIMENSIONS, Unit, nearest, numbers_in, parse_unit, split_quantity
+from icsolve.read.reading import unit_names
 from icsolve.report.check import value_of
 from icsolve.scene.sensitivity import band
 from icsolve.tuples import replace
@@ -104,23 +106,9 @@ class NoKeyError(ValueError):
 
 def unit_of_target(target: Target, answer: Answer) -> str:
     """The unit of a target's value in case units; '' for a ratio."""
-    units = answer.case.units
-    match target:
-        case LoadIs(name):
-            return answer.answers[name].unit if name in answer.answers else ""
-        case PositionIs(path) if path.startswith("angles."):
-            return "deg"
-        case RatioIs():
-            return ""
-        case RateIs():
-            return "rad/s"
-        case SpeedIs():
-            return f"{units.length}/s"
-        case ReactionIs(part="moment"):
-            return units.torque
-        case ReactionIs() | TensionIs():
-            return units.force
-    return units.length
+    if isinstance(target, LoadIs):
+        return answer.answers[target.load].unit if target.load in answer.answers else ""
+    return unit_names(answer.case.units).get(dimension_of(target), "")
 
 
 def parsed_unit(name: str) -> Unit:
@@ -142,10 +130,9 @@ def zero_width(target: Target, answer: Answer) -> float:
             return OF_LOADS * largest_load(answer) * (_per_force(load, answer) if load is not None else 1.0)
         case PositionIs(path) if path.startswith("angles."):
             return OF_LOADS * 180.0
-        case ReactionIs(part=part):
-            return OF_LOADS * largest_load(answer) * (_torque_scale(answer) if part == "moment" else 1.0)
-        case TensionIs():
-            return OF_LOADS * largest_load(answer)
+        case ReactionIs() | TensionIs():
+            turning = dimension_of(target) == "torque"
+            return OF_LOADS * largest_load(answer) * (_torque_scale(answer) if turning else 1.0)
         case RatioIs():
             return OF_LOADS
         case RateIs() | SpeedIs():

@@ -11,7 +11,7 @@ from icsolve.read.build import build, check_version, is_in_space
 from icsolve.read.document import Mapping, Node, checked, parse, take_in, text_of
 from icsolve.read.keys import SECTIONS
 from icsolve.read.names import Problems, Stop
-from icsolve.read.reading import measures
+from icsolve.read.reading import read_units
 
 Settings = Named[str, str | float]
 """Values by path: ``{"angles.AB": "30", "loads.P": "500 lbf"}``."""
@@ -74,7 +74,8 @@ def read_text(text: str, path: str = "<text>", settings: Settings | None = None)
     except Stop:
         pass
     if case is None or problems.found:
-        raise _error(root, text, problems)
+        ours = "icsolve" in root.items if root is not None else claims(text)
+        raise (CaseError if ours else NotACase)(problems.found)
     return case
 
 
@@ -105,12 +106,12 @@ def _built(root: Mapping, problems: Problems, name: str) -> Case:
     """The case of a tree, planar or in space; whether it may be used, the problems tell."""
     check_version(root, problems)
     take_in(root, root.items.keys() - SECTIONS.keys(), problems)
-    measured = measures(root.items.get("units"), problems)
+    units = read_units(root.items.get("units"), problems)
     if not is_in_space(root):
-        return build(root, problems, name, measured)
+        return build(root, problems, name, units)
     from icsolve.read.space import build_space
 
-    return build_space(root, problems, name, measured)
+    return build_space(root, problems, name, units)
 
 
 def _root(node: Node | None, problems: Problems) -> Mapping:
@@ -120,12 +121,6 @@ def _root(node: Node | None, problems: Problems) -> Mapping:
     if node is None:
         raise problems.stop((1, 1), "there is nothing in it; a case starts with 'icsolve: 1'")
     raise problems.stop(node.mark, "this is not an icsolve case, which starts with 'icsolve: 1'")
-
-
-def _error(root: Mapping | None, text: str, problems: Problems) -> CaseError:
-    """A case that is wrong, or no case at all."""
-    ours = "icsolve" in root.items if root is not None else claims(text)
-    return (CaseError if ours else NotACase)(problems.found)
 
 
 def claims(text: str) -> bool:

@@ -40,7 +40,7 @@ from icsolve.read.joints import JOINTS, mention_links, read_joints
 from icsolve.read.keys import SECTIONS, SPACE_JOINTS
 from icsolve.read.loads import driven, read_loads, read_motion
 from icsolve.read.names import Problems, meant_by, shown
-from icsolve.read.reading import Measures, Reading, number
+from icsolve.read.reading import Reading, number
 from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
@@ -67,10 +67,9 @@ class _Parts(NamedTuple):
     ropes: tuple[Rope, ...]
 
 
-def build(root: Mapping, problems: Problems, name: str, measured: Measures) -> Case:
+def build(root: Mapping, problems: Problems, name: str, units: Units) -> Case:
     """The case of a planar tree; whether it may be used, the problems tell."""
-    units, targets, shown_units = measured
-    reading = Reading(problems, targets, shown_units)
+    reading = Reading(problems, units)
     reading.marks.update(root.keys)
     reading.check_keys(root, SECTIONS, "a case")
     mention_links(reading, root.items.get("joints"))

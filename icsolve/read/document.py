@@ -231,14 +231,11 @@ class _Tree:
             elif kind is AliasEvent:
                 raise self._refuse(event, f"'*{event.anchor}': a case has no aliases; write the value out")
             elif kind is DocumentStartEvent:
-                self._document(event)
+                self.documents += 1
+                if self.documents > 1:
+                    raise self._refuse(event, "a second document starts here; give each case its own file")
             elif kind is StreamEndEvent:
                 return self.root
-
-    def _document(self, event: Any) -> None:
-        self.documents += 1
-        if self.documents > 1:
-            raise self._refuse(event, "a second document starts here; give each case its own file")
 
     def _refuse(self, event: Any, message: str) -> Stop:
         return self.problems.stop(_mark(event), message)

@@ -21,12 +21,13 @@ from icsolve.case.expected import (
     Target,
     TensionIs,
     Tolerance,
+    dimension_of,
 )
 from icsolve.numbers.units import DIMENSIONS, UnitError, parse_unit, split_quantity
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.entry import Entry
 from icsolve.read.keys import EXPECTED, EXPECTED_TIES
-from icsolve.read.loads import dimension_of
+from icsolve.read.loads import dimension_of as load_dimension
 from icsolve.read.names import LONGEST_KEY, is_name, pairs, parts, shown, suggestion
 from icsolve.read.reading import Reading, number, quantity
 from icsolve.tuples import NamedTuple
@@ -77,6 +78,11 @@ def _is_of_space(target: Target) -> bool:
     """Whether a case in space has such a value."""
     between = isinstance(target, DistanceIs) and isinstance(target.a, str) and isinstance(target.b, str)
     return between or isinstance(target, ReactionIs | ArmIs)
+
+
+def dimension_of_target(reading: Reading, target: Target) -> str:
+    """The dimension of what a key names; '' of a load whose kind could not be read, and of a vector."""
+    return load_dimension(reading.kinds[target.load]) if isinstance(target, LoadIs) else dimension_of(target)
 
 
 def _unknown(reading: Reading, key: str) -> str:
@@ -251,7 +257,7 @@ def _expected(reading: Reading, key: str, target: Target, node: Node) -> Expecte
         return Expected(key, target, *bare) if bare is not None else None
     entry = Entry(reading, node, f"expect.{key}", f"the expected {key}", EXPECTED, EXPECTED_TIES)
     entry.check()
-    if isinstance(target, LoadIs) and not _dimension(reading, target):
+    if isinstance(target, LoadIs) and not dimension_of_target(reading, target):
         return None  # the load can't be read, and that is told
     entry.check_ties()
     which = next((key for key in ("value", "toward", "holds") if entry.has(key)), None)
@@ -268,7 +274,7 @@ def _expected(reading: Reading, key: str, target: Target, node: Node) -> Expecte
     if stability is not None and not isinstance(target, PositionIs):
         said = f"{entry.what} is not a position, which alone can be {stability}"
         entry.refuse(entry.mark("stability"), said)
-    within = _within(entry, "angle" if toward else _dimension(reading, target))
+    within = _within(entry, "angle" if toward else dimension_of_target(reading, target))
     erratum = reading.text(node.items["erratum"], f"the erratum of {key}") if entry.has("erratum") else None
     if erratum == "":
         entry.refuse(entry.mark("erratum"), f"the erratum of {key} should say what is wrong with the value")
@@ -288,7 +294,7 @@ def _holds(entry: Entry, target: Target) -> tuple[Number | None, Number | None] 
         form = "the two ends of the range, as in [113, 287], null for one that it has not"
         entry.refuse(node.mark, f"'holds' of {entry.what} should be {form}")
         return None
-    dimension = _dimension(entry.reading, target)
+    dimension = dimension_of_target(entry.reading, target)
     low, high = (
         None if is_null(item) else number(entry.reading, item, dimension, f"{entry.path}.holds.{n}")
         for n, item in enumerate(node.items)
@@ -331,7 +337,7 @@ def _within(entry: Entry, dimension: str) -> tuple[float | None, bool] | None:
 def _value(reading: Reading, node: Node, target: Target, path: str) -> _Value | None:
     if isinstance(target, CentreIs):
         return _place(reading, node, path)
-    dimension = _dimension(reading, target)
+    dimension = dimension_of_target(reading, target)
     if not dimension:
         return None
     if type(node) is not Scalar:
@@ -340,7 +346,9 @@ def _value(reading: Reading, node: Node, target: Target, path: str) -> _Value | 
     text, sense = _divided(node.text)
     reading.marks[path] = node.mark
     value = quantity(reading, node, text, dimension, path)
-    fits, allowed = (_fits_space, _ALLOWED) if reading.axes == "xyz" else (_fits, _allowed(dimension))
+    fits, allowed = (_fits, _ALLOWED.get(dimension, "it is a number without a sense"))
+    if reading.axes == "xyz":
+        fits, allowed = _fits_space, _ALLOWED_IN_SPACE
     if sense is not None and not fits(sense, dimension):
         reading.refuse(node.mark, f"'{sense}' is not a sense of {path.removeprefix('expect.')}; {allowed}")
         return None
@@ -388,7 +396,10 @@ def _fits_space(sense: str, dimension: str) -> bool:
     return dimension == "force" and (lead in ("along", "toward", "away") or sense in _LINES[2:])
 
 
-_ALLOWED = "in space it is 'along -z', 'toward P', pull, push, up or down; of a torque 'about -z'"
+_TURNING, _LINE = "it is ccw or cw", "it is right, left, up, down, pull, push, 'at 30 deg' or 'toward P'"
+_ALLOWED = {"torque": _TURNING, "angular speed": _TURNING, "force": _LINE, "speed": _LINE}
+"""The senses of a dimension in words."""
+_ALLOWED_IN_SPACE = "in space it is 'along -z', 'toward P', pull, push, up or down; of a torque 'about -z'"
 
 
 def _is_angle(text: str) -> bool:
@@ -398,34 +409,6 @@ def _is_angle(text: str) -> bool:
     except UnitError:
         return False
     return parts is not None and parts[1] in ("", "deg", "°", "degrees")
-
-
-def _allowed(dimension: str) -> str:
-    if dimension in ("torque", "angular speed"):
-        return "it is ccw or cw"
-    if dimension in ("force", "speed"):
-        return "it is right, left, up, down, pull, push, 'at 30 deg' or 'toward P'"
-    return "it is a number without a sense"
-
-
-def _dimension(reading: Reading, target: Target) -> str:
-    """The dimension of a target; '' of a load whose kind could not be read, and of a vector."""
-    if isinstance(target, LoadIs):
-        return dimension_of(reading.kinds[target.load])
-    if isinstance(target, TensionIs):
-        return "force"
-    if isinstance(target, ReactionIs):
-        return "torque" if target.part.partition(" ")[0] in ("moment", "couple") else "force"
-    if isinstance(target, RateIs):
-        return "angular speed"
-    if isinstance(target, SpeedIs):
-        return "speed"
-    if isinstance(target, PositionIs):
-        return "angle" if target.path.startswith("angles.") else "length"
-    if isinstance(target, CentreIs | DistanceIs | ArmIs | FrictionRadiusIs):
-        return "length"
-    assert isinstance(target, RatioIs)
-    return "number"
 
 
 _PERCENT = r"(\d+(?:\.\d+)?|\.\d+) ?%$"

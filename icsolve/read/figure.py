@@ -325,7 +325,8 @@ def read_dynamic(reading: Reading, node: Node | None) -> bool:
 def check_given(reading: Reading) -> None:
     """Every point that is needed must be given by something."""
     given = reading.given | {name for name, times in Counter(reading.on_guides).items() if times > 1}
-    given |= _given_backwards(reading)
+    placed = reading.measured | set(reading.on_guides)  # a centroid that is placed says where its points are
+    given |= {one for name, of in reading.centroids.items() if name in placed for one in of}
     for name, mark in reading.used.items():
         if name not in given and not name.startswith("@"):
             reading.refuse(mark, _never_given(reading, name, given))
@@ -345,12 +346,6 @@ def stray_points(reading: Reading, figure: FigureData) -> list[str]:
             points = f"point{'s' * (len(alone) > 1)} {listed(alone)}"
             said.append(f"nothing but {datum.value.path} names {points}{meant}")
     return said
-
-
-def _given_backwards(reading: Reading) -> set[str]:
-    """Points of which a centroid is placed by something else: it then says where they are."""
-    placed = reading.measured | set(reading.on_guides)
-    return {one for name, of in reading.centroids.items() if name in placed for one in of}
 
 
 def _never_given(reading: Reading, name: str, given: set[str]) -> str:
@@ -476,15 +471,10 @@ def check_loads(
             said.append(f"{there}; if one of these is meant, write {remedy}.")
     for load in loads:
         known = getattr(load, "value", 0) is not None
-        if (
-            load.link == ground
-            and getattr(load, "against", None) is None
-            and known
-            and not isinstance(load, Spring)
-        ):
-            said.append(
-                f"load {load.name} acts on link {ground}, the frame, which never moves: it does no work."
-            )
+        alone = getattr(load, "against", None) is None and not isinstance(load, Spring)
+        if load.link == ground and alone and known:
+            idle = f"load {load.name} acts on link {ground}, the frame, which never moves: it does no work."
+            said.append(idle)
     return tuple(said)
 
 
@@ -552,10 +542,7 @@ class _Owners:
             return by_joints, False
         arms = (length for length in self.figure.lengths if {length.a, length.b} - own == {point})
         if link != self.ground and any(arms):
-            return (
-                [],
-                True,
-            )  # an arm's free end: its length says whose it is, its angle may be to another link
+            return [], True  # an arm's end: its length says whose it is, its angle may be to another link
         return [other for other in self.own if point in self._fixed_to(other)], True
 
     def _fixed_to(self, link: str) -> set[str]:

@@ -223,7 +223,8 @@ def _links(reading: Reading, kind: str, node: Node) -> tuple[str, ...] | None:
         return None
     links = tuple(item.text for item in items)
     if len(set(links)) < len(links):
-        reading.refuse(node.mark, f"a {kind} joins different links; {_twice(links)} is named twice")
+        twice = next(link for link in links if links.count(link) > 1)
+        reading.refuse(node.mark, f"a {kind} joins different links; {twice} is named twice")
     elif len(links) < 2:
         reading.refuse(node.mark, f"a {kind} joins two links; only {links[0] if links else 'none'} is named")
     elif len(links) > 2 and kind != "pin":
@@ -231,10 +232,6 @@ def _links(reading: Reading, kind: str, node: Node) -> tuple[str, ...] | None:
     else:
         return links
     return None
-
-
-def _twice(links: tuple[str, ...]) -> str:
-    return next(link for link in links if links.count(link) > 1)
 
 
 _AT = Key("its point", "name", True)

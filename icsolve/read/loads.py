@@ -221,9 +221,8 @@ def _area(entry: Entry, v: Values) -> Area | None:
     if rod and rod.value >= bore.value:
         entry.refuse(entry.mark("rod"), f"the rod of {entry.what} should be thinner than its bore")
         return None
-    targets = entry.reading.targets
-    per = times(targets["force"], targets["area"], -1)
-    exact = exact_ratio(targets["pressure"], per)
+    unit = entry.reading.unit
+    exact = exact_ratio(unit("pressure"), times(unit("force"), unit("area"), -1))
     if bore is not None:
         exact = (exact[0], 4 * exact[1], exact[2] + 1)
     return Area(exact, v["area"], bore, rod)

@@ -60,10 +60,9 @@ class Reading:
     couples = ""
     coordinates: type[Coordinates | SpatialPoint] = Coordinates
 
-    def __init__(self, problems: Problems, targets: dict[str, Unit], shown_units: dict[str, str]) -> None:
+    def __init__(self, problems: Problems, units: Units) -> None:
         self.problems = problems
-        self.targets = targets
-        self.shown_units = shown_units
+        self.unit_names = unit_names(units)
         self.marks: dict[str, Mark] = {}
         self.links: dict[str, Mark] | None = None
         self.used: dict[str, Mark] = {}
@@ -91,6 +90,12 @@ class Reading:
     def refuse(self, mark: Mark, message: str) -> None:
         """Note a problem."""
         self.problems.refuse(mark, message)
+
+    def unit(self, dimension: str) -> Unit:
+        """The unit in which the numbers of a dimension are kept."""
+        if dimension == "power":  # named by the unit that is usual, kept in that of a torque at a speed
+            return parse_unit(f"{self.unit_names['torque']}/s")
+        return parse_unit(self.unit_names[dimension]) if dimension != "number" else ONE
 
     def mapping(self, node: Node, what: str, form: str) -> Mapping | None:
         """The node as a mapping; None, with the reason noted, where it is something else."""
@@ -231,7 +236,7 @@ def _valued(
     """
     numeral, rest = parts
     if dimension == "pressure":
-        rest = rest or "/".join((reading.shown_units["force"], f"{reading.shown_units['length']}^2"))
+        rest = rest or "/".join((reading.unit_names["force"], reading.unit_names["area"]))
     places = float(f"5e{numeral.exponent - 1}")
     if not rest:
         if dimension == "mass":
@@ -245,7 +250,7 @@ def _valued(
             )
         exact = None if worked is None else (worked.numerator, worked.denominator, 0)
         return Number(value, places, path, numeral.digits, 1.0, exact)
-    target = reading.targets[dimension]
+    target = reading.unit(dimension)
     unit = _fitting(reading, rest, dimension)
     scale = factor(unit, target)
     exact = exact_ratio(unit, target)
@@ -293,7 +298,7 @@ def _fitting(reading: Reading, text: str, dimension: str) -> Unit:
         turns = "ccw" if sense[1][:2] == "cc" or sense[1][:2] == "co" else "cw"
         raise UnitError(f"the sense stands beside the number, 'turns: {turns}'")
     unit = parse_unit(text)
-    if unit.dims != reading.targets[dimension].dims and not is_through_speed(unit, text, dimension):
+    if unit.dims != reading.unit(dimension).dims and not is_through_speed(unit, text, dimension):
         raise UnitError(_wrong(reading, text, unit, dimension))
     return unit
 
@@ -318,7 +323,7 @@ def _wrong(reading: Reading, text: str, unit: Unit, dimension: str) -> str:
     if dimension == "number":
         return f"a bare number is wanted here, without the unit '{text}'"
     said = f"'{text}' is {_a(given)}" if given else f"'{text}' is no unit of {_a(dimension)}"
-    wanted = f"{said}, but {_a(dimension)} is wanted here, such as '{example(reading, dimension)}'"
+    wanted = f"{said}, but {_a(dimension)} is wanted here, such as '{reading.unit_names[dimension]}'"
     if dimension == "mass" and given == "force":
         return f"{wanted}; write 'lbm' for a mass in pounds, or 'weight' in place of 'mass' for a force"
     if dimension == "force" and given == "mass":
@@ -326,11 +331,6 @@ def _wrong(reading: Reading, text: str, unit: Unit, dimension: str) -> str:
     if dimension == "torque" and given == "power":
         return f"{wanted}; for a power at a speed write 'power' and 'speed' in place of 'torque'"
     return wanted
-
-
-def example(reading: Reading, dimension: str) -> str:
-    """The unit in which a bare number of the dimension stands."""
-    return reading.shown_units[dimension]
 
 
 def _a(dimension: str | None) -> str:
@@ -406,12 +406,8 @@ def _meant(text: str, dimension: str, path: str) -> str:
     return ""
 
 
-Measures = tuple[Units, dict[str, Unit], dict[str, str]]
-"""The units of a case, the unit of each dimension, and the name of each for messages."""
-
-
-def measures(node: Node | None, problems: Problems) -> Measures:
-    """The ``units`` section: unit names, the unit of each dimension, and the name of each for messages."""
+def read_units(node: Node | None, problems: Problems) -> Units:
+    """The ``units`` section."""
     names = {"length": "m", "force": "N"}
     if type(node) is Mapping:
         for key, value in node.items.items():
@@ -422,7 +418,7 @@ def measures(node: Node | None, problems: Problems) -> Measures:
     product = times(force, length)
     torque_name = names.get("torque", f"{names['force']}*{names['length']}")
     torque = parse_unit(torque_name)
-    units = Units(
+    return Units(
         names["length"],
         names["force"],
         torque_name,
@@ -432,7 +428,6 @@ def measures(node: Node | None, problems: Problems) -> Measures:
         exact_ratio(product, torque),
         exact_ratio(parse_unit("N"), force),
     )
-    return units, _targets(units, length, force, torque), _shown(units)
 
 
 def _unit_of_case(names: dict[str, str], key: str, node: Node, section: Mapping, problems: Problems) -> None:
@@ -446,44 +441,14 @@ def _unit_of_case(names: dict[str, str], key: str, node: Node, section: Mapping,
         if unit.dims != DIMENSIONS[key]:
             given = kind_of(unit.dims)
             raise UnitError(f"'{text}' is {_a(given) if given else 'another kind of unit'}, not {_a(key)}")
-        names[key] = _product_name(text) if key == "torque" else canonical(text)
+        plain = "*".join(text.replace("·", " ").replace("*", " ").split())  # N·m and N m as N*m
+        names[key] = plain if key == "torque" else canonical(text)
     except UnitError as error:
         problems.refuse(node.mark, str(error) if text else f"a unit of {key} should stand here")
 
 
-def _product_name(text: str) -> str:
-    """A product as it is shown: ``N·m`` and ``N m`` as ``N*m``."""
-    return "*".join(text.replace("·", " ").replace("*", " ").split())
-
-
-def _targets(units: Units, length: Unit, force: Unit, torque: Unit) -> dict[str, Unit]:
-    """The unit of each dimension in which a case's numbers are kept."""
-    second = parse_unit("s")
-    return {
-        "number": ONE,
-        "length": length,
-        "mass": parse_unit("kg"),
-        "time": second,
-        "angle": parse_unit("deg"),
-        "force": force,
-        "torque": torque,
-        "stiffness": times(force, length, -1),
-        "speed": times(length, second, -1),
-        "angular speed": parse_unit("rad/s"),
-        "acceleration": parse_unit("m/s^2"),
-        "power": times(torque, second, -1),
-        "pitch": times(ONE, length, -1),
-        "line load": times(force, length, -1),
-        "area": times(length, length),
-        "pressure": parse_unit(units.pressure),
-        "torsional stiffness": times(torque, parse_unit("rad"), -1),
-        "moment of inertia": parse_unit("kg*m^2"),
-        "angular acceleration": parse_unit("rad/s^2"),
-        "path acceleration": times(times(length, second, -1), second, -1),
-    }
-
-
-def _shown(units: Units) -> dict[str, str]:
+def unit_names(units: Units) -> dict[str, str]:
+    """The unit of each dimension, as messages and answers name it."""
     return {
         "length": units.length,
         "mass": "kg",

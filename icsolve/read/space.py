@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from icsolve.case import Case, Number, Pair, Toward
-from icsolve.case.expected import Expected
+from icsolve.case import Case, Number, Pair, Toward, Units
 from icsolve.case.space import (
     Along,
     Axis,
@@ -28,7 +27,6 @@ from icsolve.case.space import (
     Vector,
 )
 from icsolve.numbers.balls import PRECISIONS, Balls
-from icsolve.numbers.units import Unit
 from icsolve.read.build import ground_of, readable, section_of, told_of_itself
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry, Values
@@ -38,7 +36,7 @@ from icsolve.read.joints import Builders, mention_links, read_list
 from icsolve.read.keys import GRAVITY, SECTIONS, SPACE_JOINTS, SPACE_LOADS
 from icsolve.read.loads import Forms, heading, read_section, spring, weight
 from icsolve.read.names import Problems, suggestion
-from icsolve.read.reading import Measures, Reading, number
+from icsolve.read.reading import Reading, number
 from icsolve.read.teeth import read_teeth
 
 WORDS = ("x", "y", "z", "-x", "-y", "-z")
@@ -52,8 +50,8 @@ class SpaceReading(Reading):
     couples = "xyz"
     coordinates = SpatialPoint
 
-    def __init__(self, problems: Problems, targets: dict[str, Unit], shown_units: dict[str, str]) -> None:
-        super().__init__(problems, targets, shown_units)
+    def __init__(self, problems: Problems, units: Units) -> None:
+        super().__init__(problems, units)
         self.forms = {"axis": axis, "axis or point": _axis_or_point, "centres": _centres}
 
 
@@ -193,10 +191,9 @@ _FORMS = {
 }
 
 
-def build_space(root: Mapping, problems: Problems, name: str, measures: Measures) -> Case:
+def build_space(root: Mapping, problems: Problems, name: str, units: Units) -> Case:
     """The case of a tree; whether it may be used, the problems tell."""
-    units, targets, shown_units = measures
-    reading = SpaceReading(problems, targets, shown_units)
+    reading = SpaceReading(problems, units)
     reading.marks.update(root.keys)
     _check_sections(reading, root)
     mention_links(reading, root.items.get("joints"))
@@ -207,10 +204,12 @@ def build_space(root: Mapping, problems: Problems, name: str, measures: Measures
     points = read_points(reading, section_of(reading, root, "points", _FORMS["points"]))
     if readable(root, "points"):
         _check_given(reading)
+    published = section_of(reading, root, "expect", _FORMS["expect"])
+    named = reading.given | set(reading.used)
     space = Space({**points, **reading.hidden}, joints, loads, down)
     return Case(
         **told_of_itself(reading, root, name, units, ground),
-        expect=_expect(reading, root),
+        expect=read_expect(reading, published, named) if readable(root, "loads") else (),
         gravity=gravity or Case.gravity,
         space=space,
     )
@@ -279,9 +278,3 @@ def _gravity_vector(reading: SpaceReading, root: Mapping, node: Sequence) -> tup
     balls = Balls(2 * PRECISIONS[-1])
     size = balls.sqrt(sum((balls.given(part) * balls.given(part) for part in parts), 0.0))
     return Number(value, max(part.half for part in parts), "gravity", str(size.value)), Vector(*parts)
-
-
-def _expect(reading: SpaceReading, root: Mapping) -> tuple[Expected, ...]:
-    published = section_of(reading, root, "expect", _FORMS["expect"])
-    named = reading.given | set(reading.used)
-    return read_expect(reading, published, named) if readable(root, "loads") else ()

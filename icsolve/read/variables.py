@@ -158,7 +158,7 @@ class _Parser:
         self.at = token.end()
         name, number, mark = token.groups()
         if name is not None:
-            return self._value(name)
+            return exact(self.values[name.strip("${}")])
         if number is not None:
             return Fraction(number)
         if mark in "+-" and depth <= _DEEPEST:
@@ -175,9 +175,6 @@ class _Parser:
             raise FormulaError("a bracket is not closed")
         self.at = closing.end()
         return value
-
-    def _value(self, name: str) -> Fraction:
-        return exact(self.values[name.strip("${}")])
 
 
 _FORM = "as in {P: {range: [100, 500], step: 10}, a: {choices: [1.5, 2, 2.5]}}"
@@ -282,7 +279,8 @@ def substitute(
         if name not in names:
             problems.refuse(section, f"there is no variable {shown(name)}{suggestion(name, names)}")
     values = first_values(variables) | dict(given)
-    used = _misread(root, names)
+    stated = root.items.get("variables")  # of what can't be read in it nothing more is to be said
+    used = set(stated.items) - set(names) if type(stated) is Mapping else set()
     for key, node in root.items.items():
         if key not in _LEFT_OUT:
             root.items[key] = _put_in(node, values, used, problems, key in _TEXTS)
@@ -291,12 +289,6 @@ def substitute(
             problems.refuse(section, f"the variable {name} is used nowhere; write ${name} where it stands")
     if variables:
         _tell(root, values)
-
-
-def _misread(root: Mapping, names: list[str]) -> set[str]:
-    """Variables that stand in the section but can't be read, of which nothing more is to be said."""
-    section = root.items.get("variables")
-    return set(section.items) - set(names) if type(section) is Mapping else set()
 
 
 def _tell(root: Mapping, values: dict[str, str]) -> None:
