@@ -46,7 +46,7 @@ def enclose(record: Record, wanted: Sequence[int], given: Mapping[int, Interval]
     nodes = record.nodes
     found = {k: np.array([-one.low, one.high]) for k, one in given.items()}
     with np.errstate(all="ignore"):
-        for k in live(record, wanted, given):
+        for k in _live(record, tuple(wanted), frozenset(given)):
             if k in found:
                 continue
             node = nodes[k]
@@ -83,7 +83,12 @@ def _of(record: Record, k: int, found: Mapping[int, Array]) -> Array:
     if k in found:
         return found[k]
     here, noise = _exactly(record.nodes[k].value), _still(record, k)
-    return _out(here + noise) if noise else here
+    return _out(_numbers(here + noise)) if noise else here
+
+
+@lru_cache(maxsize=64)
+def _live(record: Record, wanted: tuple[int, ...], given: frozenset[int]) -> tuple[int, ...]:
+    return tuple(live(record, wanted, given))
 
 
 @lru_cache(maxsize=4096)
@@ -94,10 +99,14 @@ def _still(record: Record, k: int) -> float:
     return 2.0 * still_noise(record, k)
 
 
-def _out(a: Array) -> Array:
-    """Rounded outward by an ulp; what is no number is unbounded."""
-    a = np.nextafter(a, np.inf)
+def _numbers(a: Array) -> Array:
+    """What is no number is unbounded."""
     return np.where(np.isnan(a), np.inf, a)
+
+
+def _out(a: Array) -> Array:
+    """Rounded outward by an ulp."""
+    return np.asarray(np.nextafter(a, np.inf))
 
 
 def _run(op: Op, parts: Sequence[Array], same: bool) -> Array:
@@ -134,8 +143,8 @@ def _square(a: Array) -> Array:
 
 def _product(a: Array, b: Array) -> Array:
     products = a[:, None] * b
-    every = products.reshape(4, -1)
-    return _out(np.fmax.reduce(PRODUCTS * every, axis=1))  # passes over zero times what has no bound
+    ends = np.fmax.reduce(PRODUCTS * products.reshape(4, -1), axis=1)  # passes over 0 times what has no bound
+    return _out(_numbers(ends))
 
 
 def _quotient(a: Array, b: Array) -> Array:

@@ -150,6 +150,12 @@ def numbers_of(case: Case) -> Mapping[str, Number]:
     return {number.path: number for number in numbers_in(*(getattr(case, name) for name in NUMBERED))}
 
 
+@lru_cache(maxsize=64)
+def paths_of(case: Case) -> Mapping[str, frozenset[str]]:
+    """The paths of the numbers that each part of a case holds."""
+    return {name: frozenset(number.path for number in numbers_in(getattr(case, name))) for name in NUMBERED}
+
+
 def _lengths(case: Case) -> set[str]:
     """Paths of coordinates and lengths."""
     paths = {length.value.path for length in case.lengths}

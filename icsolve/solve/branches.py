@@ -9,7 +9,6 @@ that stay open to the last, which are handed on.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from itertools import pairwise
 
@@ -71,12 +70,11 @@ class Branches:
                 if ids[m, k - 1] < 0:
                     continue
                 ahead = self._ahead(ids, m, k)
-                free = [self.whole[n, k] and n not in taken for n in range(modes)]
-                away = [float(np.abs(self.places[n, k] - ahead).max()) for n in range(modes)]
-                off = [d if f else math.inf for d, f in zip(away, free, strict=True)]
+                off = np.where(self.whole[:, k], np.abs(self.places[:, k] - ahead).max(axis=1), np.inf)
+                off[list(taken)] = np.inf
                 n = int(np.argmin(off))
                 stays = self.whole[m, k] and m not in taken
-                if off[n] < math.inf and (not stays or off[n] < 0.25 * off[m]):
+                if off[n] < np.inf and (not stays or off[n] < 0.25 * off[m]):
                     taken[n] = int(ids[m, k - 1]) if self._joined(m, n, k) else -1
                 elif stays:
                     taken[m] = int(ids[m, k - 1])

@@ -8,7 +8,7 @@ from typing import Any
 from icsolve.case import Case, Number
 from icsolve.errors import CaseError, Problem
 from icsolve.read.names import parts, shown, suggestion
-from icsolve.scene.sensitivity import NUMBERED, numbers_of
+from icsolve.scene.sensitivity import numbers_of, paths_of
 from icsolve.tuples import replace
 
 _FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
@@ -37,7 +37,8 @@ def with_numbers(case: Case, values: Mapping[str, float | Number]) -> Case:
             return type(value)(*items) if hasattr(value, "_fields") else tuple(items)
         return value
 
-    return replace(case, **{name: changed(getattr(case, name)) for name in NUMBERED})
+    held = [name for name, paths in paths_of(case).items() if not paths.isdisjoint(values)]
+    return replace(case, **{name: changed(getattr(case, name)) for name in held})
 
 
 def find_number(case: Case, path: str) -> Number:
