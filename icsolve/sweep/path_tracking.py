@@ -101,14 +101,12 @@ class PathTracker:
 
     def _given(self, s: Array) -> tuple[dict[int, Array], Mask]:
         given, good = self._plain(s), np.ones(len(s), dtype=bool)
-        if self.segments:
+        if self.groups or self.counted:
             q, turns, good = self._between(s)
             solved, _, right = self._solved(given, q, turns)
             solved = np.where(right[:, None], solved, q)
             good &= right | self.singular(s)
             given = {**given, **self._state(solved, turns)}
-        elif self.groups or self.counted:
-            good[:] = False
         return given, good
 
     def singular(self, s: Array) -> Mask:

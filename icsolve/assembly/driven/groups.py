@@ -297,7 +297,8 @@ class Solver:
         """
         if j.shape[1] != j.shape[2]:
             turned = np.swapaxes(j, 1, 2)
-            f, j = (turned @ f[:, :, None])[:, :, 0], turned @ j
+            with np.errstate(over="ignore"):
+                f, j = (turned @ f[:, :, None])[:, :, 0], turned @ j
         try:
             found = np.linalg.solve(j, f[:, :, None])
         except np.linalg.LinAlgError:
