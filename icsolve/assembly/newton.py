@@ -10,14 +10,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
+from functools import lru_cache
 from itertools import islice, product
 
 from icsolve.assembly.clusters import LooseFigure
 from icsolve.assembly.order import grow
 from icsolve.assembly.refusals import Miss, datum_words, measure, plain
 from icsolve.assembly.steps import Given, Group, Meet, Step, needs, newton_step
-from icsolve.assembly.workspace import CORNER, LENGTH, LINE, ROPE, Workspace, data_in, facts_of
+from icsolve.assembly.workspace import CORNER, LENGTH, LINE, ROPE, Frame, Key, Workspace, data_in, facts_of
+from icsolve.case import Case
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import FLOATS
 from icsolve.numbers.linear import Row, inverse, solve_square
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
@@ -89,6 +92,21 @@ class Descent(NamedTuple):
 
 def solutions(group: Group, workspace: Workspace, near: Mapping[str, Spot]) -> Converged:
     """The solutions found of a group: from `near` itself first, then from other starts."""
+    known = ((key, place) for key, place in workspace.points.items() if key not in group.targets)
+    return _searched(group, workspace.case, workspace.frame, tuple(known), tuple(near.items()))
+
+
+@lru_cache(maxsize=32)
+def _searched(
+    group: Group,
+    case: Case,
+    frame: Frame,
+    known: tuple[tuple[Key, Spot], ...],
+    about: tuple[tuple[str, Spot], ...],
+) -> Converged:
+    """The same, kept: a figure is placed for its loads, its points and its pictures, also where it fails."""
+    workspace, near = Workspace(case, frame, FLOATS), dict(about)
+    workspace.points.update(known)
     if not any(p in near for p in group.targets):
         return Converged([], _vague(Status.AMBIGUOUS, _of(group, NEEDS_NEAR)), {}, False)
     search = _NewtonSearch(group, workspace, near)

@@ -177,7 +177,7 @@ def _off_pin(scene: Scene, reaction: Reaction, size: float) -> Point | None:
     if not rubbed or not moment or size * scene.known.size * NOTHING >= abs(moment):
         return None
     assert reaction.x is not None and reaction.y is not None
-    return (moment * reaction.y / size**2, -moment * reaction.x / size**2)
+    return (moment / size * (reaction.y / size), -moment / size * (reaction.x / size))
 
 
 def _load(scene: Scene, acting: Acting, sign: float) -> DrawnPush:

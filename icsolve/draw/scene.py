@@ -226,7 +226,11 @@ class Geneva(NamedTuple):
     @property
     def radius(self) -> float:
         """To where its slots end."""
-        return math.sqrt(self.reach * self.reach - self.arm * self.arm)
+        return math.sqrt(self.reach - self.arm) * math.sqrt(self.reach + self.arm)
+
+
+MOST_SLOTS = 60
+"""Slots of a Geneva wheel; those of machines have 3 to 18."""
 
 
 def geneva_of(case: Case, points: Mapping[str, Point], link: str) -> Geneva | None:
@@ -238,7 +242,7 @@ def geneva_of(case: Case, points: Mapping[str, Point], link: str) -> Geneva | No
         return None
     pins = (p for one in slots[0].links[::-1] for p in case.pivots(case.ground, one))
     pivots = [points[p] for p in pins if p in points]
-    if len(pivots) != 2:
+    if len(pivots) != 2 or not {*(slots[0].guide.ends or ())} <= points.keys():
         return None
     centre, pin = pivots[0], points[slots[0].at]
     reach, arm = math.dist(*pivots), math.dist(pivots[1], pin)
@@ -249,7 +253,7 @@ def geneva_of(case: Case, points: Mapping[str, Point], link: str) -> Geneva | No
         abs(aside) <= 1e-6 * reach and abs(arm - reach * math.sin(math.pi / max(count, 1))) <= 1e-6 * reach
     )
     wheel = Geneva(centre, pin, count, reach, arm)
-    return wheel if count > 2 and exact and math.dist(centre, pin) <= wheel.radius else None
+    return wheel if 2 < count <= MOST_SLOTS and exact and math.dist(centre, pin) <= wheel.radius else None
 
 
 # --- surfaces of cams and followers whose profiles a case gives ------------------------------------------

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from typing import Any
 
 from icsolve.draw.bodies import DrawnPush, pushes_on
@@ -59,7 +60,9 @@ _nothing = (math.nan, math.nan, math.nan)
 
 
 def _twists(pose: Known) -> Mapping[str, Triple]:
-    return pose.twists or ({} if pose.scene is None else pose.scene.twists)
+    with suppress(SceneError):  # too close to a dead centre to be told
+        return pose.twists or ({} if pose.scene is None else pose.scene.twists)
+    return {}
 
 
 def _in_row(known: Known, motion: PageMotion, row: int) -> Known | None:

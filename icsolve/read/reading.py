@@ -379,9 +379,9 @@ def _no_number(node: Scalar, text: str, dimension: str, path: str) -> str:
 
 def _meant(text: str, dimension: str, path: str) -> str:
     """What a text that is no number may mean, and how it is written."""
-    if text[0] in "–—‐‑~≈=" and text[1:2].isdigit():
+    if text[1:2].isdigit() and text[0] in "–—‐‑~≈=":
         return f"; write {'' if text[0] in '~≈=' else '-'}{text[1:]}"
-    if text[0] == "$":
+    if text.startswith("$"):
         return f"; {text} stands for a number under 'variables', which this case has not"
     digits = text.translate(str.maketrans("OoIl", "0011"))
     if digits != text and re.fullmatch(r"-?[\d.]+", digits):

@@ -68,6 +68,7 @@ def with_inertia(case: Case) -> tuple[Case, Accelerations, tuple[str, ...]]:
     """
     from icsolve.numbers.balls import Balls, MoreDigits
 
+    case = replace(case, dynamic=True)
     program = prepare(case, Want(bodies=True))
     for digits in DIGITS:
         try:

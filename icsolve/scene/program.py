@@ -127,6 +127,8 @@ def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want
     points += [given.point for given in case.motion if given.point is not None]
     points += [p for rope in case.ropes for p in rope.points]
     points += [p for screw in case.screws for p in (screw.slide.at, *(screw.slide.guide.ends or ()))]
+    if case.dynamic:
+        points += [mass.centre for mass in case.inertia.values() if mass.centre is not None]
     if want.bodies:
         points += [joint.at for joint in case.joints if joint.at is not None]
     return list(dict.fromkeys(points))

@@ -50,7 +50,7 @@ def influences(answer: Answer, load: str) -> list[Influence]:
     numbers = numbers_of(answer.case)
     result = []
     for path, slope in _slopes(answer, load).items():
-        if slope != 0.0:
+        if slope != 0.0 and path in numbers:  # a whole turn is no number of the case
             value = numbers[path].value
             percent = slope * value / found if found != 0.0 and value != 0.0 else None
             result.append(Influence(path, value, slope, percent))
