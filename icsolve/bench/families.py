@@ -134,6 +134,8 @@ STEPHENSON = "01 12 23 03 24 45 05"
 BUTTERFLY = "01 04 05 16 17 23 24 26 35 37"
 TEN_BAR = "01 06 09 17 23 25 29 37 45 46 48 78 89"
 """All ten links of which have to be found together."""
+FOURTEEN_BAR = "01 0d 12 15 23 34 3a 45 48 4d 56 67 78 7b 89 9a ab bc cd"
+"""Of which, with the crank in place, the twelve others have to be found together."""
 
 
 def chain(loops: int) -> Draw:
@@ -440,6 +442,7 @@ EXACT: tuple[Family, ...] = (
     Family("nearly parallel", near(nearly_parallel), 3),
     Family("double butterfly from lengths", by_sides(linkage(BUTTERFLY), (1, 4)), 50),
     Family("ten links found together", by_sides(linkage(TEN_BAR), (1, 4)), 200),
+    Family("twelve links found together", by_sides(linkage(FOURTEEN_BAR), (1, 3)), 400),
 )
 """On which every number is held to its last digit, and rows of sweeps to their scenes."""
 
