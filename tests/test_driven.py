@@ -15,6 +15,7 @@ import pytest
 import icsolve
 from icsolve.assembly import case_point, solve_figure
 from icsolve.sweep.numbers import with_numbers
+from icsolve.sweep.program import RowRequest, compile_sweep, setting_of
 from icsolve.tuples import replace
 from mechanisms import Generator, butterfly, four_bar, stephenson, three_loops, triple_pin, watt
 from transcribe import Scene, text
@@ -64,3 +65,26 @@ def test_the_figure_as_driven_is_the_figure_as_if_written_so(generator: Generato
                     # rounding of both, over the sine of the angle under which circles meet
                     assert case_point(again.frame, place) == pytest.approx(places[name], abs=1e-9)
                 met += 1
+
+
+def side_by_side(scenes: list[Scene]) -> Scene:
+    """Mechanisms on one frame and one driven link, which is pinned where that of the first is."""
+    joints, points, links = list(scenes[0]["joints"]), dict(scenes[0]["points"]), 8
+    ox, oy = points["P1"]
+    for n, scene in enumerate(scenes[1:]):
+        px, py = scene["points"]["P1"]
+        points |= {f"{name}q{n}": [x - px + ox, y - py + oy] for name, (x, y) in scene["points"].items()}
+        for joint in scene["joints"][1:]:
+            pair = [link if link < 3 else link + links for link in joint["pin"]]
+            joints.append({"pin": pair, "at": f"{joint['at']}q{n}"})
+        links += 6
+    return {"points": points, "joints": joints}
+
+
+def test_groups_that_know_nothing_of_each_other_are_placed_apart() -> None:
+    """Three double butterflies on one link: six links each that only all their conditions place."""
+    rng = Random(5)
+    several = icsolve.load(text(side_by_side([butterfly(rng) for _ in range(3)])))
+    motion = compile_sweep(setting_of(several, [], ["2"]), RowRequest(answers=False)).motion
+    assert motion is not None
+    assert [len(group.bodies) for group in motion.groups] == [6, 6, 6]

@@ -57,7 +57,7 @@ class Matching:
         moved = self._follow()
         self.parts = [part for part in self.parts if not part.bodies <= self.known]
         if moved or not self.parts or any(part.bodies & self.known for part in self.parts):
-            self.parts = self._determined()
+            self.parts = determined(self.load, self._bodies, 3)
         closed = [part for part in self.parts if part.others <= self.known]
         best = min(closed, key=lambda part: len(part.bodies), default=None)
         return () if best is None else tuple(sorted(best.bodies))
@@ -69,20 +69,6 @@ class Matching:
         placed = [self._place(row) for row in freed]
         return any(placed)
 
-    def _determined(self) -> list[GroupPart]:
-        """The parts that no body with too few constraints bears on."""
-        needs = {body: self._needs(body, rows) for body, rows in self.load.items()}
-        users: dict[int, list[int]] = {body: [] for body in needs}
-        for body, others in needs.items():
-            for other in others:
-                users[other].append(body)
-        reaching = reached((body for body, rows in self.load.items() if len(rows) < 3), users.__getitem__)
-        held = {body: others for body, others in needs.items() if body not in reaching}
-        return [
-            GroupPart(set(members), {other for body in members for other in held[body]} - set(members))
-            for members in strongly_connected(held)
-        ]
-
     def _place(self, root: Constraint) -> bool:
         """Match a constraint to one of its unknown bodies; whether it can be."""
         return matched(root, self._bodies, self.load, 3)
@@ -90,11 +76,6 @@ class Matching:
     def _bodies(self, row: Constraint) -> list[int]:
         bond = self.top.bonds[row[0]]
         return [body for body in (bond.a, bond.b) if body in self.load and body not in self.known]
-
-    def _needs(self, body: int, rows: Iterable[Constraint]) -> list[int]:
-        """The other unknown bodies that a body's own constraints touch."""
-        found = dict.fromkeys(self.top.bonds[k].other(body) for k, _ in rows)
-        return [other for other in found if other not in self.known]
 
 
 def matched(
@@ -126,6 +107,32 @@ def matched(
                     before[other] = column
                     queue.append(other)
     return False
+
+
+def determined(
+    held: Mapping[int, Collection[Row]], reach: Callable[[Row], Iterable[int]], most: int
+) -> list[GroupPart]:
+    """The parts of a matching on which no body with too few rows bears (A. L. Dulmage, N. S. Mendelsohn,
+    Canadian Journal of Mathematics 10, 1958), each after those that it needs.
+
+    Parameters
+    ----------
+    held, reach, most : as of `matched`, for all rows
+    """
+    needs = {
+        body: dict.fromkeys(other for row in rows for other in reach(row) if other != body)
+        for body, rows in held.items()
+    }
+    users: dict[int, list[int]] = {body: [] for body in needs}
+    for body, others in needs.items():
+        for other in others:
+            users[other].append(body)
+    loose = reached((body for body, rows in held.items() if len(rows) < most), users.__getitem__)
+    firm = {body: others for body, others in needs.items() if body not in loose}
+    return [
+        GroupPart(set(members), {other for body in members for other in firm[body]} - set(members))
+        for members in strongly_connected(firm)
+    ]
 
 
 def _flip(

@@ -6,9 +6,8 @@ inputs of their own, on which all that follows hangs.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
-from itertools import combinations
 
 import numpy as np
 import numpy.typing as npt
@@ -24,12 +23,12 @@ from icsolve.numbers.linear import Row, eliminate
 from icsolve.numbers.record import Implicit, Op, Record, Traced
 from icsolve.numbers.replay import BLOCK, Array, Code
 from icsolve.screws.plane import Point
+from icsolve.structure.plan import determined, matched
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 DEPENDENT = 1e-10
 """What is left of an equation below this fraction of its terms is zero (normalised frame)."""
-MOST_TRIED = 4000
 
 
 def bases_of(mechanism: Mechanism, bodies: Iterable[int]) -> dict[int, Spot]:
@@ -53,15 +52,20 @@ def equations(
     """
     for c in constraints:
         yield rows.of(c)
-    members: dict[Spot, list[Spot]] = {}
-    for spot, one in mechanism.shape.joined.items():
-        members.setdefault(one, []).append(spot)
-    for one, spots in members.items():
+    for one, spots in pins_of(mechanism).items():
         own = [spot for spot in spots if spot[0] in rows.bases]
         fixed = _fixed(one, spots, rows, known)
         first = own[:1] if fixed is None else []
         for spot in own[len(first) :]:
             yield from rows.pinned(spot, first[0]) if fixed is None else rows.held(spot, fixed)
+
+
+def pins_of(mechanism: Mechanism) -> dict[Spot, list[Spot]]:
+    """By the spot that stands for a pin, the spots of all its bodies."""
+    found: dict[Spot, list[Spot]] = {}
+    for spot, one in mechanism.shape.joined.items():
+        found.setdefault(one, []).append(spot)
+    return found
 
 
 def _fixed(one: Spot, spots: list[Spot], rows: ConditionRows, known: Moved | None) -> Point | None:
@@ -97,20 +101,30 @@ def derivatives(bodies: Sequence[int], row: ConditionRow) -> Row:
 
 
 def smallest(mechanism: Mechanism, order: AssemblyOrder, left: Sequence[int]) -> AssurGroup:
-    """The smallest set of the bodies that are left whose conditions determine it.
+    """The smallest set of the bodies that are left whose conditions determine it, as a count of these tells;
+    where what they say is less than that, all that are left.
 
     Raises SceneError where no set is determined.
     """
-    tried = 0
-    for size in range(1, len(left) + 1):
-        for bodies in combinations(left, size):
-            tried += 1
-            if tried > MOST_TRIED and size < len(left):
-                break
-            group = _group(mechanism, order, bodies)
-            if group is not None:
-                return group
+    rows = list(_ties(mechanism, order, {*left}))
+    held: dict[int, list[int]] = {body: [] for body in left}
+    for n in range(len(rows)):
+        matched(n, rows.__getitem__, held, 3)
+    parts = (part.bodies for part in determined(held, rows.__getitem__, 3) if not part.others)
+    for bodies in (*sorted(parts, key=len), left):
+        group = _group(mechanism, order, sorted(bodies))
+        if group is not None:
+            return group
     raise _refusal(mechanism, order, left)
+
+
+def _ties(mechanism: Mechanism, order: AssemblyOrder, left: set[int]) -> Iterator[Collection[int]]:
+    """Of every equation of the bodies that are left, those that it binds: of a pin two."""
+    yield from (bound for c in order.constraints if (bound := order.ties[id(c)] & left))
+    for one, spots in pins_of(mechanism).items():
+        own = [body for body, _ in spots if body in left]
+        first, others = ([], own) if one in order.located else (own[:1], own[1:])
+        yield from ({*first, body} for body in others for _ in "xy")
 
 
 def _group(mechanism: Mechanism, order: AssemblyOrder, bodies: Sequence[int]) -> AssurGroup | None:
