@@ -394,16 +394,17 @@ def carried(
 
 
 def _on_load(load: Load, ground: str) -> list[tuple[str, str]]:
+    """The points of a load, each with the link that it is put on; the other end of a spring last."""
     if isinstance(load, Torque):
         return []
     other = load.against or ground if not isinstance(load, Weight) else ground
     if isinstance(load, TorsionSpring):
         own, arm = load.corner[-2:], load.corner[:-1] if len(load.corner) > 2 else ()
         return [*((load.link, point) for point in own), *((other, point) for point in arm)]
-    ends = [(load.link, load.at)]
-    if isinstance(load, Force) and isinstance(load.over, Stretch):
-        ends += [(load.link, load.over.a), (load.link, load.over.b)]
-    return [*ends, (other, load.to)] if isinstance(load, Spring) else ends
+    over = load.over if isinstance(load, Force) else None
+    ends = [load.at, *(over[:2] if isinstance(over, Stretch) else ())]
+    placed = [(load.link, point) for point in ends]
+    return [*placed, (other, load.to)] if isinstance(load, Spring) else placed
 
 
 FRAMES = ("0", "frame", "ground", "base", "fixed", "gnd", "earth")
@@ -485,16 +486,12 @@ def _places(
     for load in loads:
         if isinstance(load, Torque | TorsionSpring) or load.link.startswith("@"):
             continue
-        way = ("loads", load.name)
-        yield f"load {load.name} acts on", load.link, load.at, "link", (*way, "link")
-        over = getattr(load, "over", None)
-        if isinstance(over, Stretch):
-            for point in over[:2]:
-                yield f"load {load.name} acts on", load.link, point, "link", (*way, "link")
+        placed, way = _on_load(load, ground), ("loads", load.name)
+        for link, point in placed[:-1] if isinstance(load, Spring) else placed:
+            yield f"load {load.name} acts on", link, point, "link", (*way, "link")
         if isinstance(load, Spring):
             key = "against" if load.against else "to"
-            what = f"the other end of load {load.name} is fixed to"
-            yield what, load.against or ground, load.to, "against", (*way, key)
+            yield f"the other end of load {load.name} is fixed to", *placed[-1], "against", (*way, key)
     for index, given in enumerate(motion):
         if given.point:
             yield "the motion is given on", given.link, given.point, "link", ("motion", index, "link")

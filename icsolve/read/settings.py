@@ -12,7 +12,8 @@ from icsolve.read.joints import JOINTS, NAMES
 from icsolve.read.keys import LOADS
 from icsolve.read.names import Problems, parts, shown, suggestion
 
-_FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
+PATH_FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
+"""How the number at a path is written, here and where one is varied."""
 _SECTIONS = ("points", "lengths", "angles", "near", "loads", "joints", "profile", "motion", "links")
 
 
@@ -47,14 +48,14 @@ def _set(root: Mapping, path: str, text: str) -> str:
     if section == "gravity" and not steps:
         return _put(root, "gravity", text)
     if section not in _SECTIONS:
-        return _FORM
+        return PATH_FORM
     node = root.items.get(section)
     if node is None:
         return f"the case has no '{section}'"
     if section == "motion":
         return _of_motion(node, steps, text)
     if not steps:
-        return _FORM
+        return PATH_FORM
     if section == "joints":
         return _of_joint(node, steps, text)
     if type(node) is not Mapping:
@@ -88,7 +89,7 @@ def _of_named(section: Mapping, name: str, steps: list[str], text: str) -> str:
         if type(node) is Mapping and steps[1:] in (["mass"], ["inertia"]):
             return _put(node, steps[1], text)
         return f"a mass is set as links.{key}.mass, a moment of inertia as links.{key}.inertia"
-    return _put(section, key, text) if len(steps) == 1 else _FORM
+    return _put(section, key, text) if len(steps) == 1 else PATH_FORM
 
 
 def _missing(section: Mapping, name: str, key: str) -> str:
@@ -137,7 +138,15 @@ def _of_load(node: Node, steps: list[str], text: str, path: str) -> str:
         return _axis(value, steps, text, path)
     if steps[0] in ("at", "slope", "to", "along") and steps[0] in node.items and len(steps) == 2:
         return _axis(node.items[steps[0]], steps[1:], text, f"{path}.{steps[0]}")
-    return _put(node, steps[0], text) if len(steps) == 1 and steps[0] not in LOADS else _FORM
+    return _put(node, steps[0], text) if len(steps) == 1 and steps[0] not in LOADS else PATH_FORM
+
+
+def _inside(node: Node | None, step: str) -> Node | None:
+    """What stands under a key, or at a place of a list."""
+    if type(node) is Mapping:
+        return node.items.get(step)
+    place = int(step[:6]) if step.isascii() and step.isdigit() else -1
+    return node.items[place] if type(node) is Sequence and 0 <= place < len(node.items) else None
 
 
 def _of_profile(section: Mapping, steps: list[str], text: str) -> str:
@@ -150,10 +159,7 @@ def _of_profile(section: Mapping, steps: list[str], text: str) -> str:
         rest = ["radii", ".".join(rest[1:])]
     *way, last = rest or [""]
     for step in way:
-        if type(node) is Sequence and step.isascii() and step.isdigit() and int(step) < len(node.items):
-            node = node.items[int(step)]
-        else:
-            node = node.items.get(step) if type(node) is Mapping else None
+        node = _inside(node, step)
     numbers = [key for key in node.items if key != "turns"] if type(node) is Mapping else []
     if type(node) is not Mapping or last not in numbers:
         return f"a number of a profile is set as profile.2.radius{suggestion(last, numbers)}"
@@ -161,12 +167,9 @@ def _of_profile(section: Mapping, steps: list[str], text: str) -> str:
 
 
 def _of_motion(node: Node, steps: list[str], text: str) -> str:
-    if type(node) is Sequence and len(steps) == 2 and steps[0].isascii() and steps[0].isdigit():
-        index = int(steps[0][:6])
-        if index < len(node.items):
-            node, steps = node.items[index], steps[1:]
-    if type(node) is Mapping and len(steps) == 1:
-        return _put(node, steps[0], text)
+    own = _inside(node, steps[0]) if type(node) is Sequence and len(steps) == 2 else node
+    if type(own) is Mapping and len(steps) == (1 if own is node else 2):
+        return _put(own, steps[-1], text)
     return "a motion is set as motion.speed, or of several as motion.0.speed"
 
 

@@ -179,9 +179,11 @@ def words_of(text: str) -> tuple[str, str]:
 
 def _answer(text: str, decimal: str) -> WrittenAnswer:
     text = unwrapped(text)
-    before, start = _before(text)
-    if start is None:
+    first = _NUMBER.search(text)
+    if first is None:
         return flagged(UNREAD if holds_digits(text) else NO_NUMBER)
+    start = first.start()
+    before = text[:start]
     if _is_accounting(text):
         return flagged(AMBIGUOUS_NUMBER)
     if before.rstrip().endswith("±"):
@@ -193,7 +195,10 @@ def _answer(text: str, decimal: str) -> WrittenAnswer:
         return flagged(UNREAD)
     if found.flag:
         return flagged(found.flag)
-    read = tail(_closed(before, text[found.end :]).strip(), WrittenAnswer(0.0, None, None))
+    rest = text[found.end :]
+    if before.rstrip().endswith(("[", "{")):
+        rest = re.sub(r"^ ?[\])}]", "", rest)  # the bracket closes around the number: ``[-64.5] N``
+    read = tail(rest.strip(), WrittenAnswer(0.0, None, None))
     if angle:
         read = tail("deg", read)
     return _joined(read, _leading(before), found, sign)
@@ -250,12 +255,6 @@ def _is_accounting(text: str) -> bool:
     return bool(re.match(r"\( ?[\d.,' ]+\)", text))
 
 
-def _before(text: str) -> tuple[str, int | None]:
-    """What stands before the number, and where the number starts."""
-    found = _NUMBER.search(text)
-    return (text[: found.start()], found.start()) if found is not None else (text, None)
-
-
 def _sign(before: str) -> tuple[str, str]:
     """The sign right before the number, as a mark or a word, and what stands before that."""
     stripped = before.rstrip(" [")
@@ -276,11 +275,6 @@ def _leading(before: str) -> WrittenDirection | str | None:
     if found is None:
         found = direction(re.sub(rf"[ ,:]*\b(?:{_ABOUT}|{_LIMIT}|torque|moment|force|of|is)$", "", words))
     return found if found is not None else UNREAD
-
-
-def _closed(before: str, rest: str) -> str:
-    """What follows the number, without the bracket that closes around it: ``[-64.5] N``."""
-    return re.sub(r"^ ?[\])}]", "", rest) if before.rstrip().endswith(("[", "{")) else rest
 
 
 # --- what follows the number ------------------------------------------------------------------------
@@ -323,7 +317,7 @@ def _parted(text: str, read: WrittenAnswer) -> WrittenAnswer:
         if way is not None or not rest:
             fitting.append(read._replace(unit=unit, direction=way, note=unit.note if unit else ""))
     if not fitting:
-        return flagged(_why_unread(text))
+        return flagged(TWO_VALUES if re.search(r"(?<![A-Za-z^\d.,])\d", text) else UNREAD)
     return _checked(next(filter(_agrees, fitting), fitting[-1]) if len(fitting) > 1 else fitting[0])
 
 
@@ -355,11 +349,6 @@ def _checked(read: WrittenAnswer) -> WrittenAnswer:
     if read.direction is not None and read.direction.flag:
         return flagged(read.direction.flag)
     return _doubted(read.note) or read
-
-
-def _why_unread(text: str) -> str:
-    """Two values where another number stands in it, else not understood."""
-    return TWO_VALUES if re.search(r"(?<![A-Za-z^\d.,])\d", text) else UNREAD
 
 
 def _joined(

@@ -53,7 +53,8 @@ def numeral(text: str, start: int = 0, decimal: str = "either") -> WrittenNumber
     found = _simple(text, start, decimal)
     if found is None or found.flag:
         return found
-    return _exponent(text, found) or _fraction(text, found, decimal)
+    whole = _exponent(text, found) or _mixed(text, found)
+    return whole or _over(text, _factor(text, found) or found, decimal)
 
 
 def _leading_factor(text: str, start: int) -> WrittenNumber | None:
@@ -150,12 +151,6 @@ def _scaled(digits: str, power: re.Match[str]) -> WrittenNumber:
     value = float(f"{digits}e{power.group(1)}") if len(power.group(1)) <= 5 else math.inf
     flag = UNREAD if math.isinf(value) else ""
     return WrittenNumber(value, power.end(), digits, flag)
-
-
-def _fraction(text: str, found: WrittenNumber, decimal: str) -> WrittenNumber:
-    """``1/3``, ``1 1/2``, ``3√2/2``, ``2pi``: else the number itself."""
-    mixed = _mixed(text, found)
-    return mixed or _over(text, _factor(text, found) or found, decimal)
 
 
 def _mixed(text: str, found: WrittenNumber) -> WrittenNumber | None:
@@ -255,11 +250,11 @@ _ARROWS = ((re.compile(r"(?<![<=])-+>"), " right "), (re.compile(r"<-+(?!\d)"), 
 
 def plain(text: str) -> str:
     """``text`` in plain characters, one space where there were several."""
-    if "<" in text or "&" in text:
-        text = _unmarked(text)
+    if "<" in text or "&" in text:  # of rich text editors
+        text = html.unescape(_TAG.sub(" ", _RAISED_TAG.sub(r"^\1", text)))
     if not text.isascii():
         text = _SUPERSCRIPT.sub(lambda m: "^" + m.group().translate(_RAISED), text)
-        text = _digits(text.translate(_TABLE))
+        text = "".join(map(_plain_character, text.translate(_TABLE)))
     if any(mark in text for mark in ("\\", "$", "^", "_{")):
         for pattern, replacement in _LATEX:
             text = pattern.sub(replacement, text)
@@ -269,20 +264,8 @@ def plain(text: str) -> str:
     return " ".join(text.replace("\0", "").split())
 
 
-def _unmarked(text: str) -> str:
-    """Without the tags and entities of HTML, in which rich text editors hand in."""
-    text = _RAISED_TAG.sub(r"^\1", text)
-    return html.unescape(_TAG.sub(" ", text))
-
-
-def _digits(text: str) -> str:
-    """Digits of other scripts as ASCII ones; full-width letters as ordinary ones."""
-    if text.isascii():
-        return text
-    return "".join(_plain_character(c) for c in text)
-
-
 def _plain_character(c: str) -> str:
+    """Of another script the digit as an ASCII one; a full-width letter as an ordinary one."""
     digit = unicodedata.digit(c, None)
     if digit is not None and c.isdecimal():
         return str(digit)

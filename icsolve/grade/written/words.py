@@ -130,19 +130,13 @@ _TOWARD = re.compile(
 
 def direction(text: str) -> WrittenDirection | None:
     """The direction that a text in plain characters says; None where it says none, or more than that."""
-    bare = _bare(text)
+    bare = " ".join(re.sub(r"[()\[\]{},;:!]|\.(?=$|\s)", " ", text).split())
     if not bare:
         return None
     if bare in _LETTERS:
         return _LETTERS[bare]
     lower = bare.lower()
     return _WORDS.get(lower) or _toward(bare) or _angle(lower) or _spelled(lower)
-
-
-def _bare(text: str) -> str:
-    """Without brackets and stops."""
-    text = re.sub(r"[()\[\]{},;:!]|\.(?=$|\s)", " ", text)
-    return " ".join(text.split())
 
 
 def _toward(text: str) -> WrittenDirection | None:
@@ -174,17 +168,12 @@ def _spelled(lower: str) -> WrittenDirection | None:
 
 
 def _turn_after_words(words: str) -> WrittenDirection | None:
-    """The same direction said twice: ``clockwise cw``."""
-    parts = [_WORDS.get(part) for part in words.split()]
-    if len(parts) > 1 and None not in parts:
-        return parts[0] if len(set(parts)) == 1 else _clash(parts)
-    return None
-
-
-def _clash(parts: list[WrittenDirection | None]) -> WrittenDirection | None:
-    """Opposite words (``left right``, ``cw ccw``) have two readings."""
-    kinds = {part.kind for part in parts if part is not None}
-    return DOUBTFUL if len(kinds) == 1 else None
+    """The same direction said twice: ``clockwise cw``; opposite words (``left right``) have two readings."""
+    parts = [part for word in words.split() if (part := _WORDS.get(word)) is not None]
+    if len(parts) < 2 or len(parts) < len(words.split()):
+        return None
+    alike = len({part.kind for part in parts}) == 1
+    return parts[0] if len(set(parts)) == 1 else DOUBTFUL if alike else None
 
 
 def _corner(words: str) -> WrittenDirection | None:
@@ -218,24 +207,16 @@ def _from_axis(degrees: float, rest: str) -> WrittenDirection | None:
     if _DOUBTFUL_AXIS.fullmatch(rest):
         return DOUBTFUL
     found = _ABOVE.match(rest)
-    if found is None:
-        return _turned_only(degrees, rest)
+    if found is None:  # ``30 deg ccw``: from +x
+        turn = _WORDS.get(rest)
+        return _line(turn.value * degrees) if turn is not None and turn.kind == "turn" else None
     way, axis = found.groups()
-    base = _AXES.get(axis) if axis in _AXES else _side(axis)
+    base = _AXES.get(axis)
+    if base is None:  # ``horizontal to the right``
+        side = re.sub(r"\b(?:horizontal|vertical|horizontally|vertically|to)\b", " ", axis)
+        named = _WORDS.get(" ".join(side.split()))
+        base = named.value if named is not None and named.kind == "line" else None
     return _line(base + _sign(way, base) * degrees) if base is not None else None
-
-
-def _turned_only(degrees: float, rest: str) -> WrittenDirection | None:
-    """``30 deg ccw``: from +x."""
-    turn = _WORDS.get(rest)
-    return _line(turn.value * degrees) if turn is not None and turn.kind == "turn" else None
-
-
-def _side(axis: str) -> float | None:
-    """``horizontal to the right``, ``left``."""
-    words = " ".join(re.sub(r"\b(?:horizontal|vertical|horizontally|vertically|to)\b", " ", axis).split())
-    found = _WORDS.get(words)
-    return found.value if found is not None and found.kind == "line" else None
 
 
 def _sign(way: str, base: float) -> float:
@@ -334,13 +315,8 @@ def _exact(text: str) -> UnitWord | None:
         return UnitWord(_EXTRA[text], text, ENERGY if text in _ENERGIES else "")
     if text in ('"', "'"):
         return UnitWord(UNITS["in" if text == '"' else "ft"], "in" if text == '"' else "ft")
-    unit = _parsed(text)
-    return UnitWord(unit, _shown(_DOTTED.sub("", text))) if unit is not None else None
-
-
-def _parsed(text: str) -> Unit | None:
     try:
-        return parse_unit(text)
+        return UnitWord(parse_unit(text), _shown(_DOTTED.sub("", text)))
     except UnitError:
         return None
 
