@@ -29,25 +29,27 @@ from icsolve.bench.accuracy import (
     scenes,
     scored,
 )
-from icsolve.bench.closed import (
+from icsolve.bench.families import BOUNDED, FAMILIES, Family, all_joints, linkage
+from icsolve.bench.full_turn import (
     FOUR_BAR,
     MECHANISMS,
+    PEERS,
+    TORQUE,
     CrankTurning,
+    Peer,
     compiled,
     componentwise,
     four_bar,
     in_c,
+    ran,
     written_out,
 )
-from icsolve.bench.families import BOUNDED, FAMILIES, Family, all_joints, linkage
-from icsolve.bench.gates import Effort, Gate, gate_table, lawful, nothing, ratio
-from icsolve.bench.peers import PEERS, TORQUE, Peer, ran
+from icsolve.bench.gates import Effort, Gate, gate_table, lawful, least, nothing, ratio
 from icsolve.bench.picture import figure, picture
 from icsolve.bench.promises import STARTS
 from icsolve.bench.rivals import METHODS, Method
 from icsolve.bench.speed import BOUNDED as BOUNDED_SWEEP
 from icsolve.bench.speed import BY_HAND, IN_C, SWEPT
-from icsolve.bench.timing import least
 from icsolve.case import Gears
 from icsolve.cli.commands import icsolve as command
 from texts import PAGES

@@ -1,9 +1,16 @@
-"""What the product promises in figures, each as measured beside its limit; how much is measured; tables."""
+"""What the product promises in figures, each as measured beside its limit; how much is measured; tables.
+
+Times are of calls in interleaved batches, so that ratios hold on a busy machine, and of whole processes. CPU
+time counts every core, so that nothing looks faster for using two.
+"""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterable, Sequence
 
 from icsolve.bench.accuracy import Score
 from icsolve.tuples import NamedTuple
@@ -93,3 +100,81 @@ class Kept(NamedTuple):
 def nothing() -> Kept:
     """Before anything is measured."""
     return Kept([], [], [], [])
+
+
+# --- times ------------------------------------------------------------------------------------------
+
+Call = Callable[[], object]
+TURN = 20
+"""Batches before another call has its turn."""
+BATCH = 1e-4
+"""Seconds of a batch."""
+LONG = 5e-3
+"""Seconds of a call that is alone a turn."""
+
+
+def least(calls: Sequence[Call], seconds: float) -> list[float]:
+    """Seconds a call of each, that a tenth of its batches keep; about so many CPU seconds in all.
+
+    The calls take turns of several batches each, of which the first warms the caches again. The very
+    least would be that of a moment in which the processor ran faster.
+    """
+    for call in calls:
+        call()  # warm
+    rough = [max(once(call), 1e-7) for call in calls]
+    sizes = [max(1, int(BATCH / took)) for took in rough]
+    turns = [1 if took > LONG else TURN for took in rough]
+    found: list[list[float]] = [[] for _ in calls]
+    end = time.process_time() + seconds
+    while True:
+        for k, call in enumerate(calls):
+            for _ in range(turns[k]):
+                found[k].append(once(call, sizes[k]) / sizes[k])
+        if time.process_time() > end:
+            return [sorted(times)[len(times) // 10] for times in found]
+
+
+def once(call: Call, times: int = 1) -> float:
+    """CPU seconds of so many calls."""
+    start = time.process_time()
+    for _ in range(times):
+        call()
+    return time.process_time() - start
+
+
+def cpu_seconds(command: list[str]) -> float:
+    """User and system seconds of a child process; its wall time where the system does not tell them.
+
+    Modules are compiled once, as they are when a package is installed.
+    """
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+    try:
+        from resource import RUSAGE_CHILDREN, getrusage
+    except ImportError:
+        start = time.perf_counter()
+        subprocess.run(command, capture_output=True, check=True, env=environment)
+        return time.perf_counter() - start
+    before = getrusage(RUSAGE_CHILDREN)
+    subprocess.run(command, capture_output=True, check=True, env=environment)
+    after = getrusage(RUSAGE_CHILDREN)
+    return (after.ru_utime - before.ru_utime) + (after.ru_stime - before.ru_stime)
+
+
+def peak_memory(code: str) -> float | None:
+    """Largest resident memory in MB of a Python process that runs some code; None where it is not told.
+
+    Its own peak where /proc tells it: the other count starts from the size of the process that started it.
+    """
+    tail = (
+        "import os, resource\n"
+        "own = [line.split()[1] for line in open('/proc/self/status') if line.startswith('VmHWM:')] "
+        "if os.path.exists('/proc/self/status') else []\n"
+        "print(*(own or [resource.getrusage(resource.RUSAGE_SELF).ru_maxrss]))"
+    )
+    ran = subprocess.run(
+        [sys.executable, "-c", f"{code}\n{tail}"], capture_output=True, text=True, check=False
+    )
+    if ran.returncode:
+        return None
+    kilobytes = int(ran.stdout.split()[-1])
+    return kilobytes / (1024.0**2 if sys.platform == "darwin" else 1024.0)

@@ -9,8 +9,7 @@ import sys
 from collections.abc import Sequence
 from shutil import rmtree
 
-from icsolve.bench.gates import Effort, Gate, Kept, ratio, table
-from icsolve.bench.timing import cpu_seconds, once
+from icsolve.bench.gates import Effort, Gate, Kept, cpu_seconds, once, ratio, table
 from icsolve.files import scratch
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course

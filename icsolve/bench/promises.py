@@ -17,11 +17,10 @@ from random import Random
 
 import numpy as np
 
-from icsolve.bench.closed import FOUR_BAR, FOUR_BAR_CASE, Array
 from icsolve.bench.families import BUTTERFLY, FamilySheet, by_sides, chain, linkage
-from icsolve.bench.gates import Effort, Gate, Kept, ratio, table
+from icsolve.bench.full_turn import FOUR_BAR, FOUR_BAR_CASE, Array
+from icsolve.bench.gates import Effort, Gate, Kept, cpu_seconds, least, once, ratio, table
 from icsolve.bench.speed import FRESH_CASES
-from icsolve.bench.timing import cpu_seconds, least, once
 from icsolve.case import Case
 from icsolve.files import scratch
 from icsolve.read import load

@@ -21,8 +21,8 @@ from icsolve.bench.accuracy import (
     scenes,
     scored,
 )
-from icsolve.bench.closed import compiler_version
 from icsolve.bench.families import BOUNDED, EXACT, FAMILIES
+from icsolve.bench.full_turn import compiler_version
 from icsolve.bench.gates import FULL, USUAL, Effort, Kept, gate_table, lawful, nothing, table, table_row
 from icsolve.bench.rivals import METHODS, OWN
 

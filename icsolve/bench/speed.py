@@ -11,17 +11,24 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from icsolve.bench.accuracy import FORWARD, Score, Truth, truth
-from icsolve.bench.closed import FOUR_BAR, FOUR_BAR_CASE, MECHANISMS, Array, CrankTurning, compiled, in_c
-from icsolve.bench.gates import Effort, Gate, Kept, lawful, ratio, table
-from icsolve.bench.peers import POSITIONS
-from icsolve.bench.timing import least, peak_memory
+from icsolve.bench.full_turn import (
+    FOUR_BAR,
+    FOUR_BAR_CASE,
+    MECHANISMS,
+    POSITIONS,
+    Array,
+    CrankTurning,
+    compiled,
+    in_c,
+)
+from icsolve.bench.gates import Effort, Gate, Kept, lawful, least, peak_memory, ratio, table
 from icsolve.case import Case
 from icsolve.read import load
 from icsolve.sweep import sweep
 from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
-    from icsolve.bench.peers import Ran
+    from icsolve.bench.full_turn import Ran
 
 
 TURN, MILLION = POSITIONS, 1_000_000
@@ -136,7 +143,7 @@ def one_scene(effort: Effort, kept: Kept) -> str:
     """
     from itertools import cycle
 
-    from icsolve.bench.closed import componentwise, written_out
+    from icsolve.bench.full_turn import componentwise, written_out
     from icsolve.solve import solve
 
     a, b, c, d, torque = FOUR_BAR
@@ -201,7 +208,7 @@ def _turn_gates(name: str, by: dict[str, Timed]) -> list[Gate]:
 
 def other_programs(effort: Effort, kept: Kept) -> str:
     """The full turn of the four-bar by other programs, in the same run as `full_turn`."""
-    from icsolve.bench.peers import PEERS, POSITIONS, TORQUE, ran
+    from icsolve.bench.full_turn import PEERS, POSITIONS, TORQUE, ran
 
     own = next(score for score in kept.turns if score.method == SWEPT)
     seconds = 1e-6 * own.micros * POSITIONS
