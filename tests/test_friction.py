@@ -86,6 +86,19 @@ def test_block_on_an_incline_is_a_screw_unrolled(alpha: float, mu: float) -> Non
     assert answer.friction.efficiency == exactly(math.tan(a) / math.tan(a + phi))
 
 
+@pytest.mark.parametrize(("slope", "ends"), [("[4, 3]", (0.0, 60.0)), ("[-4, -3]", (-60.0, 0.0))])
+def test_a_block_just_held_by_friction_is_self_locking(slope: str, ends: tuple[float, float]) -> None:
+    """mu = tan alpha = 3/4: it holds with nothing, an end of the range, whichever way P is counted."""
+    text = (
+        "points: {A: [0, 0], B: [4, 3], C: [0.8, 0.6]}\n"
+        "joints: [{slide: [2, 1], at: C, along: [A, B], mu: 0.75}]\n"
+        "loads: {W: {weight: 50, link: 2, at: C}, "
+        f"P: {{force: unknown, link: 2, at: C, slope: {slope}}}}}\n"
+    )
+    assert held(text, "P").holds == ends
+    assert "self-locking: it holds still with P = 0." in solved(text).notes
+
+
 def test_no_force_raises_a_block_where_the_incline_and_the_angle_of_friction_make_a_right_angle() -> None:
     up = "motion: {point: A, link: 2, speed: 1, angle: 50}"
     assert refused(incline(50, 1.2, up)).status == "jam"

@@ -10,7 +10,7 @@ import icsolve
 from icsolve.answer import Centre, Found, Term
 from icsolve.answer.as_json import pair_name, refusal_dict, to_dict
 from icsolve.case import Coordinates, Motion, Torque, Units
-from icsolve.errors import SceneError
+from icsolve.errors import SceneError, Status
 from icsolve.report.text import answer_text
 from made import four_bar_answer, four_bar_case, number
 
@@ -205,3 +205,41 @@ def test_notes_and_what_was_not_examined_are_shown() -> None:
     answer = four_bar_answer(notes=("CD set C; BC fits within 0.01 in.",), skipped=("point H",))
     assert "Notes\n  CD set C; BC fits within 0.01 in." in answer_text(answer)
     assert "Not examined\n  point H" in answer_text(answer)
+
+
+FOUR_BAR = """icsolve: 1
+points: {{A: [0, 0], B: {b}, C: {c}, D: [3, 0]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
+loads:
+  K: {{torque: {known}, link: 2}}
+  U: {{{unknown}}}
+"""
+STRETCHED, IN_LINE, PARALLELOGRAM = ("[1, 1]", "[3, 3]"), ("[2, 1.5]", "[5, 0]"), ("[1, 2]", "[4, 2]")
+
+
+@pytest.mark.parametrize(
+    ("places", "unknown", "said"),
+    [
+        (STRETCHED, "torque: unknown, link: 4", "link 4 stands still in this position"),
+        (IN_LINE, "torque: unknown, link: 2, against: 3", "link 2 and link 3 move as one in this position"),
+        (PARALLELOGRAM, "torque: unknown, link: 3", "link 3 does not turn in this position"),
+        (PARALLELOGRAM, "torque: unknown, link: 2, against: 4", "link 2 does not turn against link 4 in"),
+        (PARALLELOGRAM, "force: unknown, link: 3, at: C, slope: [1, 2]", "its line is square to the motion"),
+        (
+            PARALLELOGRAM,
+            "force: unknown, link: 3, against: 2, at: C, angle: 0",
+            "where it acts, its line is square to the motion of link 3 against link 2",
+        ),
+    ],
+)
+def test_a_load_that_does_no_work_is_told_why(places: tuple[str, str], unknown: str, said: str) -> None:
+    """Crank and rod in line: the rocker stands still. C on the line AD: crank and rod turn as one about A. A
+    parallelogram: the rod only slides, the rocker turns with the crank."""
+    for known, status in ((7, "no value of U balances"), (0, "any value of U balances")):
+        text = FOUR_BAR.format(b=places[0], c=places[1], known=known, unknown=unknown)
+        with pytest.raises(SceneError) as refusal:
+            icsolve.solve(icsolve.load(text))
+        assert refusal.value.message.startswith(f"{status}: ")
+        assert said in refusal.value.message
+        rests = places is not PARALLELOGRAM and known
+        assert (refusal.value.status == Status.DEAD_CENTRE) == bool(rests)

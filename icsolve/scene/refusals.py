@@ -114,9 +114,14 @@ def _no_work(outcome: power.Outcome) -> SceneError:
     on, off = motions.twists[culprit.load.link], motions.twists[culprit.against]
     apart = [x - y for a, b in zip(on, off, strict=True) for x, y in zip(a, b, strict=True)]
     at_rest = all_vanish(arithmetic, ((part, largest) for part in apart))
-    clause = _why_at_rest(top, motions, culprit.load.link, arithmetic) if at_rest else ""
+    links = [culprit.load.link, *([] if culprit.against == place.case.ground else [culprit.against])]
     slack = culprit.gain == 0.0 or arithmetic.vanishes(culprit.gain, culprit.reach)
-    message = sentences.workless(culprit.load.name, culprit.load.link, at_rest, others, clause, slack)
+    if at_rest and not slack:
+        why = _why_at_rest(top, motions, links[0], arithmetic) if len(links) == 1 else ""
+        cause = sentences.at_rest(culprit.load.name, links, why)
+    else:
+        cause = sentences.idle_load(culprit.load.name, links, not any(culprit.unit[:2]), slack)
+    message = sentences.workless(culprit.load.name, cause, others)
     if len(top.members) > 2 and (ends := sentences.free_ends(top, place.case)):
         message += f" Is a joint missing? {ends[0].upper()}{ends[1:]}."
     status = Status.DEAD_CENTRE if at_rest and others else Status.NO_VALUE if others else Status.ANY_VALUE

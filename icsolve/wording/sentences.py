@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from icsolve.case import Case
 from icsolve.structure.topology import Topology
@@ -97,17 +97,8 @@ def loose(case: Case, names: list[str]) -> str:
     )
 
 
-def workless(load: str, link: str, at_rest: bool, others_work: bool, why: str, slack: bool = False) -> str:
-    """The unknown does no work: no value balances, or any value does; ``slack``: a spring that is neither
-    stretched nor wound."""
-    clause = f" ({why})" if why else ""
-    cause = (
-        f"the spring {load} is as it is when free, and neither pulls nor turns"
-        if slack
-        else f"{link_words(link)} stands still in this position{clause}, so it is a dead centre for {load}"
-        if at_rest
-        else f"{load} does no work on {link_words(link)}: where it acts, its line is square to the motion"
-    )
+def workless(load: str, cause: str, others_work: bool) -> str:
+    """The unknown does no work, and why: no value balances, or any value does."""
     if others_work:
         return (
             f"no value of {load} balances: {cause}, but the known loads do work. "
@@ -117,6 +108,26 @@ def workless(load: str, link: str, at_rest: bool, others_work: bool, why: str, s
         f"any value of {load} balances: {cause}, and the known loads do none either. "
         "The joints carry it; ask for another load."
     )
+
+
+def at_rest(load: str, links: Sequence[str], why: str) -> str:
+    """Why a load does no work: its link stands still, or does so against the one that takes the opposite."""
+    here, *other = map(link_words, links)
+    still = f"{here} and {other[0]} move as one" if other else f"{here} stands still"
+    clause = f" ({why})" if why else ""
+    return f"{still} in this position{clause}, so it is a dead centre for {load}"
+
+
+def idle_load(load: str, links: Sequence[str], couple: bool, slack: bool) -> str:
+    """Why a load does no work on links that move; ``slack``: a spring that is neither stretched nor wound."""
+    here, *other = map(link_words, links)
+    if slack:
+        return f"the spring {load} is as it is when free, and neither pulls nor turns"
+    if couple:
+        turned = f"{here} does not turn against {other[0]}" if other else f"{here} does not turn"
+        return f"{load} does no work: {turned} in this position"
+    motion = f"the motion of {here} against {other[0]}" if other else "the motion"
+    return f"{load} does no work on {here}: where it acts, its line is square to {motion}"
 
 
 def free_ends(top: Topology, case: Case) -> str:
