@@ -21,7 +21,6 @@ from icsolve.bench.families import BUTTERFLY, FamilySheet, by_sides, chain, link
 from icsolve.bench.full_turn import FOUR_BAR, FOUR_BAR_CASE, Array
 from icsolve.bench.gates import Effort, Gate, Kept, cpu_seconds, least, once, ratio, table
 from icsolve.bench.speed import FRESH_CASES
-from icsolve.case import Case
 from icsolve.files import scratch
 from icsolve.read import load
 from icsolve.solve import solve
@@ -77,7 +76,7 @@ def _rows(effort: Effort, kept: Kept, rows: int) -> str:
         "a roller on a table of radii": (LOBED, 20.0),
     }
     calls: dict[str, Callable[[], object]] = {
-        name: _turned(load(text), turn) for name, (text, _) in limits.items()
+        name: partial(sweep, load(text), drive={"2": turn}) for name, (text, _) in limits.items()
     }
     calls["a group by Newton's method (double butterfly)"] = lambda: sweep(butterfly, {angle.path: near})
     chained = load(by_sides(chain(10), (1, 2))(Random(1)))
@@ -99,10 +98,6 @@ def _rows(effort: Effort, kept: Kept, rows: int) -> str:
     )
     shown = [[name, str(counts[name]), f"{micros[name]:.3g}"] for name in calls]
     return table(("rows of a sweep, warm", "rows", "us a row"), shown)
-
-
-def _turned(case: Case, turn: Array) -> Callable[[], object]:
-    return lambda: sweep(case, drive={"2": turn})
 
 
 # --- families -------------------------------------------------------------------------------------

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import chain, combinations, islice
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -111,25 +111,6 @@ def balanced(pose: Posed, twists: Twists) -> float:
 
 
 Pair = tuple[int, int]
-
-
-class Algebra(Protocol):
-    """How points and lines are written."""
-
-    def point(self, triple: Triple) -> Any:
-        """A joint's centre."""
-
-    def join(self, p: Any, q: Any) -> Any:
-        """The line through two points."""
-
-    def meet(self, a: Any, b: Any) -> Any:
-        """The point where two lines meet."""
-
-    def line(self, a: Triple, b: Triple) -> Any:
-        """The common normal of a slot, a contact or a mesh, by two of its points."""
-
-    def twists(self, centres: dict[Pair, Any], bodies: int, ground: int) -> list[Triple]:
-        """Twists to one scale from the centres."""
 
 
 def closed(scene: RivalFigure, algebra: Algebra, normalised: bool) -> float:
@@ -267,6 +248,8 @@ class Cartesian:
         return (own[0] * rate, own[1] * rate, rate)
 
 
+Algebra = Homogeneous | Cartesian
+"""How points and lines are written."""
 Matrix = npt.NDArray[np.float64]
 
 

@@ -394,6 +394,12 @@ class Change(NamedTuple):
         """From what to what."""
         return f"{_said(self.before)} -> {_said(self.now)}"
 
+    @property
+    def by(self) -> float:
+        """How much more it is; one that is not given counts as 0."""
+        before, now = (row.score or 0.0 if row is not None else 0.0 for row in (self.before, self.now))
+        return now - before
+
 
 def compared(old: str, new: str) -> Iterator[Change]:
     """The marks that differ between two files of results, in the order of the new one.
@@ -420,8 +426,7 @@ def _old(path: str) -> Iterator[ResultRow]:
 
 def _why(was: ResultRow, row: ResultRow) -> str:
     """Why a mark is another one: what differs between the rows, the plainest first."""
-    by_hand = OVERRIDE in row.code.split()
-    if by_hand:
+    if OVERRIDE in row.code.split():
         return f"marked by hand{row.feedback.removeprefix('Marked by hand')}".rstrip(".")
     if OVERRIDE in was.code.split():
         return "no longer marked by hand"
@@ -464,8 +469,7 @@ def _fields(row: ResultRow | None) -> tuple[str, str, str]:
 
 def changes_text(changes: list[Change], old: str) -> str:
     """The changes for a terminal: how many, why, and whose."""
-    up = sum(1 for one in changes if _marks(one.now) > _marks(one.before))
-    down = sum(1 for one in changes if _marks(one.now) < _marks(one.before))
+    up, down = sum(one.by > 0.0 for one in changes), sum(one.by < 0.0 for one in changes)
     head = f"against {old}: {len(changes)} mark{'' if len(changes) == 1 else 's'} changed"
     if not changes:
         return f"against {old}: no mark changed"
@@ -474,7 +478,3 @@ def changes_text(changes: list[Change], old: str) -> str:
     lines += [f"  {one.student} {one.case}: {one.moves}: {one.why}" for one in changes[:_LISTED]]
     more = len(changes) - _LISTED
     return "\n".join([*lines, *([f"  and {more} more; --changes FILE lists all"] if more > 0 else [])])
-
-
-def _marks(row: ResultRow | None) -> float:
-    return row.score or 0.0 if row is not None else 0.0

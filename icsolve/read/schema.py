@@ -97,7 +97,10 @@ def _tie(tie: Rule, own: str) -> Schema:
         case "needs":
             return {"dependencies": {tie.keys[0]: list(tie.keys[1:])}}
         case "direction":
-            return _directed(own, tie.keys)
+            alone = {"required": [own], "properties": {own: {"type": "array"}}}
+            without = {"not": {"anyOf": [{"required": [key]} for key in tie.keys]}}
+            size = {"properties": {own: {"not": {"type": "array"}}}}
+            return {"oneOf": [{**alone, **without}, *({"required": [key], **size} for key in tie.keys)]}
         case "any":
             return {"anyOf": [{"required": [name]} for name in tie.keys]}
         case "one":
@@ -109,14 +112,6 @@ def _tie(tie: Rule, own: str) -> Schema:
 def _one(table: dict[str, EntryKind]) -> list[Schema]:
     """The kinds of a table."""
     return [_of_kind(name, kind) for name, kind in table.items()]
-
-
-def _directed(kind: str, headings: tuple[str, ...]) -> Schema:
-    """One direction; none where the load is given by components."""
-    alone = {"required": [kind], "properties": {kind: {"type": "array"}}}
-    without = {"not": {"anyOf": [{"required": [key]} for key in headings]}}
-    others = [{"required": [key], "properties": {kind: {"not": {"type": "array"}}}} for key in headings]
-    return {"oneOf": [{**alone, **without}, *others]}
 
 
 _LOAD = (_ref("quantity"), _ref("unknown"), _ref("like"))

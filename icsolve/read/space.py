@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 from icsolve.case import Case, Number, Pair, Toward, Units
 from icsolve.case.space import (
@@ -92,14 +91,6 @@ def _centres(entry: Entry, key: str, node: Node) -> tuple[str, ...] | None:
     return entry.points(key, node, "[G, H]")
 
 
-def _at_point(kind: type[SphericalJoint] | type[RigidJoint]) -> Callable[..., Joint]:
-    return lambda _, links, v: kind(links, v["at"])
-
-
-def _on_axis(kind: type[Radial] | type[Thrust] | type[Hinge]) -> Callable[..., Joint]:
-    return lambda _, links, v: kind(links, v["at"], v["axis"])
-
-
 def _gears(entry: Entry, links: Pair, v: Values) -> Joint | None:
     counts, centres = v["teeth"], v["at"]
     alone = len(counts) == 1
@@ -117,11 +108,11 @@ def _gears(entry: Entry, links: Pair, v: Values) -> Joint | None:
 
 
 BUILDERS: Builders[Joint] = {
-    "ball": _at_point(SphericalJoint),
-    "radial": _on_axis(Radial),
-    "thrust": _on_axis(Thrust),
-    "hinge": _on_axis(Hinge),
-    "weld": _at_point(RigidJoint),
+    "ball": lambda _, links, v: SphericalJoint(links, v["at"]),
+    "radial": lambda _, links, v: Radial(links, v["at"], v["axis"]),
+    "thrust": lambda _, links, v: Thrust(links, v["at"], v["axis"]),
+    "hinge": lambda _, links, v: Hinge(links, v["at"], v["axis"]),
+    "weld": lambda _, links, v: RigidJoint(links, v["at"]),
     "gears": _gears,
 }
 

@@ -256,14 +256,10 @@ class Wrongs:
     def near(self, value: float, digits: str = "") -> tuple[Wrong, ...]:
         """The wrong answers that a value may be, simplest cause first, one of each code; ``digits`` as it was
         written, if that is known."""
-        values, reach = self._values, self.reach
-        width = reach * abs(value) * (1.0 + reach)
-        first = bisect_left(values, value - width)
-        if first == len(values) or not values[first] <= value + width < math.inf:
-            return ()
-        last = bisect_right(values, value + width, first)
+        reach = self.reach
+        first, last = _within(self._values, value, reach * abs(value) * (1.0 + reach))
         some = self.all[first:last]
-        if last - first == 1 and some[0].code in PLAIN:
+        if len(some) == 1 and some[0].code in PLAIN:
             return some if abs(value - some[0].value) <= reach * abs(some[0].value) else ()
         last_figure = _last_figure(digits)
         fitting = [w for w in some if abs(value - w.value) <= self.width(w.code, last_figure) * abs(w.value)]
@@ -311,11 +307,10 @@ class Wrongs:
         """
         if not self._right:
             return ()
-        values, width = self._pair_values, min(self.reach, _DIGITS + _ROUNDING) * abs(value)
-        first = bisect_left(values, value - width)
-        if first == len(values) or not values[first] <= value + width < math.inf:
+        width = min(self.reach, _DIGITS + _ROUNDING) * abs(value)
+        first, last = _within(self._pair_values, value, width)
+        if first == last:
             return ()
-        last = bisect_right(values, value + width, first)
         nearest = min(self._pairs[first:last], key=lambda p: abs(p.value - value))
         last_figure = _last_figure(digits)
         if last_figure > _DIGITS or abs(nearest.value - value) > (last_figure + _ROUNDING) * abs(value):
@@ -335,6 +330,14 @@ _ON_TOP: tuple[tuple[str, float, str], ...] = (
     ),
 )
 """Plain mistakes that are made on top of another."""
+
+
+def _within(values: list[float], value: float, width: float) -> tuple[int, int]:
+    """Which of sorted values lie within a width of one: from the first to before the last."""
+    first = bisect_left(values, value - width)
+    if first == len(values) or not values[first] <= value + width < math.inf:
+        return first, first
+    return first, bisect_right(values, value + width, first)
 
 
 def _last_figure(digits: str) -> float:

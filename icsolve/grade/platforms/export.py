@@ -6,7 +6,7 @@ import json
 import os
 import shlex
 import uuid
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from html import escape
 
 from icsolve.case import Case
@@ -92,19 +92,16 @@ _HTML = """\
 """
 
 
-class Made(NamedTuple):
-    """What a question is made from: the name and the text of its case, what load is asked for ('': the only
-    unknown), the text of the course ('' for none), and whether each student has a figure of their own."""
+def element(question: Question, text: str, course: str, varied: bool) -> dict[str, str]:
+    """The files of a question's folder, by name.
 
-    name: str
-    case: str
-    what: str
-    course: str
-    varied: bool
-
-
-def element(question: Question, made: Made) -> dict[str, str]:
-    """The files of the question's folder, by name."""
+    Parameters
+    ----------
+    question : the question, of the only unknown of its case or of one of them
+    text, course : the text of its case, and of the course ('' for none)
+    varied : whether each student has a figure of their own
+    """
+    name, _, what = question.key.question.partition(":")
     about = {
         "uuid": str(uuid.uuid5(uuid.NAMESPACE_URL, f"icsolve:{question.name}")),
         "title": question.title or question.name,
@@ -114,17 +111,17 @@ def element(question: Question, made: Made) -> dict[str, str]:
     }
     figure = ""
     if question.picture:
-        kind = ' type="dynamic"' if made.varied else ""
+        kind = ' type="dynamic"' if varied else ""
         figure = f'\n  <pl-figure file-name="figure.svg"{kind}></pl-figure>'
     files = {
         "info.json": json.dumps(about, indent=2, ensure_ascii=False) + "\n",
         "question.html": _HTML.format(title=escape(question.title or question.name), figure=figure),
-        "server.py": _SERVER.format(pins=" ".join(pinned()), file=f"{made.name}.yaml", question=made.what),
-        f"{made.name}.yaml": made.case,
+        "server.py": _SERVER.format(pins=" ".join(pinned()), file=f"{name}.yaml", question=what),
+        f"{name}.yaml": text,
     }
-    if made.course:
-        files["course.yaml"] = made.course
-    if question.picture and not made.varied:
+    if course:
+        files["course.yaml"] = course
+    if question.picture and not varied:
         files["clientFilesQuestion/figure.svg"] = question.picture
     return files
 
@@ -219,28 +216,37 @@ def _elements(order: ExportOrder, complain: Complain) -> int:
     found = list(questions(order, complain))
     course = _text(order.course) if order.course else ""
     for question in found:
-        case, _, what = question.key.question.partition(":")
+        case = question.key.question.partition(":")[0]
         folder = os.path.join(order.path, question.key.question.replace(":", "-"))
         varied = order.case_store.variation(case) is not None
-        made = Made(case, order.case_store.text(case), what, course, varied)
-        for name, text in element(question, made).items():
+        for name, text in element(question, order.case_store.text(case), course, varied).items():
             write_whole(os.path.join(folder, name), text, order.force)
     return len(found)
 
 
 def _zip(order: ExportOrder) -> int:
-    """All cases with the course, the roster and icsolve itself."""
-    case_store = order.case_store
-    cases = {os.path.basename(at): case_store.text(name) for name, at in case_store.paths.items()}
-    course, roster = (_text(path) if path else "" for path in (order.course, order.roster))
-    seed = case_store.course.seed if case_store.course.seed != Course().seed else ""
+    """The zip to upload: ``setup.sh`` and ``run_autograder`` at its root, beside them all cases with the
+    course, the roster, the numbers that were handed out, and icsolve itself. The same input gives the same
+    bytes."""
+    store = order.case_store
+    cases = {f"cases/{os.path.basename(at)}": store.text(name) for name, at in store.paths.items()}
+    given = (("cases/course.yaml", order.course), ("roster.csv", order.roster))
+    files = {name: text for name, path in given if path and (text := _text(path))}
     records = {}
-    for name, record in case_store.records.items():
+    for name, record in store.records.items():
         for path in (record.path, os.path.join(os.path.dirname(record.path), KEYS)):
             if os.path.isfile(path):
-                records[f"{name}/{os.path.basename(path) if path != record.path else VALUES}"] = _text(path)
-    source = AutograderSource(cases, course, roster, seed, records)
-    write_whole(order.path, autograder_zip(source), order.force)
+                own = os.path.basename(path) if path != record.path else VALUES
+                records[f"variants/{name}/{own}"] = _text(path)
+    seed = store.course.seed
+    options = f" \\\n  --seed {shlex.quote(seed)}" if seed != Course().seed else ""
+    options += " \\\n  --roster roster.csv" if "roster.csv" in files else ""
+    options += " \\\n  --variants variants" if records else ""
+    pins = " ".join(f'"{pin}"' for pin in pinned()[1:])
+    programs = {"setup.sh": _SETUP.format(pins=pins), "run_autograder": _RUN.format(options=options)}
+    texts = programs | dict(sorted(cases.items())) | files | dict(sorted(records.items()))
+    parts = [*((name, text.encode("utf-8")) for name, text in texts.items()), *_package()]
+    write_whole(order.path, zipped(parts, programs), order.force)
     return len(cases)
 
 
@@ -294,35 +300,6 @@ def pinned() -> list[str]:
         except PackageNotFoundError:
             found.append(name)
     return found
-
-
-class AutograderSource(NamedTuple):
-    """What goes into an autograder: the texts of cases by file name, of the course and of the roster ('' for
-    none), and the seed of the variants."""
-
-    cases: Mapping[str, str]
-    course: str = ""
-    roster: str = ""
-    seed: str = ""
-    records: Mapping[str, str] = {}
-    """the numbers that were handed out, by file"""
-
-
-def autograder_zip(source: AutograderSource) -> bytes:
-    """The zip to upload: ``setup.sh`` and ``run_autograder`` at its root, the cases and icsolve beside them.
-
-    The same input gives the same bytes.
-    """
-    options = f" \\\n  --seed {shlex.quote(source.seed)}" if source.seed else ""
-    options += " \\\n  --roster roster.csv" if source.roster else ""
-    options += " \\\n  --variants variants" if source.records else ""
-    pins = " ".join(f'"{pin}"' for pin in pinned()[1:])
-    programs = {"setup.sh": _SETUP.format(pins=pins), "run_autograder": _RUN.format(options=options)}
-    texts = programs | {f"cases/{name}": text for name, text in sorted(source.cases.items())}
-    own = {"cases/course.yaml": source.course, "roster.csv": source.roster}
-    texts |= {name: text for name, text in own.items() if text}
-    texts |= {f"variants/{name}": text for name, text in sorted(source.records.items())}
-    return zipped([*((name, text.encode("utf-8")) for name, text in texts.items()), *_package()], programs)
 
 
 def _package() -> Iterator[tuple[str, bytes]]:

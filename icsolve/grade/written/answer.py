@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from functools import partial
+from functools import lru_cache, partial
 from typing import Any
 
 from icsolve.grade.written.numerals import AMBIGUOUS as AMBIGUOUS_NUMBER
@@ -372,12 +372,10 @@ _NO_UNIT = {"", "-", "1", "none", "n/a", "na", "dimensionless", "[-]"}
 
 
 class Combined:
-    """Reads answers of up to three columns; remembers units and directions, which repeat."""
+    """Reads answers of up to three columns."""
 
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
-        self._units: dict[str, UnitWord | str | None] = {}
-        self._directions: dict[str, WrittenDirection | str | None] = {}
 
     def read(self, answer: str, unit: str = "", way: str = "") -> WrittenAnswer:
         """The reading of all of it; what one column says against another is flagged."""
@@ -385,7 +383,7 @@ class Combined:
         if (not unit and not way) or written.flag:
             return written
         number, own_unit, own_way, digits, _, note = written
-        word, direction = self._unit(unit), self._direction(way)
+        word, direction = _unit_alone(unit), _direction_alone(way)
         flag = _unit_flag(own_unit, word) or _direction_flag(number, own_way, direction)
         if flag:
             return flagged(flag)
@@ -393,43 +391,31 @@ class Combined:
             own_unit, note = word, note or word.note  # type: ignore[assignment, union-attr]
         return WrittenAnswer(number, own_unit, direction or own_way, digits, "", note)  # type: ignore[arg-type]
 
-    def _unit(self, text: str) -> UnitWord | str | None:
-        """The unit of its own column; a flag where it is none."""
-        if not text:
-            return None
-        if text not in self._units:
-            if len(self._units) >= _MOST:
-                self._units.clear()
-            words = plain(text)
-            self._units[text] = None if words.lower() in _NO_UNIT else unit_word(words) or UNREAD
-        return self._units[text]
 
-    def _direction(self, text: str) -> WrittenDirection | str | None:
-        if not text:
-            return None
-        if text not in self._directions:
-            if len(self._directions) >= _MOST:
-                self._directions.clear()
-            words = plain(text)
-            known = None if words.lower() in _NO_UNIT else direction(words) or AMBIGUOUS_DIRECTION
-            self._directions[text] = known
-        return self._directions[text]
+@lru_cache(_MOST)
+def _unit_alone(text: str) -> UnitWord | str | None:
+    """The unit of its own column; a flag where it is none."""
+    words = plain(text)
+    return None if words.lower() in _NO_UNIT else unit_word(words) or UNREAD
+
+
+@lru_cache(_MOST)
+def _direction_alone(text: str) -> WrittenDirection | str | None:
+    """The direction of its own column; a flag where it is none."""
+    words = plain(text)
+    return None if words.lower() in _NO_UNIT else direction(words) or AMBIGUOUS_DIRECTION
 
 
 def _unit_flag(own: UnitWord | None, word: UnitWord | str | None) -> str:
     """What is against a unit in a column of its own: it is none, or ambiguous, or the answer has another."""
-    if word is None:
-        return ""
-    if isinstance(word, str):
-        return word
+    if word is None or isinstance(word, str):
+        return word or ""
     if word.note == AMBIGUOUS_UNIT or (own is not None and own.unit != word.unit):
         return AMBIGUOUS_UNIT
     return ""
 
 
 def _direction_flag(number: float, own: WrittenDirection | None, way: WrittenDirection | str | None) -> str:
-    if way is None:
-        return ""
-    if isinstance(way, str):
-        return way
+    if way is None or isinstance(way, str):
+        return way or ""
     return AMBIGUOUS_DIRECTION if way.flag or number < 0.0 or (own is not None and own != way) else ""
