@@ -416,7 +416,7 @@ class Walk:
             miss = concentric(step, self.workspace)
         elif min(signs) < 0:
             miss = too_far(step, self.workspace, [gap.value for gap in gaps])
-            self.workspace.points[step.target] = _between(step, self.workspace)
+            self.workspace.points[step.target] = _middle_of_gap(step, self.workspace)
             path = self._longer(path, step)
         elif min(signs) == 0:
             return [step._replace(sign=0)]
@@ -461,7 +461,7 @@ def _rounded(step: Meet, gaps: list[Gap]) -> list[Gap]:
     return [gap._replace(sign=0) if abs(gap.value) <= most else gap for gap in gaps]
 
 
-def _between(step: Meet, workspace: Workspace) -> Point:
+def _middle_of_gap(step: Meet, workspace: Workspace) -> Point:
     """Where two loci that do not meet come closest: the middle between them."""
     one, two = step.loci(workspace)
     assert isinstance(two, PlacedCircle)

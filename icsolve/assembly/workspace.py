@@ -254,7 +254,7 @@ def _resolved(case: Case, xs: list[Number], ys: list[Number], size: float) -> No
             f"{math.ulp(farthest):.3g} apart, and the figure's size is {size:.6g}; "
             "give coordinates from an origin in or near the figure",
         )
-    _apart(case, size)
+    _refuse_lost_difference(case, size)
 
 
 def _beside_its_size(case: Case, origin: tuple[float, float], size: float) -> None:
@@ -272,7 +272,7 @@ def _beside_its_size(case: Case, origin: tuple[float, float], size: float) -> No
             )
 
 
-def _apart(case: Case, size: float) -> None:
+def _refuse_lost_difference(case: Case, size: float) -> None:
     """Refuse two points that are written differently and became one by more than doubles lose."""
     for name, other in respelled(case).items():
         (x, y), (u, v) = _numbers(case, name), _numbers(case, other)

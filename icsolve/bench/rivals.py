@@ -79,12 +79,17 @@ def posed(scene: RivalFigure, normalised: bool = False) -> Posed:
     return Posed(scene.top, bases, power.wrenches(place))
 
 
-def by_cosines(case: Case) -> dict[str, Point]:
-    """The pins A, B, C, D of a four-bar from its lengths and the crank's angle, by the law of cosines."""
+def _sides(case: Case) -> tuple[float, float, float, float, float]:
+    """The sides AB, BC, CD, AD of a four-bar, and the crank's angle in radians."""
     a, b, c = (length.value.value for length in case.lengths)
     place = case.points["D"]
     assert isinstance(place, Coordinates) and place.x is not None
-    d, angle = place.x.value, math.radians(case.angles[0].value.value)
+    return a, b, c, place.x.value, math.radians(case.angles[0].value.value)
+
+
+def by_cosines(case: Case) -> dict[str, Point]:
+    """The pins A, B, C, D of a four-bar from its lengths and the crank's angle, by the law of cosines."""
+    a, b, c, d, angle = _sides(case)
     bx, by = a * math.cos(angle), a * math.sin(angle)
     apart = math.sqrt(a * a + d * d - 2.0 * a * d * math.cos(angle))
     turn = math.acos((b * b + apart * apart - c * c) / (2.0 * b * apart)) + math.atan2(-by, d - bx)
@@ -346,11 +351,8 @@ MOST_STEPS = 50
 
 def _assembled(case: Case) -> dict[str, Point]:
     """The pin C at the distances b from B and c from D; A, B and D follow from what is given."""
-    a, b, c = (length.value.value for length in case.lengths)
-    place = case.points["D"]
-    assert isinstance(place, Coordinates) and place.x is not None
-    angle = math.radians(case.angles[0].value.value)
-    crank, pivot = np.array([a * math.cos(angle), a * math.sin(angle)]), np.array([place.x.value, 0.0])
+    a, b, c, d, angle = _sides(case)
+    crank, pivot = np.array([a * math.cos(angle), a * math.sin(angle)]), np.array([d, 0.0])
     rod = np.array(case.near["C"])
     for _ in range(MOST_STEPS):
         arms = np.array([rod - crank, rod - pivot])

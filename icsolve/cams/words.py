@@ -80,14 +80,15 @@ def left_open(shape: Shape, curve: Curve, foot: Foot, what: str) -> str:
     if len(table) < 5:
         return f"{said}: too few to tell how far it can be trusted between them."
     others = [table_spline((*table[:k], *table[k + 1 :])) for k in range(NEAREST)]
-    off, turned = zip(*(_apart(piece, piece._replace(radius=other), foot.u) for other in others), strict=True)
+    gaps = (_gap_and_angle(piece, piece._replace(radius=other), foot.u) for other in others)
+    off, turned = zip(*gaps, strict=True)
     return (
         f"{said}: without one of those near the contact it would lie up to {max(off):.2g} away there, "
         f"with its normal turned by up to {max(turned):.2g} deg."
     )
 
 
-def _apart(one: PolarPiece, other: PolarPiece, u: float) -> tuple[float, float]:
+def _gap_and_angle(one: PolarPiece, other: PolarPiece, u: float) -> tuple[float, float]:
     """How far two curves are apart at a place, and the angle between them there, degrees."""
     off = math.dist(one.at(u), other.at(u))
     return off, math.degrees(abs(_angle(one.tangent(u), other.tangent(u))))

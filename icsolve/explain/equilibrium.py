@@ -179,18 +179,18 @@ def _rate(known: Known, written: Case, path: str, motion: OneMotion) -> float:
         return _turning(known, datum.at, datum.b, motion) - _turning(known, datum.at, datum.a, motion)
     if isinstance(datum, Direction):
         return _turning(known, datum.a, datum.b, motion)
-    (x, y), (u, v) = _apart(known, datum.a, datum.b, motion)
+    (x, y), (u, v) = _arm_and_rate(known, datum.a, datum.b, motion)
     rate: float = (x * u + y * v) / math.hypot(x, y)
     return rate
 
 
 def _turning(known: Known, a: str, b: str, motion: OneMotion) -> float:
-    (x, y), (u, v) = _apart(known, a, b, motion)
+    (x, y), (u, v) = _arm_and_rate(known, a, b, motion)
     rate: float = (x * v - y * u) / (x * x + y * y)
     return rate
 
 
-def _apart(known: Known, a: str, b: str, motion: OneMotion) -> tuple[Point, Point]:
+def _arm_and_rate(known: Known, a: str, b: str, motion: OneMotion) -> tuple[Point, Point]:
     """From a to b, and how fast that changes."""
     (ax, ay), (bx, by) = known.points[a], known.points[b]
     (au, av), (bu, bv) = _velocity(known, a, motion), _velocity(known, b, motion)

@@ -128,7 +128,7 @@ def rate_rows(place: PlacedCase, twists: Twists, drives: Sequence[Drive]) -> tup
         relative = subtract(twists[bond.links[1]], twists[bond.links[0]])
         basis, change = freedoms(bond, place.points, place.arithmetic), _changes(place, twists, bond)
         for w, dw in zip(transmitted(basis), _transmitted_changes(basis, change), strict=True):
-            rows.append(_between(top, bond, w, pairing(dw, relative), known))
+            rows.append(_rate_condition(top, bond, w, pairing(dw, relative), known))
             sizes.append(sum(abs(a * b) for a, b in zip(dw, relative, strict=True)))
     for rope in top.ropes:
         row, moved = _roped(place, rope, twists)
@@ -190,7 +190,7 @@ def _rates(
     return found, idle
 
 
-def _between(top: Topology, bond: Bond, w: Triple, change: Scalar, known: int) -> Row:
+def _rate_condition(top: Topology, bond: Bond, w: Triple, change: Scalar, known: int) -> Row:
     """``w . (rate of b - rate of a) + change = 0``."""
     row: Row = {known: change}
     for body, sign in ((bond.b, 1.0), (bond.a, -1.0)):

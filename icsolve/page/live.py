@@ -164,7 +164,7 @@ class _ProgramWriter:
         """A step, its branch an input."""
         start, ws = len(self.record.nodes), self.workspace
         told: dict[str, Any] = {} if step in needed or isinstance(step, Given) else {"spare": True}
-        apart = self._apart(step)
+        apart = self._squared_distances(step)
         if isinstance(step, Meet):
             more = self._meet(step, told)
         elif isinstance(step, Group):
@@ -182,7 +182,7 @@ class _ProgramWriter:
             self.order.append(key)
         return self.order.index(key)
 
-    def _apart(self, step: Step) -> list[Scalar]:
+    def _squared_distances(self, step: Step) -> list[Scalar]:
         """The squared distances of points whose direction a step goes by."""
         found = []
         for a, b in aims(step):

@@ -147,7 +147,11 @@ def _parts(reading: Reading, root: Mapping) -> _Parts:
     if type(listed) is Sequence and any("screw" in n.items for n in listed.items if type(n) is Mapping):
         reading.driven = driven(root.items.get("loads"))
     joints, ropes = _joints(reading, root)
-    profiles = _profiles(reading, root) if section is not None else None
+    profiles = None
+    if section is not None:
+        from icsolve.read.profiles import read_profiles
+
+        profiles = read_profiles(reading, section_of(reading, root, "profile"))
     points = read_points(reading, section_of(reading, root, "points"))
     loads = read_loads(reading, section_of(reading, root, "loads"))
     if ropes:
@@ -216,12 +220,6 @@ def _joints(reading: Reading, root: Mapping) -> tuple[tuple[Joint, ...], tuple[R
     else:
         reading.refuse(node.mark, "'joints' should be a list, each item as in - {pin: [1, 2], at: B}")
     return (), ()
-
-
-def _profiles(reading: Reading, root: Mapping) -> Profiles | None:
-    from icsolve.read.profiles import read_profiles
-
-    return read_profiles(reading, section_of(reading, root, "profile"))
 
 
 def ground_of(reading: Reading, root: Mapping) -> str:

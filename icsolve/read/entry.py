@@ -124,7 +124,7 @@ class Entry:
             if not there:
                 self.refuse(self.node.mark, said)
             return bool(there)
-        if tie.kind == "direction" and any(type(node) is Sequence for node in self._own()):
+        if tie.kind == "direction" and self._has_components:
             if there:
                 given = f"{self.what} is given by components, so it takes no '{there[0]}'"
                 self.refuse(self.mark(there[0]), given)
@@ -134,10 +134,10 @@ class Entry:
             return False
         return len(there) < 2
 
-    def _own(self) -> Iterable[Node]:
-        """The value of the key that says of which kind an entry is: the first of its table."""
-        own = next(iter(self.keys), "")
-        return (self.node.items[own],) if own in self.node.items else ()
+    @property
+    def _has_components(self) -> bool:
+        """Whether the key that says of which kind the entry is, the first of its table, has a list."""
+        return type(self.node.items.get(next(iter(self.keys), ""))) is Sequence
 
     def one_of(self, keys: Iterable[str]) -> str | None:
         """The one key of several that stands there; None for none; two are refused."""

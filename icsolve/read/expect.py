@@ -142,13 +142,13 @@ def _rates(reading: Reading, key: str) -> Iterator[Target]:
 
 def _centres(reading: Reading, key: str) -> Iterator[CentreIs]:
     """``I24``, ``I2-4``, and the bare pair."""
-    if key.startswith("I"):
-        yield from (CentreIs(pair) for pair in _different(pairs(key[1:], reading.knows_link)))
-    yield from (CentreIs(pair) for pair in _different(pairs(key, reading.knows_link)))
+    yield from map(CentreIs, _links(reading, key[1:]) if key.startswith("I") else ())
+    yield from map(CentreIs, _links(reading, key))
 
 
-def _different(found: list[Pair]) -> list[Pair]:
-    return [pair for pair in found if pair[0] != pair[1]]
+def _links(reading: Reading, text: str) -> list[Pair]:
+    """The pairs of different links that a text can mean."""
+    return [pair for pair in pairs(text, reading.knows_link) if pair[0] != pair[1]]
 
 
 def _distances(reading: Reading, key: str, points: set[str]) -> Iterator[Target]:
@@ -169,7 +169,7 @@ def _between_points(key: str, points: set[str]) -> list[Target]:
 def _ends(reading: Reading, text: str, points: set[str]) -> list[Pair | str]:
     found: list[Pair | str] = [text] if text in points else []
     if text.startswith("I"):
-        found += _different(pairs(text[1:], reading.knows_link))
+        found += _links(reading, text[1:])
     return found
 
 
@@ -203,8 +203,7 @@ def _component(reading: Reading, letter: str, axis: str) -> str:
 
 
 def _reaction(reading: Reading, text: str, part: str, at: str | None) -> Iterator[ReactionIs]:
-    for by, on in _different(pairs(text, reading.knows_link)):
-        yield ReactionIs(by, on, part, at)
+    yield from (ReactionIs(by, on, part, at) for by, on in _links(reading, text))
 
 
 SENSES = {

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from collections.abc import Mapping as Table
 from typing import Any, Generic, TypeVar
 
@@ -341,15 +341,10 @@ def _motion(reading: Reading, node: Node, path: str) -> Motion | None:
 
 def driven(loads: Node | None) -> set[frozenset[str]]:
     """The pairs of links whose screws torques turn."""
-    return {frozenset(pair) for pair in _pairs(loads)}
-
-
-def _pairs(loads: Node | None) -> Iterator[tuple[str, str]]:
-    for node in loads.items.values() if type(loads) is Mapping else ():
-        if type(node) is Mapping and "torque" in node.items and "screw" in node.items:
-            pair = _pair(node.items["screw"])
-            if pair is not None:
-                yield pair
+    entries = loads.items.values() if type(loads) is Mapping else ()
+    given = (node.items for node in entries if type(node) is Mapping)
+    turned = (_pair(items["screw"]) for items in given if {"torque", "screw"} <= items.keys())
+    return {frozenset(pair) for pair in turned if pair is not None}
 
 
 def _pair(node: Node) -> tuple[str, str] | None:

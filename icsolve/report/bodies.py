@@ -116,14 +116,14 @@ def _number(value: float | None, show: Format) -> str:
 def witness_table(witnesses: Sequence[Witness], show: Format) -> list[str]:
     """A line for each unknown load, in the plane and in space."""
     lines = [
-        f"  {w.load} = {show(w.bodies)}, by power {show(w.power)}: {_apart(w.difference)}, "
+        f"  {w.load} = {show(w.bodies)}, by power {show(w.power)}: {_difference_in_words(w.difference)}, "
         f"{_rounding(w.bound)}"
         for w in witnesses
     ]
     return ["By the equilibrium of the links alone", *lines] if lines else []
 
 
-def _apart(difference: float) -> str:
+def _difference_in_words(difference: float) -> str:
     return f"{abs(difference):.1e} apart" if difference else "no difference"
 
 

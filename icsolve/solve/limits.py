@@ -88,11 +88,11 @@ def at_limits(
                 continue
             on = {branches.on(limit.mode, limit.value) for limit in (one, other)}
             if kept is None or on & kept:
-                found += _between(functions[one.mode], functions[other.mode], one)
+                found += _rest_at_limit(functions[one.mode], functions[other.mode], one)
     return found
 
 
-def _between(one: LoadFunction, two: LoadFunction, limit: Limit) -> list[Rest]:
+def _rest_at_limit(one: LoadFunction, two: LoadFunction, limit: Limit) -> list[Rest]:
     """The position between two modes that meet at a limit, where the load changes its sign there."""
     step = 1e-7 * max(1.0, abs(limit.value))
     here = limit.value - limit.side * step

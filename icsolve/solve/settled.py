@@ -167,7 +167,7 @@ def described(function: LoadFunction, value: float, error: float) -> Rest:
     stiffness, why = None, ""
     stability = "neutral"
     with np.errstate(all="ignore"):
-        pairs = [(float(s.flat[0]), float(r.flat[0])) for s in slope for r in rate] if _apart(rate) else []
+        pairs = [(float(s.flat[0]), float(r.flat[0])) for s in slope for r in rate] if _has_sign(rate) else []
     ends = [-s / r * factor for s, r in pairs]
     if ends and all(map(math.isfinite, ends)):
         low, high = min(ends), max(ends)
@@ -197,7 +197,7 @@ def told(
     return Rest(value, error, stability, stiffness, why, answer, case, function.links, size)
 
 
-def _apart(rate: Interval) -> bool:
+def _has_sign(rate: Interval) -> bool:
     return bool((rate.low.flat[0] > 0.0) or (rate.high.flat[0] < 0.0))
 
 

@@ -174,10 +174,10 @@ def refuse_apart(found: Sequence[Witness], slack: float) -> None:
     for w in found:
         room = max(w.bound, max(AGREE, slack) * max(abs(w.power), abs(w.bodies)))
         if not abs(w.difference) <= room:
-            raise SceneError(Status.NEAR_SINGULAR, _apart(w))
+            raise SceneError(Status.NEAR_SINGULAR, _routes_disagree(w))
 
 
-def _apart(w: Witness) -> str:
+def _routes_disagree(w: Witness) -> str:
     return (
         f"power gives {w.load} = {w.power:.9g} and the equilibrium of the links {w.bodies:.9g}: they should "
         "be one number, so this position is too near to a singular one. Take another position, or give its "

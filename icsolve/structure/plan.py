@@ -295,7 +295,7 @@ class _Growth:
             if self._held(body) >= 3:
                 return (body,)
             for other in self._neighbours((body,)):
-                if self._held(body) + self._held(other) + self._between(body, other) >= 6:
+                if self._held(body) + self._held(other) + self._constraints_of_pair(body, other) >= 6:
                     return (body, other)
         if len(self.known) == len(self.top.members):
             return ()
@@ -324,7 +324,7 @@ class _Growth:
         bonds = (self.top.bonds[k] for k in self.top.at[body])
         return sum(bond.constraints for bond in bonds if bond.other(body) in self.known)
 
-    def _between(self, a: int, b: int) -> int:
+    def _constraints_of_pair(self, a: int, b: int) -> int:
         bonds = (self.top.bonds[k] for k in self.top.at[a])
         return sum(bond.constraints for bond in bonds if bond.other(a) == b)
 

@@ -102,7 +102,7 @@ class PathTracker:
     def _given(self, s: Array) -> tuple[dict[int, Array], Mask]:
         given, good = self._plain(s), np.ones(len(s), dtype=bool)
         if self.groups or self.counted:
-            q, turns, good = self._between(s)
+            q, turns, good = self._interpolated(s)
             solved, _, right = self._solved(given, q, turns)
             solved = np.where(right[:, None], solved, q)
             good &= right | self.singular(s)
@@ -124,7 +124,7 @@ class PathTracker:
         sense = self.senses[one]
         for _ in range(HALVINGS):
             middle = np.array([(one + two) / 2.0])
-            q, turns, _ = self._between(middle)
+            q, turns, _ = self._interpolated(middle)
             given = self._plain(middle)
             q, turns, _ = self._solved(given, q, turns)
             if np.array_equal(self._senses(given, q, turns), sense):
@@ -156,7 +156,7 @@ class PathTracker:
         }
         if not self.segments:
             return State(self.start.q, self.start.turns, signs)
-        q, turns, _ = self._between(at)
+        q, turns, _ = self._interpolated(at)
         given = self._plain(at)
         q, turns, _ = self._solved(given, q, turns)
         return State(q[0], turns[0], signs)
@@ -311,7 +311,7 @@ class PathTracker:
 
     # --- between steps ----------------------------------------------------------------------------
 
-    def _between(self, s: Array) -> tuple[Array, Array, Mask]:
+    def _interpolated(self, s: Array) -> tuple[Array, Array, Mask]:
         """States between the steps, by the cubic through the four nearest."""
         q = np.full((len(s), self.start.q.size), np.nan)
         turns = np.zeros((len(s), self.start.turns.size))

@@ -99,8 +99,10 @@ def total_of(rows: Sequence[ResultRow]) -> tuple[float | None, float]:
     return None if waiting else score, sum(row.max_score for row in rows)
 
 
-def _questions(all_rows: Iterable[Sequence[ResultRow]]) -> dict[str, float]:
-    """The questions with their points, by name."""
+def _points(all_rows: Sequence[Sequence[ResultRow]], total: str) -> dict[str, float]:
+    """The columns with their points: the questions, by name, or all together in the column ``total``."""
+    if total:
+        return {total: max((total_of(rows)[1] for rows in all_rows), default=0.0)}
     return dict(sorted({row.case: row.max_score for rows in all_rows for row in rows}.items()))
 
 
@@ -123,22 +125,16 @@ _NAMES = (("lastname", "firstname"), ("last name", "first name"), ("nachname", "
 def canvas_gradebook(students: Students, people: dict[str, Person], total: str = "") -> str:
     """A gradebook of the five id columns and one for each question; names come from the roster."""
     found = list(students)
-    points = _questions(rows for _, rows in found)
-    if total:
-        points = {total: max((total_of(rows)[1] for _, rows in found), default=0.0)}
+    points = _points([rows for _, rows in found], total)
     lines = [[_POINTS, "", "", "", "", *map(shown, points.values())]]
     for student, rows in found:
         if student:
             marks = {name: score for name, (score, _) in _marks(rows, total).items()}
             scores = [shown(mark) if (mark := marks.get(q)) is not None else "" for q in points]
-            lines.append([*map(safe, _ids(student, people)), *scores])
+            person = people.get(student, Person(student))
+            name = ", ".join(part for part in (person.last_name, person.first_name) if part)
+            lines.append([*map(safe, (name, "", student, person.email, person.section)), *scores])
     return csv_text([*_CANVAS, *points], lines)
-
-
-def _ids(student: str, people: dict[str, Person]) -> tuple[str, ...]:
-    person = people.get(student, Person(student))
-    name = ", ".join(part for part in (person.last_name, person.first_name) if part)
-    return (name, "", student, person.email, person.section)
 
 
 def gradebook_filled(template: str, students: Students, people: dict[str, Person], total: str = "") -> Filled:
@@ -158,9 +154,7 @@ def gradebook_filled(template: str, students: Students, people: dict[str, Person
             f"(it has {', '.join(book.header[:8])})"
         )
     marks = {student: rows for student, rows in students if student}
-    known, points = aliases(marks, people), _questions(marks.values())
-    if total:
-        points = {total: max((total_of(rows)[1] for rows in marks.values()), default=0.0)}
+    known, points = aliases(marks, people), _points([*marks.values()], total)
     places = {name: _place(book, name, new=not total) for name in points}
     possible = _possible(book, places, points)
     placed = set()
@@ -267,7 +261,7 @@ def moodle_filled(template: str, students: Students, people: dict[str, Person]) 
     known = aliases(marks, people)
     placed = set()
     for row in book.rows:
-        student = next((known[t] for i in ids if (t := row[i].strip().lower()) in known), None)
+        student = _student(book, row, ids, [], known)
         if student is None:
             continue
         placed.add(student)

@@ -403,7 +403,7 @@ def pressed(statics: Statics, senses: Sequence[float]) -> StaticRange:
     holding = [
         (a, b)
         for a, b in pairwise(marks)
-        if a < b and _capacity(statics, against, powers, _between(a, b)) >= abs(drive)
+        if a < b and _capacity(statics, against, powers, _value_inside(a, b)) >= abs(drive)
     ]
     if not holding:
         raise SceneError(
@@ -418,7 +418,7 @@ def pressed(statics: Statics, senses: Sequence[float]) -> StaticRange:
     return StaticRange(*both, both, SAID, ends=about_to_move, again=tuple(again))
 
 
-def _between(a: float, b: float) -> float:
+def _value_inside(a: float, b: float) -> float:
     if a == -math.inf:
         return b - max(1.0, abs(b)) if b < math.inf else 0.0
     return a + max(1.0, abs(a)) if b == math.inf else (a + b) / 2.0
