@@ -201,17 +201,17 @@ class AnswerBuilder:
         by_load: dict[str, dict[str, float]] = {load: {} for load in self.unknowns}
         for number in numbers_of(self.case).values():
             step = Decimal(repr(1e-40 * (abs(number.value) or 1.0)))
-            with suppress(SceneError, ZeroDivisionError, BelowZero, MoreDigits, KeyError):
-                more, less = self._with(number, step), self._with(number, -step)
+            with suppress(*OPEN, KeyError):
+                more, less = (self._with(number, way, PRECISIONS[-1]) for way in (step, -step))
                 for load, slope in by_load.items():
                     change = float(more[load] - less[load]) / (2.0 * float(step))
                     tiny = NOTHING * abs(float(more[load])) / abs(float(step))
                     slope[number.path] = change if abs(change) > tiny else 0.0
         return by_load
 
-    def _with(self, number: Number, step: Decimal) -> dict[str, Scalar]:
-        """The unknown loads with a number moved by a step."""
-        outcome = evaluate(self.program, MovedBalls(number.path, step, PRECISIONS[-1]))[1]
+    def _with(self, number: Number, step: Decimal, digits: int) -> dict[str, Scalar]:
+        """The unknown loads, and those that are like them, with a number moved by a step."""
+        outcome = evaluate(self.program, MovedBalls(number.path, step, digits))[1]
         values = outcome.solution.values
         return {w.load.name: w.ratio * values[w.root] for w in outcome.balance.wrenches if w.root in values}
 
@@ -235,11 +235,9 @@ class AnswerBuilder:
     def _moved(self, number: Number) -> dict[str, float]:
         reach: dict[str, float] = {}
         for sign in (1, -1):
-            with suppress(SceneError, ZeroDivisionError, BelowZero, MoreDigits, KeyError):
+            with suppress(*OPEN, KeyError):
                 half = Decimal(repr(sign * number.half))  # 5e-26 as it is written
-                values = evaluate(self.program, MovedBalls(number.path, half, PRECISIONS[1]))[
-                    1
-                ].solution.values
+                values = self._with(number, half, PRECISIONS[1])
                 for load, value in self.first.outcome.solution.values.items():
                     change, own = (x if float(x) > 0.0 else -x for x in (values[load] - value, value))
                     size = float(own)  # doubles may not tell a change from the value itself
@@ -313,6 +311,8 @@ def _centres(found: Evaluation) -> dict[Pair, Centre]:
     return finder.find(pairs, motions.slack)
 
 
+OPEN = (SceneError, ZeroDivisionError, BelowZero, MoreDigits)
+"""What a scene raises that has no answer with a number moved, or none that its digits settle."""
 NOTHING = 1e-60
 """A change by less than this fraction of the value is what a difference of second order leaves."""
 
