@@ -31,7 +31,7 @@ from icsolve.assembly.workspace import (
 )
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
-from icsolve.structure.plan import matched, strongly_connected
+from icsolve.structure.plan import loose, matched, strongly_connected
 from icsolve.structure.topology import reached
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
@@ -180,14 +180,8 @@ def system_of(data: Iterable[Datum], placed: Iterable[str], wanted: Iterable[str
     held: dict[Unknown, list[int]] = {u: [] for u in of}
     for i in range(len(equations)):
         matched(i, reach.__getitem__, held, 1)
-    solves = {i: u for u, rows in held.items() for i in rows}
-
-    def instead(unknown: Unknown) -> list[Unknown]:
-        """What the equations of a free coordinate are matched to: they may solve for it in place of that."""
-        return [solves[i] for i in of[unknown] if i in solves]
-
-    free = reached((u for u, rows in held.items() if not rows), instead)
-    return System(equations, reach, of, {u: i for i, u in solves.items()}, free.keys())
+    solved = {u: rows[0] for u, rows in held.items() if rows}
+    return System(equations, reach, of, solved, loose(held, reach.__getitem__, 1).keys())
 
 
 def leans(system: System, point: str) -> list[str]:

@@ -109,29 +109,37 @@ def matched(
     return False
 
 
-def determined(
-    held: Mapping[int, Collection[Row]], reach: Callable[[Row], Iterable[int]], most: int
-) -> list[GroupPart]:
-    """The parts of a matching on which no body with too few rows bears (A. L. Dulmage, N. S. Mendelsohn,
-    Canadian Journal of Mathematics 10, 1958), each after those that it needs.
+def loose(
+    held: Mapping[Column, Collection[Row]], reach: Callable[[Row], Iterable[Column]], most: int
+) -> dict[Column, None]:
+    """The columns that too few rows determine: those that have fewer than ``most``, and those whose rows bear
+    on such a one (A. L. Dulmage, N. S. Mendelsohn, Canadian Journal of Mathematics 10, 1958).
 
     Parameters
     ----------
-    held, reach, most : as of `matched`, for all rows
+    held, reach, most : as of `matched`, when all rows have been given a column
     """
+    users: dict[Column, list[Column]] = {column: [] for column in held}
+    for column, rows in held.items():
+        for other in (other for row in rows for other in reach(row)):
+            users[other].append(column)
+    return reached((column for column, rows in held.items() if len(rows) < most), users.__getitem__)
+
+
+def determined(
+    held: Mapping[int, Collection[Row]], reach: Callable[[Row], Iterable[int]], most: int
+) -> list[GroupPart]:
+    """The parts of a matching of bodies that determine one another, each after those that it needs; the
+    parameters are those of `loose`."""
+    free = loose(held, reach, most)
     needs = {
         body: dict.fromkeys(other for row in rows for other in reach(row) if other != body)
         for body, rows in held.items()
+        if body not in free
     }
-    users: dict[int, list[int]] = {body: [] for body in needs}
-    for body, others in needs.items():
-        for other in others:
-            users[other].append(body)
-    loose = reached((body for body, rows in held.items() if len(rows) < most), users.__getitem__)
-    firm = {body: others for body, others in needs.items() if body not in loose}
     return [
-        GroupPart(set(members), {other for body in members for other in firm[body]} - set(members))
-        for members in strongly_connected(firm)
+        GroupPart(set(members), {other for body in members for other in needs[body]} - set(members))
+        for members in strongly_connected(needs)
     ]
 
 
