@@ -136,6 +136,70 @@ loads: {W: {weight: 10, link: 2, at: G}, M: {torque: 5, link: 2}}
 }
 
 
+TOLD = {
+    **OTHERS,
+    "screw": """
+icsolve: 1
+units: {length: mm, force: N, torque: N*m}
+points: {B: [0, 100]}
+joints: [{screw: [1, 2], at: B, along: 90, lead: 6 mm, radius: 11 mm, mu: 0.12}]
+loads: {W: {weight: 4 kN, link: 2, at: B}, T: {torque: unknown, screw: 1-2}}
+motion: {point: B, link: 2, speed: 1, angle: -90}
+""",
+    "pressure": """
+icsolve: 1
+units: {length: mm, force: N}
+points: {A: [0, 0], E: [250, -100], B: [330, 230], D: [165, 115]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: E}
+  - {slide: [4, 3], at: D, along: [E, D]}
+  - {pin: [2, 4], at: D}
+loads:
+  W: {mass: 60 kg, link: 2, at: B}
+  p: {pressure: unknown, bore: 40 mm, link: 4, at: D, away: E, against: 3}
+""",
+    "mass": """
+icsolve: 1
+points: {A: [0, 0], B: [-0.3, 0.1], C: [0.7, -0.05]}
+joints: [{pin: [1, 2], at: A}]
+loads: {M: {mass: 12 kg, link: 2, at: C}, m: {mass: unknown, link: 2, at: B}}
+""",
+    "space": """
+icsolve: 1
+points: {A: [0, 0, 0], B: [0, 0, 0.4], C: [0.3, 0.1, 0.2]}
+joints: [{thrust: [1, 2], at: A, axis: z}, {radial: [1, 2], at: B, axis: z}]
+loads: {F: {force: [10, 25, 5], link: 2, at: C}, T: {torque: unknown, link: 2, along: z}}
+""",
+}
+
+
+@pytest.mark.parametrize("kind", TOLD)
+def test_what_is_told_is_taken_as_an_expected_value_and_as_an_answer(
+    kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The size with its unit and the sense in words, as `solve` tells them; the other sense is not."""
+    found = {name: one for name, one in icsolve.solve(icsolve.load(TOLD[kind])).answers.items() if one.sense}
+    expect = "".join(f"  {name}: {abs(one.value)} {one.unit} {one.sense}\n" for name, one in found.items())
+    path = tmp_path / "case.yaml"
+    path.write_text(f"{TOLD[kind]}\nexpect:\n{expect}", encoding="utf-8")
+    assert exit_status("check", str(path)) == 0, capsys.readouterr()
+    table = tmp_path / "answers.csv"
+    for name, one in found.items():
+        words = [one.sense] if one.unit == "kg" else [one.sense, {"cw": "ccw", "ccw": "cw"}.get(one.sense)]
+        rows = "".join(
+            f'{n},case:{name},"{abs(one.value)} {one.unit} {w}"\n' for n, w in enumerate(words) if w
+        )
+        table.write_text(f"student_id,case,answer\n{rows}", encoding="utf-8")
+        graded = tmp_path / f"{name}.csv"
+        code = exit_status("grade", str(table), "--cases", str(path), "-o", str(graded))
+        assert code == (kind == "space")
+        _, *marks = graded.read_text(encoding="utf-8").splitlines()
+        expected = "not-graded" if kind == "space" else ",right,"
+        assert expected in marks[0]
+        assert all(",wrong," in mark for mark in marks[1:])
+
+
 def solved(case: Case, **more: bool) -> Answer | None:
     try:
         return icsolve.solve(case, **more)

@@ -603,5 +603,11 @@ def test_a_file_without_its_ending_is_named(
     assert "did you mean" not in capsys.readouterr().err
 
 
+def test_a_file_that_is_no_case_is_told_so() -> None:
+    for text in ("ics: 2}\n", "Icsolve: 1\n", "a: 1\n"):
+        with pytest.raises(CaseError, match="not an icsolve case"):
+            icsolve.load(text)
+
+
 def test_there_are_four_times_fifty() -> None:
     assert len(REFUSED) + len(SCENES) >= 200

@@ -110,6 +110,11 @@ class Torque(NamedTuple):
     turns: str = "ccw"
     against: str | None = None
 
+    @property
+    def positive(self) -> str:
+        """The sense that counts as positive; of one that turns a screw, as one looks along its axis."""
+        return "cw" if self.link.startswith("@") else self.turns
+
 
 class Weight(NamedTuple):
     """A force along -y at ``at``; with ``mass`` the number is a mass in kg."""

@@ -119,7 +119,7 @@ def _compared(difference: float, within: float) -> int | None:
 def expected_direction(load: Load, answer: Answer) -> ExpectedDirection:
     """The senses of a load's positive value."""
     if isinstance(load, Torque):
-        return ExpectedDirection(turn=-1.0 if load.turns == "cw" else 1.0)
+        return ExpectedDirection(turn=-1.0 if load.positive == "cw" else 1.0)
     if isinstance(load, Spring | TorsionSpring) or (isinstance(load, Weight) and load.mass):
         return ExpectedDirection()
     assert isinstance(load, Force | ForceVector | Weight)

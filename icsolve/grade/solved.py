@@ -48,6 +48,8 @@ def asked_of(case: Case, what: str) -> Target:
 
     Raises NoKeyError, with a sentence, where it names nothing, or the case has not one unknown.
     """
+    if case.space is not None:
+        raise NoKeyError(f"the case {case.name} is in space, and answers are judged of plane cases")
     if not what:
         names = unknowns(case)
         if not names:

@@ -7,7 +7,7 @@ from collections.abc import Mapping as Named
 
 from icsolve.case import Case
 from icsolve.errors import CaseError, NotACase
-from icsolve.read.build import build, check_version, is_in_space
+from icsolve.read.build import NO_CASE, build, check_version, is_in_space
 from icsolve.read.document import Mapping, Node, checked, parse, take_in, text_of
 from icsolve.read.keys import SECTIONS
 from icsolve.read.names import Problems, Stop
@@ -68,8 +68,7 @@ def read_text(text: str, path: str = "<text>", settings: Settings | None = None)
         text = checked(text, problems)
         root = _root(parse(text, problems), problems)
         if "icsolve" not in root.items and not {"joints", "points"} & set(root.items):
-            check_version(root, problems)
-            raise Stop
+            raise problems.stop(root.mark, NO_CASE)
         case = _case(root, settings or {}, problems, _name(path))
     except Stop:
         pass

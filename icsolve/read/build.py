@@ -39,7 +39,7 @@ from icsolve.read.figure import (
 from icsolve.read.joints import JOINTS, mention_links, read_joints
 from icsolve.read.keys import SECTIONS, SPACE_JOINTS
 from icsolve.read.loads import driven, read_loads, read_motion
-from icsolve.read.names import Problems, meant_by, shown
+from icsolve.read.names import Problems, shown
 from icsolve.read.reading import Reading, number
 from icsolve.tuples import NamedTuple
 
@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from icsolve.case.expected import Expected, Tolerance
     from icsolve.case.profiles import Profiles
 
+NO_CASE = "this is not an icsolve case: it has no 'icsolve: 1' at its top"
 TEXTS = ("title", "source", "reconstructed")
 
 
@@ -181,8 +182,8 @@ def check_version(root: Mapping, problems: Problems) -> None:
     """``icsolve: 1`` is the version that this program reads; of another one nothing is judged."""
     node = root.items.get("icsolve")
     if node is None:
-        if not any(meant_by(key, ("icsolve",)) for key in root.items):
-            problems.refuse(root.mark, "this is not an icsolve case: it has no 'icsolve: 1' at its top")
+        if not any(key.lower() == "icsolve" for key in root.items):  # else it is told what is meant
+            problems.refuse(root.mark, NO_CASE)
     elif type(node) is not Scalar or node.text != "1":
         said = f"version {shown(node.text)}" if type(node) is Scalar and node.text else "this version"
         raise problems.stop(node.mark, f"{said} of the format is not known; this program reads 'icsolve: 1'")

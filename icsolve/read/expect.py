@@ -382,7 +382,7 @@ def _fits(sense: str, dimension: str) -> bool:
     lead, _, rest = sense.partition(" ")
     if dimension in ("torque", "angular speed"):
         return sense in _TURNS
-    if dimension in ("force", "speed"):
+    if dimension in _ALONG:
         return sense in _LINES or (lead == "toward" and is_name(rest)) or (lead == "at" and _is_angle(rest))
     return False
 
@@ -396,7 +396,8 @@ def _fits_space(sense: str, dimension: str) -> bool:
 
 
 _TURNING, _LINE = "it is ccw or cw", "it is right, left, up, down, pull, push, 'at 30 deg' or 'toward P'"
-_ALLOWED = {"torque": _TURNING, "angular speed": _TURNING, "force": _LINE, "speed": _LINE}
+_ALONG = ("force", "speed", "pressure", "mass", "line load")
+_ALLOWED = {"torque": _TURNING, "angular speed": _TURNING, **dict.fromkeys(_ALONG, _LINE)}
 """The senses of a dimension in words."""
 _ALLOWED_IN_SPACE = "in space it is 'along -z', 'toward P', pull, push, up or down; of a torque 'about -z'"
 

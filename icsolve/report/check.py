@@ -259,7 +259,7 @@ def _load(answer: Answer, name: str, sense: str | None) -> float:
     if sense is None or load is None:
         return value
     if isinstance(load, Torque):
-        return _turned(value if load.turns == "ccw" else -value, sense)
+        return _turned(value if load.positive == "ccw" else -value, sense)
     found = answer.answers.get(name)
     if found is None or not found.sense:
         return value

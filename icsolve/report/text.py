@@ -153,7 +153,7 @@ def _positive(case: Case, name: str) -> str:
     """What a plus sign means for the load of that name."""
     load = next((load for load in case.loads if load.name == name), None)
     if isinstance(load, Torque):
-        return f"positive {SPELT['cw' if load.link.startswith('@') else load.turns]}"
+        return f"positive {SPELT[load.positive]}"
     return "positive along its line as the case gives it"
 
 

@@ -23,10 +23,8 @@ def sense_of(load: Load, value: float, gain: float, degrees: float) -> str:
     if value == 0.0:
         return ""
     match load:
-        case Torque(link=link) if link.startswith("@"):
-            return "cw" if value > 0 else "ccw"
         case Torque():
-            return "ccw" if (value > 0) == (load.turns == "ccw") else "cw"
+            return "ccw" if (value > 0) == (load.positive == "ccw") else "cw"
         case TorsionSpring():
             return "ccw" if value * gain > 0 else "cw"
         case Spring():

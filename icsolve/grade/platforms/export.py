@@ -167,7 +167,8 @@ def questions(order: ExportOrder, complain: Complain) -> Iterator[Question]:
 def _of_case(solved: SolvedCase, case: Case, name: str, order: ExportOrder, title: str) -> Iterator[Question]:
     names = unknowns(case)
     if not names:
-        raise NoKeyError("no unknown load, so no question")
+        kind = "a case in space" if case.space is not None else "no unknown load"
+        raise NoKeyError(f"{kind}, so no question")
     picture = figure(case) if order.figures else ""
     for what in names:
         own = case.name if len(names) == 1 else f"{case.name}:{what}"
