@@ -597,3 +597,37 @@ def test_what_is_for_the_plane_alone_is_refused_in_words() -> None:
     with pytest.raises(SceneError, match="planar cases only"):
         dict(answer.sensitivities)
     assert known_of(answer.case).refusal is None
+
+
+@pytest.mark.parametrize(
+    ("couple", "force", "found"),
+    [
+        ("y", "y", {"T": (-16.0, "about -y"), "F": (-20.0, "along -y")}),
+        (
+            "[0, -0.6, 0.8]",
+            "[3, 4, 0]",
+            {"T": (5.0 / 3.0, "about [0, -0.6, 0.8]"), "F": (-25.0, "along [-0.6, -0.8, 0]")},
+        ),
+        (
+            "[0, 3, 4]",
+            "[-3, -4, 0]",
+            {"T": (-5.0 / 3.0, "about [0, -0.6, -0.8]"), "F": (25.0, "along [-0.6, -0.8, 0]")},
+        ),
+    ],
+)
+def test_a_shaft_that_slides_along_y_too_is_held_along_directions(
+    couple: str, force: str, found: dict[str, tuple[float, str]]
+) -> None:
+    """F along y balances 20 N; about y, W turns with 1 x 1 - 3 x -5 = 16 N m, and F = (-15, -20, 0) N at C
+    with -15 N x 1 m."""
+    text = (
+        "icsolve: 1\npoints: {A: [0, 0, 0], B: [0, 5, 0], C: [3, 2, 1]}\n"
+        "joints: [{radial: [1, 2], at: A, axis: y}, {radial: [1, 2], at: B, axis: y}]\n"
+        "loads: {W: {force: [1, 20, -5], link: 2, at: C}, "
+        f"T: {{torque: unknown, link: 2, along: {couple}}}, "
+        f"F: {{force: unknown, link: 2, at: C, along: {force}}}}}\n"
+    )
+    answer = solve(load(text), reactions=True)
+    assert answer_text(answer).count("no difference") == 2
+    for name, (value, sense) in found.items():
+        assert (answer.answers[name].value, answer.answers[name].sense) == (value, sense)
