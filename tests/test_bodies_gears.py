@@ -139,6 +139,34 @@ loads:
     assert is_force(tooth, -10 * TAN, -10)  # the pitch point is at the left, and outward is left
 
 
+@pytest.mark.parametrize("teeth", ["roll: [2, 3]", "roll: [3, 2]", "roll: [2, 3], radii: [-3, 1]"])
+def test_teeth_that_roll_in_a_ring_press_the_pinion_inward(teeth: str) -> None:
+    """Tangential 9 / 3 = 3, separating 3 tan 20 from the ring at (3, 0) to the pinion's centre (2, 0), in
+    whatever order the links are named; of two pins nobody could tell which is its centre."""
+    text = """
+points: {{O: [0, 0], Q: [2, 0], P: [3, 0]}}
+joints:
+  - {{pin: [1, 2], at: O}}
+  - {{pin: [1, 3], at: Q}}
+  - {{{teeth}, at: P, pressure angle: 20}}
+loads:
+  T2: {{torque: 9, link: 2}}
+  T3: {{torque: unknown, link: 3}}
+"""
+    answer = solved(text.format(teeth=teeth))
+    assert answer.answers["T3"].value == exactly(-3)
+    tooth = force(answer, "F23")
+    assert is_force(tooth, *((-3 * TAN, 3) if tooth.on == "3" else (3 * TAN, -3)))
+    rod = "  - {pin: [3, 4], at: R}\n  - {pin: [4, 5], at: S}\n  - {slide: [5, 1], at: S, along: 0}\nloads:"
+    several = text.format(teeth=teeth).replace("P: [3, 0]", "P: [3, 0], R: [2.4, 0.3], S: [6, 0]")
+    several = several.replace("loads:", rod)
+    if "radii" in teeth:
+        assert solved(several).answers["T3"].value == exactly(-3)
+    else:
+        with pytest.raises(icsolve.SceneError, match="need the pin of the round one: give `radii`"):
+            solved(several)
+
+
 RACK = """
 points: {O: [0, 1.5], P: [0, 0], R: [3, -0.5]}
 joints:

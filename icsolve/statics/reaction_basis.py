@@ -10,6 +10,7 @@ pressure angle, pushes each externally toothed gear toward its own pivot, whiche
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.assembly.workspace import Frame, PlacedCase
@@ -325,20 +326,40 @@ def axial_shares(position: Position, tie: Tie, tangential: Scalar) -> list[tuple
 
 
 def _wheel(position: Position, tie: Tie) -> tuple[str, Point]:
-    """The round link of a rolling contact (not a hollow one), and its centre: the pin at its radius."""
+    """The round link of teeth that roll (a ring about it is hollow), and its centre: the pin at its radius,
+    or without radii the pin that is nearest to the contact.
+
+    Raises SceneError where there is none, or several could be it.
+    """
     assert isinstance(tie.joint, Rolling)
     radii = tie.joint.radii or (None, None)
+    found: list[tuple[str, Point]] = []
     for link, radius in zip(tie.joint.links, radii, strict=True):
         if link == position.case.ground or (radius is not None and radius.value <= 0.0):
             continue
-        pins = position.case.pivots(link)
-        found = [p for p in pins if p != tie.joint.at]
+        pins = [p for p in position.case.pivots(link) if p != tie.joint.at]
         if radius is not None:
-            found = at_radius(pins, tie.joint.at, radius.value * position.scale, position.points)
-        if found:
-            return link, position.points[found[0]]
-    raise SceneError(
-        Status.UNSUPPORTED,
-        f"the teeth of links {tie.by} and {tie.on} need the pin of the round one: give `radii`, and the pin "
-        "at that distance.",
-    )
+            pins = at_radius(pins, tie.joint.at, radius.value * position.scale, position.points)[:1]
+        found += [(link, position.points[p]) for p in pins]
+    found.sort(key=lambda one: math.hypot(*_from(tie.at, one[1])))
+    if not found or any(_is_aside(tie, found[0][1], other) for _, other in found[1:]):
+        raise SceneError(
+            Status.UNSUPPORTED,
+            f"the teeth of links {tie.by} and {tie.on} need the pin of the round one: give `radii`, and the "
+            "pin at that distance.",
+        )
+    return found[0]
+
+
+def _from(at: Point, p: Point) -> tuple[float, float]:
+    return float(p[0] - at[0]), float(p[1] - at[1])
+
+
+def _is_aside(tie: Tie, centre: Point, other: Point) -> bool:
+    """Whether a pin lies off the line from the contact to a centre."""
+    (ax, ay), (bx, by) = _from(tie.at, centre), _from(tie.at, other)
+    return abs(ax * by - ay * bx) > ASIDE * math.hypot(ax, ay) * math.hypot(bx, by)
+
+
+ASIDE = 1e-6
+"""Sine of an angle that is more than what rounded coordinates leave."""
