@@ -14,12 +14,12 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.assembly.workspace import Frame, PlacedCase
-from icsolve.case import Case, Guide, Joint, Pin, Rope, Screw, Slide, Thread
+from icsolve.case import Case, Guide, Joint, Number, Pin, Rope, Screw, Slide, Thread
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import TURN
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
-from icsolve.screws.joints import Points, at_radius, freedoms, guide_direction, pitch_point, transmitted
+from icsolve.screws.joints import Points, freedoms, guide_direction, pitch_point, rolling_centres, transmitted
 from icsolve.screws.plane import Point, Triple, basis_at, shift, subtract, unit_between
 from icsolve.screws.ropes import RopePart, rope_parts, tension_ratios
 from icsolve.structure.topology import Bond, Topology, pairs_of, topology
@@ -326,29 +326,39 @@ def axial_shares(position: Position, tie: Tie, tangential: Scalar) -> list[tuple
 
 
 def _wheel(position: Position, tie: Tie) -> tuple[str, Point]:
-    """The round link of teeth that roll (a ring about it is hollow), and its centre: the pin at its radius,
-    or without radii the pin that is nearest to the contact.
+    """The round link of teeth that roll (a ring about it is hollow), and a point that its centre lies toward:
+    by the radii, without them the nearest of the pins.
 
     Raises SceneError where there is none, or several could be it.
     """
     assert isinstance(tie.joint, Rolling)
-    radii = tie.joint.radii or (None, None)
-    found: list[tuple[str, Point]] = []
-    for link, radius in zip(tie.joint.links, radii, strict=True):
-        if link == position.case.ground or (radius is not None and radius.value <= 0.0):
-            continue
-        pins = [p for p in position.case.pivots(link) if p != tie.joint.at]
-        if radius is not None:
-            pins = at_radius(pins, tie.joint.at, radius.value * position.scale, position.points)[:1]
-        found += [(link, position.points[p]) for p in pins]
+    if tie.joint.radii is not None:
+        return _by_radii(position, tie, tie.joint, tie.joint.radii)
+    moving = [link for link in tie.joint.links if link != position.case.ground]
+    pins = [(link, p) for link in moving for p in position.case.pivots(link) if p != tie.joint.at]
+    found = [(link, position.points[p]) for link, p in pins]
     found.sort(key=lambda one: math.hypot(*_from(tie.at, one[1])))
     if not found or any(_is_aside(tie, found[0][1], other) for _, other in found[1:]):
-        raise SceneError(
-            Status.UNSUPPORTED,
-            f"the teeth of links {tie.by} and {tie.on} need the pin of the round one: give `radii`, and the "
-            "pin at that distance.",
-        )
+        raise _no_wheel(tie, "give `radii`, and the pin at that distance")
     return found[0]
+
+
+def _by_radii(
+    position: Position, tie: Tie, joint: Rolling, radii: tuple[Number, Number]
+) -> tuple[str, Point]:
+    try:
+        centres = rolling_centres(joint, position.case, position.points, position.scale)
+    except LookupError as why:
+        raise _no_wheel(tie, why.args[0]) from None
+    for link, other, radius, centre in zip(joint.links, joint.links[::-1], radii, centres, strict=True):
+        if centre is not None:
+            return link if radius.value > 0.0 else other, position.points[centre]
+    raise AssertionError(joint)
+
+
+def _no_wheel(tie: Tie, why: str) -> SceneError:
+    said = f"the teeth of links {tie.by} and {tie.on} need the pin of the round one: {why}."
+    return SceneError(Status.UNSUPPORTED, said)
 
 
 def _from(at: Point, p: Point) -> tuple[float, float]:
