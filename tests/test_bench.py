@@ -44,7 +44,7 @@ from icsolve.bench.full_turn import (
     ran,
     written_out,
 )
-from icsolve.bench.gates import Effort, Gate, gate_table, lawful, least, nothing, ratio
+from icsolve.bench.gates import Effort, Gate, gate_table, least, nothing, ratio
 from icsolve.bench.picture import figure, picture
 from icsolve.bench.promises import STARTS
 from icsolve.bench.rivals import METHODS, Method
@@ -268,7 +268,7 @@ def test_the_picture_in_the_readme_shows_every_method() -> None:
 
 def test_a_figure_is_held_to_its_limit_from_the_right_side() -> None:
     gates = [ratio("fast", 2.5, 3), ratio("slow", 3.5, 3), ratio("far", 90, 100, floor=True)]
-    assert [gate.held for gate in (*gates, lawful("error", 0, 0))] == [True, False, False, True]
+    assert [gate.held for gate in (*gates, Gate("error", 0, 0))] == [True, False, False, True]
     assert not Gate("never measured", math.nan, 3).held
     assert "| slow | 3.5 x | at most 3 x | NO |" in gate_table(gates)
 
@@ -330,7 +330,7 @@ def test_a_broken_law_is_told_and_fails_the_command(tmp_path: Path, monkeypatch:
     ran = CliRunner().invoke(command, arguments, standalone_mode=False)
     assert (ran.return_value, "not kept: a slow machine" in ran.stderr) == (1, True)
     kept.gates.clear()
-    kept.gates.append(lawful("bounds that are less than the error", 1, 0))
+    kept.gates.append(Gate("bounds that are less than the error", 1, 0))
     ran = CliRunner().invoke(command, arguments, standalone_mode=False)
     assert ran.return_value == 1
     assert "not kept: bounds that are less than the error" in ran.stderr

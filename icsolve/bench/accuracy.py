@@ -384,7 +384,7 @@ def shown(case: Case) -> Iterator[Shown]:
         yield from _points(answer, program, exact, arithmetic.mp)
         if exact.motions.mobility == 1:
             yield from _centres(answer, program, exact, arithmetic.mp)
-        yield from _rates(answer, program, exact, arithmetic)
+        yield from _rates(answer, program, exact)
 
 
 def _points(answer: Answer, program: Program, exact: Outcome, mp: Any) -> Iterator[Shown]:
@@ -419,7 +419,7 @@ def _named(pair: Pair) -> str:
     return f"I{pair[0]}-{pair[1]}"
 
 
-def _rates(answer: Answer, program: Program, exact: Outcome, arithmetic: Any) -> Iterator[Shown]:
+def _rates(answer: Answer, program: Program, exact: Outcome) -> Iterator[Shown]:
     case, frame, twists = program.case, program.figure.frame, exact.motions.twists
     speed = speeds.speed_of(exact.place, twists)
     rates, velocities = answer.rates or {}, answer.velocities or {}

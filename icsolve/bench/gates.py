@@ -28,17 +28,13 @@ def table_row(cells: Sequence[str]) -> str:
 
 
 class Gate(NamedTuple):
-    """A figure and its limit, which it may not pass (with ``floor``: not fall short of).
-
-    ``timed`` figures depend on what else the machine does; the others are laws.
-    """
+    """A figure and its limit, which it may not pass (with ``floor``: not fall short of)."""
 
     what: str
     found: float
     limit: float
     unit: str = ""
     floor: bool = False
-    timed: bool = True
 
     @property
     def held(self) -> bool:
@@ -49,11 +45,6 @@ class Gate(NamedTuple):
 def ratio(what: str, found: float, limit: float, *, floor: bool = False) -> Gate:
     """How many times."""
     return Gate(what, found, limit, " x", floor)
-
-
-def lawful(what: str, found: float, limit: float) -> Gate:
-    """What holds on any machine."""
-    return Gate(what, found, limit, timed=False)
 
 
 def gate_table(gates: Iterable[Gate]) -> str:

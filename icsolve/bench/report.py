@@ -23,7 +23,7 @@ from icsolve.bench.accuracy import (
 )
 from icsolve.bench.families import BOUNDED, EXACT, FAMILIES
 from icsolve.bench.full_turn import compiler_version
-from icsolve.bench.gates import FULL, USUAL, Effort, Kept, gate_table, lawful, nothing, table, table_row
+from icsolve.bench.gates import FULL, USUAL, Effort, Gate, Kept, gate_table, nothing, table, table_row
 from icsolve.bench.rivals import METHODS, OWN
 
 ENOUGH = 10
@@ -61,9 +61,9 @@ def accuracy(effort: Effort, kept: Kept) -> Iterator[str]:
     yield table_row(["worst of all", *map(_worst, by_method)])
     own = [score for score in kept.scenes if score.method in OWN and score.scenes > score.refused]
     worst = max(score.per_unit for score in own)
-    kept.gates.append(lawful("forward error over (kappa + 1) u, worst of every family", worst, FORWARD))
+    kept.gates.append(Gate("forward error over (kappa + 1) u, worst of every family", worst, FORWARD))
     wrong = sum(score.failed for score in own if score.method == OWN[-1])
-    kept.gates.append(lawful("answers with a bound that are off by more than a tenth", wrong, 0))
+    kept.gates.append(Gate("answers with a bound that are off by more than a tenth", wrong, 0))
 
 
 def _score(score: Score) -> str:
@@ -100,24 +100,24 @@ def laws(effort: Effort, kept: Kept) -> Iterator[str]:
     found = held(forward_error, FORWARD_FAMILIES, effort.forward, effort.jobs)
     worst, count = max(law.worst for law in found), _scenes(found)
     what = f"forward error over (kappa + 1) u, worst of {count} random six-bars and all joints"
-    kept.gates.append(lawful(what, worst, FORWARD))
+    kept.gates.append(Gate(what, worst, FORWARD))
     yield _laws(f"forward error / (kappa + 1) u, at most {FORWARD:g}", found)
     found = held(bound_over_error, BOUNDED, effort.bounds, effort.jobs)
     broken, count = _broken(found), _scenes(found)
     enough = min(ENOUGH, max(law.scenes for law in found))
     middle = max(law.median for law in found if law.scenes >= enough)
-    kept.gates.append(lawful(f"bounds that are less than the error, of {count}", broken, 0))
-    kept.gates.append(lawful("bound over error, worst median of a family", middle, PESSIMISM))
+    kept.gates.append(Gate(f"bounds that are less than the error, of {count}", broken, 0))
+    kept.gates.append(Gate("bound over error, worst median of a family", middle, PESSIMISM))
     yield _laws(f"error bound / error; median at most {PESSIMISM:g}, never broken", found)
     for name, law, share in (("numbers", every_number, 1), ("rows of sweeps", every_row, 10)):
         found = held(law, EXACT, effort.digits // share, effort.jobs)
         broken, count = _broken(found), _scenes(found)
-        kept.gates.append(lawful(f"{name} that are not the exact ones, in {count} scenes", broken, 0))
+        kept.gates.append(Gate(f"{name} that are not the exact ones, in {count} scenes", broken, 0))
         rows = [[law.family, str(law.scenes), str(law.broken), f"{law.median:g}"] for law in found]
         yield table((f"{name} against 140 digits", "scenes", "broken", "median a scene"), rows)
     found = held(bits_kept, BOUNDED, effort.bits, effort.jobs)
     broken, count = _broken(found), _scenes(found)
-    kept.gates.append(lawful(f"answers changed by a scale of a power of two, of {count}", broken, 0))
+    kept.gates.append(Gate(f"answers changed by a scale of a power of two, of {count}", broken, 0))
     rows = [[law.family, str(law.scenes), str(law.broken)] for law in found]
     yield table(("lengths and loads times powers of two", "scenes", "a bit changed"), rows)
 

@@ -21,7 +21,7 @@ from icsolve.bench.full_turn import (
     compiled,
     in_c,
 )
-from icsolve.bench.gates import Effort, Gate, Kept, lawful, least, peak_memory, ratio, table
+from icsolve.bench.gates import Effort, Gate, Kept, least, peak_memory, ratio, table
 from icsolve.case import Case
 from icsolve.read import load
 from icsolve.sweep import sweep
@@ -203,7 +203,7 @@ def _turn_gates(name: str, by: dict[str, Timed]) -> list[Gate]:
     if IN_C in by:
         gates.append(ratio(f"{what}: sweep / C -O3", swept.seconds / by[IN_C].seconds, 5 if short else 3))
     gates.append(ratio(f"{what}: with bounds / without", by[BOUNDED].seconds / swept.seconds, 6))
-    return [*gates, lawful(f"{what}: worst error over (kappa + 1) u", swept.per_unit, FORWARD)]
+    return [*gates, Gate(f"{what}: worst error over (kappa + 1) u", swept.per_unit, FORWARD)]
 
 
 def other_programs(effort: Effort, kept: Kept) -> str:

@@ -76,7 +76,6 @@ class Stress(NamedTuple):
 class Judged(NamedTuple):
     """What became of a scene: ``faults`` are empty where the verdict is the one asked."""
 
-    stress: Stress
     got: str
     faults: tuple[str, ...]
     seconds: float
@@ -105,7 +104,7 @@ def judge(stress: Stress) -> Judged:
         got, faults = _of_refusal(UNREADABLE, str(error), stress.asked)
     except SceneError as error:
         got, faults = _of_refusal(error.status, error.message, stress.asked)
-    return Judged(stress, got, tuple(faults), time.perf_counter() - start)
+    return Judged(got, tuple(faults), time.perf_counter() - start)
 
 
 def _solved(text: str, asked: StressQuestion) -> tuple[str, list[str]]:

@@ -91,7 +91,7 @@ class Import:
             table = AnswerTable(file, lambda line, why: self.issues.note(path, line, why))
             near = self.case_store.near
             columns = TableColumns(table.header, mapping, self.case_store.find, lambda text: bool(near(text)))
-            self._order = self._date_order(path, table.header)
+            self._order = self._date_order(path)
             entries: Iterator[StoredAnswer]
             if student:
                 entries = map(self._entry, submissions(table, columns, student))
@@ -192,7 +192,7 @@ class Import:
             self._troubles[ids] = why
         return ""
 
-    def _date_order(self, path: str, header: list[str]) -> str:
+    def _date_order(self, path: str) -> str:
         """``day`` or ``month``: how the dates with slashes of a file are ordered, as they themselves show."""
         if self._dates or path == "-":
             return self._dates

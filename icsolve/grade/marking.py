@@ -87,13 +87,13 @@ class Marker:
             return (self._result(entry, self._troubled(entry, entry.trouble)) for entry in entries)
         chosen = list(islice(entries, _AT_ONCE))
         if len(chosen) == _AT_ONCE:
-            return self._endless(student, chain(chosen, entries))
+            return self._endless(chain(chosen, entries))
         if len({entry.item for entry in chosen}) < len(chosen):
             groups = groupby(chosen, key=itemgetter(1))
             chosen = [self._chosen(list(attempts)) for _, attempts in groups]
         return self._student(student, chosen)
 
-    def _endless(self, student: str, entries: Iterator[StoredAnswer]) -> Iterator[Result]:
+    def _endless(self, entries: Iterator[StoredAnswer]) -> Iterator[Result]:
         """Question by question, without what looks at all of them together."""
         for _, attempts in groupby(entries, key=itemgetter(1)):
             entry = reduce(lambda chosen, other: self._chosen([chosen, other]), attempts)

@@ -90,10 +90,6 @@ class Result(NamedTuple):
     marked: Marked
 
 
-HEADER = (
-    "student_id,case,variant,attempt,raw_answer,value,unit,direction,verdict,score,max_score,rel_error,code"
-    ",feedback"
-)
 _RISKY = tuple("=+-@\t\r\n")
 _SIGNED = re.compile(r"[-+]\s?[\d.,]+(?:[eE][-+]?\d+)?(?:\s?[A-Za-zµ°%·*/^ -]*)?$")
 
@@ -236,6 +232,9 @@ class ResultRow(NamedTuple):
     rel_error: str
     code: str
     feedback: str
+
+
+HEADER = ",".join(ResultRow._fields)
 
 
 def read_results(path: str) -> Iterator[ResultRow]:

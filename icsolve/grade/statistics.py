@@ -16,16 +16,6 @@ _LEAST = 10
 """Students from whom it is told how telling a question is."""
 
 
-class ItemStatistics(NamedTuple):
-    """Of one question: the mean share of its points among those who were judged (its difficulty, 1 the
-    easiest), and the correlation of that share with the share of all other points (its discrimination, None
-    where students are too few or all alike)."""
-
-    judged: int
-    difficulty: float | None
-    discrimination: float | None
-
-
 class Total(NamedTuple):
     """One student's marks of all that was judged, and how many answers wait for a person."""
 
@@ -37,42 +27,38 @@ class Total(NamedTuple):
 
 
 class Statistics(NamedTuple):
-    """Of a class: its questions by name, its students in order, and the mean share of each section."""
+    """Of a class: how telling its questions are, by name, its students in order, and the mean share of each
+    section."""
 
-    items: dict[str, ItemStatistics]
+    discriminations: dict[str, float | None]
+    """the correlation of the share of a question's points with the share of all other points; None where
+    students are too few or all alike"""
     totals: list[Total]
     sections: dict[str, tuple[int, float]]
 
 
 class _Sums:
-    """The sums from which a mean and a correlation follow."""
+    """The sums from which a correlation follows."""
 
     def __init__(self) -> None:
         self.n = 0
-        self.pairs = 0
-        self.x = self.all = self.y = self.xx = self.yy = self.xy = 0.0
+        self.x = self.y = self.xx = self.yy = self.xy = 0.0
 
-    def add(self, x: float, y: float | None) -> None:
-        """A student's share of this question, and of all others (None: there are none)."""
+    def add(self, x: float, y: float) -> None:
+        """A student's share of this question, and of all others."""
         self.n += 1
-        self.all += x
-        if y is not None:
-            self.pairs += 1
-            self.x += x
-            self.y += y
-            self.xx += x * x
-            self.yy += y * y
-            self.xy += x * y
+        self.x += x
+        self.y += y
+        self.xx += x * x
+        self.yy += y * y
+        self.xy += x * y
 
-    def item(self) -> ItemStatistics:
+    def correlation(self) -> float | None:
         """What follows from the sums."""
-        mean = self.all / self.n if self.n else None
-        n = self.pairs
-        if n < _LEAST:
-            return ItemStatistics(self.n, mean, None)
+        n = self.n
         spread = (n * self.xx - self.x**2) * (n * self.yy - self.y**2)
-        found = (n * self.xy - self.x * self.y) / math.sqrt(spread) if spread > 1e-9 * n**4 else None
-        return ItemStatistics(self.n, mean, found)
+        known = n >= _LEAST and spread > 1e-9 * n**4
+        return (n * self.xy - self.x * self.y) / math.sqrt(spread) if known else None
 
 
 def statistics(results: str, people: Mapping[str, Person]) -> Statistics:
@@ -85,15 +71,16 @@ def statistics(results: str, people: Mapping[str, Person]) -> Statistics:
             section = people[student].section if student in people else ""
             totals.append(Total(student, section, score, most, waiting))
             _count(sums, [row for row in rows if row.score is not None and row.max_score])
-    return Statistics({name: sums[name].item() for name in sorted(sums)}, totals, _sections(totals))
+    return Statistics({name: own.correlation() for name, own in sums.items()}, totals, _sections(totals))
 
 
 def _count(sums: dict[str, _Sums], rows: Sequence[ResultRow]) -> None:
     score, most = sum(row.score or 0.0 for row in rows), sum(row.max_score for row in rows)
     for row in rows:
         others = most - row.max_score
-        rest = (score - (row.score or 0.0)) / others if others else None
-        sums.setdefault(row.case, _Sums()).add((row.score or 0.0) / row.max_score, rest)
+        if others:
+            rest = (score - (row.score or 0.0)) / others
+            sums.setdefault(row.case, _Sums()).add((row.score or 0.0) / row.max_score, rest)
 
 
 def _sections(totals: Sequence[Total]) -> dict[str, tuple[int, float]]:

@@ -263,12 +263,11 @@ def _share(value: float | None) -> str:
 
 def _overview(graded: Graded, found: Statistics | None) -> str:
     """Marks by question, and of all; how telling each question is."""
-    items = found.items if found is not None else {}
+    told = found.discriminations if found is not None else {}
     rows = []
     for n, (item, counts) in enumerate(graded.counts.items()):
-        one = items.get(item)
-        told = one.discrimination if one is not None else None
-        extra = [f"{told:.2f}" if told is not None else ""] if found is not None else []
+        one = told.get(item)
+        extra = [f"{one:.2f}" if one is not None else ""] if found is not None else []
         rows.append([f'<a href="#q{n}">{escape(item)}</a>', *_cells([counts]), *extra])
     if len(graded.counts) > 1:
         rows.append(["all questions", *_cells(list(graded.counts.values())), *([""] if found else [])])

@@ -224,7 +224,7 @@ class Entry:
             return None
         return self.reading.point(node, f"'{key}' of {self.what}") if node is not None else None
 
-    def place(self, key: str, node: Node, what: str = "", hidden: str = "") -> str | None:
+    def place(self, key: str, node: Node, what: str = "") -> str | None:
         """A point's name, or that of the hidden point whose coordinates stand in its stead."""
         what = what or f"'{key}' of {self.what}"
         if type(node) is not Sequence:
@@ -237,7 +237,7 @@ class Entry:
         parts = self.numbers(key, node, axes, dimension="length")
         if parts is None:
             return None
-        hidden = hidden or (self.hidden if key != "to" else f"{self.hidden}'") or f"@{self.path}.{key}"
+        hidden = (self.hidden if key != "to" else f"{self.hidden}'") or f"@{self.path}.{key}"
         while hidden in self.reading.hidden:
             hidden += "'"
         self.reading.hidden[hidden] = self.reading.coordinates(*parts)

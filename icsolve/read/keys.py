@@ -49,9 +49,9 @@ class EntryKind(NamedTuple):
     """what ties its keys to one another"""
 
 
-def needed(key: Key, says: str = "", form: str = "") -> Key:
+def needed(key: Key, says: str = "") -> Key:
     """The same key where it must stand there."""
-    return key._replace(needed=True, says=says or key.says, form=form or key.form)
+    return key._replace(needed=True, says=says or key.says)
 
 
 def quantity_key(says: str, dimension: str, bound: str = "") -> Key:

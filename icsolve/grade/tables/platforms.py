@@ -124,7 +124,7 @@ def _wide(columns: TableColumns, kind: str) -> TableLayout:
         )
     for index in ids:
         columns.check_once(index)
-    asked, strange = _questions(columns, kind, set(ids))
+    asked, strange = _questions(columns, set(ids))
     if not asked:
         raise HeaderError(
             f'no column names a case: {columns.listed()}; name them with --map, such as --map "Q3=press"'
@@ -162,7 +162,7 @@ def _rows(
     return read
 
 
-def _questions(columns: TableColumns, kind: str, ids: set[int]) -> tuple[dict[int, str], list[int]]:
+def _questions(columns: TableColumns, ids: set[int]) -> tuple[dict[int, str], list[int]]:
     """Questions by column, and the columns that seem to be questions but name no case."""
     asked, strange = {}, []
     taken = ids | set(columns.fields.values())

@@ -242,7 +242,7 @@ def as_csv(file: IO[bytes]) -> IO[bytes]:
                 raise ValueError("this is not a text file; save it as CSV")
             texts = _shared(archive) if "xl/sharedStrings.xml" in names else []
             dates = _date_styles(archive) if "xl/styles.xml" in names else set()
-            sheet, epoch = _first_sheet(archive, names)
+            sheet, epoch = _first_sheet(archive)
             out = io.StringIO()
             table = csv.writer(out, lineterminator="\n")
             for cells in _rows(_part(archive, sheet), texts, dates, epoch):
@@ -289,7 +289,7 @@ def _date_styles(archive: zipfile.ZipFile) -> set[str]:
     return {str(n) for n, style in styles if style.get("numFmtId") in known}
 
 
-def _first_sheet(archive: zipfile.ZipFile, names: set[str]) -> tuple[str, datetime]:
+def _first_sheet(archive: zipfile.ZipFile) -> tuple[str, datetime]:
     """The part of the first sheet, and the day from which dates are counted."""
     root = _part(archive, "xl/workbook.xml")
     properties = root.find(f"{_MAIN}workbookPr")
