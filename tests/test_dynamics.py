@@ -20,9 +20,11 @@ from growth import random_mechanism
 from icsolve.answer import Answer
 from icsolve.case import Case, Contact, Inertia, KnownCentre, Motion, Number, Pin, Roll
 from icsolve.errors import CaseError, SceneError
+from icsolve.manual import template
 from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.numbers import find_number, with_numbers
 from reference import MANY, many, motions, points_of
+from shell import exit_status
 from sizes import MORE
 
 CASES = Path(__file__).parent.parent / "cases"
@@ -435,6 +437,23 @@ def test_dynamic_may_stand_in_the_case_and_a_mass_alone_is_no_load() -> None:
     assert answer.accelerations is not None
     assert answer.accelerations["G", "2"] == (-18.0, 0.0)
     assert any("counts as one point" in note for note in answer.notes) is False
+
+
+def test_what_is_asked_beside_dynamic_has_the_inertia_forces_too(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The option says what `dynamic: yes` says, in the report too; a motion has no stability."""
+    told = []
+    for text, option in (
+        (template("engine"), []),
+        (template("engine").replace("dynamic: yes", ""), ["--dynamic"]),
+    ):
+        (tmp_path / "engine.yaml").write_text(text, encoding="utf-8")
+        assert exit_status("solve", str(tmp_path / "engine.yaml"), "--report", *option) == 0
+        told.append(capsys.readouterr().out)
+        assert exit_status("solve", str(tmp_path / "engine.yaml"), "--stability", "2", *option) == 1
+        assert "does not rest" in capsys.readouterr().err
+    assert told[0] == told[1]
 
 
 def test_a_link_with_a_mass_that_nothing_drives_is_refused() -> None:

@@ -102,7 +102,7 @@ def _solve(case: Case, options: Options) -> Answer:
     from icsolve.solve import solve
 
     asked = {"all_centres": options.all_centres, "rates": options.rates, "reactions": options.reactions}
-    case = replace(case, dynamic=case.dynamic or options.dynamic)
+    case = _posed(case, options)
     answer = solve(case, **asked)
     if options.stability is None:
         return answer
@@ -111,12 +111,16 @@ def _solve(case: Case, options: Options) -> Answer:
     return with_stability(case, answer, options.stability)
 
 
-def _report(case: Case) -> Report:
+def _posed(case: Case, options: Options) -> Case:
+    return replace(case, dynamic=case.dynamic or options.dynamic)
+
+
+def _report(case: Case, options: Options) -> Report:
     """The report; it needs every point of the figure, where the answer needs only its own."""
     from icsolve.report.mechanism import report
     from icsolve.solve import solve
 
-    return report(solve(case, examine=True))
+    return report(solve(_posed(case, options), examine=True))
 
 
 def _print_entry(entry: Mapping[str, Any]) -> int:
@@ -129,7 +133,7 @@ def _as_json(options: Options) -> Work[dict[str, Any]]:
         answer = _solve(case, options)
         entry = answer.to_dict()
         if options.report:
-            entry["report"] = _report(case).to_dict()
+            entry["report"] = _report(case, options).to_dict()
         if options.sensitivity or options.tolerance:
             from icsolve.scene.sensitivity import entries
 
@@ -165,7 +169,7 @@ def _as_text(options: Options) -> Work[tuple[str, str]]:
         answer = _solve(case, options)
         sections = [answer_text(answer, options.digits)]
         if options.report:
-            sections.append(_report(case).text(options.digits))
+            sections.append(_report(case, options).text(options.digits))
         if options.sensitivity or options.tolerance:
             from icsolve.scene.sensitivity import text
 

@@ -271,14 +271,19 @@ def led_rest(case: Case, along: str) -> Rest:
     return LedMechanism(case, own, (value, value)).described(value, 0.0)
 
 
+def refuse_motion(case: Case) -> None:
+    """Refuse what has the inertia forces of a motion."""
+    if case.dynamic:
+        said = "with the inertia forces of its motion a mechanism does not rest: leave `dynamic` out."
+        raise SceneError(Status.UNSUPPORTED, said)
+
+
 def moved_by(case: Case, along: str, span: tuple[float, float] | None = None) -> LoadFunction:
     """The mechanism as it moves by a datum, or by a link that is turned.
 
     Raises CaseError for what is neither, SceneError where it can't be moved so.
     """
-    if case.dynamic:
-        said = "with the inertia forces of its motion a mechanism does not rest: leave `dynamic` out."
-        raise SceneError(Status.UNSUPPORTED, said)
+    refuse_motion(case)
     if along in case.links:
         if along == case.ground:
             raise SceneError(Status.STRUCTURE, f"link {along} is the frame: it does not move.")

@@ -12,7 +12,7 @@ from icsolve.case import Case, ForceVector, Number
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.scene import solve_scene
-from icsolve.solve.positions import led_rest, moved_by, rest_of
+from icsolve.solve.positions import led_rest, moved_by, refuse_motion, rest_of
 from icsolve.solve.rest import Rest, balances
 from icsolve.statics.power import has_friction, is_unknown
 from icsolve.sweep.numbers import find_number, with_numbers
@@ -47,10 +47,11 @@ def holding(case: Case, answer: Answer) -> Case:
 
 def rest_as_written(case: Case, of: str) -> Rest:
     """The position as written of a case whose loads are all known and balance."""
+    refuse_motion(case)
     if has_friction(case):
         said = "with friction a position is one of a range, and has no stability: leave out the friction."
         raise SceneError(Status.UNSUPPORTED, said)
-    freedoms = solve_scene(replace(case, loads=(), dynamic=False), bound=False).mobility or 0
+    freedoms = solve_scene(replace(case, loads=()), bound=False).mobility or 0
     if freedoms > 1 and of in case.links:
         raise SceneError(
             Status.MOBILITY,
