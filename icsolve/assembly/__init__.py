@@ -21,9 +21,10 @@ from icsolve.assembly.workspace import (
     case_point,
     data_of,
     frame_of,
+    given_points,
     names_of,
 )
-from icsolve.case import Case, Coordinates
+from icsolve.case import Case
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.plane import Point
@@ -64,7 +65,7 @@ def solve_figure(case: Case, wanted: Collection[str] | None = None) -> Figure:
     frame = frame_of(case)
     names = names_of(case)
     goal = list(names if wanted is None else dict.fromkeys(wanted))
-    if all(_is_given(case, p) for p in goal):
+    if {*given_points(case)}.issuperset(goal):
         return _drawn(case, frame, goal, names)
     from icsolve.assembly.modes import construct
 
@@ -92,11 +93,6 @@ def placed_figure(case: Case, wanted: Collection[str], needed: Collection[str]) 
             placed[point] = None
     figure = solve_figure(case, placed)
     return figure._replace(notes=(*figure.notes, *dict.fromkeys(notes)))
-
-
-def _is_given(case: Case, point: str) -> bool:
-    place = case.points.get(point)
-    return type(place) is Coordinates and place.x is not None and place.y is not None
 
 
 def _drawn(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figure:

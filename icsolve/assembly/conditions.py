@@ -207,20 +207,6 @@ def residual(workspace: Workspace, datum: Datum) -> Residual:
     return float(max(offs, key=abs)) / (size or 1.0), ahead
 
 
-def scale_of(workspace: Workspace, datum: Datum) -> Scale:
-    """What the condition of a datum is divided by where the points are."""
-    return DISTANCES[datum.kind](workspace, datum) if datum.kind in DISTANCES else (1.0, True)
-
-
-def _scale_of_mean(workspace: Workspace, datum: Datum) -> Scale:
-    return float(len(datum.points) - 1), True
-
-
-def _scale_of_length(workspace: Workspace, datum: Datum) -> Scale:
-    """(d^2 - l^2) / 2 is d - l times their mean."""
-    return (math.dist(*(workspace.points[p] for p in datum.points)) + workspace.length(datum)) / 2.0, True
-
-
 def ahead(workspace: Workspace, datum: Datum) -> Scalar:
     """How far a ray, or the far arm of a corner, goes the way of its angle: negative where it points against
     it [frame, of a corner frame squared]."""
@@ -233,29 +219,24 @@ def ahead(workspace: Workspace, datum: Datum) -> Scalar:
     return (c * px - s * py) * qx + (s * px + c * py) * qy
 
 
-def _scale_of_ray(workspace: Workspace, datum: Datum) -> Scale:
-    apart = math.dist(*(workspace.points[p] for p in datum.points))
-    return 1.0, bool(ahead(workspace, datum) > TOO_CLOSE or apart <= TOO_CLOSE)
-
-
-def _scale_of_corner(workspace: Workspace, datum: Datum) -> Scale:
-    """The angle's error, on the longer arm."""
-    a, vertex, b = (workspace.points[p] for p in datum.points)
-    p, q = math.dist(a, vertex), math.dist(b, vertex)
-    if min(p, q) <= TOO_CLOSE:
-        return max(p, q), None
-    return min(p, q), bool(ahead(workspace, datum) > 0.0)
-
-
-def _scale_of_line(workspace: Workspace, datum: Datum) -> Scale:
-    size = math.dist(*(workspace.points[p] for p in datum.points[2:]))
-    return size, True if size > TOO_CLOSE else None
-
-
-DISTANCES: dict[str, Callable[[Workspace, Datum], Scale]] = {
-    MEAN: _scale_of_mean, LENGTH: _scale_of_length, RAY: _scale_of_ray,
-    CORNER: _scale_of_corner, LINE: _scale_of_line,
-}  # fmt: skip
+def scale_of(workspace: Workspace, datum: Datum) -> Scale:
+    """What the condition of a datum is divided by where the points are."""
+    at, kind = [workspace.points[p] for p in datum.points], datum.kind
+    if kind == MEAN:
+        return float(len(at) - 1), True
+    if kind == LENGTH:  # (d^2 - l^2) / 2 is d - l times their mean
+        return (math.dist(*at) + workspace.length(datum)) / 2.0, True
+    if kind == RAY:
+        return 1.0, bool(ahead(workspace, datum) > TOO_CLOSE or math.dist(*at) <= TOO_CLOSE)
+    if kind == CORNER:  # the angle's error, on the longer arm
+        p, q = math.dist(at[0], at[1]), math.dist(at[2], at[1])
+        if min(p, q) <= TOO_CLOSE:
+            return max(p, q), None
+        return min(p, q), bool(ahead(workspace, datum) > 0.0)
+    if kind == LINE:
+        size = math.dist(*at[2:])
+        return size, True if size > TOO_CLOSE else None
+    return 1.0, True
 
 
 # --- whether teeth of a given pitch or module fit the pivots of their wheels ---

@@ -132,7 +132,9 @@ class _NewtonSearch:
 
     def __init__(self, group: Group, workspace: Workspace, near: Mapping[str, Spot]) -> None:
         self.group, self.workspace, self.near = group, workspace, near
-        self.reach = _reach(group, workspace)
+        lengths = (workspace.length(d) for d in data_in(group) if d.kind == LENGTH)
+        self.reach: float = max(lengths, default=0.0) or 1.0
+        """the size of the group: its longest length"""
         self.found: list[Start] = []
         self.closest = Descent(math.inf, {}, 0)
         self.beside: Start = {}
@@ -190,7 +192,8 @@ class _NewtonSearch:
             yield from _constructed(group, self.workspace, near, held, self.reach)
         for point in held[:2] if len(held) > 1 else ():
             yield from _constructed(group, self.workspace, near, [point], self.reach)
-        yield from _spread(group, near[held[0]], self.reach)
+        for k in range(1, SPREAD + 1):
+            yield {target: even(k, j, near[held[0]], self.reach) for j, target in enumerate(group.targets)}
 
 
 def _about(near: Mapping[str, Spot], end: Start) -> Iterator[Start]:
@@ -309,11 +312,6 @@ def _damped(rows: list[Row], values: list[float], damping: float) -> list[float]
     return solve_square(normal, slope) or slope
 
 
-def _reach(group: Group, workspace: Workspace) -> float:
-    """The size of a group: its longest length, else 1."""
-    return max((workspace.length(d) for d in data_in(group) if d.kind == LENGTH), default=0.0) or 1.0
-
-
 def _same(one: Start, two: Start, reach: float) -> bool:
     return all(math.dist(one[t], two[t]) <= 1e-6 * (reach + math.hypot(*one[t])) for t in one)
 
@@ -408,12 +406,6 @@ def _run(steps: list[Step], signs: dict[int, int], workspace: Workspace, held: S
     except ZeroDivisionError:
         return None
     return placed
-
-
-def _spread(group: Group, about: Spot, reach: float) -> Iterator[Start]:
-    """Points spread evenly over a square about one."""
-    for k in range(1, SPREAD + 1):
-        yield {target: even(k, j, about, reach) for j, target in enumerate(group.targets)}
 
 
 def _unreached(group: Group, workspace: Workspace, closest: Start) -> Miss:

@@ -37,9 +37,10 @@ from icsolve.assembly.workspace import (
     Y,
     case_point,
     data_in,
+    given_points,
     number_of,
 )
-from icsolve.case import Coordinates, Number
+from icsolve.case import Number
 from icsolve.errors import Status
 from icsolve.numbers.arithmetic import Floats, turn_of
 from icsolve.numbers.units import numbers_in
@@ -322,7 +323,8 @@ def _clash(workspace: Workspace, datum: Datum, off: float, ahead: bool) -> str:
         return f"{name} is {measure(workspace, abs(off))} off the centroid of {of}"
     if kind in (LENGTH, ROPE, RAY, CORNER, X, Y):
         subject, value, found = _values(workspace, datum, off)
-        makers = "the coordinates make" if _all_given(workspace, points) else "the other data make"
+        given = {*given_points(workspace.case)} >= {*points}
+        makers = "the coordinates make" if given else "the other data make"
         return f"{subject} is given as {value}, {makers} it {found}"
     if not ahead:
         return f"{datum_words(datum)} has no direction: {joined(*points[2:])} are one point"
@@ -342,12 +344,6 @@ def _values(workspace: Workspace, datum: Datum, off: float) -> tuple[str, str, s
     if kind in (X, Y):
         return datum_words(datum), f"{value:.6g}", f"{value + off / workspace.frame.scale:.6g}"
     return datum_words(datum), f"{value:.6g}", _angle(workspace, datum)
-
-
-def _all_given(workspace: Workspace, points: tuple[str, ...]) -> bool:
-    """Whether coordinates alone place the points."""
-    places = (workspace.case.points.get(p) for p in points)
-    return all(isinstance(at, Coordinates) and None not in (at.x, at.y) for at in places)
 
 
 def _angle(workspace: Workspace, datum: Datum) -> str:
@@ -424,7 +420,9 @@ def notes_of(
         if names:
             setters.append(f"{one if len(names) == 1 else many} {', '.join(names)}")
     only = "; ".join(
-        f"{_said(workspace, datum)} {_off(workspace, off, size)}" for datum, off in spare.items()
+        f"{_said(workspace, datum)} "
+        + ("(agrees)" if off <= ROUNDING * size else f"(off by {measure(workspace, off)})")
+        for datum, off in spare.items()
     )
     by = f"set by {listed(setters)}" if setters else "set by the other data"
     return (f"more data than the figure needs: the points are {by}; only compared: {only}",)
@@ -434,7 +432,3 @@ def _said(workspace: Workspace, datum: Datum) -> str:
     if datum.kind in (MEAN, LINE, GUIDE):
         return datum_words(datum)
     return f"{datum_words(datum)} = {number_of(workspace.case, datum).value:.6g}"
-
-
-def _off(workspace: Workspace, off: float, size: float) -> str:
-    return "(agrees)" if off <= ROUNDING * size else f"(off by {measure(workspace, off)})"

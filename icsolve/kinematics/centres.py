@@ -123,7 +123,8 @@ class Kennedy:
                 for pair in tuple(self.known):
                     self._spread(pair)
                 continue
-            seed = self._seed(self.missing)
+            # the missing pair that most lines wait for: it lets the most others follow
+            seed = max(self.missing, key=lambda pair: (len(self.lines.get(pair, ())), -pair[0], -pair[1]))
             twist = self.twist_of(seed)
             assert twist is not None
             self._offer(seed, LocatedCentre(unit(twist), ROUNDING, "loop equations"))
@@ -135,10 +136,6 @@ class Kennedy:
         around[self.hub] = set()
         near = {b: centre.union(n, *(around[m] for m in n)) for b, n in around.items()}
         return {b: self.bodies if b in centre else frozenset(n - {b}) for b, n in near.items()}
-
-    def _seed(self, missing: set[BodyPair]) -> BodyPair:
-        """The missing pair that most lines wait for: it lets the most others follow."""
-        return max(missing, key=lambda pair: (len(self.lines.get(pair, ())), -pair[0], -pair[1]))
 
     def _settle_next(self) -> bool:
         while self.heap:
@@ -338,7 +335,8 @@ class CentreFinder:
             why = f"{pair[0]} and {pair[1]} have no one centre: they have more than one relative freedom"
             return Centre(pair, "undetermined", why=why)
         known = search.known[bodies]
-        if known.error > TRUSTED or not _agree(known, rough, slack):
+        agreed = max(1e-12, 1e3 * known.error, 10.0 * slack)  # as far as the digits of the construction go
+        if known.error > TRUSTED or not sine_between(known.point, rough) <= agreed:
             known = LocatedCentre(unit(rough), ROUNDING, "loop equations")
         twist = self.relative(*bodies)
         assert twist is not None
@@ -375,11 +373,6 @@ class CentreFinder:
 
     def _names(self, pair: BodyPair) -> Pair:
         return ordered_pair(self.case, self.top.members[pair[0]][0], self.top.members[pair[1]][0])
-
-
-def _agree(known: LocatedCentre, twist: Triple, slack: float) -> bool:
-    """Whether a construction and the loop equations give one place, as far as its digits go."""
-    return sine_between(known.point, twist) <= max(1e-12, 1e3 * known.error, 10.0 * slack)
 
 
 REST: Triple = (0.0, 0.0, 0.0)

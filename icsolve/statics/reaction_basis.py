@@ -257,12 +257,8 @@ def _as_it_moves(position: Position, bond: Bond, basis: tuple[Triple, ...]) -> t
 
 def meshes(ties: Sequence[Tie]) -> list[int]:
     """The ties that are meshes of known pressure angle: gears, and rolling by teeth (a rack)."""
-    return [t for t, tie in enumerate(ties) if _has_teeth(tie)]
-
-
-def _has_teeth(tie: Tie) -> bool:
-    fixed = isinstance(tie.joint, Mesh) and not tie.pivots[0]
-    return tie.joint.pressure_angle is not None and not fixed
+    fixed = {t for t, tie in enumerate(ties) if isinstance(tie.joint, Mesh) and not tie.pivots[0]}
+    return [t for t, tie in enumerate(ties) if tie.joint.pressure_angle is not None and t not in fixed]
 
 
 def with_flanks(position: Position, ties: Sequence[Tie], flanks: Mapping[int, float]) -> tuple[Tie, ...]:

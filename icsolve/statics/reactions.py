@@ -174,7 +174,7 @@ def _parts(
     x, y, _ = kept
     if x is None or y is None:
         return []
-    if _pushes_by_teeth(tie):
+    if tie.joint.pressure_angle is not None or (isinstance(tie.joint, Mesh) and not tie.joint.pulls):
         (tx, ty), (sx, sy) = tangent_and_separating(position, tie)
         tangential = size_of(x * tx + y * ty)
         shares = [("tangential", tangential), ("separating", x * sx + y * sy)]
@@ -187,11 +187,6 @@ def _parts(
         angle = pressure_angle(position, tie, a) if tie.joint.only_pushes else None
         return [*parts, (DEGREES[0], angle)] if angle is not None else parts
     return []
-
-
-def _pushes_by_teeth(tie: Tie) -> bool:
-    """Whether the force has a tangential and a separating part."""
-    return tie.joint.pressure_angle is not None or (isinstance(tie.joint, Mesh) and not tie.joint.pulls)
 
 
 def pressure_angle(position: Position, tie: Tie, a: Showing) -> Scalar | None:
@@ -234,13 +229,9 @@ def notes_of(statics: Statics, reactions: Reactions, names: Sequence[str]) -> tu
     shown = [reactions[name] for name in names]
     both = zip(ties, shown, strict=True)
     touching = [sentence for tie, reaction in both for sentence in _touching(tie, reaction)]
-    return (*_not_unique(statics, shown, names), *touching, *_black_boxes(statics.ties))
-
-
-def _not_unique(statics: Statics, shown: Sequence[Reaction], names: Sequence[str]) -> Iterable[str]:
     said = _open_parts(dict(zip(names, shown, strict=True)))
-    if said:
-        yield left_open(statics, said, _remedy(statics.ties))
+    open_ = [left_open(statics, said, _remedy(statics.ties))] if said else []
+    return (*open_, *touching, *_black_boxes(statics.ties))
 
 
 def left_open(statics: Equilibrium[T], said: Iterable[str], remedy: str) -> str:

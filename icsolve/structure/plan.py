@@ -243,7 +243,11 @@ def make_plan(top: Topology, wanted: Collection[int]) -> Plan | None:
         plan = _pruned(top, _grown(top, entry), wanted)
         if best is None or _cost(plan) < _cost(best):
             best = plan
-        if best.closed and len(best.bodies) <= max(2, len(set(wanted))) and _largest(best) <= 2:
+        if (
+            best.closed
+            and len(best.bodies) <= max(2, len(set(wanted)))
+            and all(len(group.bodies) <= 2 for group in best.groups)
+        ):
             break
     return best
 
@@ -253,10 +257,6 @@ def _entries(top: Topology, wanted: Collection[int]) -> list[int]:
     inside = [k for k in singles if top.bonds[k].a in wanted or top.bonds[k].b in wanted]
     both = [k for k in inside if top.bonds[k].a in wanted and top.bonds[k].b in wanted]
     return list(dict.fromkeys(both + inside + singles))[:CANDIDATES]
-
-
-def _largest(plan: Plan) -> int:
-    return max((len(group.bodies) for group in plan.groups), default=0)
 
 
 def _cost(plan: Plan) -> tuple[bool, int]:

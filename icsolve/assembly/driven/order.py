@@ -167,6 +167,10 @@ class _Row(NamedTuple):
     degrees: Scalar
     source: Turning
 
+    def share(self, body: int) -> float:
+        """How large the factor of a body is beside the largest."""
+        return abs(float(self.factors[body])) / max(abs(float(factor)) for factor in self.factors.values())
+
 
 def train_ratios(ratios: Sequence[Turning], known: Collection[int]) -> tuple[int, Turning, Turning] | None:
     """A body, the ratio of its rotation to known ones, and which of the given ratios that stands instead of.
@@ -180,7 +184,7 @@ def train_ratios(ratios: Sequence[Turning], known: Collection[int]) -> tuple[int
         choices = [(b, r) for r in rows for b in _open(r, known)]
         if not choices:
             break
-        body, row = max(choices, key=lambda pair: abs(float(pair[1].factors[pair[0]])) / _size(pair[1]))
+        body, row = max(choices, key=lambda pair: pair[1].share(pair[0]))
         rows = [_without(other, row, body) for other in rows if other is not row]
         done = [(b, _without(other, row, body)) for b, other in done]
         done.append((body, row))
@@ -200,10 +204,6 @@ def _row(ratio: Turning) -> _Row:
 def _open(row: _Row, known: Collection[int]) -> list[int]:
     """The bodies of a sum whose rotation is not known."""
     return [body for body in row.factors if body not in known]
-
-
-def _size(row: _Row) -> float:
-    return max(abs(float(factor)) for factor in row.factors.values())
 
 
 def _without(row: _Row, pivot: _Row, body: int) -> _Row:

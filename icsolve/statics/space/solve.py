@@ -107,7 +107,9 @@ def _solve(case: Case, a: Showing) -> Answer:
     found = witnesses(by_power, {q: float(x) for q, x in (unknowns or {}).items()}, bounds)
     refuse_apart(found, 0.0)
     reactions = reactions_of(solved, a)
-    spatial = Spatial(_named(figure), reactions, found, residual(terms))
+    shown = {name: tuple(map(float, p)) for name, p in figure.places.items() if not name.startswith("@")}
+    places = {name: (x, y, z) for name, (x, y, z) in shown.items()}
+    spatial = Spatial(places, reactions, found, residual(terms))
     return _answer(solved, bounds, spatial, a)
 
 
@@ -121,11 +123,6 @@ def _on_carrying_flanks(case: Case, figure: SpatialFigure, ties: tuple[SpatialTi
     meshes = [t for t, tie in enumerate(ties) if tie.mesh]
     found = solve({})
     return on_flanks({t: found.carrying(t) for t in meshes}, solve) if meshes else found
-
-
-def _named(figure: SpatialFigure) -> dict[str, tuple[float, float, float]]:
-    shown = {name: tuple(map(float, p)) for name, p in figure.places.items() if not name.startswith("@")}
-    return {name: (x, y, z) for name, (x, y, z) in shown.items()}
 
 
 def _answer(solved: SpatialSolution, bounds: Mapping[str, float], spatial: Spatial, a: Showing) -> Answer:
