@@ -147,7 +147,10 @@ def _row(given: Given, place: PlacedCase, twists: Twists) -> Row:
         raise SceneError(Status.INCONSISTENT, message)
     link = twists[given.link]
     if given.point is not None:
-        return _point_row(given, place, link, fastest(twists), place.points[given.point])
+        assert given.speed is not None
+        p, target = place.points[given.point], a.given(given.speed) * place.frame.scale
+        c, s = path_of(given, link, fastest(twists), p, a)
+        return tuple(vx * c + vy * s for vx, vy in (velocity(t, p) for t in link)), target
     rates = tuple(t[2] for t in link)
     largest = fastest(twists)
     if all_vanish(a, ((rate, largest) for rate in rates)):
@@ -166,13 +169,6 @@ def _cannot_turn(name: str, link: Sequence[Triple], largest: float, a: Arithmeti
         f"link {name} does not turn, it only slides: give `motion` as the speed of one of its points, "
         "or of another link."
     )
-
-
-def _point_row(given: Given, place: PlacedCase, link: Sequence[Triple], largest: float, p: Point) -> Row:
-    assert given.speed is not None
-    a = place.arithmetic
-    target, (c, s) = a.given(given.speed) * place.frame.scale, path_of(given, link, largest, p, a)
-    return tuple(vx * c + vy * s for vx, vy in (velocity(t, p) for t in link)), target
 
 
 def path_of(given: Given, link: Sequence[Triple], largest: float, p: Point, a: Arithmetic) -> Point:

@@ -131,11 +131,6 @@ class Equilibrium(NamedTuple, Generic[T]):
     general: General
     arithmetic: Arithmetic
 
-    def is_none(self, value: Scalar, size: float) -> bool:
-        """Whether a share in what the joints leave open, of this largest one, is none."""
-        vanishes = decider(self.arithmetic)
-        return vanishes(value, size) if vanishes else abs(value) <= UNIQUE * size
-
     def tension(self, n: int) -> int:
         """Column of the tension of a rope."""
         return self.known - len(self.ropes) + n
@@ -192,7 +187,8 @@ class Equilibrium(NamedTuple, Generic[T]):
 
     def determines(self, row: Row, sizes: Mapping[int, float]) -> bool:
         """Whether equilibrium determines a combination; ``sizes`` are those of `open_sizes`."""
-        return all(self.is_none(row.get(c, 0.0), size) for c, size in sizes.items())
+        vanishes = decider(self.arithmetic) or (lambda value, size: abs(value) <= UNIQUE * size)
+        return all(vanishes(row.get(c, 0.0), size) for c, size in sizes.items())
 
 
 Statics = Equilibrium[Tie]

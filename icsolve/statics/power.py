@@ -532,12 +532,6 @@ def _row(
     return PowerRow([zero_of(value) if k in zero else value for k, value in enumerate(sums)], terms, zero)
 
 
-def _equilibrated(rows: list[list[Scalar]]) -> list[list[Scalar]]:
-    """The rows over powers of two that bring their largest entries near 1."""
-    sizes = [math.ldexp(1.0, math.frexp(max(abs(value) for value in row))[1]) for row in rows]
-    return [[value / size for value in row] for row, size in zip(rows, sizes, strict=True)]
-
-
 def _solved_many(
     powers: Sequence[PowerRow],
     unknown: Sequence[UnitWrench[L]],
@@ -546,7 +540,9 @@ def _solved_many(
     arithmetic: Arithmetic,
 ) -> Solution:
     roots = [w.root for w in unknown]
-    count, rows = len(roots), _equilibrated([row.values for row in powers])
+    # over powers of two that bring their largest entries near 1
+    sizes = [math.ldexp(1.0, math.frexp(max(map(abs, row.values)))[1]) for row in powers]
+    count, rows = len(roots), [[v / s for v in row.values] for row, s in zip(powers, sizes, strict=True)]
     free = null_space([row[:count] for row in rows], count, 1e-13, vanishes=decider(arithmetic))
     whole = null_space(rows, count + 1, 1e-13, vanishes=decider(arithmetic))
     if whole.rank > free.rank:

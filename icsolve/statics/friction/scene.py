@@ -277,7 +277,9 @@ def _statics(scene: FrictionScene, ties: Sequence[Tie], flanks: Mapping[int, flo
     if scene.enclose is not None:
         with suppress(SceneError):  # what no digits decide is left to rounding
             exact = scene.enclose(lambda placed: placed.statics(flanks, senses))
-            statics = statics._replace(general=_in_floats(exact.general))
+            solved, free, left, pivots = exact.general
+            rounded = General({c: _floats(row) for c, row in solved.items()}, free, tuple(map(_floats, left)))
+            statics = statics._replace(general=rounded._replace(pivots=tuple(map(float, pivots))))
     refuse_doubt(len(statics.general.left), scene.position.mobility)
     try:
         forces_of(statics)
@@ -285,11 +287,6 @@ def _statics(scene: FrictionScene, ties: Sequence[Tie], flanks: Mapping[int, flo
         tie = ties[error.args[0]]
         raise SceneError(Status.UNSUPPORTED, _shared(tie, ties)) from None
     return statics
-
-
-def _in_floats(general: General) -> General:
-    solved = {c: _floats(row) for c, row in general.solved.items()}
-    return General(solved, general.free, tuple(map(_floats, general.left)), tuple(map(float, general.pivots)))
 
 
 def _floats(row: Row) -> Row:
