@@ -13,6 +13,7 @@ from icsolve.grade.keys import AnyKey
 from icsolve.grade.solved import SolvedCase, asked_of, canonical, unknowns
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import VariantRecord, Varied
+from icsolve.read import case_name
 
 _MOST_SLIPS = 200
 """Names that are no case for which one that may be meant is looked for."""
@@ -117,12 +118,16 @@ class CaseStore:
 
         Raises NoKeyError where there is none, or it has no answer; the message says why.
         """
-        found = self._solved.get(name)
-        if found is None:
-            found = self._solved[name] = self._made(name)
+        found = self._found(name)
         if isinstance(found, NoKeyError):
             raise found
         return found if isinstance(found, SolvedCase) else found.solved(student)
+
+    def _found(self, name: str) -> SolvedCase | Varied | NoKeyError:
+        """The case of that name, or why there is none; made once."""
+        if name not in self._solved:
+            self._solved[name] = self._made(name)
+        return self._solved[name]
 
     def _made(self, name: str) -> SolvedCase | Varied | NoKeyError:
         try:
@@ -138,9 +143,7 @@ class CaseStore:
 
     def variation(self, name: str) -> Varied | None:
         """The case as one with variables; None where it has none, or can't be read."""
-        found = self._solved.get(name)
-        if found is None:
-            found = self._solved[name] = self._made(name)
+        found = self._found(name)
         return found if not isinstance(found, SolvedCase | NoKeyError) else None
 
     def keep_to(self, records: dict[str, VariantRecord]) -> None:
@@ -208,11 +211,6 @@ class CaseStore:
             return canonical(self.read(name), name, what)
         except NoKeyError:
             return question
-
-
-def case_name(path: str) -> str:
-    """``press`` of ``dir/press.icsolve.yaml``."""
-    return os.path.splitext(os.path.basename(path))[0].removesuffix(".icsolve")
 
 
 def _yaml_files(folder: str) -> Iterator[str]:

@@ -5,12 +5,13 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from icsolve.grade.case_store import CaseStore, case_name
+from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.judge import feedback, judge_answer
 from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey
 from icsolve.grade.platforms.questions import asked, figure, sensible
 from icsolve.grade.written.answer import Combined, Reader
+from icsolve.read import case_name
 from icsolve.wording.statement import Statement
 
 

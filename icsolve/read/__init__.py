@@ -69,7 +69,7 @@ def read_text(text: str, path: str = "<text>", settings: Settings | None = None)
         root = _root(parse(text, problems), problems)
         if "icsolve" not in root.items and not {"joints", "points"} & set(root.items):
             raise problems.stop(root.mark, NO_CASE)
-        case = _case(root, settings or {}, problems, _name(path))
+        case = _case(root, settings or {}, problems, case_name(path))
     except Stop:
         pass
     if case is None or problems.found:
@@ -127,7 +127,7 @@ def claims(text: str) -> bool:
     return any(line.lstrip("{ \"'").startswith("icsolve") for line in text.splitlines())
 
 
-def _name(path: str) -> str:
+def case_name(path: str) -> str:
     """``press`` of ``press.yaml`` and of ``dir/press.icsolve.yaml``."""
     if path.startswith("<") and path.endswith(">"):
         return "case"
@@ -135,4 +135,4 @@ def _name(path: str) -> str:
     return stem.removesuffix(".icsolve") or "case"
 
 
-__all__ = ["Settings", "claims", "load", "read_file", "read_text"]
+__all__ = ["Settings", "case_name", "claims", "load", "read_file", "read_text"]

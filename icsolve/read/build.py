@@ -38,7 +38,7 @@ from icsolve.read.figure import (
 )
 from icsolve.read.joints import JOINTS, mention_links, read_joints
 from icsolve.read.keys import SECTIONS, SPACE_JOINTS
-from icsolve.read.loads import driven, read_loads, read_motion
+from icsolve.read.loads import PLANE, driven, read_motion, read_section
 from icsolve.read.names import Problems, shown
 from icsolve.read.reading import Reading, number
 from icsolve.tuples import NamedTuple
@@ -154,7 +154,7 @@ def _parts(reading: Reading, root: Mapping) -> _Parts:
 
         profiles = read_profiles(reading, section_of(reading, root, "profile"))
     points = read_points(reading, section_of(reading, root, "points"))
-    loads = read_loads(reading, section_of(reading, root, "loads"))
+    loads = read_section(reading, section_of(reading, root, "loads"), PLANE)
     if ropes:
         from icsolve.read.ropes import check_ends
 

@@ -178,11 +178,6 @@ _ELSEWHERE = {
 }
 
 
-def read_loads(reading: Reading, section: Mapping) -> tuple[Load, ...]:
-    """The loads of a planar case that could be read."""
-    return read_section(reading, section, PLANE)
-
-
 def heading(entry: Entry, v: Values) -> Any:
     """What directs a force; None, with the reason noted, where it would be its own point."""
     for key in ("toward", "away"):

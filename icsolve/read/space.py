@@ -126,11 +126,6 @@ _ELSEWHERE = {
 }
 
 
-def read_space_loads(reading: Reading, section: Mapping) -> tuple[Load, ...]:
-    """The loads of a case in space that could be read."""
-    return read_section(reading, section, SPACE)
-
-
 def _force(entry: Entry, name: str, v: Values) -> Load | None:
     value, link, at, against = v["force"], v["link"], v["at"], v["against"]
     if type(value) is tuple:
@@ -191,7 +186,7 @@ def build_space(root: Mapping, problems: Problems, name: str, units: Units) -> C
     ground = ground_of(reading, root)
     gravity, down = _gravity(reading, root)
     joints = _joints(reading, root)
-    loads = read_space_loads(reading, section_of(reading, root, "loads", _FORMS["loads"]))
+    loads = read_section(reading, section_of(reading, root, "loads", _FORMS["loads"]), SPACE)
     points = read_points(reading, section_of(reading, root, "points", _FORMS["points"]))
     if readable(root, "points"):
         _check_given(reading)

@@ -149,7 +149,6 @@ class Varied:
         self._draws: OrderedDict[str, Draw] = OrderedDict()
         self._seen: OrderedDict[tuple[str, ...], Seen | None] = OrderedDict()
         self._rows: OrderedDict[tuple[str, ...], Answer] = OrderedDict()
-        self._inherent: frozenset[tuple[str, str, str]] | None = None
 
     def draw(self, student: str) -> Draw:
         """The student's values: the first draw that suits.
@@ -349,7 +348,7 @@ class Varied:
         """By its figure; where its loads do not grow alike, by all of it."""
         base = self._figure(values)
         seen = self._looked_at(base)
-        if not (seen.far and seen.swallowed <= self._always_swallowed()):
+        if not (seen.far and seen.swallowed <= self._always_swallowed):
             return False
         return self._scales(base, values) or self._looked_at(values).far
 
@@ -368,14 +367,13 @@ class Varied:
             _keep(self._seen, key, seen, _KNOWN)
         return seen
 
-    def _always_swallowed(self) -> frozenset[tuple[str, str, str]]:
+    @cached_property
+    def _always_swallowed(self) -> frozenset[Mistake]:
         """Mistakes that hardly any variant shows: they lie in the task, not in its numbers."""
-        if self._inherent is None:
-            seen = map(self._looked_at, self._references)
-            sets = [one.swallowed for one in seen if one.far]
-            found = frozenset().union(*sets)
-            self._inherent = frozenset(m for m in found if 2 * sum(m in s for s in sets) > len(sets))
-        return self._inherent
+        seen = map(self._looked_at, self._references)
+        sets = [one.swallowed for one in seen if one.far]
+        found = frozenset().union(*sets)
+        return frozenset(m for m in found if 2 * sum(m in s for s in sets) > len(sets))
 
     @cached_property
     def _limit(self) -> float:
