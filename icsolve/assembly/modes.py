@@ -58,20 +58,11 @@ def _clearly(walk: Walk, one: DeadEnd, other: Path) -> bool:
 
 def parted(walk: Walk, one: Path, two: Path) -> tuple[dict[str, Point], dict[str, Point]]:
     """The places with a `near` of two ways, from where they part."""
-    ours, theirs = _line(one), _line(two)
+    ours, theirs = one.line(), two.line()
     at = 0
     while at < min(len(ours), len(theirs)) and ours[at] is theirs[at]:
         at += 1
     return _places(ours[at:], walk.near), _places(theirs[at:], walk.near)
-
-
-def _line(path: Path) -> list[Path]:
-    out: list[Path] = []
-    at: Path | None = path
-    while at is not None:
-        out.append(at)
-        at = at.before
-    return out[::-1]
 
 
 def _places(paths: list[Path], near: Mapping[str, Point]) -> dict[str, Point]:

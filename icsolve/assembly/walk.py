@@ -197,14 +197,18 @@ class Path(NamedTuple):
     off: float
     places: Mapping[Key, Point]
 
+    def line(self) -> list[Path]:
+        """The paths that lead here, the first one first."""
+        out: list[Path] = []
+        at: Path | None = self
+        while at is not None:
+            out.append(at)
+            at = at.before
+        return out[::-1]
+
     def steps(self) -> tuple[Step, ...]:
         """All steps, the first one first."""
-        out: list[Step] = []
-        at: Path | None = self
-        while at is not None and at.step is not None:
-            out.append(at.step)
-            at = at.before
-        return tuple(reversed(out))
+        return tuple(path.step for path in self.line() if path.step is not None)
 
 
 START = Path(None, None, 0.0, {})
