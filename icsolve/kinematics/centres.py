@@ -28,7 +28,6 @@ from icsolve.screws.joints import freedoms, joint_freedoms, joint_points, pitch_
 from icsolve.screws.plane import Triple, cross, subtract
 from icsolve.structure.topology import Bond, Topology
 from icsolve.tuples import NamedTuple
-from icsolve.wording.joints import normal_words
 from icsolve.wording.sentences import listed
 
 BodyPair = tuple[int, int]
@@ -452,6 +451,8 @@ def _place(bond: Bond) -> str:
 
 
 def _normal(bond: Bond) -> str:
+    from icsolve.wording.joints import normal_words
+
     joint = bond.joint
     named = joint.has_normal and joint.at and not joint.at.startswith("@")
     return f"the {normal_words(joint)} at {joint.at}" if named else ""

@@ -27,7 +27,6 @@ from yaml.events import (
 from icsolve.case import Mark
 from icsolve.files import reading
 from icsolve.read.names import Problems, Stop, meant_by, shown
-from icsolve.read.syntax import explained, missing_space
 from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
@@ -196,6 +195,8 @@ def parse(text: str, problems: Problems) -> Node | None:
     try:
         return _Tree(problems).grow(parser)
     except yaml.MarkedYAMLError as error:
+        from icsolve.read.syntax import explained
+
         mark, message = explained(error, text)
         raise problems.stop(mark, message) from None
     except (yaml.YAMLError, ValueError) as error:
@@ -318,7 +319,7 @@ class _Tree:
             place = f"line {first[0]}, column {first[1]}"
             self.problems.refuse(mark, f"'{name}' is given twice, the first time in {place}")
             return
-        if type(node) is Scalar and node.text == "" and node.plain and missing_space(name):
+        if type(node) is Scalar and node.text == "" and node.plain and ":" in name and _runs_on(name):
             odd = ", an ordinary one" if "\xa0" in name else ""
             self.problems.refuse(mark, f"{shown(name)}: write a space after the colon{odd}")
             name, _, value = name.partition(":")
@@ -359,3 +360,9 @@ def _uncut(before: str, after: str) -> str:
 def _mark(event: Any) -> Mark:
     start = event.start_mark
     return start.line + 1, start.column + 1
+
+
+def _runs_on(name: str) -> bool:
+    from icsolve.read.syntax import missing_space
+
+    return missing_space(name)

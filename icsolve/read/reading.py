@@ -28,7 +28,6 @@ from icsolve.numbers.units import (
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.keys import UNITS as UNIT_KEYS
 from icsolve.read.names import Problems, is_name, meant_by, shown, suggestion, why_no_name
-from icsolve.read.syntax import missing_space
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -101,6 +100,8 @@ class Reading:
         """The node as a mapping; None, with the reason noted, where it is something else."""
         if type(node) is Mapping:
             return node
+        from icsolve.read.syntax import missing_space
+
         if is_null(node):
             self.refuse(node.mark, f"{what} has no value; write {form}")
         elif type(node) is Scalar and missing_space(node.text.split(" ")[0]):
