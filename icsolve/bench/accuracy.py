@@ -13,11 +13,11 @@ from typing import Any
 from icsolve.answer import Answer
 from icsolve.bench.families import ALL_JOINTS, BOUNDED, EXACT, SIX_BARS, Family, scaled
 from icsolve.bench.rivals import Failed, Method, OtherData, RivalFigure, drawn
-from icsolve.case import Case, Coordinates, Force, Number, Pair
+from icsolve.case import Case, Force, Number, Pair
 from icsolve.errors import SceneError
 from icsolve.kinematics import speeds
 from icsolve.numbers.arithmetic import FLOATS
-from icsolve.numbers.units import ExactRatio
+from icsolve.numbers.units import ExactRatio, numbers_in
 from icsolve.read import load
 from icsolve.scene import refusals
 from icsolve.scene.program import Program, Want, evaluate, evaluate_bounded, prepare
@@ -115,8 +115,13 @@ def condition(program: Program) -> float:
     the mechanism and every angle by one radian, to first order, all at their worst."""
     scene = evaluate_bounded(program)
     value = next(iter(scene.outcome.solution.values.values()), 0.0)
-    size, lengths, angles = size_of(program.case), _lengths(program.case), _angles(program.case)
-    total = 0.0
+    case, total = program.case, 0.0
+    lengths = {number.path for number in numbers_in(case.points, case.lengths)}
+    directions = [joint.direction for joint in case.joints]
+    headings = [load.heading for load in case.loads if isinstance(load, Force)]
+    directions += [heading for heading in headings if isinstance(heading, Number)]
+    angles = {number.path for number in numbers_in(*(angle.value for angle in case.angles), *directions)}
+    size = size_of(case)
     for path, slope in scene.tape.back(value).by_path.items():
         if path in lengths:
             total += abs(slope) * size
@@ -127,26 +132,9 @@ def condition(program: Program) -> float:
 
 def size_of(case: Case) -> float:
     """The larger side of a figure."""
-    xs, ys = [], []
-    for place in case.points.values():
-        if isinstance(place, Coordinates) and place.x is not None and place.y is not None:
-            xs.append(place.x.value)
-            ys.append(place.y.value)
-    spans = [max(axis) - min(axis) for axis in (xs, ys) if axis]
+    axes = ([n.value for n in numbers_in(case.points) if n.path.endswith(axis)] for axis in (".x", ".y"))
+    spans = [max(axis) - min(axis) for axis in axes if axis]
     return max([*spans, *(length.value.value for length in case.lengths)])
-
-
-def _lengths(case: Case) -> set[str]:
-    numbers = [n for place in case.points.values() if isinstance(place, Coordinates) for n in place]
-    return {n.path for n in numbers if n is not None} | {length.value.path for length in case.lengths}
-
-
-def _angles(case: Case) -> set[str]:
-    numbers: list[object] = [angle.value for angle in case.angles]
-    for joint in case.joints:
-        numbers.append(joint.direction)
-    numbers += [load.heading for load in case.loads if isinstance(load, Force)]
-    return {n.path for n in numbers if isinstance(n, Number)}
 
 
 WRONG = 0.1

@@ -55,6 +55,7 @@ def needed(key: Key, says: str = "") -> Key:
 
 
 def quantity_key(says: str, dimension: str, bound: str = "") -> Key:
+    """The key of a number of a dimension, which may be left out."""
     return Key(says, "number" if dimension == "number" else "quantity", False, dimension, bound)
 
 
