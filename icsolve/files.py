@@ -130,7 +130,10 @@ def whole_file(path: str, force: bool = True, binary: bool = False) -> Iterator[
     real = os.path.realpath(path)
     if found is not None and not os.access(real, os.W_OK):
         raise PermissionError(13, "it is protected against writing", path)
-    draft = os.path.join(os.path.dirname(real), f".icsolve-{os.urandom(8).hex()}.part")
+    folder = os.path.dirname(real)
+    if not os.path.isdir(folder):
+        raise FileNotFoundError(2, f"there is no folder {os.path.dirname(path) or folder}", path)
+    draft = os.path.join(folder, f".icsolve-{os.urandom(8).hex()}.part")
     _call.drafts.add(draft)
     try:
         with open(draft, opener=_anew if found is None else _anew_for_oneself, **how) as file:
@@ -139,6 +142,10 @@ def whole_file(path: str, force: bool = True, binary: bool = False) -> Iterator[
             yield file
         check_free(path, force)
         _take_name(draft, real, path, force)
+    except OSError as error:
+        if error.filename == draft:
+            error.filename = path
+        raise
     finally:
         with suppress(OSError):
             os.unlink(draft)

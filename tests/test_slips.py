@@ -603,6 +603,28 @@ def test_a_file_without_its_ending_is_named(
     assert "did you mean" not in capsys.readouterr().err
 
 
+COMMANDS = {
+    "solve press.yaml --set angle.AB=30": "did you mean 'angles.AB'?",
+    "solve press.yaml --set AB=30": "did you mean 'lengths.AB' or 'angles.AB'?",
+    "solve press.yaml --set loads.P.force=20": "did you mean 'loads.P'?",
+    "sweep press.yaml --vary CDE=0:90:10": "did you mean 'angles.CDE'?",
+    "sweep press.yaml --drive crank=0:90:10": "the links are 1, 2, 3 and 4",
+    "sweep press.yaml --vary angles.AB=0:90:30 --find T=3": "the loads are P and T12",
+    "draw press.yaml -o nowhere/out.svg": "nowhere/out.svg can't be written: there is no folder nowhere",
+    "sheet press.yaml -o sheet.pdf": "should end in .tex, which",
+}
+
+
+@pytest.mark.parametrize("line", COMMANDS)
+def test_a_slip_on_the_command_line_is_told_with_what_is_there(
+    line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "press.yaml").write_text(PRESS)
+    assert exit_status(*line.split()) == 2
+    assert COMMANDS[line] in capsys.readouterr().err
+
+
 def test_a_file_that_is_no_case_is_told_so() -> None:
     for text in ("ics: 2}\n", "Icsolve: 1\n", "a: 1\n"):
         with pytest.raises(CaseError, match="not an icsolve case"):

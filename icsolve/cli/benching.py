@@ -7,6 +7,7 @@ import os
 import click
 
 from icsolve.cli.options import Verb
+from icsolve.cli.output import unwritten
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
 from icsolve.files import whole_file
 
@@ -68,8 +69,7 @@ def _bench(full: bool, output: str) -> int:
     except BrokenPipeError:
         raise
     except OSError as error:
-        complain(f"icsolve bench: {output} can't be written: {error.strerror or error}")
-        return UNREADABLE
+        return unwritten("bench", output, error)
     broken = [gate.what for gate in kept.gates if not gate.held]
     for what in broken:
         complain(f"icsolve bench: not kept: {what}")

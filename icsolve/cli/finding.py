@@ -181,10 +181,12 @@ def _value(case: Case, name: str, text: str) -> float:
     from icsolve.numbers.units import UnitError, converted, kind_of, parse_unit, split_quantity
     from icsolve.read.names import shown, suggestion
     from icsolve.sweep.request import RequestError
+    from icsolve.wording.sentences import listed
 
     target = _unit(case, name)
     if target is None:
-        likely = suggestion(name, [load.name for load in case.loads])
+        names = [load.name for load in case.loads]
+        likely = suggestion(name, names) or (f"; the loads are {listed(names)}" if names else "")
         raise RequestError(f"there is no load {shown(name)}{likely}")
     try:
         parts = split_quantity(text)

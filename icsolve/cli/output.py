@@ -49,9 +49,14 @@ def write_output(
     except BrokenPipeError:
         raise
     except OSError as error:
-        complain(f"icsolve {verb}: {error.filename or path} can't be written: {error.strerror or error}")
-        return UNREADABLE
+        return unwritten(verb, path, error)
     return DONE
+
+
+def unwritten(verb: str, path: str, error: OSError) -> int:
+    """Say that a file can't be written, and why; returns the exit status."""
+    complain(f"icsolve {verb}: {error.filename or path} can't be written: {error.strerror or error}")
+    return UNREADABLE
 
 
 # --- a progress bar for work that turns out long --------------------------------------------------------

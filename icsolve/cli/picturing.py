@@ -206,8 +206,8 @@ def form_of(verb: str, case: str, output: str | None, endings: Mapping[str, str]
     itself = output is not None and os.path.exists(output) and os.path.exists(case)
     if ending in endings or not ending or (itself and os.path.samefile(output or "", case)):
         return endings.get(ending, next(iter(endings.values())))
-    *some, last = endings
-    names = f"{', '.join(some)} or {last}"
+    *some, last = filter(None, endings)
+    names = f"{', '.join(some)} or {last}" if some else last
     complain(f"icsolve {verb}: {output} should end in {names}, which is what {verb} writes")
     return None
 

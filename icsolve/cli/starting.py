@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from icsolve.cli.options import Verb
+from icsolve.cli.output import unwritten
 from icsolve.cli.run import DONE, UNREADABLE, complain
 from icsolve.files import KeptError, whole_file
 from icsolve.manual import TOPICS, kinds, kinds_like, nearest, template, told_of
@@ -100,8 +101,7 @@ def _write(text: str, path: str) -> int:
     except BrokenPipeError:
         raise
     except OSError as error:
-        complain(f"icsolve new: {path} can't be written: {error.strerror or error}")
-        return UNREADABLE
+        return unwritten("new", path, error)
     beside = _schema_beside(path)
     click.echo(f"wrote {path}{beside}; `icsolve {path}` solves it", err=True)
     return DONE

@@ -14,6 +14,15 @@ from icsolve.read.names import Problems, parts, shown, suggestion
 
 PATH_FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
 """How the number at a path is written, here and where one is varied."""
+
+
+def like(path: str, known: Iterable[str]) -> str:
+    """What a path is like; and those that are meant, which end so or are nearly the same."""
+    there = list(known)
+    ended = " or ".join(f"'{one}'" for one in there if one.endswith(f".{path}"))
+    return PATH_FORM + (f"; did you mean {ended}?" if ended else suggestion(path, there))
+
+
 _SECTIONS = ("points", "lengths", "angles", "near", "loads", "joints", "profile", "motion", "links")
 
 
@@ -48,7 +57,8 @@ def _set(root: Mapping, path: str, text: str) -> str:
     if section == "gravity" and not steps:
         return _put(root, "gravity", text)
     if section not in _SECTIONS:
-        return PATH_FORM
+        sections = {name: root.items.get(name) for name in _SECTIONS}
+        return like(path, (f"{s}.{k}" for s, n in sections.items() if type(n) is Mapping for k in n.items))
     node = root.items.get(section)
     if node is None:
         return f"the case has no '{section}'"
@@ -138,7 +148,11 @@ def _of_load(node: Node, steps: list[str], text: str, path: str) -> str:
         return _axis(value, steps, text, path)
     if steps[0] in ("at", "slope", "to", "along") and steps[0] in node.items and len(steps) == 2:
         return _axis(node.items[steps[0]], steps[1:], text, f"{path}.{steps[0]}")
-    return _put(node, steps[0], text) if len(steps) == 1 and steps[0] not in LOADS else PATH_FORM
+    return (
+        _put(node, steps[0], text)
+        if len(steps) == 1 and steps[0] not in LOADS
+        else f"{PATH_FORM}; did you mean '{path}'?"
+    )
 
 
 def _inside(node: Node | None, step: str) -> Node | None:

@@ -8,7 +8,7 @@ from typing import Any
 from icsolve.case import Case, Number
 from icsolve.errors import CaseError, Problem
 from icsolve.read.names import parts, shown, suggestion
-from icsolve.read.settings import PATH_FORM
+from icsolve.read.settings import like
 from icsolve.scene.sensitivity import numbers_of, paths_of
 from icsolve.tuples import replace
 
@@ -91,7 +91,7 @@ def points_of(path: str) -> tuple[str, ...]:
 def _missing(case: Case, known: Mapping[str, Number], path: str, section: str, rest: str) -> str:
     """Why there is no number at a path."""
     if section not in _SECTIONS:
-        return PATH_FORM + suggestion(path, known)
+        return like(path, known)
     if section == "angles":
         turned = [own for own in known if own.startswith("angles.") and parts(own[7:]) == parts(rest)[::-1]]
         if turned:

@@ -17,6 +17,7 @@ from icsolve.sweep.numbers import find_number, numbers_of
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recorded_scene import pairs as all_pairs
 from icsolve.tuples import NamedTuple
+from icsolve.wording.sentences import listed
 
 WORDS = (
     *("answers", "status", "error", "points", "centres", "rates", "velocities", "accelerations"),
@@ -143,7 +144,8 @@ def _refuse_values(name: str, bound: str, array: Array, turns: bool) -> None:
 
 def _link(case: Case, name: str) -> str:
     if name not in case.links:
-        raise RequestError(f"there is no link {shown(name)} to turn{suggestion(name, case.links)}")
+        likely = suggestion(name, case.links) or f"; the links are {listed(case.links)}"
+        raise RequestError(f"there is no link {shown(name)} to turn{likely}")
     return name
 
 
