@@ -28,6 +28,7 @@ from icsolve.draw import draw
 from icsolve.draw.words import figure_number
 from icsolve.errors import SceneError, Status
 from icsolve.explain import explain
+from icsolve.manual import template
 from icsolve.page import page_html
 from icsolve.report.check import value_of
 from icsolve.report.derivation import Known, answer_ratios, known_of
@@ -138,6 +139,7 @@ loads: {W: {weight: 10, link: 2, at: G}, M: {torque: 5, link: 2}}
 
 TOLD = {
     **OTHERS,
+    **{kind: template(kind) for kind in ("spring", "torsion-spring", "counterweight", "screw-jack")},
     "screw": """
 icsolve: 1
 units: {length: mm, force: N, torque: N*m}
@@ -186,7 +188,11 @@ def test_what_is_told_is_taken_as_an_expected_value_and_as_an_answer(
     assert exit_status("check", str(path)) == 0, capsys.readouterr()
     table = tmp_path / "answers.csv"
     for name, one in found.items():
-        words = [one.sense] if one.unit == "kg" else [one.sense, {"cw": "ccw", "ccw": "cw"}.get(one.sense)]
+        words = (
+            [one.sense]
+            if one.unit in ("kg", "N/mm", "N*m/rad")
+            else [one.sense, {"cw": "ccw", "ccw": "cw"}.get(one.sense)]
+        )
         rows = "".join(
             f'{n},case:{name},"{abs(one.value)} {one.unit} {w}"\n' for n, w in enumerate(words) if w
         )

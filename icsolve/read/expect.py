@@ -380,7 +380,7 @@ def _divided(text: str) -> tuple[str, str | None]:
 
 def _fits(sense: str, dimension: str) -> bool:
     lead, _, rest = sense.partition(" ")
-    if dimension in ("torque", "angular speed"):
+    if dimension in _ABOUT:
         return sense in _TURNS
     if dimension in _ALONG:
         return sense in _LINES or (lead == "toward" and is_name(rest)) or (lead == "at" and _is_angle(rest))
@@ -396,8 +396,9 @@ def _fits_space(sense: str, dimension: str) -> bool:
 
 
 _TURNING, _LINE = "it is ccw or cw", "it is right, left, up, down, pull, push, 'at 30 deg' or 'toward P'"
-_ALONG = ("force", "speed", "pressure", "mass", "line load")
-_ALLOWED = {"torque": _TURNING, "angular speed": _TURNING, **dict.fromkeys(_ALONG, _LINE)}
+_ABOUT = ("torque", "angular speed", "torsional stiffness")
+_ALONG = ("force", "speed", "pressure", "mass", "line load", "stiffness")
+_ALLOWED = {**dict.fromkeys(_ABOUT, _TURNING), **dict.fromkeys(_ALONG, _LINE)}
 """The senses of a dimension in words."""
 _ALLOWED_IN_SPACE = "in space it is 'along -z', 'toward P', pull, push, up or down; of a torque 'about -z'"
 
