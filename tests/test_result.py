@@ -243,3 +243,30 @@ def test_a_load_that_does_no_work_is_told_why(places: tuple[str, str], unknown: 
         assert said in refusal.value.message
         rests = places is not PARALLELOGRAM and known
         assert (refusal.value.status == Status.DEAD_CENTRE) == bool(rests)
+
+
+def test_the_steps_that_ran_are_those_that_the_answer_needs() -> None:
+    """A dyad behind the loads is skipped, figure and motion; three equal cranks need all equations."""
+    four_bar = (
+        "icsolve: 1\npoints: {A: [0, 0], D: [4, 0], H: [6, 3], K: [8, 0]}\n"
+        "lengths: {AB: 1, BC: 3.5, CD: 2.5, DE: 1.5}\nangles: {AB: 60, CDE: 0}\nnear: {C: [3.5, 2.4]}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}, "
+        "{pin: [4, 5], at: E}, {pin: [5, 6], at: H}, {pin: [6, 1], at: K}]\n"
+        "loads: {P: {force: 100, link: 4, at: C, angle: 180}, T12: {torque: unknown, link: 2}}\n"
+    )
+    answer = icsolve.solve(icsolve.load(four_bar))
+    assert list(answer.steps) == [
+        "A, D: by coordinates",
+        "B: from A by AB along angle AB",
+        "C: where the circle about B of radius BC meets the circle about D of radius CD (left)",
+        "motions: virtual input 1-2",
+        "motions: links 4 and 3",
+    ]
+    assert answer.skipped == ("links 5 and 6", "H", "K", "E")
+    cranks = (
+        "icsolve: 1\npoints: {A: [0, 0], B: [0, 1], C: [2, 1], D: [2, 0], E: [1, 0], F: [1, 1]}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}, "
+        "{pin: [1, 5], at: E}, {pin: [5, 3], at: F}]\n"
+        "loads: {K: {torque: 2, link: 2}, U: {torque: unknown, link: 4}}\n"
+    )
+    assert icsolve.solve(icsolve.load(cranks)).steps[-1] == "motions: loop equations of the whole scene"
