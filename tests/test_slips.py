@@ -574,6 +574,30 @@ def test_a_slip_of_the_scene_is_told(slip: str) -> None:
         assert said in " ".join(icsolve.solve(case).notes)
 
 
+KINDS = {
+    "line-load": [
+        ("distributed:", "line load:", "did you mean 'distributed'?"),
+        ("from:", "start:", "mean 'from'?"),
+    ],
+    "tackle": [("mass:", "m:", "did you mean 'mass'?")],
+    "engine": [
+        ("inertia:", "I:", "did you mean 'inertia'?"),
+        ("speed: 3000 rpm", "rpm: 3000", "mean 'speed'?"),
+    ],
+    "slider-crank": [("[unknown, 0]", "[x, 0]", "or 'unknown' for what is to find")],
+    "spring": [("free:", "rest length:", "did you mean 'free'?"), ("to:", "end:", "did you mean 'to'?")],
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_words_of_other_books_are_known_in_every_kind(kind: str) -> None:
+    for old, new, said in KINDS[kind]:
+        with pytest.raises(CaseError) as refused:
+            icsolve.load(template(kind).replace(old, new, 1))
+        told = [problem.message for problem in refused.value.problems]
+        assert len(told) == 1 and said in told[0], told
+
+
 def test_teeth_are_counted_without_a_word() -> None:
     with pytest.raises(CaseError, match="a bare number is wanted here, without 'teeth'"):
         icsolve.load(template("gears").replace("[31, 57]", "[31 teeth, 57]"))

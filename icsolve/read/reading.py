@@ -389,11 +389,8 @@ def _meant(text: str, dimension: str, path: str) -> str:
         return f"; write digits, {digits}"
     if re.fullmatch(r"[a-z]+\(.*\)", text):
         return "; write the number that it comes to"
-    if (
-        path.startswith("loads.")
-        and dimension in ("torque", "force", "mass", "pressure")
-        and is_name(text.lstrip("-"))
-    ):
+    of_load = path.startswith("loads.") and dimension in ("torque", "force", "mass", "pressure")
+    if (of_load or path.startswith("points.")) and is_name(text.lstrip("-")):
         return "; write a number, or 'unknown' for what is to find"
     if path.endswith(".along") and is_name(text):
         two = text if len(text) == 2 else ("B" if text == "A" else "A") + text[:1]
