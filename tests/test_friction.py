@@ -86,6 +86,16 @@ def test_block_on_an_incline_is_a_screw_unrolled(alpha: float, mu: float) -> Non
     assert answer.friction.efficiency == exactly(math.tan(a) / math.tan(a + phi))
 
 
+@pytest.mark.parametrize(("angle", "sign"), [(0, -1), (180, 1)])
+def test_a_block_that_no_push_moves_up_is_locked_by_a_strong_pull_too(angle: int, sign: int) -> None:
+    """On the guide's other side it slides down until P = W (sin a + mu cos a) / (mu sin a - cos a)."""
+    a = math.radians(50)
+    pull = 100 * (math.sin(a) + 1.2 * math.cos(a)) / (1.2 * math.sin(a) - math.cos(a))
+    text = incline(50, 1.2).replace("angle: 0", f"angle: {angle}")
+    (said,) = (note for note in solved(text).notes if "it may hold again" in note)
+    assert said == f"beyond P = {sign * pull:.6g}, where it is about to move too, it may hold again."
+
+
 @pytest.mark.parametrize(("slope", "ends"), [("[4, 3]", (0.0, 60.0)), ("[-4, -3]", (-60.0, 0.0))])
 def test_a_block_just_held_by_friction_is_self_locking(slope: str, ends: tuple[float, float]) -> None:
     """mu = tan alpha = 3/4: it holds with nothing, an end of the range, whichever way P is counted."""
