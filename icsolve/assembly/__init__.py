@@ -64,7 +64,10 @@ def solve_figure(case: Case, wanted: Collection[str] | None = None) -> Figure:
     """
     frame = frame_of(case)
     names = names_of(case)
-    goal = list(names if wanted is None else dict.fromkeys(wanted))
+    order = {name: n for n, name in enumerate(names)}  # whoever asks, a figure is constructed in one way
+    goal = (
+        names if wanted is None else sorted({*wanted}, key=lambda name: (order.get(name, len(order)), name))
+    )
     if {*given_points(case)}.issuperset(goal):
         return _drawn(case, frame, goal, names)
     from icsolve.assembly.modes import construct
