@@ -226,3 +226,23 @@ loads: {{W: {{weight: 100, link: 3, at: C}}, T: {{torque: unknown, link: 2}}}}
     case = icsolve.load(text)
     assert icsolve.solve(case).points["C"][1] == pytest.approx(1.1479677368961603)
     assert icsolve.sweep(case, {"points.A.y": [0.0]}).status.tolist() == ["ok"]
+
+
+@pytest.mark.parametrize(("angle", "sense"), [(90, 1.0), (270, -1.0)])
+def test_the_friction_of_a_rope_is_against_its_slip(angle: int, sense: float) -> None:
+    """W goes up: the rope slips toward P = W exp(mu pi), and the post holds it back by P - W; going down the
+    other way round, with P = W exp(-mu pi)."""
+    text = (
+        "icsolve: 1\npoints: {A: [0, 0], C: [-1, -3], B: [1, -5]}\n"
+        "joints:\n  - {slide: [2, 1], at: C, along: 90}\n"
+        "  - {rope: [C, A, B], on: [2, 1], radii: {A: 1}, wraps: {A: cw}, mu: {A: 0.25}}\n"
+        "loads: {W: {weight: 100, link: 2, at: C}, P: {force: unknown, at: B}}\n"
+        f"motion: {{point: C, link: 2, speed: 1, angle: {angle}}}\n"
+    )
+    answer = icsolve.solve(icsolve.load(text))
+    pull = 100.0 * math.exp(sense * 0.25 * math.pi)
+    assert answer.friction is not None
+    (rub,) = answer.friction.rubbing
+    assert (rub.rate, rub.value) == (sense, pytest.approx(100.0 - pull, rel=1e-12))
+    (term,) = (term for term in answer.terms if term.load.startswith("friction"))
+    assert term.power == pytest.approx(rub.value * rub.rate, rel=1e-15) == -rub.loss
