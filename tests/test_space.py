@@ -631,3 +631,23 @@ def test_a_shaft_that_slides_along_y_too_is_held_along_directions(
     assert answer_text(answer).count("no difference") == 2
     for name, (value, sense) in found.items():
         assert (answer.answers[name].value, answer.answers[name].sense) == (value, sense)
+
+
+@pytest.mark.parametrize(
+    ("units", "ratio"),
+    [("{length: mm, force: N, torque: N*m}", 1000.0), ("{length: in, force: lbf, torque: lbf*ft}", 12.0)],
+)
+def test_powers_of_couples_and_forces_in_space_are_in_one_unit(units: str, ratio: float) -> None:
+    """As the shaft turns at 1 rad/s: 20 x 30 by the force, ``ratio`` times the torques by the couples."""
+    text = (
+        f"icsolve: 1\nunits: {units}\npoints: {{A: [0, 0, 0], B: [0, 0, 50], C: [30, 0, 20]}}\n"
+        "joints: [{thrust: [1, 2], at: A, axis: z}, {radial: [1, 2], at: B, axis: z}]\n"
+        "loads: {F: {force: [0, 20, 0], link: 2, at: C}, K: {torque: 3, link: 2, along: z}, "
+        "T: {torque: unknown, link: 2, along: z}}\n"
+    )
+    answer = solve(load(text))
+    torque = -(3.0 + 600.0 / ratio)
+    assert answer.answers["T"].value == pytest.approx(torque, rel=1e-15)
+    found = {term.load: (term.factor, term.power) for term in answer.terms}
+    wanted = {"F": (30.0, 600.0), "K": (ratio, 3.0 * ratio), "T": (ratio, torque * ratio)}
+    assert found == {name: pytest.approx(both, rel=1e-15) for name, both in wanted.items()}
