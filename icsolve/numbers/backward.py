@@ -14,7 +14,7 @@ import numpy as np
 
 from icsolve.numbers.adjoint import still_noise
 from icsolve.numbers.passing import Pass, Passed, Scratch
-from icsolve.numbers.record import Op, Record, Traced, operands
+from icsolve.numbers.record import Op, Record, Traced
 from icsolve.numbers.replay import Array, Code
 
 SLICE = 1024
@@ -66,9 +66,9 @@ class Backward:
     def _behind(self, k: int) -> Iterable[int]:
         op = self.record.nodes[k].op
         if op in (Op.COS, Op.SIN):
-            return (*operands(self.record, k), k + 1 if op == Op.COS else self.record.nodes[k].b)
+            return (*self.record.nodes[k].of, k + 1 if op == Op.COS else self.record.nodes[k].b)
         if k not in self.member:
-            return operands(self.record, k)
+            return self.record.nodes[k].of
         group = self.member[k]
         return [*(v.index for v in group.parts if isinstance(v, Traced)), *group.solved, *group.guesses]
 

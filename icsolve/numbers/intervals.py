@@ -13,7 +13,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from icsolve.numbers.record import Op, Record, live, operands
+from icsolve.numbers.record import Op, Record, live
 from icsolve.numbers.replay import Array
 from icsolve.tuples import NamedTuple
 
@@ -58,7 +58,7 @@ def enclose(record: Record, wanted: Sequence[int], given: Mapping[int, Interval]
                 low, high = _ends(_of(record, node.a, found))
                 found[cosine], found[cosine + 1] = _wave(low, high, 0.0), _wave(low, high, 90.0)
                 continue
-            parts = [_of(record, n, found) for n in operands(record, k)]
+            parts = [_of(record, n, found) for n in record.nodes[k].of]
             found[k] = _run(node.op, parts, node.a == node.b)
     return [Interval(*_ends(_of(record, k, found))) for k in wanted]
 

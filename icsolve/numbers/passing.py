@@ -10,7 +10,7 @@ import numpy as np
 
 from icsolve.numbers.adjoint import ANGLE_NOISE, ROUNDINGS, shares
 from icsolve.numbers.arithmetic import RADIAN
-from icsolve.numbers.record import Implicit, Op, Record, Traced, operands
+from icsolve.numbers.record import Implicit, Op, Record, Traced
 from icsolve.numbers.replay import Array, Code, Step
 from icsolve.numbers.tape import UNIT
 from icsolve.tuples import NamedTuple
@@ -160,7 +160,7 @@ class Pass:
         own = 0.0 if _shifted(self.record, k) else ROUNDINGS.get(node.op, UNIT)
         if node.op in FACTORED:
             part = 0.5 if node.op == Op.SQRT else 1.0
-            own += part * sum(self._share(n) for n in operands(self.record, k) if self._counted(n))
+            own += part * sum(self._share(n) for n in self.record.nodes[k].of if self._counted(n))
         return own
 
     def _counted(self, n: int) -> bool:
@@ -261,7 +261,7 @@ def _merged(record: Record, nodes: Sequence[int]) -> set[int]:
     count: dict[int, int] = {}
     factor: set[int] = set()
     for k in nodes:
-        for n in operands(record, k):
+        for n in record.nodes[k].of:
             count[n] = count.get(n, 0) + 1
             if record.nodes[k].op in FACTORED:
                 factor.add(n)

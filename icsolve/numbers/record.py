@@ -37,6 +37,10 @@ class Op(IntEnum):
     """the nearest whole number"""
 
 
+TWO = frozenset((Op.ADD, Op.SUB, Op.MUL, Op.DIV, Op.ANGLE))
+"""The operations on two nodes."""
+
+
 class Traced:
     """One recorded value: a number of a record.
 
@@ -44,19 +48,27 @@ class Traced:
     ----------
     record : that of all its operands; ``index`` its place there
     op : the operation
-    a, b : places of its operands, 0 where there is none
+    a, b : places of its operands, 0 where there is none; ``of`` has those that there are
     value : in the position in which the record was made
     row : whether it varies from row to row
     noise : bounds the rounding of a constant
     """
 
-    __slots__ = ("a", "b", "index", "noise", "op", "record", "row", "value")
+    __slots__ = ("a", "b", "index", "noise", "of", "op", "record", "row", "value")
 
     def __init__(
-        self, record: Record, op: Op, a: int, b: int, value: float, row: bool, noise: float = 0.0
+        self,
+        record: Record,
+        op: Op,
+        a: int,
+        b: int,
+        value: float,
+        row: bool,
+        noise: float = 0.0,
+        of: tuple[int, ...] = (),
     ) -> None:
         self.record, self.index = record, len(record.nodes)
-        self.op, self.a, self.b = op, a, b
+        self.op, self.a, self.b, self.of = op, a, b, of
         self.value, self.row, self.noise = value, row, noise
         record.nodes.append(self)
 
@@ -152,10 +164,6 @@ def varies(value: Scalar) -> bool:
     return isinstance(value, Traced) and value.row
 
 
-TWO = frozenset((Op.ADD, Op.SUB, Op.MUL, Op.DIV, Op.ANGLE))
-"""The operations on two nodes."""
-
-
 class Record:
     """The nodes in order; an `icsolve.numbers.arithmetic.Arithmetic` whose numbers are `Traced` or floats."""
 
@@ -174,7 +182,7 @@ class Record:
         """by the number's id: cosine and sine of a direction that moves with a link"""
         self.kept: dict[tuple[str, tuple[int, ...]], Any] = {}
         """what was made of some of its nodes, by what it is: nodes never change"""
-        self._known: dict[tuple[int, int, int], Traced] = {}
+        self._known: dict[Op, dict[tuple[int, ...], Traced]] = {op: {} for op in Op}
         self._constants: dict[tuple[float, str], Traced] = {}
 
     # --- numbers of the case ----------------------------------------------------------------------
@@ -376,9 +384,10 @@ class Record:
         """A new value; two exact numbers that cancel leave nothing."""
         if value == 0.0 and not row and op in (Op.ADD, Op.SUB) and self._exact(a) and self._exact(b):
             return 0.0
-        found = self._known.get((op, a, b))
+        known, of = self._known[op], (a, b) if op in TWO else (a,)
+        found = known.get(of)
         if found is None:
-            found = self._known[op, a, b] = Traced(self, op, a, b, value, row)
+            found = known[of] = Traced(self, op, a, b, value, row, 0.0, of)
         return found
 
     def _is_exact(self, value: Scalar) -> bool:
@@ -396,14 +405,6 @@ class Record:
         return node.op == Op.CONST and not node.noise
 
 
-def operands(record: Record, k: int) -> tuple[int, ...]:
-    """The nodes that a node is made of."""
-    node = record.nodes[k]
-    if node.op in (Op.INPUT, Op.CONST):
-        return ()
-    return (node.a, node.b) if node.op in TWO else (node.a,)
-
-
 def live(record: Record, wanted: Iterable[int], given: Container[int] = ()) -> list[int]:
     """The nodes that vary and lead to the wanted ones from the given ones, in the order of the record.
 
@@ -417,7 +418,7 @@ def live(record: Record, wanted: Iterable[int], given: Container[int] = ()) -> l
             continue
         seen.add(k)
         if k not in given:
-            stack += [n for n in operands(record, k) if nodes[n].row]
+            stack += [n for n in nodes[k].of if nodes[n].row]
     return sorted(seen)
 
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from icsolve.numbers.record import Op, Record, live, operands
+from icsolve.numbers.record import Op, Record, live
 
 Array = npt.NDArray[np.float64]
 BLOCK = 4096
@@ -49,27 +49,25 @@ class Code:
 
     def _allocated(self) -> tuple[dict[int, int], int]:
         """The buffer of every node, and how many there are."""
-        last: dict[int, int] = {}
-        for at, k in enumerate(self.order):
-            for n in operands(self.record, k):
-                last[n] = at
+        nodes = [self.record.nodes[k] for k in self.order]
+        last = {n: at for at, node in enumerate(nodes) for n in node.of}
         keep = {*self.wanted, *self.given, *(self.order if self.keep else ())}
         place = {k: at for at, k in enumerate(self.given)}
         free: list[int] = []
         count = len(place)
-        for at, k in enumerate(self.order):
-            dying = {n for n in operands(self.record, k) if n in place and last[n] == at and n not in keep}
-            gone = [place[n] for n in dying]
-            if self.record.nodes[k].op not in (Op.COS, Op.SIN):
+        for at, node in enumerate(nodes):
+            gone = [place[n] for n in {*node.of} if last[n] == at and n in place and n not in keep]
+            in_place = node.op not in (Op.COS, Op.SIN)
+            if in_place:
                 free += gone
             if not free:
                 free.append(count)
                 count += 1
-            place[k] = free.pop()
-            if self.record.nodes[k].op in (Op.COS, Op.SIN):
+            place[node.index] = free.pop()
+            if not in_place:
                 free += gone
-            if k not in last and k not in keep:
-                free.append(place[k])
+            if node.index not in last and node.index not in keep:
+                free.append(place[node.index])
         return place, count
 
     def bound(self, rows: int) -> tuple[list[Step], Array]:
@@ -87,31 +85,36 @@ class Code:
         return self._bound[key]
 
     def _steps(self, buffers: Array) -> Iterable[Step]:
-        nodes = self.record.nodes
+        nodes, rows = self.record.nodes, list(buffers)
+        held = {k: rows[place] for k, place in self.place.items()}
+
+        def value(k: int) -> Array:
+            return held[k] if k in held else np.array(nodes[k].value)
+
         sines = {nodes[k].b: k for k in self.order if nodes[k].op == Op.SIN}
         done: set[int] = set()
         for k in self.order:
-            node, out = nodes[k], buffers[self.place[k]]
+            node, out = nodes[k], held[k]
             if k in done:
                 continue
             if node.op in BINARY:
-                yield BINARY[node.op], (self._value(node.a, buffers), self._value(node.b, buffers), out)
+                yield BINARY[node.op], (value(node.a), value(node.b), out)
             elif node.op == Op.NEG:
-                yield np.negative, (self._value(node.a, buffers), out)
+                yield np.negative, (value(node.a), out)
             elif node.op == Op.SQRT:
-                yield partial(np.maximum, out=out), (self._value(node.a, buffers), 0.0)  # but for rounding
+                yield partial(np.maximum, out=out), (value(node.a), 0.0)  # but for rounding
                 yield np.sqrt, (out, out)
             elif node.op == Op.ANGLE:
-                yield np.arctan2, (self._value(node.b, buffers), self._value(node.a, buffers), out)
+                yield np.arctan2, (value(node.b), value(node.a), out)
                 yield np.degrees, (out, out)
             elif node.op == Op.NEAREST:
-                yield np.rint, (self._value(node.a, buffers), out)
+                yield np.rint, (value(node.a), out)
             else:
                 sine = k if node.op == Op.SIN else sines.get(k)
                 cosine = k if node.op == Op.COS else None
                 done.update(() if sine is None else (sine,))
-                outs = [None if n is None else buffers[self.place[n]] for n in (cosine, sine)]
-                yield turn, (self._value(node.a, buffers), *outs, *buffers[-SCRATCH:])
+                outs = [None if n is None else held[n] for n in (cosine, sine)]
+                yield turn, (value(node.a), *outs, *rows[-SCRATCH:])
 
     def _value(self, k: int, buffers: Array) -> Array:
         found: Array = buffers[self.place[k]] if k in self.place else np.array(self.record.nodes[k].value)

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from itertools import chain
 
-from icsolve.numbers.record import Op, Record, live, operands
+from icsolve.numbers.record import Op, Record, live
 from icsolve.tuples import NamedTuple
 
 DEEPEST = 12
@@ -106,7 +106,7 @@ def straight_line(
         Lines without indentation, to be run in order. Angles are in degrees.
     """
     order = live(record, wanted, inputs)
-    uses = Counter(chain(wanted, *(operands(record, k) for k in order if k not in inputs)))
+    uses = Counter(chain(wanted, *(record.nodes[k].of for k in order if k not in inputs)))
     text: dict[int, tuple[str, int]] = {k: (name, 0) for k, name in inputs.items()}
     lines: list[str] = []
     names: list[str] = []
@@ -131,7 +131,7 @@ def straight_line(
         if node.op == Op.INPUT:
             form(k)
             continue
-        parts = [form(n) for n in operands(record, k)]
+        parts = [form(n) for n in record.nodes[k].of]
         value = language.forms[node.op].format(a=parts[0][0], b=parts[-1][0])
         depth = 1 + max(d for _, d in parts)
         if uses[k] > 1 or depth > DEEPEST:

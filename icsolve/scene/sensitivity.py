@@ -147,13 +147,13 @@ NUMBERED = (
 @lru_cache(maxsize=64)
 def numbers_of(case: Case) -> Mapping[str, Number]:
     """Every number of a case by its path."""
-    return {number.path: number for number in numbers_in(*(getattr(case, name) for name in NUMBERED))}
+    return {path: number for numbers in parts_of(case).values() for path, number in numbers.items()}
 
 
 @lru_cache(maxsize=64)
-def paths_of(case: Case) -> Mapping[str, frozenset[str]]:
-    """The paths of the numbers that each part of a case holds."""
-    return {name: frozenset(number.path for number in numbers_in(getattr(case, name))) for name in NUMBERED}
+def parts_of(case: Case) -> Mapping[str, Mapping[str, Number]]:
+    """The numbers that each part of a case holds, by path."""
+    return {name: {n.path: n for n in numbers_in(getattr(case, name))} for name in NUMBERED}
 
 
 def _lengths(case: Case) -> set[str]:

@@ -13,7 +13,7 @@ Assur groups of the theory of machines).
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Collection, Hashable, Iterable, Mapping
+from collections.abc import Callable, Collection, Container, Hashable, Iterable, Mapping
 from typing import TypeVar
 
 from icsolve.structure.topology import Topology, reached
@@ -239,15 +239,13 @@ def make_plan(top: Topology, wanted: Collection[int]) -> Plan | None:
     groups to run.
     """
     best: Plan | None = None
+    bodies = max(2, len(set(wanted)))
     for entry in _entries(top, wanted):
         plan = _pruned(top, _grown(top, entry), wanted)
         if best is None or _cost(plan) < _cost(best):
             best = plan
-        if (
-            best.closed
-            and len(best.bodies) <= max(2, len(set(wanted)))
-            and all(len(group.bodies) <= 2 for group in best.groups)
-        ):
+        small = len(best.bodies) <= bodies and all(len(group.bodies) <= 2 for group in best.groups)
+        if best.closed and (small or _cost(best) <= _least(top, bodies)):
             break
     return best
 
@@ -261,6 +259,12 @@ def _entries(top: Topology, wanted: Collection[int]) -> list[int]:
 
 def _cost(plan: Plan) -> tuple[bool, int]:
     return (not plan.closed, sum(len(group.bodies) ** 3 for group in plan.groups))
+
+
+def _least(top: Topology, bodies: int) -> tuple[bool, int]:
+    """No plan that finds so many bodies costs less: where each joint leaves one freedom, groups are of two."""
+    alone = any(bond.freedom == 2 for bond in top.bonds)
+    return (False, bodies - 2 if alone else 8 * ((bodies - 1) // 2))
 
 
 def _grown(top: Topology, entry: int) -> Plan:
@@ -303,7 +307,7 @@ class _Growth:
             if self._held(body) >= 3:
                 return (body,)
             for other in self._neighbours((body,)):
-                if self._held(body) + self._held(other) + self._constraints_of_pair(body, other) >= 6:
+                if self._held(body) + self._held(other) + self._constraints(body, (other,)) >= 6:
                     return (body, other)
         if len(self.known) == len(self.top.members):
             return ()
@@ -329,12 +333,11 @@ class _Growth:
 
     def _held(self, body: int) -> int:
         """Constraints of a body against known bodies."""
-        bonds = (self.top.bonds[k] for k in self.top.at[body])
-        return sum(bond.constraints for bond in bonds if bond.other(body) in self.known)
+        return self._constraints(body, self.known)
 
-    def _constraints_of_pair(self, a: int, b: int) -> int:
-        bonds = (self.top.bonds[k] for k in self.top.at[a])
-        return sum(bond.constraints for bond in bonds if bond.other(a) == b)
+    def _constraints(self, body: int, others: Container[int]) -> int:
+        bonds = [self.top.bonds[k] for k in self.top.at[body]]
+        return sum(3 - bond.freedom for bond in bonds if (bond.b if body == bond.a else bond.a) in others)
 
 
 def _pruned(top: Topology, plan: Plan, wanted: Collection[int]) -> Plan:

@@ -431,7 +431,7 @@ def _held(
 
 def _spinning(bodies: Sequence[int], left: Freedoms) -> tuple[int, ...]:
     """Bodies that are free to spin while all others stand."""
-    return tuple(body for n, body in enumerate(bodies) if left.alone(n))
+    return tuple(body for n, body in enumerate(bodies) if left.motions and left.alone(n))
 
 
 def _too_many(path: str, freedoms: int, links: Sequence[str]) -> SceneError:

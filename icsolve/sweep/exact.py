@@ -16,7 +16,7 @@ from icsolve.case import Case, Centroid, Coordinates, Number, TorsionSpring
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.linear import solve_square
-from icsolve.numbers.record import Implicit, Op, Record, Root, Traced, live, operands, terms_of
+from icsolve.numbers.record import Implicit, Op, Record, Root, Traced, live, terms_of
 from icsolve.numbers.replay import BINARY
 from icsolve.statics.power import Points, spring_angle
 from icsolve.sweep.branches import live_roots
@@ -138,7 +138,7 @@ class ExactRecord:
         stack = [k]
         while stack:
             n = stack[-1]
-            missing = [m for m in operands(self.record, n) if m not in self.still]
+            missing = [m for m in self.record.nodes[n].of if m not in self.still]
             stack += missing
             if not missing:
                 stack.pop()

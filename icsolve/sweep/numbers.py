@@ -9,7 +9,7 @@ from icsolve.case import Case, Number
 from icsolve.errors import CaseError, Problem
 from icsolve.read.names import parts, shown, suggestion
 from icsolve.read.settings import like
-from icsolve.scene.sensitivity import numbers_of, paths_of
+from icsolve.scene.sensitivity import numbers_of, parts_of
 from icsolve.tuples import replace
 
 _SECTIONS = ("points", "lengths", "angles", "joints", "profile", "loads", "motion", "gravity", "links")
@@ -37,7 +37,7 @@ def with_numbers(case: Case, values: Mapping[str, float | Number]) -> Case:
             return type(value)(*items) if hasattr(value, "_fields") else tuple(items)
         return value
 
-    held = [name for name, paths in paths_of(case).items() if not paths.isdisjoint(values)]
+    held = [name for name, numbers in parts_of(case).items() if not numbers.keys().isdisjoint(values)]
     return replace(case, **{name: changed(getattr(case, name)) for name in held})
 
 

@@ -24,7 +24,7 @@ from icsolve.statics.power import points_of
 from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import Drive, condition, drive_of, pose_of, turning, turns_links
 from icsolve.sweep.friction_rows import FrictionRows, rubbing
-from icsolve.sweep.numbers import find_number, numbers_of
+from icsolve.sweep.numbers import find_number, numbers_of, with_numbers
 from icsolve.sweep.recorded_scene import (
     RecordedScene,
     RecordedStatics,
@@ -157,15 +157,15 @@ def _drive(
 def _poses(case: Case, figure: Figure, scratch: Mechanism, path: str) -> bool:
     """Whether a number of the figure places a joint, and not only points that links carry besides (but for
     those of a wheel or a lever, which it turns); numbers that are only compared with the figure may."""
-    record = Record()
-    record.vary[path] = record.input(path, numbers_of(case)[path].value)
-    placed = place(figure, case, record).points
-    moved = {name for name, p in placed.items() if any(map(varies, p))}
+    written = numbers_of(case)[path].value
+    changed = with_numbers(case, {path: written + (abs(written) or 1.0) * NUDGES[0]})
+    before, after = place(figure, case).points, place(figure, changed).points
+    moved = {name for name, p in before.items() if p != after[name]}
     held = {joint.at for joint in case.joints}
     held |= {p for rope in case.ropes for p, _ in zip(rope.points, rope.links, strict=False)}
     if not moved or held & moved:
         return True
-    return turns_links(scratch, path, moved, numbers_of(case)[path].value)
+    return turns_links(scratch, path, moved, written)
 
 
 # --- the record -----------------------------------------------------------------------------------
