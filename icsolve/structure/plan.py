@@ -262,7 +262,7 @@ def _cost(plan: Plan) -> tuple[bool, int]:
 
 
 def _least(top: Topology, bodies: int) -> tuple[bool, int]:
-    """No plan that finds so many bodies costs less: where each joint leaves one freedom, groups are of two."""
+    """No plan that finds so many bodies costs less; where each joint leaves one freedom, groups have two."""
     alone = any(bond.freedom == 2 for bond in top.bonds)
     return (False, bodies - 2 if alone else 8 * ((bodies - 1) // 2))
 
