@@ -9,7 +9,7 @@ whether it is stable, `resting` finds the ranges in which friction holds, `two_d
 from __future__ import annotations
 
 from icsolve.answer import Answer
-from icsolve.case import Case, Coordinates, Number
+from icsolve.case import Case, Coordinates
 from icsolve.errors import SceneError, Status
 from icsolve.scene import judged, solve_scene, wanted, without_inertia
 from icsolve.scene.parts import AnswerBuilder, scene_of
@@ -61,7 +61,7 @@ def solve(
         ``status`` is a member of `icsolve.errors.Status`, its message says what would mend it.
     """
     asked = {"all_centres": all_centres, "rates": rates, "reactions": reactions}
-    if not (case.unknowns or (None in _coordinates(case) and _asks_for_a_position(case))):
+    if not (case.unknowns or _asks_for_a_position(case)):
         return solve_scene(case, **asked, examine=examine, bound=bound, dynamic=dynamic)
     if without_inertia(case, dynamic):
         from icsolve.scene.dynamics import solve_dynamic
@@ -72,14 +72,12 @@ def solve(
     return solve_positions(case, **asked)
 
 
-def _coordinates(case: Case) -> list[Number | None]:
-    places = (at for at in case.points.values() if isinstance(at, Coordinates))
-    return [number for at in places for number in (at.x, at.y)]
-
-
 def _asks_for_a_position(case: Case) -> bool:
     """Whether an unknown coordinate is one that nothing else fixes, and the loads are all known."""
     if not case.loads or any(map(is_unknown, case.loads)):
+        return False
+    places = (at for at in case.points.values() if isinstance(at, Coordinates))
+    if all(at.x is not None and at.y is not None for at in places):
         return False
     from icsolve.solve.equilibrium import free_coordinate
 

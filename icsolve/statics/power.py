@@ -405,7 +405,7 @@ def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
     MoreDigits
         Of balls, where a zero is open.
     """
-    unknown, rows, scale = unknown_loads(b), power_rows(b, arithmetic), force_scale(b)
+    unknown, scale, rows = power_rows(b, arithmetic)
     idle = tuple([m for m, row in enumerate(rows) if len(row.zero) > len(unknown)])
     working = [row for m, row in enumerate(rows) if m not in idle]
     if (len(working), len(unknown)) != (1, 1):
@@ -421,14 +421,17 @@ def unknown_loads(b: PowerFactors[L]) -> list[UnitWrench[L]]:
     return [w for w in b.wrenches if is_unknown(w.load)]
 
 
-def power_rows(b: PowerFactors[L], arithmetic: Arithmetic) -> list[PowerRow]:
-    """The equation of power of every motion, in the unknown loads over their ``measure``, all times
-    `force_scale`."""
+def power_rows(
+    b: PowerFactors[L], arithmetic: Arithmetic
+) -> tuple[list[UnitWrench[L]], float, list[PowerRow]]:
+    """The unknown loads, `force_scale`, and the equation of power of every motion, in the unknown loads over
+    their ``measure``, all times that scale."""
     unknown, scale = unknown_loads(b), force_scale(b)
     place = {w.root: k for k, w in enumerate(unknown)}
     shares = [_share(w, unknown, place, scale, arithmetic) for w in b.wrenches]
     both = zip(b.factors, b.sizes, strict=True)
-    return [_row(shares, factors, sizes, len(unknown) + 1, arithmetic) for factors, sizes in both]
+    rows = [_row(shares, factors, sizes, len(unknown) + 1, arithmetic) for factors, sizes in both]
+    return unknown, scale, rows
 
 
 def is_unknown(load: Load | SpatialLoad) -> bool:

@@ -31,11 +31,9 @@ from icsolve.statics.power import (
     UnitWrench,
     balance,
     beside,
-    force_scale,
     power_rows,
     reacting,
     source_of,
-    unknown_loads,
     vector_size,
 )
 from icsolve.statics.space.reaction_basis import (
@@ -188,7 +186,7 @@ class SpatialBalance(NamedTuple):
 
 def balance_of(powers: SpatialFactors, arithmetic: Arithmetic) -> SpatialBalance:
     """The unknown loads that make the power of all loads zero on every motion."""
-    unknown, rows, scale = unknown_loads(powers), power_rows(powers, arithmetic), force_scale(powers)
+    unknown, scale, rows = power_rows(powers, arithmetic)
     count = len(unknown)
     equations = [dict(enumerate(row.values)) for row in rows]
     general = eliminate(equations, count, vanishes=decider(arithmetic))
