@@ -148,13 +148,18 @@ def _hue(ink: Ink | None, dark: bool) -> str:
 
 
 _ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;"}
-_FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-"""Characters that XML has no way to write."""
 
 
 def escaped(text: str) -> str:
     """A text that stays text, in content and in attributes, whatever it says."""
-    return "".join(_ENTITIES.get(c, c) for c in _FORBIDDEN.sub("\N{REPLACEMENT CHARACTER}", text))
+    if not text.isprintable():
+        text = "".join(c if _is_written(c) else "\N{REPLACEMENT CHARACTER}" for c in text)
+    return "".join(_ENTITIES.get(c, c) for c in text)
+
+
+def _is_written(c: str) -> bool:
+    """Whether XML has a way to write a character."""
+    return c in "\t\n\r" or " " <= c <= "\ud7ff" or "\ue000" <= c <= "\ufffd" or c > "\uffff"
 
 
 def number(value: float) -> str:

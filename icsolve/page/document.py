@@ -159,20 +159,11 @@ PARTS = NAMES.split()
 """The parts of the script, in the order in which they run: each uses those before it."""
 
 
-_SIGN = r"[{}()\[\];,:?=+\-*<>&|!%]"
-_SPACES = re.compile(rf"(?<={_SIGN}) +| +(?={_SIGN})")
-
-
 @cache
 def _parts() -> str:
-    """What is the same in the script of every page, without its comments, indents and (in lines without any
-    quote or slash) spaces around signs."""
+    """What is the same in the script of every page, without its comments and indents."""
     text = "".join(_file("script", f"{part}.js") for part in PARTS)
-    text = re.sub(r"^\s*/\*.*?\*/\s*|^\s+", "", text, flags=re.MULTILINE | re.DOTALL)
-    lines = text.split("\n")
-    return "\n".join(
-        line if re.search(r"[\"'`/]|[-+] [-+]", line) else _SPACES.sub("", line) for line in lines
-    )
+    return re.sub(r"^\s*/\*.*?\*/\s*|^\s+", "", text, flags=re.MULTILINE | re.DOTALL)
 
 
 def script(live: Live | None) -> str:
