@@ -18,6 +18,7 @@ from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from types import MappingProxyType
 
+from icsolve.answer.bodies import Reactions, Tension
 from icsolve.kinematics.speeds import Speed
 from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, size_of
 from icsolve.numbers.balls import Balls, MoreDigits
@@ -48,12 +49,15 @@ class Proven(NamedTuple):
     why : why nothing is
     bounds, values : by load, the number rounded once and the bound of its error [case units]
     friction : (rubs,), rounded once [scaled]
+    reactions, tensions : of the solution, where they were asked for
     """
 
     why: str = ""
     bounds: Mapping[str, float] = MappingProxyType({})
     values: Mapping[str, float] = MappingProxyType({})
     friction: tuple[float, ...] = ()
+    reactions: Reactions | None = None
+    tensions: tuple[Tension, ...] = ()
 
 
 def slopes(

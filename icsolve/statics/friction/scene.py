@@ -11,7 +11,7 @@ from contextlib import suppress
 from typing import Protocol, TypeVar
 
 from icsolve.answer import Answer, Deferred, Found
-from icsolve.answer.bodies import FrictionFound, Reactions, Rubbing, Tension
+from icsolve.answer.bodies import FrictionFound, Rubbing, Tension
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import Speed, fastest
 from icsolve.numbers.arithmetic import FLOATS
@@ -92,31 +92,19 @@ def in_motion(scene: FrictionScene, reactions: bool = False) -> Slipping:
         return Solved(statics, slides[-1].unknowns, slides[-1].friction)
 
     rough = on_flanks(_flanks(scene, ties, workless), solve)
-    proven = _proven(scene, rough, senses)
+    proven = _proven(scene, rough, senses, reactions)
     solved = rough if proven.why else rough._replace(unknowns=dict(proven.values), friction=proven.friction)
     bodies = _bodies(scene, solved, slides[-1], rates)
-    if reactions and not proven.why and scene.enclose is not None:
-        with suppress(SceneError):
-            exact = scene.enclose(lambda placed: _enclosed_bodies(placed, rough, senses))
-            if exact is not None:
-                bodies = bodies._replace(reactions=exact[0], tensions=exact[1])
+    if proven.reactions is not None:
+        bodies = bodies._replace(reactions=proven.reactions, tensions=proven.tensions)
     return Slipping(scene, solved, senses, proven, bodies)
 
 
-def _enclosed_bodies(
-    placed: SceneOnBalls, solved: Solved, senses: Sequence[float]
-) -> tuple[Reactions, tuple[Tension, ...]] | None:
-    """The reactions of a solution and the pulls of its ropes, each number rounded once."""
-    found = enclosed(placed, solved, senses)
-    if found is None:
-        return None
-    statics, parameters, a = found.statics, found.parameters, placed.arithmetic
-    reactions = reactions_of(placed.position, statics, parameters, a)
-    return reactions, tensions_of(statics, parameters, a, placed.position.case.units.force)
-
-
-def _proven(scene: FrictionScene, solved: Solved, senses: Sequence[float]) -> Proven:
-    """The loads and frictions of a solution, each rounded once, or why nothing is proven of them."""
+def _proven(
+    scene: FrictionScene, solved: Solved, senses: Sequence[float], reactions: bool = False
+) -> Proven:
+    """The loads and frictions of a solution (with its reactions, where they can be), each rounded once, or why
+    nothing is proven of them."""
     if scene.enclose is None:
         return Proven(UNBOUND)
     if scene.position.slack:
@@ -124,19 +112,30 @@ def _proven(scene: FrictionScene, solved: Solved, senses: Sequence[float]) -> Pr
     if len(solved.friction) != len(solved.statics.rubs):
         return Proven(TOO_CLOSE)
     try:
-        found = scene.enclose(lambda placed: _rounded(placed, solved, senses))
+        found = scene.enclose(lambda placed: _rounded(placed, solved, senses, reactions))
     except SceneError:  # no digits show that the solution stands alone
         found = None
+    if found is None and reactions:
+        return _proven(scene, solved, senses)
     return found or Proven(TOO_CLOSE)
 
 
-def _rounded(placed: SceneOnBalls, solved: Solved, senses: Sequence[float]) -> Proven | None:
-    found = enclosed(placed, solved, senses)
+def _rounded(
+    placed: SceneOnBalls, solved: Solved, senses: Sequence[float], reactions: bool
+) -> Proven | None:
+    found, a = enclosed(placed, solved, senses), placed.arithmetic
     if found is None:
         return None
-    both = {root: placed.arithmetic.rounded(x) for root, x in found.unknowns.items()}
+    both = {root: a.rounded(x) for root, x in found.unknowns.items()}
     values, bounds = ({root: two[n] for root, two in both.items()} for n in (0, 1))
-    return Proven("", bounds, values, tuple(map(float, found.friction)))
+    proven = Proven("", bounds, values, tuple(map(float, found.friction)))
+    if not reactions:
+        return proven
+    statics, parameters, unit = found.statics, found.parameters, placed.position.case.units.force
+    return proven._replace(
+        reactions=reactions_of(placed.position, statics, parameters, a),
+        tensions=tensions_of(statics, parameters, a, unit),
+    )
 
 
 def at_rest(scene: FrictionScene) -> tuple[StaticRange, float | None, str]:
