@@ -103,8 +103,8 @@ def in_motion(scene: FrictionScene, reactions: bool = False) -> Slipping:
 def _proven(
     scene: FrictionScene, solved: Solved, senses: Sequence[float], reactions: bool = False
 ) -> Proven:
-    """The loads and frictions of a solution (with its reactions, where they can be), each rounded once, or why
-    nothing is proven of them."""
+    """The loads and frictions of a solution (with its reactions, where these are asked for and can be), each
+    rounded once, or why nothing is proven of them."""
     if scene.enclose is None:
         return Proven(UNBOUND)
     if scene.position.slack:
