@@ -86,7 +86,7 @@ def _in_row(known: Known, motion: PageMotion, row: int) -> Known | None:
 
 
 def _agrees(answer: Answer, found: Sweep, row: int) -> bool:
-    """Whether floats have the answers of a row to the digits of a force and more: its bodies need no others."""
+    """Whether floats have the answers of a row to more digits than a force has: its bodies need no others."""
     swept = {name: float(array[row]) for name, array in found.answers.items()}
     told = {name: one.value for name, one in by_load(answer.answers).items() if name in swept}
     close = (abs(told[name] - value) <= 10.0 ** (-SIZES - 3) * abs(value) for name, value in swept.items())

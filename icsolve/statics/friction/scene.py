@@ -100,9 +100,7 @@ def in_motion(scene: FrictionScene, reactions: bool = False) -> Slipping:
     return Slipping(scene, solved, senses, proven, bodies)
 
 
-def _proven(
-    scene: FrictionScene, solved: Solved, senses: Sequence[float], reactions: bool = False
-) -> Proven:
+def _proven(scene: FrictionScene, solved: Solved, senses: Sequence[float], reactions: bool = False) -> Proven:
     """The loads and frictions of a solution (with its reactions, where these are asked for and can be), each
     rounded once, or why nothing is proven of them."""
     if scene.enclose is None:
@@ -120,9 +118,7 @@ def _proven(
     return found or Proven(TOO_CLOSE)
 
 
-def _rounded(
-    placed: SceneOnBalls, solved: Solved, senses: Sequence[float], reactions: bool
-) -> Proven | None:
+def _rounded(placed: SceneOnBalls, solved: Solved, senses: Sequence[float], reactions: bool) -> Proven | None:
     found, a = enclosed(placed, solved, senses), placed.arithmetic
     if found is None:
         return None
