@@ -29,6 +29,7 @@ from icsolve.cli import main
 from icsolve.manual import kinds, template
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.names import Stop
+from sizes import FULL
 from trees import document, tree
 
 ROOT = Path(__file__).parent.parent
@@ -227,7 +228,7 @@ def commands(dice: Dice, text: str) -> list[list[str]]:
         ["ways", "case.yaml", *some(dice, [["--json"]])],
         ["draw", "case.yaml", *some(dice, DRAW)],
         ["explain", "case.yaml", *some(dice, EXPLAIN)],
-        ["page", "case.yaml"],
+        *([["page", "case.yaml"]] if FULL else []),  # the gallery makes the page too
         ["gallery", "case.yaml", "-o", "shown", "--force"],
         ["sheet", "case.yaml", *some(dice, [["--title", dice.choice(TOKENS[:40])], ["-o", "exam.tex"]])],
         ["sweep", "case.yaml", *vary, *some(dice, SWEEP), *dice.choice([[], ["--find", find]])],

@@ -275,7 +275,7 @@ def test_a_fault_of_the_system_leaves_every_target_whole(writer: str, here: Path
                 Path(name).write_text("old")
         call, when = dice.choice(places)
         inject = f"inject={call}:error={dice.choice(['ENOSPC', 'EIO', 'EACCES', 'EMFILE'])}:when={when}"
-        _strace("-e", inject, line=line)
+        _strace("-e", f"trace={call}", "-e", inject, line=line)
         for name, content in _tree(here).items():
             if name in good:
                 cut = content != good[name] and good[name].startswith(content)
@@ -302,7 +302,9 @@ def _traced(line: str) -> list[tuple[str, int]]:
 
 
 def _strace(*how: str, line: str, to: str = "/dev/null") -> int:
-    return _run([STRACE or "", "-f", "-qq", "-o", to, *how, sys.executable, "-m", "icsolve", *line.split()])
+    """Run a command under strace, which stops it at the calls that are traced only."""
+    strace = [STRACE or "", "-f", "-qq", "--seccomp-bpf", "-o", to, *how]
+    return _run([*strace, sys.executable, "-m", "icsolve", *line.split()])
 
 
 def _run(call: list[str]) -> int:

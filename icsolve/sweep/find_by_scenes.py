@@ -46,6 +46,9 @@ HOLDS = (
 BESIDE, GROWN = 1000.0, 3.0
 """What runs off to infinity grows as one over the distance: ``BESIDE`` widths away, or so much farther that
 it is finite, it is more than ``GROWN`` times as large as ten times as far away."""
+FADED = 0.01
+"""What runs off to infinity is not larger far from there than near it: where both ends of a shorter stretch
+have less than this part of what the longer one had, the answer passes through zero."""
 LOCKED = [CODE[word] for word in (Status.DEAD_CENTRE, Status.NO_VALUE, Status.JAM)]
 
 
@@ -178,16 +181,18 @@ class Scenes:
     def _dead(self, found: Array, codes: Codes) -> Iterator[Search]:
         """Changes of sign through infinity, and where the mechanism begins to lock or reaches its limit."""
         for k in np.flatnonzero(found[:-1] * found[1:] < 0.0).tolist():
-            yield self._pole(k)
+            yield self._pole(k, found)
         for kind, wanted in (("dead", LOCKED), ("limit", [CODE[Status.CANNOT_ASSEMBLE]])):
             there = np.isin(codes, wanted)
             for k in np.flatnonzero(there[:-1] != there[1:]).tolist():
                 yield self._end(kind, wanted, k, bool(there[k]))
 
-    def _pole(self, k: int) -> Search:
+    def _pole(self, k: int, found: Array) -> Search:
         """Where the answer grows to infinity at a change of sign: a jump stays as it is, also where friction
         jams so near to it that there is no answer."""
-        low, high = yield from self._closed(lambda seen: seen[0] > 0.0, k)
+        low, high = yield from self._closed(lambda seen: seen[0] > 0.0, k, np.abs(found[k : k + 2]))
+        if high - low > self.width:
+            return None
         at, away, near, far = (low + high) / 2.0, BESIDE * self.width, math.nan, math.nan
         while math.isnan(near) and away <= self.places[k + 1] - self.places[k]:
             size = np.abs((yield at + away * np.array([-1.0, 1.0, -10.0, 10.0]))[0])
@@ -220,13 +225,19 @@ class Scenes:
         grown = abs(answer) > 10.0 * abs(beside) or answer * beside <= 0.0
         return None if grown else FoundPosition(float(at[0]), "max", answer, high - low)
 
-    def _closed(self, state: Callable[[Seen], Mask], k: int) -> Generator[Array, Seen, tuple[float, float]]:
-        """The two places, as near as is asked, between which a state changes after place ``k``."""
+    def _closed(
+        self, state: Callable[[Seen], Mask], k: int, sizes: Array | None = None
+    ) -> Generator[Array, Seen, tuple[float, float]]:
+        """The two places, as near as is asked, between which a state changes after place ``k``; given up where
+        the answers, of these ``sizes`` at first, fade as toward a zero."""
         low, high = float(self.places[k]), float(self.places[k + 1])
         first = state((yield np.array([low])))[0]
-        while high - low > self.width:
+        least = -1.0 if sizes is None else FADED * float(sizes.max())
+        ends = np.zeros(2) if sizes is None else sizes
+        while high - low > self.width and not ends.max() < least:
             at = np.linspace(low, high, SECTIONS + 1)
-            changed = state((yield at[1:-1])) != first
-            j = int(np.append(changed, True).argmax())
+            seen = yield at[1:-1]
+            j = int(np.append(state(seen) != first, True).argmax())
             low, high = float(at[j]), float(at[j + 1])
+            ends = np.array([ends[0], *np.abs(seen[0]), ends[1]])[j : j + 2]
         return low, high
