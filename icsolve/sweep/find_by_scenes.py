@@ -228,8 +228,8 @@ class Scenes:
     def _closed(
         self, state: Callable[[Seen], Mask], k: int, sizes: Array | None = None
     ) -> Generator[Array, Seen, tuple[float, float]]:
-        """The two places, as near as is asked, between which a state changes after place ``k``; given up where
-        the answers, of these ``sizes`` at first, fade as toward a zero."""
+        """The two places, as near as is asked, between which a state changes after place ``k``; less near
+        where the answers, of these ``sizes`` at first, fade as toward a zero."""
         low, high = float(self.places[k]), float(self.places[k + 1])
         first = state((yield np.array([low])))[0]
         least = -1.0 if sizes is None else FADED * float(sizes.max())
