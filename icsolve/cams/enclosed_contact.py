@@ -15,6 +15,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from decimal import Decimal
+from functools import lru_cache
 
 from icsolve.assembly import place, solve_figure
 from icsolve.cams.curve import Curve, Foot
@@ -320,9 +321,7 @@ class LocusFinder:
         """A table of radii: its own unknown is the direction from the centre, degrees ccw from its zero."""
         shape, balls, scale = self.shape, self.balls, 1.0 / self.size
         assert isinstance(shape, Radii)
-        rows = sorted(((angle.value % 360.0, angle, r) for angle, r in shape.table), key=lambda row: row[0])
-        angles = [balls.given(a) - 360.0 * math.floor(a.value / 360.0) for _, a, _ in rows]
-        radius = spline(angles, [balls.given(r) for _, _, r in rows], 360.0)
+        radius = exact_spline(shape.table, balls.digits)
         zx, zy = direction(shape.zero, self.places, balls)
         ox, oy = _times(self.places[shape.about], scale)
         degree = balls.pi() / 180.0
@@ -356,6 +355,15 @@ class LocusFinder:
 def at_least(value: Scalar) -> bool:
     """Whether a number is not known to be below zero."""
     return float(value) > 0.0 or type(value) is not Ball or value.holds_zero
+
+
+@lru_cache(maxsize=8)
+def exact_spline(table: tuple[tuple[Number, Number], ...], digits: int) -> Spline:
+    """`table_spline` in balls, its angle in degrees: the same in every position of its cam."""
+    balls = Balls(digits)
+    rows = sorted(((angle.value % 360.0, angle, r) for angle, r in table), key=lambda row: row[0])
+    angles = [balls.given(a) - 360.0 * math.floor(a.value / 360.0) for _, a, _ in rows]
+    return spline(angles, [balls.given(r) for _, _, r in rows], 360.0)
 
 
 def _spline_at(radius: Spline, at: Scalar) -> tuple[Scalar, Scalar, Scalar]:

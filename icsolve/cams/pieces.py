@@ -13,7 +13,8 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import lru_cache
 
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.tuples import NamedTuple
@@ -214,6 +215,19 @@ class PolarPiece(NamedTuple):
     def chords(self) -> int:
         """Two thirds of a degree at most, and eight to a value of the table."""
         return max(540, 8 * len(self.radius.places))
+
+    def along(self) -> Iterator[Point]:
+        """The points at which its chords begin."""
+        count = self.chords()
+        for k, r in enumerate(_radii(self.radius, self.turn, count)):
+            way = self.zero + k / count * TURN
+            yield self.about[0] + r * math.cos(way), self.about[1] + r * math.sin(way)
+
+
+@lru_cache(maxsize=32)
+def _radii(radius: Spline, turn: float, count: int) -> tuple[float, ...]:
+    """The radii of a curve at the ends of its chords, ccw: the same wherever its body is."""
+    return tuple([radius.at(turn * (k / count) * TURN)[0] for k in range(count)])
 
 
 Piece = Straight | CircularArc | PolarPiece
