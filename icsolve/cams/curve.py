@@ -236,9 +236,9 @@ def _joined(pieces: Sequence[Piece], size: float) -> tuple[Piece, ...]:
 def _chords(pieces: Sequence[Piece]) -> Iterator[Chord]:
     for n, piece in enumerate(pieces):
         count = piece.chords()
-        starts = piece.along() if isinstance(piece, PolarPiece) else (piece.at(k / count) for k in range(count))
-        for k, start in enumerate(starts):
-            yield start, n, (k + 0.5) / count
+        polar = list(piece.along()) if isinstance(piece, PolarPiece) else None
+        for k in range(count):
+            yield polar[k] if polar else piece.at(k / count), n, (k + 0.5) / count
 
 
 BLOCK = 24
