@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import dataclasses
 import inspect
+import os
 import pickle
 import subprocess
 import sys
@@ -57,6 +58,18 @@ def test_one_scene_of_a_cam_needs_neither(name: str) -> None:
     assert "icsolve.cams.solving" in modules
     assert not {name for name in modules if name.partition(".")[0] in {"numpy", "shapely", "fractions"}}
     assert "icsolve.statics.friction.solutions" not in modules
+
+
+@pytest.mark.parametrize(("told", "threads"), [({}, "1"), ({"OPENBLAS_NUM_THREADS": "3"}, "3")])
+def test_a_command_has_one_thread_for_linear_algebra_unless_told_otherwise(
+    told: dict[str, str], threads: str
+) -> None:
+    code = (
+        "import os, icsolve.cli as c; c.main = lambda: print(os.environ['OPENBLAS_NUM_THREADS']); c.entry()"
+    )
+    usual = {k: v for k, v in os.environ.items() if k != "OPENBLAS_NUM_THREADS"}
+    ran = subprocess.run([sys.executable, "-c", code], env=usual | told, capture_output=True, check=True)
+    assert ran.stdout.split() == [threads.encode()]
 
 
 def test_importing_the_library_imports_no_room() -> None:

@@ -136,9 +136,11 @@ def once(call: Call, times: int = 1) -> float:
 def cpu_seconds(command: list[str]) -> float:
     """User and system seconds of a child process; its wall time where the system does not tell them.
 
-    Modules are compiled once, as they are when a package is installed.
+    Modules are compiled once, as they are when a package is installed, and numpy has as many threads as it
+    takes by itself.
     """
-    environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+    own = ("PYTHONDONTWRITEBYTECODE", "_NUM_THREADS")
+    environment = {k: v for k, v in os.environ.items() if not k.endswith(own)}
     try:
         from resource import RUSAGE_CHILDREN, getrusage
     except ImportError:

@@ -22,6 +22,9 @@ INTERRUPTED = 130
 CLOSED_PIPE = 141
 BUG = 3
 UNWRITABLE = 2
+ONE_CORE = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
+"""Told to numpy before it is imported: the small matrices of a scene gain nothing from threads, and threads
+that wait for work take a third of the time of its import."""
 
 
 def main(arguments: list[str] | None = None) -> NoReturn:
@@ -51,6 +54,8 @@ def entry() -> NoReturn:
     one by one costs as much as solving a case.
     """
     gc.set_threshold(100_000, 50, 50)
+    for name in ONE_CORE:
+        os.environ.setdefault(name, "1")
     for name in ("SIGINT", "SIGTERM", "SIGHUP"):
         number = getattr(signal, name, None)
         if number is not None and signal.getsignal(number) is not signal.SIG_IGN:

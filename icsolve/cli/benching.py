@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import os
-
 import click
 
 from icsolve.cli.options import Verb
 from icsolve.cli.output import unwritten
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
 from icsolve.files import whole_file
-
-ONE_CORE = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
-"""Told to numpy before it is imported: the small matrices of a scene gain nothing from threads."""
 
 
 @click.command("bench", cls=Verb)
@@ -57,8 +52,6 @@ def _bench(full: bool, output: str) -> int:
     except ImportError as error:
         complain(f"icsolve bench needs {error.name}: pip install 'icsolve[bench]'")
         return UNREADABLE
-    for library in ONE_CORE:
-        os.environ.setdefault(library, "1")
     from icsolve.bench.picture import picture
     from icsolve.bench.report import run
 
