@@ -18,6 +18,7 @@ import pytest
 
 from icsolve.files import KeptError, folder_of, one_call, reading, whole_file, write_whole
 from icsolve.manual import template
+from library import sample
 from shell import exit_status
 
 ROOT = str(Path(__file__).parent.parent)
@@ -257,7 +258,7 @@ FAULTS = 1
 
 
 @pytest.mark.skipif(STRACE is None, reason="strace is not installed")
-@pytest.mark.parametrize("writer", [*WRITERS, *FOLDERS])
+@pytest.mark.parametrize("writer", sample([*WRITERS, *FOLDERS], 3, "faults"))
 def test_a_fault_of_the_system_leaves_every_target_whole(writer: str, here: Path) -> None:
     """Faults in any call of the system from where the first file is drafted on."""
     dice = random.Random(writer)
