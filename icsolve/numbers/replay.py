@@ -173,7 +173,7 @@ def turn(
 
     As `arithmetic.turn_of`: reduced exactly to r within 45 degrees of an axis before pi is met.
     With m quarter turns (-2 to 2) the cosine is ``cos r (1 - |m|) + sin r m (|m| - 2)``, and cos r is
-    the root of ``(1 - sin r)(1 + sin r)``, which loses nothing so near to 1.
+    the root of ``1 - sin^2 r``, at least 1/2, which loses nothing.
 
     Parameters
     ----------
@@ -181,14 +181,14 @@ def turn(
     cosine, sine : (n,), written to; None where it is not asked for
     a, b, c, s : (n,), scratch
     """
-    quarters = np.rint(np.divide(degrees, 90.0, a), a)
+    quarters = np.rint(np.multiply(degrees, 1.0 / 90.0, a), a)
     np.subtract(degrees, np.multiply(quarters, 90.0, b), s)
     np.sin(np.multiply(s, np.pi / 180.0, s), s)
-    np.sqrt(np.multiply(np.subtract(1.0, s, b), np.add(s, 1.0, c), c), c)
+    np.sqrt(np.subtract(1.0, np.multiply(s, s, c), c), c)
     quarters -= np.multiply(np.rint(np.multiply(quarters, 0.25, b), b), 4.0, b)
     across = np.subtract(np.abs(quarters, b), 2.0, b)
     quarters *= across
-    along = np.negative(np.add(across, 1.0, b), b)
+    along = np.subtract(-1.0, across, b)
     if cosine is not None:
         np.multiply(c, along, cosine)
     if sine is not None:
