@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 from typing import Any
@@ -65,6 +66,27 @@ def test_a_structure_whose_loads_are_known_is_solved_without_being_asked_for_rea
     asked = solved(BRACKET).to_dict()
     assert icsolve.solve(icsolve.load("icsolve: 1\n" + BRACKET)).to_dict() == asked
     assert {"F12", "F13", "F23"} == asked["reactions"].keys()
+
+
+TRUSS = """
+icsolve: 1
+points: {A: [0, 0], B: [4, 0], C: [2, 2]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: A}
+  - {pin: [2, 4], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [1, 2], at: B, along: 0}
+loads: {P: {force: 100, link: 3, at: C, angle: -90}}
+"""
+
+
+@pytest.mark.parametrize("joint", re.findall("  - .*\n", TRUSS))
+def test_a_joint_left_out_of_a_truss_is_said_whether_its_loads_balance_or_not(joint: str) -> None:
+    """Without its pin at A the truss slides, and its loads do no work; the others let it fall."""
+    answer = icsolve.solve(icsolve.load(TRUSS.replace(joint, "")))
+    assert answer.mobility and "a joint is missing" in answer.notes[-1]
+    assert ("do not balance" in answer.notes[-1]) is ("[1, 2], at: A" not in joint)
 
 
 def test_an_unknown_load_on_a_structure_and_one_that_nearly_moves_are_refused() -> None:

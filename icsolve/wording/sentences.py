@@ -170,6 +170,15 @@ def wrong_count(mobility: int, unknowns: int, idle: int, ends: str = "") -> str:
     return f"{wrong} Add {plural(missing, 'unknown load')}, or {lock} to lock it."
 
 
+def nothing_asked(mobility: int, balanced: bool) -> str:
+    """Known loads alone, on links that are free to move."""
+    balance = "balance in this position" if balanced else "do not balance: make one `unknown` to hold them"
+    return (
+        f"no load is `unknown`, and those that are given {balance}. The links can move "
+        f"({plural(mobility, 'freedom')}): where they should stand still, a joint is missing."
+    )
+
+
 def redundant(count: int, goes_on: bool | None, bodies: bool, wedges: int = 0) -> str:
     """Redundant constraints, and whether the motion is more than a moment's (None: not known).
 
