@@ -327,3 +327,19 @@ def test_a_row_whose_data_contradict_one_another_says_so(datum: str, last: str, 
             assert row.answers["T"][0] == pytest.approx(one.answers["T"].value, rel=1e-12)
         except icsolve.SceneError as refusal:
             assert row.status[0] == refusal.status  # noqa: PT017
+
+
+@pytest.mark.parametrize("path", ["angles.AB", "loads.P"])
+def test_where_links_yield_for_an_instant_only_loads_can_be_swept(path: str) -> None:
+    """Two links in a straight line between two pivots: a scene has an answer there, and nothing can turn."""
+    case = icsolve.load(
+        "icsolve: 1\npoints: {A: [0, 0], C: [2, 0]}\nlengths: {AB: 1, BC: 1}\nangles: {AB: 0}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 1], at: C}]\n"
+        "loads: {P: {force: 5, link: 2, at: B, angle: -90}, Q: {force: unknown, link: 3, at: B, angle: 90}}\n"
+    )
+    assert icsolve.solve(case).answers["Q"].value == 5.0
+    if path == "loads.P":
+        assert icsolve.sweep(case, {path: [5.0, 7.0]}).answers["Q"].tolist() == [5.0, 7.0]
+    else:
+        with pytest.raises(icsolve.SceneError, match="in the position as written alone, for an instant"):
+            icsolve.sweep(case, {path: [0.0, 5.0]})

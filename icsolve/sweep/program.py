@@ -175,6 +175,12 @@ NUDGES = (2.0**-9, -(2.0**-9), 2.0**-14, -(2.0**-14), 2.0**-6, -(2.0**-6))
 so that nothing in it is zero by chance."""
 
 
+YIELDS_HERE = (
+    "the links move in the position as written alone, for an instant: beside it they form a structure, which "
+    "no sweep can turn. Vary loads in this position, or take out a joint or a link that binds."
+)
+
+
 def compile_sweep(setting: Setting, asked: RowRequest, signs: Signs = ()) -> CompiledSweep:
     """The record of a sweep; the branches in ``signs`` have theirs as inputs."""
     refusal: SceneError | None = None
@@ -186,6 +192,8 @@ def compile_sweep(setting: Setting, asked: RowRequest, signs: Signs = ()) -> Com
             continue
         if all(compiled.record.nodes[root.radicand].value > 0.0 for root in compiled.record.roots.values()):
             return compiled
+    if refusal is not None and refusal.status == Status.STRUCTURE and setting.moves:
+        raise SceneError(Status.STRUCTURE, YIELDS_HERE) from refusal
     raise refusal or SceneError(
         Status.CHANGE_POINT,
         "the position as written is a limit: the mechanism assembles there, but not beside it. Write the "
