@@ -28,7 +28,8 @@ DIGITS = 120
 ZERO = Decimal("1e-40")
 """What is below this fraction of its terms is zero."""
 VANISHED = Decimal("1e-60")
-"""What is divided by is zero below this fraction of its terms: fewer digits are lost on the way."""
+"""What is divided by, or under a root, is zero below this fraction of its terms: fewer digits are lost on the
+way."""
 STEP = Decimal("1e-30")
 """Derivatives are differences over such steps: exact to twice as many digits as this has."""
 ROUNDS = 250
@@ -66,7 +67,7 @@ class ExactRecord:
         self.still: Values = {}
         self.orders: dict[tuple[int, ...], tuple[list[Step], Values]] = {}
         self.least: Values = {}
-        """by divisor what is zero beside its terms"""
+        """by divisor, and by what is under a root, what is zero beside its terms"""
         self.constants = self._decimals()
         self.last: tuple[Values, Values] | None = None
 
@@ -117,8 +118,8 @@ class ExactRecord:
         if key not in self.orders:
             order = [k for k in live(self.record, wanted) if nodes[k].op != Op.INPUT]
             steps = [(k, nodes[k].op, *_pair(nodes[k])) for k in order]
-            divisors = [b for _, op, _, b in steps if op == Op.DIV and b not in self.least]
-            self.least |= {b: VANISHED * Decimal(terms_of(nodes, b)) for b in divisors}
+            judged = [b for _, op, _, b in steps if op in (Op.DIV, Op.SQRT) and b not in self.least]
+            self.least |= {b: VANISHED * Decimal(terms_of(nodes, b)) for b in judged}
             needed = {n for *_, a, b in steps for n in (a, b)} | set(wanted)
             still = {k: self._constant(k) for k in needed if not nodes[k].row}
             self.orders[key] = (steps, still)
@@ -127,8 +128,8 @@ class ExactRecord:
         for k, op, a, b in steps:
             if k in values:
                 continue
-            if op == Op.DIV and not values[b].is_nan() and abs(values[b]) <= self.least[b]:
-                values[k] = Decimal("NaN")
+            if op in (Op.DIV, Op.SQRT) and not values[b].is_nan() and abs(values[b]) <= self.least[b]:
+                values[k] = Decimal("NaN") if op == Op.DIV else Decimal(0)
             else:
                 values[k] = _result(op, values[a], values[b])
         return values
