@@ -7,6 +7,7 @@ sweep in sixty digits.
 
 from __future__ import annotations
 
+import cmath
 import contextlib
 import math
 from dataclasses import replace
@@ -402,25 +403,31 @@ def test_a_load_that_is_varied_in_a_dead_centre_finds_it(path: str) -> None:
     assert list(rows.status) == [refused.value.status] * 2
 
 
+FOLDING = """icsolve: 1
+points: {{A: [0, 0]}}
+lengths: {{AB: {crank}, DC: {crank}, AD: {frame}{more}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
+loads: {{W: {{weight: 20, link: 3, at: C}}, M: {{torque: unknown, link: 2}}}}
+"""
+
+
 @pytest.mark.parametrize("by", ["directions", "lengths"])
 @pytest.mark.parametrize("link", ["2", "4"])
-def test_exactly_where_a_parallelogram_folds_it_may_go_on_in_two_ways(by: str, link: str) -> None:
+@pytest.mark.parametrize("lies", [0, 37])
+def test_exactly_where_a_parallelogram_folds_it_may_go_on_in_two_ways(by: str, link: str, lies: int) -> None:
     """Its circles touch there: what is under the root is zero, whatever rounding leaves of it."""
     dice = Random(f"{by} {link}")
     for _ in range(40 if FULL else 10):
         frame, crank = (dice.randint(2, 99) / 100 for _ in range(2))
         turned = dice.randint(1, 1700) / 10
-        x, y = crank * math.cos(math.radians(turned)), crank * math.sin(math.radians(turned))
-        placed = {
-            "directions": f"lengths: {{AB: {crank}, DC: {crank}}}\nangles: {{AB: {turned}, DC: {turned}}}",
-            "lengths": f"lengths: {{AB: {crank}, DC: {crank}, BC: {frame}}}\nangles: {{AB: {turned}}}\n"
-            f"near: {{C: [{frame + x}, {y}]}}",
-        }
-        case = icsolve.load(
-            f"icsolve: 1\npoints: {{A: [0, 0], D: [{frame}, 0]}}\n{placed[by]}\n"
-            "joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}]\n"
-            "loads: {W: {weight: 20, link: 3, at: C}, M: {torque: unknown, link: 2}}\n"
-        )
+        angle = round(lies + turned, 1)
+        if by == "directions":
+            more = f"}}\nangles: {{AD: {lies}, AB: {angle}, DC: {angle}}}"
+        else:
+            near = cmath.rect(frame, math.radians(lies)) + cmath.rect(crank, math.radians(angle))
+            more = f", BC: {frame}}}\nangles: {{AD: {lies}, AB: {angle}}}\n"
+            more += f"near: {{C: [{near.real}, {near.imag}]}}"
+        case = icsolve.load(FOLDING.format(crank=crank, frame=frame, more=more))
         rows = [-turned, 0.0, round(180.0 - turned, 1)]
         status = icsolve.sweep(case, drive={link: rows}).status.tolist()
         assert status == ["change-point", "ok", "change-point"], (frame, crank, turned)

@@ -24,7 +24,7 @@ from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep
 from icsolve.tuples import replace
 
-DIGITS = 120
+DIGITS = 170
 ZERO = Decimal("1e-40")
 """What is below this fraction of its terms is zero."""
 VANISHED = Decimal("1e-60")
@@ -32,15 +32,16 @@ VANISHED = Decimal("1e-60")
 way."""
 STEP = Decimal("1e-30")
 """Derivatives are differences over such steps: exact to twice as many digits as this has."""
-ROUNDS = 250
-"""Steps of Newton's method: so many bring half of the digits where two solutions have become one."""
+ROUNDS = 2 * DIGITS + 20
+"""Steps of Newton's method: so many bring all digits where each leaves a third of the error (where a straight
+part of a rope ends), and half of the digits where it leaves half: where two solutions have become one."""
 HALF = Decimal("1e-50")
 """Half of the digits."""
 AGREED = Decimal("1e-9")
 """Conditions that were not needed to place the links are met to this (normalised)."""
-LEAST = Decimal("1e-80")
+LEAST = Decimal("1e-145")
 """Places of a row (normalised) are multiples of this."""
-SHORT = Context(prec=100)
+SHORT = Context(prec=160)
 """Coordinates of a row have so many digits: more than any scene is decided by."""
 APART = "the links do not reach one another in this row."
 ANYWHERE = "change point: two links have come to lie so that a point of them may be anywhere on a circle."
@@ -280,7 +281,10 @@ class RowScenes:
         Raises SceneError where nothing says where a point is.
         """
         ox, oy, scale = map(Decimal, self.scene.frame)
-        flat = self.exact.values(self._flat(), given)
+        try:
+            flat = self.exact.values(self._flat(), given)
+        except Unreached:
+            raise SceneError(Status.CANNOT_ASSEMBLE, APART) from None
         if any(value.is_nan() for value in flat):
             raise SceneError(Status.CHANGE_POINT, ANYWHERE)
         found = iter(flat)
