@@ -18,6 +18,7 @@ from fuzzing import FOUND, TOKENS, Dice, by_characters, by_lines, by_nodes, camp
 from icsolve.errors import CaseError
 from icsolve.manual import template
 from icsolve.read import load
+from sizes import FULL
 
 SAMPLE = int(os.environ.get("ICSOLVE_FUZZ", "40"))
 """Cases that go through all commands; ``python tests/fuzzing.py`` takes any number."""
@@ -32,6 +33,8 @@ def four_bar() -> str:
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("ICSOLVE_DEBUG", "1")
+    if not FULL:
+        monkeypatch.setattr("icsolve.assembly.exclusion.MOST_BOXES", 50_000)
     return tmp_path
 
 

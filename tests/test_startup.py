@@ -19,6 +19,7 @@ import pytest
 from icsolve.manual import kinds, template
 from icsolve.read import load
 from icsolve.tuples import NamedTuple, dataclass, field, replace
+from sizes import FULL
 
 ROOT = Path(__file__).parent.parent
 
@@ -34,10 +35,13 @@ def imported(*arguments: str) -> set[str]:
 
 SCENES = [kind for kind in kinds() if not load(template(kind)).unknowns]
 """Kinds that ask for one scene: positions of equilibrium are looked for in many."""
+OPTIONS: list[tuple[str, ...]] = [(), ("--json", "--all-centres", "--rates")]
 
 
-@pytest.mark.parametrize("kind", SCENES)
-@pytest.mark.parametrize("options", [(), ("--json", "--all-centres", "--rates")])
+@pytest.mark.parametrize(
+    ("kind", "options"),
+    [(kind, each) for n, kind in enumerate(SCENES) for each in (OPTIONS if FULL else OPTIONS[n % 2 :][:1])],
+)
 def test_one_scene_needs_neither_numpy_nor_shapely(
     tmp_path: Path, kind: str, options: tuple[str, ...]
 ) -> None:

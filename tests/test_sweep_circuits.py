@@ -10,13 +10,14 @@ import pytest
 
 import icsolve
 from icsolve.assembly.driven.order import AssemblyOrder
+from sizes import FULL
 from test_sweep_status import PARALLELOGRAM
 
 CASES = Path(__file__).parent.parent / "cases"
 PEAUCELLIER = icsolve.load(str(CASES / "linkages" / "peaucellier.yaml"))
 
 
-@pytest.mark.parametrize("link", ["2", "3", "4", "5", "6", "7", "8"])
+@pytest.mark.parametrize("link", ["2", "3", "4", "5", "6", "7", "8"] if FULL else ["3", "4", "7"])
 def test_peaucelliers_cell_draws_its_line_whichever_link_is_turned(link: str) -> None:
     """S stays on x = 4 in every row that assembles, also where the rhombus is flat (P and S meet there and
     part again each on its own side), where it is folded, and beyond a limit, which is reached by turning

@@ -209,7 +209,7 @@ def posing(case: icsolve.Case) -> list[str]:
     return paths
 
 
-@pytest.mark.parametrize("name", sample(FILES, 8, "singular rows"))
+@pytest.mark.parametrize("name", sample(FILES, 14, "singular rows"))
 def test_rows_have_the_status_and_the_value_that_solve_has(name: str) -> None:
     """Beside every dead centre, limit and change point of cases of the library."""
     try:
