@@ -399,7 +399,7 @@ loads:
 """
 
 
-@pytest.mark.parametrize("seed", range(200 if FULL else 8))
+@pytest.mark.parametrize("seed", range(200 if FULL else 4))
 def test_a_limit_lies_within_its_error(seed: int) -> None:
     """A torque on AB does no work where B, C and D are in line: |BD| = BC + CD or |BC - CD|."""
     draw = random.Random(f"limits {seed}")
@@ -769,7 +769,7 @@ loads:
 STRUT = pendulum("S: {spring: 10 N/m, free: 1, link: 2, at: B, to: D}", "90", "10", ", D: [0, 4]")
 
 
-@pytest.mark.parametrize("seed", range(400 if FULL else 8))
+@pytest.mark.parametrize("seed", range(400 if FULL else 4))
 def test_a_torsion_spring_counts_its_turns_over_the_whole_range(seed: int) -> None:
     """k (free - angle) = W L cos(angle), over up to four turns: free - angle lies in (-180, 180] where the
     figure is written (`from`, else the middle), and goes on from there."""

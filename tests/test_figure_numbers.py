@@ -20,6 +20,7 @@ from icsolve.numbers.arithmetic import Floats, Scalar, turn_of
 from icsolve.numbers.balls import Balls
 from icsolve.numbers.tape import Tape
 from icsolve.read import load
+from sizes import FULL
 from test_figure import FOUR_BAR, LOOP, PINS, butterfly, case
 
 U = 2.0**-53
@@ -173,7 +174,7 @@ FIGURES = {
 
 
 @pytest.mark.parametrize("name", FIGURES)
-@pytest.mark.parametrize("k", [-990, -40, 1, 40, 990])
+@pytest.mark.parametrize("k", [-990, -40, 1, 40, 990] if FULL else [-990, 1, 40])
 def test_a_power_of_two_scales_bit_for_bit(name: str, k: int) -> None:
     one = case(FIGURES[name])
     base, scaled = solve_figure(one), solve_figure(moved(one, 2.0**k))
@@ -183,7 +184,7 @@ def test_a_power_of_two_scales_bit_for_bit(name: str, k: int) -> None:
 
 
 @pytest.mark.parametrize("name", FIGURES)
-@pytest.mark.parametrize("scale", [1e-300, 1e-12, 1e12, 1e300])
+@pytest.mark.parametrize("scale", [1e-300, 1e-12, 1e12, 1e300] if FULL else [1e-12, 1e300])
 def test_any_scale_of_the_figure(name: str, scale: float) -> None:
     """Decimal factors round each number once: a few roundings times the figure's own sensitivity."""
     one = case(FIGURES[name])
@@ -192,7 +193,7 @@ def test_any_scale_of_the_figure(name: str, scale: float) -> None:
 
 
 @pytest.mark.parametrize("name", FIGURES)
-@pytest.mark.parametrize("offset", [1e3, 1e6, 1e10])
+@pytest.mark.parametrize("offset", [1e3, 1e6, 1e10] if FULL else [1e3, 1e10])
 def test_far_from_the_origin_nothing_is_lost(name: str, offset: float) -> None:
     """Offsets by which the coordinates stay exact: the same normalised figure, to the last bit."""
     one = case(FIGURES[name].replace("1.6, -0.4", "1.5, -0.5").replace("3.4, 0.3", "3.5, 0.25"))

@@ -22,6 +22,7 @@ from icsolve.grade.mistakes.changed import changed_figures
 from icsolve.grade.mistakes.engine import shares
 from icsolve.grade.mistakes.lookup import near_miss
 from icsolve.grade.written.answer import Combined, Reader
+from library import FILES, sample
 
 CAM = """\
 icsolve: 1
@@ -105,9 +106,9 @@ def test_shares_of_the_loads_add_up_to_the_unknown() -> None:
 
 def test_every_case_of_the_library_gets_its_wrong_answers() -> None:
     """No rule fails on any joint or load, and each case has dozens of wrong answers."""
-    for path in sorted(CASES.rglob("*.yaml")):
+    for name in sample(FILES, 3, "wrong answers"):
         try:
-            answer = solved(icsolve.load(path))
+            answer = solved(icsolve.load(FILES[name]))
         except icsolve.SceneError:
             continue
         for wrongs in wrong_answers(answer).values():

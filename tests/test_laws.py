@@ -55,7 +55,7 @@ def place_of(centre: Centre, effect: transforms.Effect) -> dict[str, Any] | None
     return {"toward": effect.direction(centre.place[0])} if centre.kind == "toward" else None
 
 
-@pytest.fixture(params=range(4))
+@pytest.fixture(params=range(4 if MORE > 1 else 2))
 def scenes(request: pytest.FixtureRequest) -> list[Scene]:
     """Each kind, and as many random mechanisms, a quarter of them at a time."""
     everything = [*kinds(200), *random_scenes(20_000, 24)]

@@ -183,7 +183,7 @@ WORDS = [
 ]
 
 
-ROUNDS = 400 if FULL else 120
+ROUNDS = 400 if FULL else 60
 
 
 @pytest.mark.parametrize("name", ALL)
