@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from decimal import Decimal, localcontext
+from functools import lru_cache
 from pathlib import Path
 from random import Random
+from typing import Any
 
 import numpy as np
 import pytest
 from mpmath import mp, mpf
 
 import icsolve
-from icsolve.sweep import find_by_scenes
+from icsolve.assembly import newton
+from icsolve.sweep import find_by_scenes, scenes
 from icsolve.sweep.continuation import PathSegment
 from icsolve.sweep.exact import CONTEXT
 from icsolve.sweep.find_on_record import Query, RangeSearch, find
@@ -274,6 +277,44 @@ def test_places_are_closed_in_on_together_and_the_figure_is_followed_once(
     assert [place.kind for place in places] == ["limit", "limit"]
     assert len(sweeps) <= 30
     assert len(lines) <= 4
+
+
+@pytest.mark.parametrize(("span", "least", "most"), [((0.0, 1e-9), 13, 13), ((10.0, 40.0), 14, 20)], ids=str)
+def test_searches_for_a_figure_that_does_not_assemble_are_bounded(
+    span: tuple[float, float], least: int, most: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Points of ten links that only all their data place: the range is searched closely where they assemble,
+    and the note says at how many places."""
+    searched, spent = newton._searched.__wrapped__, []
+
+    def counted(*figure: Any) -> newton.Converged:
+        outcome = searched(*figure)
+        spent.extend([] if outcome.groups else [1])
+        return outcome
+
+    monkeypatch.setattr(newton, "_searched", lru_cache(counted))
+    monkeypatch.setattr(newton, "MOST_WORK", 5_000)
+    monkeypatch.setattr(scenes, "can_share", lambda: False)
+    text = (Path(__file__).parent / "data" / "found" / "wrongmode_1.yaml").read_text()
+    spots = find(icsolve.load(text), {"lengths.P9-P10": np.array(span)}, Query("max"))
+    assert not spots
+    (places,) = (n for n in range(400) if f"at {n} places" in spots.notes[0])
+    assert least <= places <= most
+    assert len(spent) <= 20
+
+
+def test_a_jump_past_the_value_is_no_place_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The guided bracket jams between a push down its guide and a pull up: no answer is found there."""
+    text = """icsolve: 1
+points: {O: [0, 0], X: [10, 3]}
+joints: [{slide: [2, 1], at: O, along: 90, mu: 0.25, length: 6}]
+motion: {point: O, link: 2, speed: 1, angle: 270}
+loads: {W: {weight: 60, link: 2, at: X}, P: {force: unknown, link: 2, at: O, angle: 90}}
+"""
+    monkeypatch.setattr(find_by_scenes, "PLACES", 9)
+    for value, places in ((1.0, []), (20.0, [30.0])):
+        spots = found(text, "loads.P.angle", np.array([-35.0, 55.0]), Query("value", "P", value))
+        assert [at for _, at, _ in spots] == pytest.approx(places)
 
 
 def test_what_cannot_be_looked_for() -> None:

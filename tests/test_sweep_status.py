@@ -7,6 +7,7 @@ row has its status, and none is without a number and without a status.
 from __future__ import annotations
 
 from itertools import product
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -343,3 +344,10 @@ def test_where_links_yield_for_an_instant_only_loads_can_be_swept(path: str) -> 
     else:
         with pytest.raises(icsolve.SceneError, match="in the position as written alone, for an instant"):
             icsolve.sweep(case, {path: [0.0, 5.0]})
+
+
+def test_circles_that_fall_together_beside_the_position_as_written_break_no_sweep() -> None:
+    """Peaucellier's cell with its pivots 1e-6 apart: moved a little, two of its circles are one."""
+    name = "data/found/circles_that_fall_together_beside.yaml"
+    case = icsolve.load((Path(__file__).parent / name).read_text())
+    assert [*icsolve.sweep(case, {"points.O.y": [1.0, 0.0]}).status] == ["cannot-assemble", "ok"]

@@ -328,6 +328,8 @@ def _descend(group: Group, workspace: Workspace, start: Start, reach: float, mos
         taken += 1
         values, rows = group.system(workspace)
         off = math.hypot(*values)
+        if not math.isfinite(off):
+            return Descent(math.inf, start, taken)
         if off <= CLOSED * reach * reach:
             break
         move = newton_step(values, rows).move

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
-from icsolve.answer import Answer, Deferred
+from icsolve.answer import Answer, Deferred, Later
 from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import Case, ForceVector, Load, Torque
 from icsolve.errors import SceneError, Status
@@ -56,7 +56,7 @@ def solve_dynamic(case: Case, solve: Callable[..., Answer], **options: bool) -> 
         advantage=None,
         accelerations=found.points,
         angular_accelerations=found.links,
-        notes=(*answer.notes, *notes),
+        notes=Later(lambda: (*answer.notes, *notes)),
         sensitivities=Deferred(lambda: _slopes(loaded, solve)),
     )
 

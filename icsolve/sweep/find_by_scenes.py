@@ -12,10 +12,13 @@ from collections.abc import Callable, Generator, Iterator
 import numpy as np
 import numpy.typing as npt
 
+from icsolve.assembly.order import order_of
+from icsolve.assembly.steps import Group
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
 from icsolve.statics.power import is_unknown
+from icsolve.sweep.program import wanted_points
 from icsolve.sweep.request import Columns
 from icsolve.sweep.sweeping import sweep
 from icsolve.sweep.table import CODE, Codes
@@ -23,6 +26,11 @@ from icsolve.tuples import NamedTuple
 
 PLACES = 360
 """Places at which the range is searched."""
+SEARCHED, APART = 48, 4
+"""The same where points of the figure are searched for at each: every so-manyth first, and those between only
+beside one that assembles."""
+FOUND, MISSED = 4, 24
+"""Such a scene counts for so many, and for so many more where nothing is found."""
 CLOSED = 1e-12
 """Places are closed in to this part of the range."""
 FLAT = 1e-7
@@ -49,6 +57,7 @@ it is finite, it is more than ``GROWN`` times as large as ten times as far away.
 FADED = 0.01
 """What runs off to infinity is not larger far from there than near it: where both ends of a shorter stretch
 have less than this part of what the longer one had, the answer passes through zero."""
+MISSES = [CODE[Status.CANNOT_ASSEMBLE], CODE[Status.AMBIGUOUS]]
 LOCKED = [CODE[word] for word in (Status.DEAD_CENTRE, Status.NO_VALUE, Status.JAM)]
 
 
@@ -108,19 +117,22 @@ class Scenes:
         self.case, self.columns, self.name, self.query = case, columns, name, query
         self.load = query.load or next(load.name for load in case.loads if is_unknown(load))
         values = columns.arrays[name]
-        self.places = np.linspace(values.min(), values.max(), PLACES + 1)
+        goal = wanted_points(case)[1]
+        self.searched = any(isinstance(step, Group) for step in order_of(case, goal).steps)
+        count = SEARCHED if self.searched else PLACES
+        self.places = np.linspace(values.min(), values.max(), count + 1)
         self.scenes = 0
         self.width = max(CLOSED * float(np.ptp(values)), 4.0 * float(np.spacing(np.abs(values).max())))
 
     def spots(self) -> FoundPositions:
         """All positions that are found, in order."""
-        found, codes = self._swept(self.places)
+        found, codes = self._first()
         if (codes == CODE["holds"]).any():
             raise SceneError(Status.UNSUPPORTED, HOLDS.format(load=self.load))
         finder = {"value": self._values, "max": self._peaks, "dead": self._dead}[self.query.kind]
         searches = list(finder(found, codes))
         spots = FoundPositions()
-        spots.notes = (SAID.format(count=PLACES),)
+        spots.notes = (SAID.format(count=len(self.places)),)
         try:
             for first in range(0, len(searches), TOGETHER):
                 spots += self._together(searches[first : first + TOGETHER])
@@ -129,14 +141,29 @@ class Scenes:
         spots.sort(key=lambda spot: spot.at)
         return spots
 
+    def _first(self) -> Seen:
+        """What is seen at the places, which are all, or those that are worth a search."""
+        kept = np.arange(len(self.places)) % (APART if self.searched else 1) == 0
+        found, codes = np.full(len(kept), np.nan), np.zeros(len(kept), dtype=np.int8)
+        found[kept], codes[kept] = self._swept(self.places[kept])
+        if self.searched:
+            missed = np.isin(codes[kept], MISSES)
+            between = ~kept & ~np.append(np.repeat(missed[:-1] & missed[1:], APART), False)
+            if between.any():
+                found[between], codes[between] = self._swept(self.places[between])
+            kept |= between
+        self.places = self.places[kept]
+        return found[kept], codes[kept]
+
     def _swept(self, at: Array) -> Seen:
-        self.scenes += len(at)
+        self.scenes += len(at) * (FOUND if self.searched else 1)
         if self.scenes > MOST_SCENES:
             raise _EnoughError
         rows = {own: np.full(len(at), float(a[0])) for own, a in self.columns.arrays.items()}
         rows[self.name] = at
         vary = {own: rows[own] for own in self.columns.paths}
         found = sweep(self.case, vary, drive={own: rows[own] for own in self.columns.links})
+        self.scenes += MISSED * self.searched * int(np.isin(found.codes, MISSES).sum())
         return found.answers.get(self.load, np.full(len(at), np.nan)), found.codes
 
     def _together(self, searches: list[Search]) -> Iterator[FoundPosition]:
@@ -174,9 +201,9 @@ class Scenes:
         low, high = yield from self._closed(lambda seen: seen[0] > self.query.value, k)
         at = (low + high) / 2.0
         answer = float((yield np.array([at]))[0][0])
-        if abs(answer - self.query.value) > min(abs(miss[k]), abs(miss[k + 1])) + abs(self.width):
-            return None
-        return FoundPosition(at, "value", answer, high - low)
+        if abs(answer - self.query.value) <= min(abs(miss[k]), abs(miss[k + 1])) + abs(self.width):
+            return FoundPosition(at, "value", answer, high - low)
+        return None  # a jump, in which there may be no answer
 
     def _dead(self, found: Array, codes: Codes) -> Iterator[Search]:
         """Changes of sign through infinity, and where the mechanism begins to lock or reaches its limit."""

@@ -7,6 +7,7 @@ rates and centres: each with the kernels that one scene has.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 
 from icsolve.assembly import Figure, place, placed_figure
 from icsolve.assembly.conditions import refuse_misfit
@@ -158,9 +159,13 @@ def _poses(case: Case, figure: Figure, scratch: Mechanism, path: str) -> bool:
     """Whether a number of the figure places a joint, and not only points that links carry besides (but for
     those of a wheel or a lever, which it turns); numbers that are only compared with the figure may."""
     written = numbers_of(case)[path].value
-    changed = with_numbers(case, {path: written + (abs(written) or 1.0) * NUDGES[0]})
-    before, after = place(figure, case).points, place(figure, changed).points
-    moved = {name for name, p in before.items() if p != after[name]}
+    before, after = place(figure, case).points, {}
+    for nudge in NUDGES:
+        changed = with_numbers(case, {path: written + (abs(written) or 1.0) * nudge})
+        with suppress(ZeroDivisionError):  # two loci fall together there
+            after = place(figure, changed).points
+            break
+    moved = {name for name, p in before.items() if p != after.get(name)}
     held = {joint.at for joint in case.joints}
     held |= {p for rope in case.ropes for p, _ in zip(rope.points, rope.links, strict=False)}
     if not moved or held & moved:
