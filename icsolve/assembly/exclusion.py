@@ -12,7 +12,6 @@ from functools import partial
 
 import numpy as np
 
-from icsolve.assembly.conditions import Unknown
 from icsolve.assembly.loci import Axis, PlacedLine, intersection, sine_between
 from icsolve.assembly.steps import Group
 from icsolve.assembly.workspace import GUIDE, LENGTH, RAY, Workspace, X, Y, data_in
@@ -62,8 +61,7 @@ def every_solution(group: Group, workspace: Workspace) -> FigureSolutions:
     group : equations that are quadratic in the coordinates (lengths, angles; not ropes)
     workspace : the points that are placed; those of the group are moved about
     """
-    unknowns = group.unknowns()
-    system = _quadratics(group, workspace, unknowns)
+    system = quadratics_of(group, workspace)
     low, high, bounded = _bounds(group, workspace)
     links = _links(group, workspace)
     size = math.sqrt(max((link.square for link in links), default=1.0)) or 1e-300
@@ -74,8 +72,12 @@ def every_solution(group: Group, workspace: Workspace) -> FigureSolutions:
     return FigureSolutions(places, bounded and zeros.complete, zeros.boxes, zeros.movable)
 
 
-def _quadratics(group: Group, workspace: Workspace, unknowns: list[Unknown]) -> Quadratics:
-    """The equations' coefficients, from their values and derivatives at the corners of the unit box."""
+def quadratics_of(group: Group, workspace: Workspace) -> Quadratics:
+    """The equations' coefficients, from their values and derivatives at the corners of the unit box.
+
+    Not of a rope, whose length is no polynomial; the points of the group are moved about.
+    """
+    unknowns = group.unknowns()
     n = len(unknowns)
 
     def derivatives(z: list[float]) -> tuple[list[float], Array]:

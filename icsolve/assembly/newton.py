@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import lru_cache
 from itertools import islice, product
+from typing import TYPE_CHECKING
 
 from icsolve.assembly.clusters import LooseFigure
 from icsolve.assembly.order import grow
@@ -24,6 +25,9 @@ from icsolve.numbers.arithmetic import FLOATS
 from icsolve.numbers.linear import Row, inverse, solve_square
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
+
+if TYPE_CHECKING:
+    from icsolve.numbers.quadratics import Quadratics
 
 Spot = tuple[float, float]
 Start = dict[str, Spot]
@@ -39,6 +43,8 @@ FLAT = 1e-11
 """Smallest over largest pivot of a solution that stands alone."""
 MOST_BRANCHES = 64
 SPREAD = 16
+TOGETHER = 64
+"""Starts from which one descends at once."""
 MOST_WORK = 250_000
 """Steps times the square of the number of equations, over all starts but `near` itself."""
 CLOSE_WORK = 60_000
@@ -96,7 +102,7 @@ def solutions(group: Group, workspace: Workspace, near: Mapping[str, Spot]) -> C
     return _searched(group, workspace.case, workspace.frame, tuple(known), tuple(near.items()))
 
 
-@lru_cache(maxsize=32)
+@lru_cache(maxsize=512)
 def _searched(
     group: Group,
     case: Case,
@@ -156,23 +162,41 @@ class _NewtonSearch:
             if len(self.found) > known:
                 self.beside = {}
         work, most = 0, CLOSE_WORK if self.found else MOST_WORK
-        for tried, start in enumerate(self._starts(list(held))):
-            work += self._try(start, MOST_STEPS) * len(self.group.equations) ** 2
+        for tried, descent in enumerate(self._descents(self._starts(list(held)))):
+            self._keep(descent)
+            work += descent.steps * len(self.group.equations) ** 2
             if work > most and not (self.found and tried < SPREAD // 2):
                 self.spent = True
                 return
 
-    def _try(self, start: Start, most: int) -> int:
-        """Descend from a start; how many steps it took."""
+    def _try(self, start: Start, most: int) -> Descent:
+        """Descend from a start; what was found is kept."""
         try:
             descent = _descend(self.group, self.workspace, start, self.reach, most)
         except SceneError:  # on the way no rope can be laid
-            return most
+            return Descent(math.inf, start, most)
+        self._keep(descent)
+        return descent
+
+    def _descents(self, starts: Iterator[Start]) -> Iterator[Descent]:
+        """Descents from starts, many at once; one by one where a rope is laid."""
+        if any(equation.datum.kind == ROPE for equation in self.group.equations):
+            yield from (self._try(start, MOST_STEPS) for start in starts)
+            return
+        system = None
+        while some := list(islice(starts, TOGETHER)):
+            if system is None:
+                from icsolve.assembly.exclusion import quadratics_of
+
+                system = quadratics_of(self.group, self.workspace)
+            yield from _descend_together(system, some, self.reach)
+
+    def _keep(self, descent: Descent) -> None:
+        """Keep a new solution, or where the data were violated least."""
         if descent.off > CLOSED * self.reach * self.reach:
             self.closest = min(self.closest, descent, key=lambda each: each.off)
         elif not any(_same(descent.end, other, self.reach) for other in self.found):
             self.found.append(descent.end)
-        return descent.steps
 
     def leaves(self, first: Start) -> bool:
         """Whether the nearest solution lies elsewhere, and the data come close to being met at `near`."""
@@ -337,6 +361,32 @@ def _descend(group: Group, workspace: Workspace, start: Start, reach: float, mos
         fraction = min(1.0, LONGEST_STEP * reach / longest) if longest > 0.0 else 0.0
         workspace.points.update(_moved(_places(group, workspace), move, fraction))
     return Descent(off, _places(group, workspace), taken)
+
+
+def _descend_together(system: Quadratics, starts: Sequence[Start], reach: float) -> Iterator[Descent]:
+    """The same as `_descend` from many starts at once, by `MOST_STEPS` steps at most."""
+    import numpy as np
+
+    at = np.array([[part for place in start.values() for part in place] for start in starts])
+    off, taken, going = np.full(len(at), math.inf), np.zeros(len(at), int), np.arange(len(at))
+    for _ in range(MOST_STEPS):
+        values, slopes = system.at(at[going])
+        taken[going] += 1
+        off[going] = np.nan_to_num(np.linalg.norm(values, axis=1), nan=math.inf)
+        left = np.isfinite(off[going]) & (off[going] > CLOSED * reach * reach)
+        going, values, slopes = going[left], values[left], slopes[left]
+        if not len(going):
+            break
+        try:
+            move = np.linalg.solve(slopes, values[..., None])[..., 0]
+        except np.linalg.LinAlgError:
+            both = zip(slopes, values, strict=True)
+            move = np.array([np.linalg.lstsq(slope, value, rcond=None)[0] for slope, value in both])
+        longest = np.abs(move).max(axis=1, keepdims=True)
+        at[going] -= move * np.minimum(1.0, LONGEST_STEP * reach / np.maximum(longest, LONGEST_STEP * reach))
+    for place, residual, steps, start in zip(at.tolist(), off.tolist(), taken.tolist(), starts, strict=True):
+        end = dict(zip(start, zip(place[::2], place[1::2], strict=True), strict=True))
+        yield Descent(residual, end, steps)
 
 
 def _places(group: Group, workspace: Workspace) -> Start:
