@@ -60,6 +60,8 @@ def _position(known: Known, figures: Figures, position: EquilibriumPosition) -> 
         return []
     here = known_at(known, position.answer)
     motions = _by_unknowns(here, known.case, list(position.at))
+    if not motions:  # a change point, which has more of them
+        return []
     blocks: list[Block] = [words(f"In the position {place_text(here.case, position, figures.digits)}:")]
     blocks += torque_words(here.case.units)
     loads = []
@@ -88,7 +90,7 @@ def _position(known: Known, figures: Figures, position: EquilibriumPosition) -> 
             blocks.append(words("No load does work."))
         whole = terms[0][1] if len(terms) == 1 else Sum(tuple(terms))
         blocks.append(formula(Name("Q", low), whole if terms else Num("0"), Num("0")))
-    return [*blocks, *_derivative(figures, position)] if motions else []
+    return [*blocks, *_derivative(figures, position)]
 
 
 def _force(known: Known, figures: Figures, acting: Acting) -> tuple[Acting, list[Block]]:

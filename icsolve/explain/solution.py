@@ -201,8 +201,9 @@ def _rounding(figures: Figures, answer: Answer) -> Iterable[tuple[Inline, ...]]:
 
 
 def sentence(text: str) -> str:
-    """With a capital and a full stop."""
-    text = text[:1].upper() + text[1:]
+    """With a full stop, and a capital where it does not begin with a path (``angles.AB``)."""
+    first, _, rest = text.partition(" ")
+    text = text if "." in first else f"{first[:1].upper()}{first[1:]} {rest}".strip()
     return text if text.endswith((".", "!", "?")) else f"{text}."
 
 

@@ -356,7 +356,7 @@ def _of_ratio(answer: Answer, load: Load, own: Load) -> Iterator[WrongStep]:
     ratio = factors.get(load.name, 0.0) / factors[own.name]
     if same_kind(load, own) and ratio:
         both = f"{own.name} and {load.name}"
-        yield WrongStep("inverse-ratio", ratio**-2, both)
+        yield WrongStep("inverse-ratio", 1.0 / ratio / ratio, both)
         yield WrongStep("ratio-one", 1.0 / ratio, both)
         yield WrongStep("ratio-one", -1.0 / ratio, both)
     if load.link == own.link:
