@@ -269,6 +269,13 @@ REFUSED = {
         "by components, so it takes no",
     ),
     "near of no point": ("near: {C", "near: {X", 7, 8, "point X is named here, but nothing gives it"),
+    "a torsion spring without its corner": (
+        "{force: 100, link: 4, at: E, angle: 180}",
+        "{spring: 20 lbf*in/rad, free: 90, link: 4, at: E, to: A}",
+        14,
+        15,
+        "a torsion spring has its angle, 'corner', in place of 'at' and 'to'",
+    ),
     "friction without a radius": ("at: A}", "at: A, mu: 0.2}", 9, 26, "needs 'radius', the pin's own"),
     "a load by a letter off": ("title:", "expect: {T21: 33}\ntitle:", 2, 10, "did you mean 'T12'?"),
     "degrees and minutes": ("AB: 60", "AB: 60°30'", 6, 14, "write minutes as decimals of the degree"),
@@ -531,6 +538,16 @@ SCENES = {
         [("link: 4, at: E", "link: 4, at: B")],
         "",
         "at B, a joint of link 2 and link 3; if one of these is meant, write 'link: 2' or 'link: 3'",
+    ),
+    "a torsion spring on a link beside its corner": (
+        [("  T12", "  S: {spring: 20 lbf*in/rad, corner: ABC, free: 90, link: 4, against: 2}\n  T12")],
+        "",
+        "load S acts on link 4 at B, a joint of link 2 and link 3",
+    ),
+    "a torsion spring against a link beside its corner": (
+        [("  T12", "  S: {spring: 20 lbf*in/rad, corner: ABC, free: 90, link: 3}\n  T12")],
+        "",
+        "fixed to link 1 at B, a joint of link 2 and link 3; if one of these is meant, write 'against: 2'",
     ),
     "a known torque on the frame": (
         [("  T12", "  M: {torque: 5, link: 1}\n  T12")],

@@ -319,6 +319,8 @@ loads: {W: {weight: 60, link: 2, at: X}, P: {force: unknown, link: 2, at: O, ang
 
 def test_what_cannot_be_looked_for() -> None:
     case = icsolve.load(UNKNOWN_TORQUE)
+    with pytest.raises(ValueError, match="has one value: give FROM:TO:STEP"):
+        find(case, {"angles.AB": 60.0}, Query("dead"))
     with pytest.raises(ValueError, match="one varied number"):
         find(case, {"angles.AB": [0.0, 1.0], "loads.P": [1.0, 2.0]}, Query("dead"))
     with pytest.raises(ValueError, match="no unknown load"):

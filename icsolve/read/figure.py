@@ -484,14 +484,15 @@ def _places(
 ) -> Iterator[tuple[str, str, str, str, tuple[str | int, ...]]]:
     """What is put on which link at which point, the key that says the link, and where that stands."""
     for load in loads:
-        if isinstance(load, Torque | TorsionSpring) or load.link.startswith("@"):
+        if isinstance(load, Torque) or load.link.startswith("@"):
             continue
         placed, way = _on_load(load, ground), ("loads", load.name)
-        for link, point in placed[:-1] if isinstance(load, Spring) else placed:
+        own = 2 if isinstance(load, TorsionSpring) else len(placed) - isinstance(load, Spring)
+        for link, point in placed[:own]:
             yield f"load {load.name} acts on", link, point, "link", (*way, "link")
-        if isinstance(load, Spring):
-            key = "against" if load.against else "to"
-            yield f"the other end of load {load.name} is fixed to", *placed[-1], "against", (*way, key)
+        end = "against" if getattr(load, "against", None) else "to" if isinstance(load, Spring) else "corner"
+        for link, point in placed[own:]:
+            yield f"the other end of load {load.name} is fixed to", link, point, "against", (*way, end)
     for index, given in enumerate(motion):
         if given.point:
             yield "the motion is given on", given.link, given.point, "link", ("motion", index, "link")

@@ -105,7 +105,10 @@ def along_of(columns: Columns) -> str:
     Raises ValueError where none varies, or several do.
     """
     varying = [name for name, array in columns.arrays.items() if np.ptp(array) > 0.0]
-    if len(varying) != 1:
+    if not varying:
+        name = shown(next(iter(columns.names.values())))
+        raise RequestError(f"positions are found along a range, and {name} has one value: give FROM:TO:STEP")
+    if len(varying) > 1:
         raise RequestError("positions are found along one varied number")
     return varying[0]
 
