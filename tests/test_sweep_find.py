@@ -20,6 +20,7 @@ from icsolve.sweep.continuation import PathSegment
 from icsolve.sweep.exact import CONTEXT
 from icsolve.sweep.find_on_record import Query, RangeSearch, find
 from icsolve.sweep.path_tracking import PathTracker
+from library import FILES, sample
 from test_sweep_status import FOUR_BAR, PARALLELOGRAM, SLIDER_CRANK
 
 mp.dps = 60
@@ -350,3 +351,20 @@ def test_a_pole_is_no_zero_and_costs_few_values(
         found = list(search._closed(counted, Decimal(0), Decimal(1)))
     assert [round(float(s), 12) for s in found] == [float(s) for s in zeros]
     assert zeros or len(asked) < 100
+
+
+@pytest.mark.parametrize("name", sample([name for name in FILES if name.startswith("cams/")], 2, "find"))
+def test_what_turns_in_a_sweep_can_be_searched(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also where a contact alone says where the follower is."""
+    monkeypatch.setattr(find_by_scenes, "PLACES", 8)
+    monkeypatch.setattr(find_by_scenes, "FLAT", 1e-2)
+    case, rows = icsolve.load(FILES[name]), [-5.0, 0.0, 5.0]
+    for link in case.links:
+        try:
+            status = icsolve.sweep(case, drive={link: rows}).status.tolist()
+        except icsolve.SceneError:
+            continue
+        if status == ["ok"] * 3:
+            for spot in find(case, None, Query("max"), drive={link: rows}):
+                assert abs(spot.at) <= 5.0
+            return

@@ -110,6 +110,14 @@ Search = Generator[Array, Seen, FoundPosition | None]
 """Yields places, is sent what is seen there, and returns what it found."""
 
 
+def _is_searched(case: Case) -> bool:
+    """Whether points of a figure are searched for; not those that a contact alone places."""
+    try:
+        return any(isinstance(step, Group) for step in order_of(case, wanted_points(case)[1]).steps)
+    except SceneError:
+        return False
+
+
 class Scenes:
     """Positions along one number, scene by scene."""
 
@@ -117,8 +125,7 @@ class Scenes:
         self.case, self.columns, self.name, self.query = case, columns, name, query
         self.load = query.load or next(load.name for load in case.loads if is_unknown(load))
         values = columns.arrays[name]
-        goal = wanted_points(case)[1]
-        self.searched = any(isinstance(step, Group) for step in order_of(case, goal).steps)
+        self.searched = _is_searched(case)
         count = SEARCHED if self.searched else PLACES
         self.places = np.linspace(values.min(), values.max(), count + 1)
         self.scenes = 0
