@@ -167,6 +167,18 @@ points: {A: [0, 0], B: [-0.3, 0.1], C: [0.7, -0.05]}
 joints: [{pin: [1, 2], at: A}]
 loads: {M: {mass: 12 kg, link: 2, at: C}, m: {mass: unknown, link: 2, at: B}}
 """,
+    "mass that would have to lift": """
+icsolve: 1
+points: {A: [0, 0], B: [0.3, 0.1], C: [0.7, -0.05]}
+joints: [{pin: [1, 2], at: A}]
+loads: {M: {mass: 12 kg, link: 2, at: C}, m: {mass: unknown, link: 2, at: B}}
+""",
+    "spring that would have to push": """
+icsolve: 1
+points: {A: [0, 0], B: [0.3, 0], C: [0.3, -0.5]}
+joints: [{pin: [1, 2], at: A}]
+loads: {M: {mass: 12 kg, link: 2, at: B}, S: {spring: unknown, free: 0.2, link: 2, at: B, to: C}}
+""",
     "space": """
 icsolve: 1
 points: {A: [0, 0, 0], B: [0, 0, 0.4], C: [0.3, 0.1, 0.2]}

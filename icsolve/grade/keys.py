@@ -36,7 +36,7 @@ from icsolve.grade.tolerance import (
     width_of,
     zero_width,
 )
-from icsolve.grade.written.words import UnitWord, WrittenDirection, factors_between
+from icsolve.grade.written.words import UnitWord, WrittenDirection, direction, factors_between
 from icsolve.numbers.units import Unit, UnitError
 from icsolve.report.check import value_of
 from icsolve.tuples import NamedTuple
@@ -121,7 +121,14 @@ def expected_direction(load: Load, answer: Answer) -> ExpectedDirection:
     if isinstance(load, Torque):
         return ExpectedDirection(turn=-1.0 if load.positive == "cw" else 1.0)
     if isinstance(load, Spring | TorsionSpring) or (isinstance(load, Weight) and load.mass):
-        return ExpectedDirection()
+        found = answer.answers[load.name]  # a stiffness or a mass: the way that it acts tells a minus alone
+        words = direction(found.sense) if found.value < 0.0 else None
+        if words is None:
+            return ExpectedDirection()
+        if words.kind == "line":
+            return ExpectedDirection(heading=words.value + 180.0)
+        turns = words.kind == "turn"
+        return ExpectedDirection(turn=-words.value) if turns else ExpectedDirection(axial=-words.value)
     assert isinstance(load, Force | ForceVector | Weight)
     axial = 0.0
     if isinstance(load, Force) and isinstance(load.heading, Toward):
