@@ -54,6 +54,10 @@ class RopeLine(NamedTuple):
     number: Expr
 
 
+MOST_EXPONENT = 700.0
+"""Beyond this a ratio of pulls is no double."""
+
+
 def rope_ratio(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio) -> Iterable[Block]:
     """How two links move that a rope ties: the pulls of its parts do no work."""
     assert ratio.rope is not None
@@ -177,8 +181,8 @@ def _slipping(known: Known, figures: Figures, rope: Rope) -> Iterable[Block]:
         more, less = (k + 1, k) if pulls[k] >= pulls[k - 1] else (k, k + 1)
         ratio = Quotient(_symbol(known, rope, more), _symbol(known, rope, less))
         numbers = Exp(product(figures.number(mu.value), figures.number(angle)))
-        grown = figures.number(math.exp(mu.value * angle))
-        yield formula(ratio, Exp(product(Name("mu"), wrap)), numbers, grown)
+        grown = [figures.number(math.exp(mu.value * angle))] if mu.value * angle < MOST_EXPONENT else []
+        yield formula(ratio, Exp(product(Name("mu"), wrap)), numbers, *grown)
 
 
 def _grown(known: Known, figures: Figures, rope: Rope) -> Iterable[Block]:

@@ -40,6 +40,8 @@ __all__ = ["FoundPosition", "FoundPositions", "Query", "find"]
 
 CELLS = 256
 """Cells at first."""
+WITHIN = (0.5, 0.25, 0.75, 0.0, 1.0)
+"""Where in a range its branch is looked for."""
 MOST_CELLS = 60_000
 """More cells than these are not looked at: what is left is said."""
 NARROW = 2.0**-32
@@ -345,7 +347,9 @@ class RangeSearch:
         self, wanted: Sequence[Scalar], peaks: bool, first: float, last: float
     ) -> Iterator[tuple[Decimal, Decimal, bool]]:
         """By bounds of the function over whole cells, cut until each is decided."""
-        given = self.along.at(self.name, as_written((first + last) / 2.0))
+        given = self._reached(first, last)
+        if given is None:
+            return
         main = self.compiled.inputs[self.name]
         radicands = [root.radicand for root in self.roots]
         nodes = [self.record.lifted(v).index for v in wanted]
@@ -376,6 +380,13 @@ class RangeSearch:
             )
         if open_:
             self.notes[UNSHOWN.format(count=open_)] = None
+
+    def _reached(self, first: float, last: float) -> Mapping[int, Decimal] | None:
+        """The inputs at a place between two; None where the links reach one another at none that is tried."""
+        for share in WITHIN:
+            with suppress(Unreached):
+                return self.along.at(self.name, as_written(first + share * (last - first)))
+        return None
 
     # --- groups -----------------------------------------------------------------------------------
 
