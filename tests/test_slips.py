@@ -269,6 +269,13 @@ REFUSED = {
         "by components, so it takes no",
     ),
     "near of no point": ("near: {C", "near: {X", 7, 8, "point X is named here, but nothing gives it"),
+    "a link by its two points for a point": (
+        "link: 4, at: E",
+        "link: 4, at: CD",
+        14,
+        32,
+        "CD reads as two points",
+    ),
     "a torsion spring without its corner": (
         "{force: 100, link: 4, at: E, angle: 180}",
         "{spring: 20 lbf*in/rad, free: 90, link: 4, at: E, to: A}",

@@ -362,6 +362,8 @@ def _never_given(reading: Reading, name: str, given: set[str]) -> str:
 
 def _likely(reading: Reading, name: str, given: set[str]) -> str:
     """What a point that nothing gives may be: another one, a link, the middle of two points."""
+    if len(name) == 2 and {*name} <= given:
+        return f"; {name} reads as two points, and one of them is wanted here, {name[0]} or {name[1]}"
     cased = next((point for point in sorted(given) if point.lower() == name.lower()), "")
     near = f"; did you mean '{cased}'?" if cased else suggestion(name, sorted(given)) if len(name) > 1 else ""
     if near:
