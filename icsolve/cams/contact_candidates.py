@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from icsolve.cams.curve import Body, Curve, Foot
+from icsolve.cams.curve import Body, Curve, Foot, dot
 from icsolve.cams.pieces import TURN, Point, unit
 from icsolve.numbers.roots import zero_between
 from icsolve.tuples import NamedTuple
@@ -37,7 +37,7 @@ class Shift(NamedTuple):
 
     def reach(self, curve: Curve, body: Body) -> tuple[float, float]:
         """Lengths between which it can touch the profile."""
-        along = [_dot(p, self.along) - _dot(body.at, self.along) for p, _, _ in curve.chords]
+        along = [dot(p, self.along) - dot(body.at, self.along) for p, _, _ in curve.chords]
         room = body.radius + 0.01 * curve.size
         return min(along) - room, max(along) + room
 
@@ -166,10 +166,6 @@ def _face_shifted(curve: Curve, body: Body, freedom: Shift, side: float) -> Iter
         yield Candidate(by, side, freedom.moved(body, by), math.copysign(1.0, rate))
 
 
-def _dot(a: Point, b: Point) -> float:
-    return a[0] * b[0] + a[1] * b[1]
-
-
 AT_ONE = 1e-9
 """Places that are nearer than this fraction of the profile's size are one."""
 
@@ -221,7 +217,7 @@ def meeting_of(curve: Curve, body: Body, side: float) -> Meeting:
         way = (-side * body.face[1], side * body.face[0])
         first, *others = curve.farthest(way)
         reach = way[0] * first.point[0] + way[1] * first.point[1]
-        ties = [o for o in others if abs(_dot(way, o.point) - reach) <= AT_ONE * curve.size]
+        ties = [o for o in others if abs(dot(way, o.point) - reach) <= AT_ONE * curve.size]
         return _shared(Meeting(gap, foot, (way,)), curve, ties, [way] * len(ties), ALONG)
     if foot.is_corner and math.dist(foot.point, body.at) <= AT_ONE * curve.size:
         return Meeting(gap, foot, foot.normals)

@@ -99,7 +99,7 @@ class Curve(NamedTuple):
             return Foot(at, piece, u, (own,))
         other = (piece - 1 if u <= 0.0 else piece + 1) % len(self.pieces)
         beside = self.normal(other, 1.0 if u <= 0.0 else 0.0)
-        if abs(own[0] * beside[1] - own[1] * beside[0]) < CORNER and _dot(own, beside) > 0.0:
+        if abs(own[0] * beside[1] - own[1] * beside[0]) < CORNER and dot(own, beside) > 0.0:
             return Foot(at, piece, u, (own,))
         return Foot(at, piece, u, (beside, own) if u <= 0.0 else (own, beside))
 
@@ -141,13 +141,13 @@ class Curve(NamedTuple):
 
     def farthest(self, way: Point) -> list[Foot]:
         """Where the profile reaches farthest in a direction, and its corners that come next."""
-        start = max(range(len(self.chords)), key=lambda n: _dot(self.chords[n][0], way))
+        start = max(range(len(self.chords)), key=lambda n: dot(self.chords[n][0], way))
         begin = self.chords[start][2]
         feet = [
             self.foot(n, piece.farthest(way, begin if n == self.chords[start][1] else 0.5))
             for n, piece in enumerate(self.pieces)
         ]
-        return sorted(feet, key=lambda foot: -_dot(foot.point, way))
+        return sorted(feet, key=lambda foot: -dot(foot.point, way))
 
     def height(self, p: Point) -> tuple[float, Foot]:
         """How far a point lies outside the profile [case length] (negative: inside), and its nearest foot."""
@@ -189,7 +189,7 @@ def crosses_itself(points: Sequence[Point]) -> bool:
                 continue
             if (k - m) % n in (1, n - 1):
                 corner, (p, q) = (c, (a, d)) if b == c else (a, (b, c))
-                if not _turn(p, corner, q) and _dot(_from(corner, p), _from(corner, q)) > 0.0:
+                if not _turn(p, corner, q) and dot(_from(corner, p), _from(corner, q)) > 0.0:
                     return True
             elif _turn(a, b, c) * _turn(a, b, d) <= 0 and _turn(c, d, a) * _turn(c, d, b) <= 0:
                 return True
@@ -259,7 +259,8 @@ def _area(points: Sequence[Point]) -> float:
     return math.fsum((a - x) * (d - y) - (c - x) * (b - y) for (a, b), (c, d) in both)
 
 
-def _dot(a: Point, b: Point) -> float:
+def dot(a: Point, b: Point) -> float:
+    """Scalar product."""
     return a[0] * b[0] + a[1] * b[1]
 
 

@@ -90,7 +90,6 @@ def _run(arguments: list[str] | None) -> int:
     import click
 
     from icsolve.cli.commands import icsolve
-    from icsolve.cli.faults import bug_report
 
     if os.environ.get("_ICSOLVE_COMPLETE"):
         icsolve.main(prog_name="icsolve")
@@ -112,6 +111,21 @@ def _run(arguments: list[str] | None) -> int:
     except Exception as error:
         click.echo(bug_report("", error), err=True)
         return BUG
+
+
+def bug_report(path: str, error: Exception) -> str:
+    """One line that asks to report a fault of icsolve; with ``ICSOLVE_DEBUG`` set, the traceback as well."""
+    where = f"{path}: " if path else ""
+    said = " ".join(str(error).split())[:200]
+    line = (
+        f"{where}icsolve failed on this ({type(error).__name__}: {said}). This is a fault of icsolve,"
+        " not yours: please report it with the file. ICSOLVE_DEBUG=1 shows where it happened."
+    )
+    if not os.environ.get("ICSOLVE_DEBUG"):
+        return line
+    import traceback
+
+    return f"{line}\n{''.join(traceback.format_exception(error))}"
 
 
 def _plain_streams() -> None:

@@ -199,7 +199,7 @@ def _graded(job: Job, options: dict[str, Any]) -> int:
         if csv is not None:
             csv.flush()
             changed = _regraded(results, options)
-            _further(graded, job, results, options)
+            _further(job, results, options)
             if options["html"] or options["students"]:
                 _pages(graded, job, results, options)
     if not quiet:
@@ -248,7 +248,7 @@ def _progress(quiet: bool) -> Iterator[Any]:
         click.echo("\r\033[K", nl=False, err=True)
 
 
-def _further(graded: Graded, job: Job, results: str, options: dict[str, Any]) -> None:
+def _further(job: Job, results: str, options: dict[str, Any]) -> None:
     """The files for platforms, made from the results."""
     if not options["writes"]:
         return

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from icsolve.cli import BUG
-from icsolve.cli.faults import bug_report
+from icsolve.cli import BUG, bug_report
 from icsolve.cli.inputs import InputSource, sources
 from icsolve.errors import CaseError, NotACase, SceneError
 from icsolve.files import KeptError

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from icsolve.cli import BUG
-from icsolve.cli.faults import bug_report
+from icsolve.cli import BUG, bug_report
 from icsolve.cli.inputs import STDIN, InputSource, sources
 from icsolve.cli.options import Verb
 from icsolve.cli.output import watched, write_output

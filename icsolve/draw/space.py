@@ -36,7 +36,8 @@ from icsolve.draw.scene import HALF, PIN, Part, around, together, with_labels
 from icsolve.draw.words import force_runs, name_runs, quantity
 from icsolve.report.derivation import Known
 from icsolve.report.derivation.spatial import InSpace, Push, in_space
-from icsolve.screws.space import AXES, Vec, add, cross, dot, size, sub, times
+from icsolve.screws.plane import add, cross, subtract
+from icsolve.screws.space import AXES, Vec, dot, size, times
 from icsolve.statics.space.reaction_basis import SpatialTie
 from icsolve.tuples import NamedTuple
 
@@ -125,13 +126,11 @@ def _bones(scene: InSpace, link: str) -> list[tuple[Vec, Vec]]:
     if line is None:
         return list(pairwise(points))
     start, axis = line
-    feet = [add(start, times(dot(sub(p, start), axis), axis)) for p in points]
-    heights = sorted((dot(sub(foot, start), axis), foot) for foot in feet)
+    feet = [add(start, times(dot(subtract(p, start), axis), axis)) for p in points]
+    heights = sorted((dot(subtract(foot, start), axis), foot) for foot in feet)
     bones = [(heights[0][1], heights[-1][1])] if heights[-1][0] - heights[0][0] > 0.0 else []
-    return [
-        *bones,
-        *((foot, p) for foot, p in zip(feet, points, strict=True) if size(sub(foot, p)) > 1e-9 * size(p)),
-    ]
+    apart = zip(feet, points, strict=True)
+    return [*bones, *((foot, p) for foot, p in apart if size(subtract(foot, p)) > 1e-9 * size(p))]
 
 
 def outline_of(sketch: Sketch, link: str) -> shapely.Geometry:

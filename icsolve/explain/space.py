@@ -10,7 +10,8 @@ from icsolve.explain.formula import Expr, Name, Num, Sum, product
 from icsolve.explain.given import Figures, load_name
 from icsolve.report.derivation import Known
 from icsolve.report.derivation.spatial import InSpace, Push, in_space
-from icsolve.screws.space import Vec, size, sub
+from icsolve.screws.plane import subtract
+from icsolve.screws.space import Vec, size
 from icsolve.statics.space.reaction_basis import SpatialTie
 from icsolve.statics.space.reactions import direction_words
 from icsolve.tuples import NamedTuple
@@ -133,7 +134,7 @@ def _link(known: Known, figures: Figures, scene: InSpace, link: str) -> Section:
     about = next(iter(scene.carried(link)), (0.0, 0.0, 0.0))
     where = next((name for name, place in scene.places.items() if place == about), "the origin")
     largest = max((size(on.force) for on in found), default=0.0)
-    reach = max((size(sub(p, about)) for p in scene.places.values()), default=0.0)
+    reach = max((size(subtract(p, about)) for p in scene.places.values()), default=0.0)
     blocks: list[Block] = []
     for k, axis in enumerate(AXES):
         blocks += [words(f"Forces along {axis}:"), _forces(figures, found, k, largest)]
@@ -186,7 +187,7 @@ def _moments(figures: Figures, forces: Sequence[SpatialOn], about: Vec, k: int, 
     i, j = (k + 1) % 3, (k + 2) % 3
     terms: list[tuple[int, Expr]] = []
     for on in forces:
-        arm = sub(on.at, about) if on.at is not None else (0.0, 0.0, 0.0)
+        arm = subtract(on.at, about) if on.at is not None else (0.0, 0.0, 0.0)
         for sign, a, b in ((1, i, j), (-1, j, i)):
             if abs(arm[a] * on.force[b]) > NOTHING * largest:
                 terms.append((sign, product(figures.length(arm[a]), figures.number(on.force[b]))))

@@ -20,7 +20,8 @@ from icsolve.case.expected import (
 )
 from icsolve.case.space import SpatialForceVector, TorqueVector
 from icsolve.numbers.arithmetic import FLOATS
-from icsolve.screws.space import Vec, add, cross, size, sub, times
+from icsolve.screws.plane import add, cross, subtract
+from icsolve.screws.space import Vec, size, times
 from icsolve.statics.power import source_of
 
 
@@ -128,7 +129,7 @@ def _arm(answer: Answer, reaction: Reaction | SpatialReaction, point: str) -> fl
     if not any(force):
         raise LookupError("the force is zero: it has no arm")
     per = answer.case.units.torque_per_force_length
-    moment = cross(sub(_in_space(reaction.at), _in_space(points[point])), force)
+    moment = cross(subtract(_in_space(reaction.at), _in_space(points[point])), force)
     whole = add(moment, times(1.0 / per, add(couple, (0.0, 0.0, rubbed))))
     return float(size(whole) / size(force))
 

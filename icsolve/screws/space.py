@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
+from icsolve.screws.plane import add, cross, subtract
 
 Vec = tuple[Scalar, Scalar, Scalar]
 Components = tuple[Scalar, ...]
@@ -20,16 +21,6 @@ Components = tuple[Scalar, ...]
 
 ZERO: Vec = (0.0, 0.0, 0.0)
 AXES: tuple[Vec, Vec, Vec] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-
-
-def add(a: Vec, b: Vec) -> Vec:
-    """a + b."""
-    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
-
-
-def sub(a: Vec, b: Vec) -> Vec:
-    """a - b."""
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
 def times(s: Scalar, a: Vec) -> Vec:
@@ -40,11 +31,6 @@ def times(s: Scalar, a: Vec) -> Vec:
 def dot(a: Vec, b: Vec) -> Scalar:
     """Scalar product."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a: Vec, b: Vec) -> Vec:
-    """Vector product."""
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 def size(a: Vec, arithmetic: Arithmetic = FLOATS) -> Scalar:
@@ -61,7 +47,7 @@ def unit(a: Vec, arithmetic: Arithmetic = FLOATS) -> Vec:
 def square_to(axis: Vec, arithmetic: Arithmetic = FLOATS) -> tuple[Vec, Vec]:
     """Two unit vectors square to a unit vector and to each other, along coordinate axes where they can be."""
     least = min(AXES, key=lambda e: (abs(float(dot(e, axis))), -e[0], -e[1]))
-    first = unit(sub(least, times(dot(least, axis), axis)), arithmetic)
+    first = unit(subtract(least, times(dot(least, axis), axis)), arithmetic)
     return first, unit(cross(axis, first), arithmetic)
 
 

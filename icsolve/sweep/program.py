@@ -126,7 +126,7 @@ def setting_of(case: Case, paths: Sequence[str], links: Sequence[str], *, posing
     refuse_misfit(case, figure.points, figure.frame.scale)
     drive = Drive((), (), ())
     if links or any(path.split(".")[0] in ("points", "lengths", "angles") for path in own):
-        drive = _drive(case, top, figure, own, links, posing=posing)
+        drive = _drive(case, figure, own, links, posing=posing)
     return Setting(case, top, figure, own, tuple(links), drive)
 
 
@@ -146,9 +146,7 @@ def wanted_points(case: Case) -> tuple[list[str], list[str]]:
     return wanted, [p for p in wanted if p in needed]
 
 
-def _drive(
-    case: Case, top: Topology, figure: Figure, paths: Sequence[str], links: Sequence[str], *, posing: bool
-) -> Drive:
+def _drive(case: Case, figure: Figure, paths: Sequence[str], links: Sequence[str], *, posing: bool) -> Drive:
     """What moves, found on a record that is thrown away."""
     scratch = mechanism(case, figure.frame, Record(), figure.points)
     poses = [path for path in paths if posing or _poses(case, figure, scratch, path)]

@@ -34,20 +34,8 @@ from icsolve.case.space import (
 )
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
-from icsolve.screws.space import (
-    AXES,
-    ZERO,
-    Components,
-    Vec,
-    add,
-    cross,
-    dot,
-    size,
-    square_to,
-    sub,
-    times,
-    unit,
-)
+from icsolve.screws.plane import add, cross, subtract
+from icsolve.screws.space import AXES, ZERO, Components, Vec, dot, size, square_to, times, unit
 from icsolve.tuples import NamedTuple
 
 Places = Mapping[str, Vec]
@@ -64,7 +52,7 @@ class SpatialFrame(NamedTuple):
 
     def normalised(self, p: Vec) -> Vec:
         """A point in case units, normalised."""
-        return times(self.scale, sub(p, self.origin))
+        return times(self.scale, subtract(p, self.origin))
 
     def shown(self, p: Vec) -> Vec:
         """A normalised point in case units."""
@@ -129,7 +117,7 @@ def frame_of(places: Places) -> SpatialFrame:
     """
     rough = [(float(x), float(y), float(z)) for x, y, z in places.values()]
     origin = next(iter(rough), (0.0, 0.0, 0.0))
-    reach = max((abs(c) for p in rough for c in sub(p, origin)), default=0.0)
+    reach = max((abs(c) for p in rough for c in subtract(p, origin)), default=0.0)
     offset = max((abs(c) for p in rough for c in p), default=0.0)
     if reach and math.ulp(offset) > 1e-3 * reach:
         raise SceneError(
@@ -166,7 +154,7 @@ def between(a: str, b: str, figure: SpatialFigure, what: str) -> Vec:
 
     Raises SceneError, about ``what``, where they lie at one place.
     """
-    apart = sub(figure.places[b], figure.places[a])
+    apart = subtract(figure.places[b], figure.places[a])
     if not any(map(float, apart)):
         raise SceneError(
             Status.INCONSISTENT,
@@ -186,7 +174,7 @@ def heading(load_heading: Axis | Toward, at: str, figure: SpatialFigure, what: s
 
 def spring_length(spring: Spring, figure: SpatialFigure) -> Scalar:
     """Distance of a spring's ends, case lengths."""
-    return size(sub(figure.places[spring.to], figure.places[spring.at]), figure.arithmetic)
+    return size(subtract(figure.places[spring.to], figure.places[spring.at]), figure.arithmetic)
 
 
 def _shown(name: str) -> str:
@@ -319,7 +307,7 @@ def _refuse_out_of_line(ties: Iterable[SpatialTie]) -> None:
 
 
 def _nearly_one_axis(a: SpatialTie, b: SpatialTie) -> bool:
-    apart = sub(a.at, b.at)
+    apart = subtract(a.at, b.at)
     off = float(size(cross(a.axis, b.axis)))
     beside = float(size(cross(apart, b.axis))) / (float(size(apart)) or 1.0)
     return max(off, beside) <= ALIGNED and max(off, beside) > EXACT
@@ -401,7 +389,7 @@ def mesh_of(joint: GearPair, axis: Vec, figure: SpatialFigure, what: str) -> Spa
         return _alone(joint, axis, figure, what)
     arithmetic = figure.arithmetic
     first, second = (figure.places[c] for c in joint.centres)
-    line = sub(second, first)
+    line = subtract(second, first)
     if not any(map(float, line)):
         raise SceneError(Status.INCONSISTENT, f"the centres of {what} lie at one place. Correct the points.")
     apart = size(line, arithmetic)
@@ -413,7 +401,8 @@ def mesh_of(joint: GearPair, axis: Vec, figure: SpatialFigure, what: str) -> Spa
     at = add(first, times(n / (n + m), line))
     radii = (abs(n / (n + m)) * apart, abs(m / (n + m)) * apart)
     base = 0 if joint.counts[0].value > 0 else 1  # a wheel with internal teeth has the hand of its pinion
-    return _mesh(joint, base, at, unit(sub(at, (first, second)[base]), arithmetic), axis, radii, arithmetic)
+    radial = unit(subtract(at, (first, second)[base]), arithmetic)
+    return _mesh(joint, base, at, radial, axis, radii, arithmetic)
 
 
 def _alone(joint: GearPair, axis: Vec, figure: SpatialFigure, what: str) -> SpatialMesh:
@@ -443,7 +432,7 @@ def _mesh(
     """The mesh with its force on the gear ``base``, which has external teeth."""
     hand = 1.0 if joint.teeth.hand == "right" else -1.0
     cosine, sine = _helix(joint.teeth, arithmetic)
-    outward = unit(sub(outward, times(dot(outward, axis), axis)), arithmetic)
+    outward = unit(subtract(outward, times(dot(outward, axis), axis)), arithmetic)
     tangent = cross(axis, outward)
     on, by = joint.links[base], joint.links[1 - base]
     apart = _separating(joint.teeth, arithmetic)

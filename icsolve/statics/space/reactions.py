@@ -25,7 +25,8 @@ from icsolve.case.space import (
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, Showing, decider, zero_of
 from icsolve.numbers.linear import Row
-from icsolve.screws.space import AXES, Vec, cross, dot, size, square_to, sub, times, unit
+from icsolve.screws.plane import cross, subtract
+from icsolve.screws.space import AXES, Vec, dot, size, square_to, times, unit
 from icsolve.statics.equilibrium import value_of
 from icsolve.statics.power import unknown_loads
 from icsolve.statics.reactions import REDUNDANT, SHARED, left_open, names_by_tie
@@ -138,7 +139,7 @@ def _line(p: Vec, axis: Vec, figure: SpatialFigure) -> str:
     """A line by the named points on it, or by a point and its direction."""
     shown = [(name, point) for name, point in figure.points.items() if not name.startswith("@")]
     named = [(name, point) for name, point in shown if _is_on(point, p, axis)]
-    apart = [name for name, point in named if size(sub(point, named[0][1])) > SMALL]
+    apart = [name for name, point in named if size(subtract(point, named[0][1])) > SMALL]
     if apart:
         return f"through {named[0][0]} and {apart[0]}"
     if named:
@@ -148,7 +149,7 @@ def _line(p: Vec, axis: Vec, figure: SpatialFigure) -> str:
 
 def _is_on(point: Vec, p: Vec, axis: Vec) -> bool:
     """Whether a point lies on the line through p along a unit vector."""
-    apart = sub(point, p)
+    apart = subtract(point, p)
     return float(size(cross(apart, axis))) <= SMALL * (1.0 + float(size(apart)))
 
 
