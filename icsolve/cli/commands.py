@@ -20,7 +20,7 @@ VERBS = {
     "manual": "starting",
     "grade": "grading",
     "variants": "varying",
-    "export": "exporting",
+    "export": "varying",
     "explain": "picturing",
     "draw": "picturing",
     "gallery": "showing",
