@@ -15,7 +15,10 @@ import pytest
 
 import icsolve
 from icsolve.assembly.driven.order import AssemblyOrder
+from icsolve.case import Case
 from icsolve.scene.sensitivity import numbers_of
+from icsolve.sweep.numbers import with_numbers
+from library import FILES
 
 ALL = ("answers", "status", "error", "points", "centres", "rates")
 
@@ -351,3 +354,29 @@ def test_circles_that_fall_together_beside_the_position_as_written_break_no_swee
     name = "data/found/circles_that_fall_together_beside.yaml"
     case = icsolve.load((Path(__file__).parent / name).read_text())
     assert [*icsolve.sweep(case, {"points.O.y": [1.0, 0.0]}).status] == ["cannot-assemble", "ok"]
+
+
+def status_of(case: Case, settings: dict[str, float]) -> str:
+    """That of the scene as if written so."""
+    try:
+        icsolve.solve(with_numbers(case, settings))
+    except icsolve.SceneError as refusal:
+        return refusal.status
+    return "ok"
+
+
+@pytest.mark.parametrize(
+    ("name", "path", "rows"),
+    [
+        ("rolling/rolling_disk.yaml", "angles.KO", [20.0, 35.0001, 90.0, 110.0, 214.99]),
+        ("cams/roller_follower.yaml", "angles.CB", [101.0, 120.0, 200.0, 269.98, 269.99999]),
+    ],
+)
+def test_a_row_that_is_read_anew_has_its_scenes_status_whichever_the_others_are(
+    name: str, path: str, rows: list[float]
+) -> None:
+    """A given motion whose direction no longer fits; a point that comes to lie opposite to where it was."""
+    case = icsolve.load(FILES[name])
+    expected = [status_of(case, {path: row}) for row in rows]
+    assert icsolve.sweep(case, {path: rows}).status.tolist() == expected
+    assert [icsolve.sweep(case, {path: [row]}).status[0] for row in rows] == expected

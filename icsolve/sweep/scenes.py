@@ -12,7 +12,7 @@ import numpy as np
 
 from icsolve.assembly import case_point, placed_figure
 from icsolve.case import Case
-from icsolve.errors import SceneError
+from icsolve.errors import SceneError, Status
 from icsolve.files import can_fork, started
 from icsolve.numbers.replay import Array
 from icsolve.scene import solve_scene
@@ -115,13 +115,16 @@ def families(case: Case, columns: Columns, moving: Iterable[str]) -> Iterator[tu
     table = np.stack([columns.paths[path] for path in reshaping], axis=1)
     sets, which = np.unique(table, axis=0, return_inverse=True)
     steps = _steps(sets, [numbers_of(case)[path].value for path in reshaping])
-    done, nears = [np.zeros(len(reshaping))], [_places(case) or case.near]
+    done, nears = [np.zeros(len(reshaping))], [_places(case)[0] or case.near]
     for n in np.argsort(np.abs(steps).max(axis=1), kind="stable"):
         changed = with_numbers(case, dict(zip(reshaping, map(float, sets[n]), strict=True)))
         closest = int(np.abs(np.array(done) - steps[n]).max(axis=1).argmin())
         placed = replace(changed, near=nears[closest])
+        found, status = _places(placed)
+        if status == Status.INCONSISTENT:  # what data place anew may lie opposite to where it was
+            placed = changed
+            found, _ = _places(placed)
         yield placed, np.flatnonzero(which.ravel() == n)
-        found = _places(placed)
         if found is not None:
             done.append(steps[n])
             nears.append(found)
@@ -134,11 +137,11 @@ def _steps(sets: Array, written: list[float]) -> Array:
     return steps
 
 
-def _places(case: Case) -> dict[str, tuple[float, float]] | None:
-    """Where the points of a figure are, in case units; None where it does not assemble."""
+def _places(case: Case) -> tuple[dict[str, tuple[float, float]] | None, str]:
+    """Where the points of a figure are, in case units; None, and why, where it does not assemble."""
     try:
         figure = placed_figure(case, *wanted_points(case))
-    except SceneError:
-        return None
+    except SceneError as refusal:
+        return None, refusal.status
     named = {name: place for name, place in figure.points.items() if not name.startswith("@")}
-    return {name: case_point(figure.frame, place) for name, place in named.items()}
+    return {name: case_point(figure.frame, place) for name, place in named.items()}, Status.OK

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from functools import lru_cache
+from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache, partial
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,6 @@ from icsolve.kinematics.speeds import NO_SPEED
 from icsolve.numbers.replay import Array
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
-from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.request import Columns, SweepRequest, columns_of, refuse_size, request_of, shown_points
 from icsolve.sweep.run import SweepRun
@@ -129,12 +128,15 @@ def _family(start: Start, columns: Columns, wanted: SweepRequest, progress: Prog
     table, moving = Table(columns.rows, wanted.asked), start.setting.drive.moving
     notes: dict[str, None] = dict.fromkeys([start.note] if start.note else [])
 
+    cases: dict[int, Callable[[], Case]] = {}
+
     def case_of(row: int) -> Case:
-        return with_numbers(start.case, {path: float(a[row]) for path, a in columns.paths.items()})
+        return cases[row]()
 
     for case, rows in families(start.case, columns, moving):
+        cases |= dict.fromkeys(rows.tolist(), lambda case=case: case)
         if not moving and not columns.links:
-            by_scenes(table, rows.tolist(), lambda _, case=case: case, progress)  # type: ignore[misc]
+            by_scenes(table, rows.tolist(), case_of, progress)
             continue
         vary = {path: columns.paths[path][rows] for path in moving}
         drive = {link: array[rows] for link, array in columns.links.items()}
@@ -146,6 +148,7 @@ def _family(start: Start, columns: Columns, wanted: SweepRequest, progress: Prog
             continue
         notes |= dict.fromkeys(part.notes)
         table.take(rows, part)
+        cases |= {row: partial(part.case_of, n) for n, row in enumerate(rows.tolist())}
     return table.sweep(start.case, _shown(columns), wanted.error, tuple(notes), case_of)
 
 
