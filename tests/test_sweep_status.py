@@ -17,6 +17,7 @@ import icsolve
 from icsolve.assembly.driven.order import AssemblyOrder
 from icsolve.case import Case
 from icsolve.scene.sensitivity import numbers_of
+from icsolve.statics.power import is_unknown
 from icsolve.sweep.numbers import with_numbers
 from library import FILES
 
@@ -380,3 +381,19 @@ def test_a_row_that_is_read_anew_has_its_scenes_status_whichever_the_others_are(
     expected = [status_of(case, {path: row}) for row in rows]
     assert icsolve.sweep(case, {path: rows}).status.tolist() == expected
     assert [icsolve.sweep(case, {path: [row]}).status[0] for row in rows] == expected
+
+
+@pytest.mark.parametrize(
+    ("name", "path", "rows"),
+    [
+        ("sliders/v_engine.yaml", "angles.OD", [135.0, 160.0, 185.0, 208.46]),
+        ("ch13/13_01_drag_link.yaml", "angles.CDE", [0.0, 50.0, 135.0, 136.0, 200.0]),
+    ],
+)
+def test_a_row_is_given_as_a_case_on_its_own_branch(name: str, path: str, rows: list[float]) -> None:
+    """Continuity keeps a branch on which `near`, as written, would no longer decide, or would be opposite."""
+    case = icsolve.load(FILES[name])
+    (load,) = (load.name for load in case.loads if is_unknown(load))
+    found = icsolve.sweep(case, {path: rows})
+    solved = [icsolve.solve(found.case_of(n)).answers[load].value for n in range(len(rows))]
+    assert found.answers[load] == pytest.approx(solved, rel=1e-11)

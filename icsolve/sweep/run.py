@@ -17,7 +17,7 @@ from icsolve.sweep.parts import SweepPart, SweepParts
 from icsolve.sweep.recheck import Recheck
 from icsolve.sweep.request import Columns
 from icsolve.sweep.runner import Key, Progress, Rows, RowsFound, column
-from icsolve.sweep.scenes import by_scenes
+from icsolve.sweep.scenes import by_scenes, placed_near
 from icsolve.sweep.start import Start
 from icsolve.sweep.table import CODE, Codes, Table
 
@@ -128,10 +128,12 @@ class SweepRun:
             self.table.put(kind, name, row, *pair)
 
     def case_of(self, row: int, exact: Mapping[str, Decimal] | None = None) -> Case:
-        """The case of a row: its points by coordinates (or, in a family, as if written so); ``exact`` as in
-        `Recheck`."""
-        if not self.start.setting.moves:
-            return with_numbers(self.start.case, {p: float(a[row]) for p, a in self.columns.paths.items()})
+        """The case of a row: its points by coordinates (in a family as if written so, with `near` where they
+        are); ``exact`` as in `Recheck`."""
+        setting = self.start.setting
+        if not setting.moves:
+            numbers = {p: float(a[row]) for p, a in self.columns.paths.items()}
+            return placed_near(with_numbers(self.start.case, numbers), setting.figure)
         for part in self.done:
             if (part.rows == row).any():
                 return Recheck(self.parts, part, exact).case(row)

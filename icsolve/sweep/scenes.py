@@ -6,16 +6,19 @@ from __future__ import annotations
 import os
 import threading
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 
 import numpy as np
 
-from icsolve.assembly import case_point, placed_figure
+from icsolve.assembly import Figure, case_point, place, placed_figure
+from icsolve.assembly.workspace import Frame
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.files import can_fork, started
 from icsolve.numbers.replay import Array
 from icsolve.scene import solve_scene
+from icsolve.screws.plane import Point
 from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import wanted_points
 from icsolve.sweep.request import Columns
@@ -23,6 +26,7 @@ from icsolve.sweep.runner import Progress, Rows
 from icsolve.sweep.table import Table
 from icsolve.tuples import replace
 
+Place = tuple[float, float]
 FEW = 8
 PATIENCE, WORTH = 0.3, 0.8
 """Seconds: how long rows are solved one after another before the others are asked for help, if as much as
@@ -137,11 +141,22 @@ def _steps(sets: Array, written: list[float]) -> Array:
     return steps
 
 
-def _places(case: Case) -> tuple[dict[str, tuple[float, float]] | None, str]:
+def placed_near(case: Case, figure: Figure) -> Case:
+    """A case with other numbers, with `near` where the branches of its figure as written put the points."""
+    with suppress(SceneError, ZeroDivisionError):
+        return replace(case, near=_shown(figure.frame, place(figure, case).points))
+    return case
+
+
+def _shown(frame: Frame, points: Mapping[str, Point]) -> dict[str, Place]:
+    """The points that the file names, in case units."""
+    return {name: case_point(frame, at) for name, at in points.items() if not name.startswith("@")}
+
+
+def _places(case: Case) -> tuple[dict[str, Place] | None, str]:
     """Where the points of a figure are, in case units; None, and why, where it does not assemble."""
     try:
         figure = placed_figure(case, *wanted_points(case))
     except SceneError as refusal:
         return None, refusal.status
-    named = {name: place for name, place in figure.points.items() if not name.startswith("@")}
-    return {name: case_point(figure.frame, place) for name, place in named.items()}, Status.OK
+    return _shown(figure.frame, figure.points), Status.OK
