@@ -1289,7 +1289,7 @@ def test_a_rope_with_a_free_end_rests_where_its_counterweight_says(
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("sweep CASE --vary angles.AB=20:20:1 --find rest", "one varied number"),
+        ("sweep CASE --vary angles.AB=20:20:1 --find rest", "has one value"),
         ("sweep CASE --vary angles.AB=20:30:1 --vary loads.W=1:2:1 --find hold", "one varied number"),
         ("sweep CASE --vary joints.0.mu=0:1:0.5 --find hold", "joints.0.mu"),
         ("sweep CASE --vary loads.W=1:2:1 --find neutral", "do not balance as written"),
