@@ -3,6 +3,7 @@ wherever else friction is enough."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import groupby
@@ -13,6 +14,7 @@ from icsolve.case import Case
 from icsolve.case.joints import with_friction, without_friction
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
+from icsolve.numbers.roots import zero_between
 from icsolve.solve.branches import Branches, nearest
 from icsolve.solve.followed import NOT_ALL, led_mechanisms
 from icsolve.solve.load_function import TogetherError
@@ -113,39 +115,56 @@ def _rough(case: Case, row: Case) -> Case:
     return replace(row, joints=tuple(joints), ropes=tuple(ropes))
 
 
-def holds_as_written(case: Case) -> bool:
-    """Whether a mechanism under known loads holds still as it is written."""
+def spare_friction(case: Case) -> float:
+    """How far a mechanism under known loads is from slipping as written: the least load in either sense
+    that would move it [case units], negative where it slips; infinite where none or any would."""
     links = [link for link in joint_order(case) if link != case.ground]
     for some in (links, []):  # where nothing turns a force on a point holds it
         try:
             answer = held(replace(case, motion=(), expect=()), some)
         except SceneError as error:
             if error.status == Status.ANY_VALUE:  # the loads balance without friction
-                return True
+                return math.inf
             continue
         if answer is not None:
             found = answer.answers[PROBE]
             low, high = found.holds or (found.value, found.value)
-            return low <= 0.0 <= high
-    return False
+            return min(high, -low)
+    return -math.inf
+
+
+def edge_of_rest(spare: Callable[[float], float], inside: float, outside: float) -> tuple[float, float]:
+    """The last value at which a mechanism holds still (``spare`` is not negative) and the next, between
+    two of which it holds at the first: near the zero that Brent's method finds, else by halving."""
+    at_inside, at_outside = spare(inside), spare(outside)
+    if math.isfinite(at_inside - at_outside):
+        zero = zero_between(spare, inside, outside, at_inside, at_outside)
+        reach = 2.0 * math.ulp(zero)
+        for value in (zero, zero - reach, zero + reach):
+            if min(inside, outside) < value < max(inside, outside):
+                inside, outside = (value, outside) if spare(value) >= 0.0 else (inside, value)
+    while (middle := 0.5 * (inside + outside)) not in (inside, outside):
+        inside, outside = (middle, outside) if spare(middle) >= 0.0 else (inside, middle)
+    return inside, outside
 
 
 def _runs(case: Case, mode: RoughMode, turns: bool) -> list[Range]:
     """Ranges of one mode: runs of values at which it holds, with their ends."""
     values = mode.values
 
-    def holds(value: float) -> bool:
+    def spare(value: float) -> float:
         try:
-            return holds_as_written(_rough(case, mode.scene(value)))
+            return spare_friction(_rough(case, mode.scene(value)))
         except SceneError:  # it does not assemble
-            return False
+            return -math.inf
 
     def end(inside: int, outside: int) -> tuple[float, float]:
         if not 0 <= outside < len(values):
             return values[inside], 0.0
-        return _closed_in(holds, values[inside], values[outside])
+        last, beyond = edge_of_rest(spare, values[inside], values[outside])
+        return last, 2.0 * abs(beyond - last)
 
-    holding = [usable and holds(value) for value, usable in zip(values, mode.usable, strict=True)]
+    holding = [usable and spare(value) >= 0.0 for value, usable in zip(values, mode.usable, strict=True)]
     found = []
     for holds_there, group in groupby(range(len(values)), key=holding.__getitem__):
         if holds_there:
@@ -157,14 +176,6 @@ def _runs(case: Case, mode: RoughMode, turns: bool) -> list[Range]:
         head, tail = found[0], found.pop()
         found[0] = Range((tail.held[0], head.held[1] + 360.0), (tail.error[0], head.error[1]), tail.case)
     return found
-
-
-def _closed_in(holds: Callable[[float], bool], inside: float, outside: float) -> tuple[float, float]:
-    while True:
-        middle = 0.5 * (inside + outside)
-        if middle in (inside, outside):
-            return inside, 2.0 * abs(outside - inside)
-        inside, outside = (middle, outside) if holds(middle) else (inside, middle)
 
 
 def _joined(found: Sequence[Range]) -> list[Range]:

@@ -177,27 +177,20 @@ def _driven(case: Case) -> str:
 
 def holding_values(case: Case, path: str, low: float, high: float) -> list[TurningPower]:
     """The values of a number at which a mechanism under known loads begins or ceases to hold still."""
-    from icsolve.solve.resting import holds_as_written
+    from icsolve.solve.resting import edge_of_rest, spare_friction
 
     own = find_number(case, path).path
 
-    def kind(value: float) -> str:
-        return "holds" if holds_as_written(with_numbers(case, {own: value})) else "slips"
+    def spare(value: float) -> float:
+        return spare_friction(with_numbers(case, {own: value}))
 
-    return _turnings(kind, low, high)
-
-
-def _turnings(kind: Callable[[float], str], low: float, high: float) -> list[TurningPower]:
-    """Where a word changes over a range: between the ends of many parts, then halved to the last digit."""
     values = [low + (high - low) * k / CUTS for k in range(CUTS + 1)]
     found = []
-    for (start, before), (stop, after) in pairwise([(value, kind(value)) for value in values]):
-        if before == after:
-            continue
-        a, b = start, stop
-        while (middle := 0.5 * (a + b)) not in (a, b):
-            a, b = (middle, b) if kind(middle) == before else (a, middle)
-        found.append(TurningPower(b, abs(b - a), before, after))
+    for (a, holds), (b, held) in pairwise([(value, spare(value) >= 0.0) for value in values]):
+        if holds != held:
+            last, beyond = edge_of_rest(spare, *((a, b) if holds else (b, a)))
+            words = ("holds", "slips") if holds else ("slips", "holds")
+            found.append(TurningPower(last, abs(beyond - last), *words))
     return found
 
 
