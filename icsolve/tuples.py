@@ -9,10 +9,11 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-__all__ = ["NamedTuple", "dataclass", "field", "replace"]
+__all__ = ["NamedTuple", "cached_property", "dataclass", "field", "replace"]
 
 if TYPE_CHECKING:
     from dataclasses import dataclass, field, replace
+    from functools import cached_property
     from typing import NamedTuple
 else:
     from operator import itemgetter
@@ -87,6 +88,21 @@ else:
 
     field = _Made
 
+    class cached_property:  # noqa: N801
+        """That of `functools`, without the lock that it has before Python 3.12."""
+
+        def __init__(self, make):
+            self.make, self.__doc__ = make, make.__doc__
+
+        def __set_name__(self, owner, name):
+            self.name = name
+
+        def __get__(self, instance, owner=None):
+            if instance is None:
+                return self
+            found = instance.__dict__[self.name] = self.make(instance)
+            return found
+
     def dataclass(**how: bool):
         """A class whose frozen objects keep what the annotated names say; any two are different."""
         assert how == {"frozen": True, "eq": False, "repr": False}
@@ -106,12 +122,13 @@ else:
         return finished
 
     def _keep(self, *values, **named) -> None:
-        kind = type(self)
-        given = {**dict(zip(kind._fields, values, strict=False)), **named}
-        made = {name: make() for name, make in kind._made.items() if name not in given}
-        self.__dict__.update({**kind._plain, **made, **given})
-        if len(self.__dict__) != len(kind._fields) or len(given) != len(values) + len(named):
-            odd = set(kind._fields) ^ set(self.__dict__) or "too many values, or one twice"
+        kind, own = type(self), self.__dict__
+        own.update(kind._plain)
+        own.update(zip(kind._fields, values, strict=False), **named)
+        for name in kind._made.keys() - own.keys():
+            own[name] = kind._made[name]()
+        if len(own) != len(kind._fields) or (values and set(kind._fields[: len(values)]) & named.keys()):
+            odd = set(kind._fields) ^ set(own) or "too many values, or one twice"
             raise TypeError(f"{kind.__name__}: wrong values: {odd}")
 
     def replace(value, /, **changes):

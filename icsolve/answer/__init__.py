@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from icsolve.case import Case, Pair
 from icsolve.errors import SceneError
-from icsolve.tuples import NamedTuple, dataclass, field
+from icsolve.tuples import NamedTuple, cached_property, dataclass, field
 
 if TYPE_CHECKING:
     from icsolve.answer.bodies import FrictionFound, Reactions, Tension, Touching, Witness

@@ -8,7 +8,6 @@ hidden name that starts with ``@``.
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 from icsolve.case.bodies import Inertia, Rope, Screw
@@ -49,7 +48,7 @@ from icsolve.case.loads import (
     Weight,
 )
 from icsolve.numbers.units import Number
-from icsolve.tuples import dataclass, field
+from icsolve.tuples import cached_property, dataclass, field
 
 if TYPE_CHECKING:
     from icsolve.case.expected import Expected, Tolerance, Variable

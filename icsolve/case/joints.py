@@ -9,11 +9,9 @@ tables: `read.joints`, `wording.joints` and `draw.frame`.
 
 from __future__ import annotations
 
-from functools import cached_property
-
 from icsolve.case.figure import Guide
 from icsolve.numbers.units import Number
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, cached_property
 
 Pair = tuple[str, str]
 """Two links."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from copy import copy
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 from icsolve.answer import Answer
 from icsolve.case import Case
@@ -27,6 +27,7 @@ from icsolve.read.expect import target_of
 from icsolve.read.names import Problems
 from icsolve.read.reading import Reading
 from icsolve.statics.power import is_unknown
+from icsolve.tuples import cached_property
 
 
 @lru_cache(maxsize=256)

@@ -60,18 +60,20 @@ def needed_bonds(plan: Plan | None, top: Topology) -> tuple[int, ...]:
 
 def by_plan(plan: Plan, place: PlacedCase) -> Motions | None:
     """The one motion by the groups of the plan; None where a group is singular."""
-    top, points, arithmetic = place.top, place.points, place.arithmetic
-    bases = {k: freedoms(top.bonds[k], points, arithmetic) for k in plan.bonds}
-    found = run(plan, top, bases, arithmetic)
-    if any(is_singular(closure, arithmetic) for closure in found.closures):
-        return None
-    frame = found.twists.get(top.ground)
+    top, (_, _, points, arithmetic) = place.top, place
+    bonds, members = top.bonds, top.members
+    bases = {k: freedoms(bonds[k], points, arithmetic) for k in plan.bonds}
+    found, closures = run(plan, top, bases, arithmetic)
+    for closure in closures:
+        if is_singular(closure, arithmetic):
+            return None
+    frame = found.get(top.ground)
     twists: dict[str, tuple[Triple, ...]] = {}
-    for body, twist in found.twists.items():
+    for body, twist in found.items():
         relative = twist if frame is None or frame is ORIGIN else subtract(twist, frame)
-        for link in top.members[body]:
+        for link in members[body]:
             twists[link] = (relative,)
-    return Motions(twists, bases, 1, 0, found.closures, ())
+    return Motions(twists, bases, 1, 0, closures, ())
 
 
 def by_loops(place: PlacedCase) -> Motions:

@@ -7,7 +7,7 @@ the same methods as `Floats`.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, Protocol
 
 from icsolve.numbers.units import ExactRatio, Number, nearest
@@ -22,6 +22,21 @@ def magnitude(value: Scalar) -> float:
     """Largest absolute value: of a float, a ball, a number on a tape, or an array of any shape."""
     size = abs(value)
     return size if type(size) is float else float(size.max() if hasattr(size, "max") else size)
+
+
+def largest(values: Sequence[Scalar]) -> float:
+    """The largest `magnitude` of some; 0 of none."""
+    try:
+        found = max(map(abs, values), default=0.0)
+    except ValueError:  # arrays
+        found = None
+    return found if type(found) is float else max(map(magnitude, values))
+
+
+def sum_of_sizes(values: Sequence[Scalar]) -> float:
+    """What the magnitudes of some add up to."""
+    found = sum(map(abs, values))
+    return found if type(found) is float else float(sum(map(magnitude, values)))
 
 
 def turn_of(degrees: float) -> tuple[float, float]:

@@ -238,7 +238,7 @@ class _ProgramWriter:
         ]
         loads = []
         for w in power.wrenches(self._place()):
-            loads.append([*w.unit, w.gain, w.ratio, self._value(w)])
+            loads.append([*w.unit, w.gain, w.ratio, power.number_of(w, self.record)])
         freed = [[list(twist) for twist in basis] for _, basis in sorted(bases.items())]
         courses = [[[p.length, *p.wrench, *p.along] for p in parts] for parts in ropes.values()]
         return [rows, paths, loads, freed, courses, [self._thread(screw) for screw in self.case.screws]]
@@ -250,11 +250,6 @@ class _ProgramWriter:
         """By how much a screw turns as its slide moves, along its two axes."""
         per = self.record.given(TURN) / (self.record.given(screw.thread.lead) * self.figure.frame.scale)
         return [per * part for part in guide_direction(screw.slide.guide, self._points(), self.record)]
-
-    def _value(self, w: power.Wrench) -> Scalar:
-        """The number of a known load; 0 of an unknown one."""
-        number = getattr(w.source, "value", None)
-        return self.record.given(number) if isinstance(number, Number) else power.known_value(w) or 0.0
 
     def _dynamics(self) -> Iterable[tuple[str, list[Any]]]:
         """What the rates of the twists fulfil, as places and values of each row; then the wrenches of the

@@ -18,11 +18,10 @@ from icsolve.case.expected import (
     Target,
     TensionIs,
 )
-from icsolve.case.space import SpatialForceVector, TorqueVector
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.plane import add, cross, subtract
 from icsolve.screws.space import Vec, size, times
-from icsolve.statics.power import source_of
+from icsolve.statics.power import number_taken, vector_size
 
 
 def found_value(answer: Answer, target: OfBodies) -> float:
@@ -64,11 +63,9 @@ def _load_in_space(answer: Answer, name: str, sense: str | None) -> float:
         return -abs(found.value) if against else abs(found.value) if sense else found.value
     assert answer.case.space is not None
     by_name = {load.name: load for load in answer.case.space.loads}
-    source, ratio = source_of(by_name[name], by_name, FLOATS)
-    if isinstance(source, SpatialForceVector | TorqueVector):
-        return float(ratio) * math.hypot(*(part.value for part in source.parts))
-    assert isinstance(source.value, Number)
-    return float(ratio) * source.value.value
+    _, ratio, number = number_taken(by_name[name], by_name, FLOATS)
+    assert number is not None
+    return float(ratio) * (number.value if isinstance(number, Number) else vector_size(number))
 
 
 def _tension(answer: Answer, target: TensionIs) -> float:

@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from decimal import Decimal
-from functools import cached_property
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
 from icsolve.case import Case, Number, Pair, link_order
@@ -14,7 +13,7 @@ from icsolve.errors import SceneError
 from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
 from icsolve.kinematics.speeds import Speed
-from icsolve.numbers.arithmetic import Scalar, magnitude, zero_of
+from icsolve.numbers.arithmetic import Scalar, largest, zero_of
 from icsolve.numbers.balls import PRECISIONS, BelowZero, MoreDigits, MovedBalls
 from icsolve.scene.program import (
     EvaluatedScene,
@@ -32,7 +31,7 @@ from icsolve.scene.sensitivity import numbers_of, unsettled
 from icsolve.screws.plane import Triple
 from icsolve.statics import power
 from icsolve.statics.power import Bounded, Outcome, Value, Wrench, known_value, load_value
-from icsolve.tuples import NamedTuple, replace
+from icsolve.tuples import NamedTuple, cached_property, replace
 from icsolve.wording import sentences
 from icsolve.wording.senses import sense_of, unit_of
 from icsolve.wording.sentences import link_words
@@ -321,7 +320,7 @@ def _twists(found: Evaluation) -> dict[str, Triple]:
     """The motions that are meant, each number rounded once: a rest is a rest, however slow others are."""
     motions, frame, a = found.outcome.motions.twists, found.program.figure.frame, found.arithmetic
     speed = speed_of(found)
-    fastest = max((magnitude(value) for ts in motions.values() for t in ts for value in t), default=0.0)
+    fastest = largest([value for ts in motions.values() for t in ts for value in t])
     shown: dict[str, Triple] = {}
     for link in motions:
         first, *rest = speeds.meant(motions, speed, link)
@@ -350,6 +349,8 @@ def _directed(case: Case, found: dict[str, Found]) -> dict[str, Found]:
 
     A size is at most as far off as its components are together.
     """
+    if not case.directed:
+        return found
     for name in case.directed:
         x, y = (found.pop(f"{name}.{axis}") for axis in "xy")
         size = math.hypot(x.value, y.value)

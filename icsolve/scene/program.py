@@ -209,22 +209,19 @@ class EvaluatedScene:
 
         Raises SceneError where the scene has no answer, and where the highest precision leaves it open.
         """
-        for k in range(len(self._arithmetics)):
-            found = self._evaluated(k)
-            if found is not None:
+        evaluated = self._found
+        for k, arithmetic in enumerate(self._arithmetics):
+            if k == len(evaluated):
+                evaluated.append(self._evaluate(arithmetic()))
+            if (found := evaluated[k]) is not None:
                 try:
                     return question(found)
                 except MoreDigits:
                     continue
         raise self.too_close()
 
-    def _evaluated(self, k: int) -> Evaluation | None:
-        """The program in one of the arithmetics; None where its digits do not suffice."""
-        if k == len(self._found):
-            self._found.append(self._evaluate(self._arithmetics[k]()))
-        return self._found[k]
-
     def _evaluate(self, arithmetic: Showing) -> Evaluation | None:
+        """The program in one of the arithmetics; None where its digits do not suffice."""
         try:
             return Evaluation(*self.run(self.program, arithmetic), arithmetic)
         except MoreDigits:

@@ -86,10 +86,11 @@ def is_workless(outcome: power.Outcome) -> bool:
 
 def refuse_unbalanced(outcome: power.Outcome) -> None:
     """Refuse unknown loads that have no value, or any, or are not as many as the freedoms."""
-    (_, motions, _, solution), case, top = outcome, outcome.place.case, outcome.place.top
-    unknowns = sum(power.is_unknown(load) for load in case.loads)
-    if solution.verdict == "balanced" or not unknowns:
+    _, motions, balance, solution = outcome
+    unknowns = 0 if solution.verdict == "balanced" else len(power.unknown_loads(balance))
+    if not unknowns:
         return
+    case, top = outcome.place.case, outcome.place.top
     active = motions.mobility - len(solution.idle)
     if solution.verdict in ("too few unknowns", "too many unknowns") or unknowns > max(active, 1):
         if motions.redundant and top.freedoms_by_count == unknowns:

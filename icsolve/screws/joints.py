@@ -33,9 +33,8 @@ def freedoms(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[Triple
     tuple[Triple, ...]
         One (pin, slide) or two (slot, contact, mesh). Two span the line of possible relative centres.
     """
-    if bond.pivots[0]:
-        return _mesh(bond, points, arithmetic)
-    return joint_freedoms(bond.joint, points, arithmetic)
+    _, _, _, joint, _, pivots = bond
+    return _mesh(bond, points, arithmetic) if pivots[0] else joint_freedoms(joint, points, arithmetic)
 
 
 def joint_freedoms(joint: Joint, points: Points, arithmetic: Arithmetic) -> tuple[Triple, ...]:

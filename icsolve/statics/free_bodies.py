@@ -11,12 +11,12 @@ from typing import Protocol, TypeVar
 
 from icsolve.answer import Answer
 from icsolve.answer.bodies import FrictionFound, Reactions, Tension, Witness
-from icsolve.case import ForceVector, Number
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.kinematics.twists import FRAME
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing
 from icsolve.numbers.linear import Row
+from icsolve.numbers.units import numbers_in
 from icsolve.screws.plane import velocity
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import Equilibrium, Statics, T, equilibrium
@@ -257,11 +257,7 @@ def _power(w: Wrench, factor: float) -> float:
 
 def _room(w: Wrench, factor: float) -> float:
     """Power of half a unit of the last decimal of a load's number."""
-    source = w.source
-    if isinstance(source, ForceVector):
-        half = max(source.x.half, source.y.half)
-    else:
-        half = source.value.half if isinstance(source.value, Number) else 0.0
+    half = max((number.half for number in numbers_in(w.number)), default=0.0)
     return abs(half * float(w.ratio) * factor * w.measure)
 
 

@@ -42,7 +42,9 @@ from icsolve.numbers.arithmetic import (
     Showing,
     all_vanish,
     decider,
+    largest,
     magnitude,
+    sum_of_sizes,
     zero_of,
 )
 from icsolve.numbers.linear import null_space
@@ -70,9 +72,10 @@ class UnitWrench(NamedTuple, Generic[L]):
         plane (-Fy, Fx, M)
     gain : what brings the load's own unit to force units (a couple: force times case length); of a spring its
         stretch [case length], of a pressure its area
-    root, source, ratio : the load whose number it takes, ``ratio`` times as large
+    root, ratio : the load whose number it takes, ``ratio`` times as large
     measure : the power of two that brings case lengths into the frame (of a couple, else 1), kept apart so
         that nothing overflows
+    number : that of the root, of a vector its components; None where it is to find
     reach : size of the terms of the gain, which for a spring are its length and its free length
     """
 
@@ -83,7 +86,7 @@ class UnitWrench(NamedTuple, Generic[L]):
     root: str
     ratio: Scalar
     measure: float
-    source: L
+    number: Number | tuple[Number, ...] | None
     reach: float
 
 
@@ -107,24 +110,46 @@ def wrenches(place: PlacedCase, *, vectors: bool = False) -> tuple[Wrench, ...]:
     by_name = {load.name: load for load in case.loads}
     result = []
     for load in case.loads:
-        source, ratio = source_of(load, by_name, arithmetic)
         if vectors and may_vanish(load):
             (ax, ay), (bx, by) = (points[name] for name in points_of(load))
             unit, gain = force_wrench((bx - ax, by - ay), (ax, ay)), 1.0 / frame.scale
         else:
             unit, gain = _unit_wrench(load, place)
         measure = frame.scale if isinstance(load, Torque | TorsionSpring) else 1.0
-        reach = magnitude(gain) + beside(load, case)
-        on = reacting(case, load)
-        result.append(UnitWrench(load, on, unit, gain, source.name, ratio, measure, source, reach))
+        result.append(acting(load, by_name, case, unit, gain, measure, arithmetic))
     return tuple(result)
 
 
-def beside(load: object, case: Case) -> float:
-    """What the gain of a spring is besides itself: twice the free length, a whole turn."""
-    if isinstance(load, TorsionSpring):
-        return 2.0 * math.pi / case.units.torque_per_force_length
-    return 2.0 * load.free.value if isinstance(load, Spring) else 0.0
+def acting(
+    load: L,
+    by_name: Mapping[str, L],
+    case: Case,
+    unit: tuple[Scalar, ...],
+    gain: Scalar,
+    measure: float,
+    arithmetic: Arithmetic,
+) -> UnitWrench[L]:
+    """The unit wrench of a load, with the number that it takes."""
+    root, ratio, number = number_taken(load, by_name, arithmetic)
+    reach = magnitude(gain)
+    if isinstance(load, TorsionSpring):  # its gain is a difference of angles, up to a whole turn
+        reach += 2.0 * math.pi / case.units.torque_per_force_length
+    elif isinstance(load, Spring):  # and this one of lengths
+        reach += 2.0 * load.free.value
+    return UnitWrench(load, reacting(case, load), unit, gain, root, ratio, measure, number, reach)
+
+
+def number_taken(
+    load: L, by_name: Mapping[str, L], arithmetic: Arithmetic
+) -> tuple[str, Scalar, Number | tuple[Number, ...] | None]:
+    """The name of the load whose number another takes (its own, where it has one), how many times, and that
+    number: of a vector its components."""
+    ratio: Scalar = 1.0
+    while isinstance(value := getattr(load, "value", None), Like):
+        if value.times is not None:
+            ratio = ratio * arithmetic.given(value.times)
+        load = by_name[value.load]
+    return load.name, ratio, getattr(load, "parts", None) if value is None else value
 
 
 def reacting(case: Case, load: L) -> str:
@@ -162,16 +187,6 @@ def line_of(load: Load) -> tuple[str, str] | None:
     if isinstance(load, Force) and isinstance(load.heading, Toward):
         return (load.at, load.heading.point)
     return None
-
-
-def source_of(load: L, by_name: Mapping[str, L], arithmetic: Arithmetic) -> tuple[L, Scalar]:
-    """The load whose number another takes (itself, where it has its own), and how many times."""
-    ratio: Scalar = 1.0
-    while isinstance(like := getattr(load, "value", None), Like):
-        if like.times is not None:
-            ratio = ratio * arithmetic.given(like.times)
-        load = by_name[like.load]
-    return load, ratio
 
 
 def _unit_wrench(load: Load, place: PlacedCase) -> tuple[Triple, Scalar]:
@@ -340,19 +355,14 @@ def balance(
     factors, sizes = [], []
     for m in range(motions):
         row, scale = [], []
-        fastest = max([magnitude(x) for ts in twists.values() for x in ts[m]], default=0.0)
-        for w in all_wrenches:
-            on, off = twists[w.load.link][m], twists[w.against][m]
-            row.append(w.gain * power_of(w.unit, tuple(map(sub, on, off))))
-            scale.append(w.reach * sum(map(magnitude, w.unit)) * fastest)
+        fastest = largest([x for ts in twists.values() for x in ts[m]])
+        for load, against, unit, gain, _, _, _, _, reach in all_wrenches:
+            relative = map(sub, twists[load.link][m], twists[against][m])
+            row.append(gain * reduce(add, map(mul, unit, relative)))
+            scale.append(reach * sum_of_sizes(unit) * fastest)
         factors.append(tuple(row))
         sizes.append(tuple(scale))
     return PowerFactors(tuple(all_wrenches), tuple(factors), tuple(sizes))
-
-
-def power_of(wrench: tuple[Scalar, ...], twist: tuple[Scalar, ...]) -> Scalar:
-    """Power of a wrench on a twist, of three components or six (`icsolve.screws.plane.pairing`)."""
-    return reduce(add, map(mul, wrench, twist))
 
 
 class Solution(NamedTuple):
@@ -418,7 +428,7 @@ def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
 
 def unknown_loads(b: PowerFactors[L]) -> list[UnitWrench[L]]:
     """The loads whose own number is to find."""
-    return [w for w in b.wrenches if is_unknown(w.load)]
+    return [w for w in b.wrenches if w.number is None and w.root == w.load.name]
 
 
 def power_rows(
@@ -428,7 +438,13 @@ def power_rows(
     their ``measure``, all times that scale."""
     unknown, scale = unknown_loads(b), force_scale(b)
     place = {w.root: k for k, w in enumerate(unknown)}
-    shares = [_share(w, unknown, place, scale, arithmetic) for w in b.wrenches]
+    shares = []
+    for w in b.wrenches:
+        k = place.get(w.root)
+        if k is None:
+            shares.append((len(unknown), _known(w, scale, arithmetic)))
+        else:
+            shares.append((k, w.ratio * (w.measure / unknown[k].measure)))
     both = zip(b.factors, b.sizes, strict=True)
     rows = [_row(shares, factors, sizes, len(unknown) + 1, arithmetic) for factors, sizes in both]
     return unknown, scale, rows
@@ -460,12 +476,11 @@ def has_friction(case: Case) -> bool:
 
 def force_scale(b: PowerFactors[L]) -> float:
     """A power of two that brings the largest known load near 1, so that nothing overflows."""
-    largest = 0.0
+    most = 0.0
     for w in b.wrenches:
-        value = known_value(w)
-        if value is not None:
-            largest = max(largest, abs(value) * abs(w.gain) * w.measure)
-    return math.ldexp(1.0, -math.frexp(largest)[1]) if 0.0 < largest < math.inf else 1.0
+        if w.number:
+            most = max(most, abs(number_of(w, FLOATS)) * abs(w.gain) * w.measure)
+    return math.ldexp(1.0, -math.frexp(most)[1]) if 0.0 < most < math.inf else 1.0
 
 
 def vector_size(parts: Sequence[Number]) -> float:
@@ -475,32 +490,20 @@ def vector_size(parts: Sequence[Number]) -> float:
 
 def known_value(w: UnitWrench[L]) -> float | None:
     """The number of a load in its own case unit; None where it hangs on an unknown."""
-    if parts := getattr(w.source, "parts", None):
-        return vector_size(parts)
-    number = getattr(w.source, "value", None)
-    return number.value if isinstance(number, Number) else None
+    return number_of(w, FLOATS) if w.number else None
 
 
-def _share(
-    w: UnitWrench[L],
-    unknown: Sequence[UnitWrench[L]],
-    place: Mapping[str, int],
-    scale: float,
-    arithmetic: Arithmetic,
-) -> tuple[int, Scalar]:
-    """The unknown that a load belongs to and how many times; a known load, to the last by its number."""
-    k = place.get(w.root)
-    if k is not None:
-        return k, w.ratio * (w.measure / unknown[k].measure)
-    return len(unknown), number_of(w, arithmetic) * scale * w.measure * w.ratio
+def _known(w: UnitWrench[L], scale: float, arithmetic: Arithmetic) -> Scalar:
+    """The number of a known load, scaled."""
+    return number_of(w, arithmetic) * scale * w.measure * w.ratio
 
 
 def number_of(w: UnitWrench[L], arithmetic: Arithmetic) -> Scalar:
     """The number of a known load in its own unit; 0 of one that hangs on an unknown."""
-    if parts := getattr(w.source, "parts", None):
-        return vector_size(parts)
-    number = getattr(w.source, "value", None)
-    return arithmetic.given(number) if isinstance(number, Number) else 0.0
+    number = w.number
+    if isinstance(number, Number):
+        return arithmetic.given(number)
+    return vector_size(number) if number else 0.0
 
 
 def load_value(w: UnitWrench[L], values: Mapping[str, Scalar], a: Arithmetic) -> Scalar:
@@ -561,10 +564,10 @@ def _solved_many(
         raise SceneError(
             Status.NEAR_SINGULAR, "the equations of power of the motions can't be told from dependent ones"
         )
-    largest = max(abs(value) for value in vector)
+    most = max(map(abs, vector))
     values: dict[str, Scalar] = {}
     for k, w in enumerate(unknown):
-        zero = arithmetic.vanishes(vector[k], largest)
+        zero = arithmetic.vanishes(vector[k], most)
         value = vector[k] / (vector[-1] * scale * w.measure)
         values[w.root] = zero_of(value) if zero else value
     return Solution("balanced", values, idle)
@@ -583,8 +586,8 @@ def known_power(b: Balance, m: int, arithmetic: Arithmetic) -> Scalar:
     scale = force_scale(b)
     total: Scalar = 0.0
     for w, factor in zip(b.wrenches, b.factors[m], strict=True):
-        if not is_unknown(w.source):
-            total = total + _share(w, (), {}, scale, arithmetic)[1] * factor
+        if w.number:
+            total = total + _known(w, scale, arithmetic) * factor
     return total
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import cached_property
 
 import numpy as np
 
@@ -19,7 +18,7 @@ from icsolve.sweep.continuation import ChangePoints, InputLine, State
 from icsolve.sweep.path_tracking import PathTracker
 from icsolve.sweep.program import CompiledSweep, Signs
 from icsolve.sweep.request import RequestError
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, cached_property
 
 TOUCH = 64 * 2.0**-53
 """Margins below this fraction of their terms are zero (rounding of shapes, twice squared)."""

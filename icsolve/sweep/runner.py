@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -22,7 +21,7 @@ from icsolve.sweep.branches import live_roots
 from icsolve.sweep.exact import RowScenes
 from icsolve.sweep.friction_rows import FrictionRows
 from icsolve.sweep.program import CompiledSweep
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, cached_property
 
 SHALLOW = 1e-9
 """A radicand below this fraction of its terms makes its row doubtful."""

@@ -7,7 +7,6 @@ import io
 import json
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -21,7 +20,7 @@ from icsolve.numbers.tape import UNIT
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.runner import Key, Rows
-from icsolve.tuples import dataclass, field
+from icsolve.tuples import cached_property, dataclass, field
 
 WORDS = (
     Status.OK,

@@ -7,7 +7,6 @@ inputs of their own, on which all that follows hangs.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -24,7 +23,7 @@ from icsolve.numbers.record import Implicit, Op, Record, Traced
 from icsolve.numbers.replay import BLOCK, Array, Code
 from icsolve.screws.plane import Point
 from icsolve.structure.plan import determined, matched
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, cached_property
 from icsolve.wording.sentences import listed
 
 DEPENDENT = 1e-10

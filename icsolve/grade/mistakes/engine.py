@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from functools import cached_property
 
 from icsolve.answer import Answer
 from icsolve.case import Case, Load, Torque, pair_name
@@ -37,7 +36,7 @@ from icsolve.grade.mistakes.changed import (
 from icsolve.grade.mistakes.lookup import FACTORS, Wrong, plain_wrongs
 from icsolve.report.check import value_of
 from icsolve.statics.power import reacting
-from icsolve.tuples import NamedTuple, replace
+from icsolve.tuples import NamedTuple, cached_property, replace
 
 _NOTHING = 1e-9
 """A component below this part of the other is rounding."""

@@ -7,9 +7,8 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Iterator
-from functools import cached_property
 
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, cached_property
 
 CODES: dict[str, str] = {
     "unit": "The number is right, but not in this unit.",

@@ -8,7 +8,6 @@ import re
 from collections import OrderedDict
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
-from functools import cached_property
 from typing import TypeVar
 
 from icsolve.answer import Answer
@@ -27,7 +26,7 @@ from icsolve.read.document import Scalar, parse
 from icsolve.read.names import Problems
 from icsolve.read.variables import count, first_values, value_at
 from icsolve.sweep.numbers import numbers_of
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, cached_property
 
 TRIALS = 60
 """Draws of one student, until one suits."""

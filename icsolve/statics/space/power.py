@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from icsolve.case import Case, Spring, Weight
 from icsolve.case.space import Load, SpatialForce, SpatialForceVector, SpatialTorque, TorqueVector
-from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider, magnitude
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
 from icsolve.numbers.linear import Row, eliminate
 from icsolve.screws.space import AXES, ZERO, Components, Vec, moved
 from icsolve.statics.equilibrium import (
@@ -29,11 +29,9 @@ from icsolve.statics.power import (
     PowerFactors,
     PowerRow,
     UnitWrench,
+    acting,
     balance,
-    beside,
     power_rows,
-    reacting,
-    source_of,
     vector_size,
 )
 from icsolve.statics.space.reaction_basis import (
@@ -61,16 +59,13 @@ def wrenches(case: Case, figure: SpatialFigure) -> tuple[SpatialWrench, ...]:
     """
     loads = in_case(case).loads
     by_name = {load.name: load for load in loads}
-    return tuple(_wrench(case, figure, load, by_name) for load in loads)
-
-
-def _wrench(case: Case, figure: SpatialFigure, load: Load, by_name: Mapping[str, Load]) -> SpatialWrench:
-    source, ratio = source_of(load, by_name, figure.arithmetic)
-    (force, couple), gain = _unit(case, figure, load)
-    about = moved((*force, *couple), place_of(load, figure) or ZERO, ZERO)
-    measure = figure.frame.scale if is_couple(load) else 1.0
-    reach = magnitude(gain) + beside(load, case)
-    return UnitWrench(load, reacting(case, load), about, gain, source.name, ratio, measure, source, reach)
+    result = []
+    for load in loads:
+        (force, couple), gain = _unit(case, figure, load)
+        about = moved((*force, *couple), place_of(load, figure) or ZERO, ZERO)
+        measure = figure.frame.scale if is_couple(load) else 1.0
+        result.append(acting(load, by_name, case, about, gain, measure, figure.arithmetic))
+    return tuple(result)
 
 
 def is_couple(load: Load) -> bool:
