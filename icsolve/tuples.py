@@ -127,7 +127,8 @@ else:
         own.update(zip(kind._fields, values, strict=False), **named)
         for name in kind._made.keys() - own.keys():
             own[name] = kind._made[name]()
-        if len(own) != len(kind._fields) or (values and set(kind._fields[: len(values)]) & named.keys()):
+        twice = len(values) + len(named) > len(named.keys() | kind._fields[: len(values)])
+        if twice or len(own) != len(kind._fields):
             odd = set(kind._fields) ^ set(own) or "too many values, or one twice"
             raise TypeError(f"{kind.__name__}: wrong values: {odd}")
 

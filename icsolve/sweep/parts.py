@@ -6,12 +6,22 @@ followed from the position as written, the main input last.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
 
 from icsolve.numbers.replay import BLOCK, Array, code_of
-from icsolve.sweep.branches import STEEP, Followed, follow, grid_of, live_roots, may_vanish, signs_of
+from icsolve.sweep.branches import (
+    MOST_CELLS,
+    STEEP,
+    Followed,
+    follow,
+    grid_of,
+    live_roots,
+    may_vanish,
+    signs_of,
+)
 from icsolve.sweep.continuation import InputLine, State, written_state
 from icsolve.sweep.numbers import numbers_of
 from icsolve.sweep.path_tracking import Mask
@@ -25,6 +35,8 @@ WIDEST = 4.0
 """Longest step of a line along an angle, degrees."""
 PART = 2.0**-7
 """Longest step of a line along a length, as a part of the figure's size."""
+CLEAR = "clear"
+"""Under this a record keeps from where to where its branches are known to meet nothing."""
 GLANCES = 96
 """Places on the straight line to a row at which its branches are glanced at."""
 
@@ -123,13 +135,23 @@ class SweepParts:
     def _meets_nothing(self, compiled: CompiledSweep, main: str) -> bool:
         """Whether no branch comes near a change point or a limit between the position as written and the
         rows, all of which can then be run at once."""
-        at = self.arrays[main]
-        code = code_of(compiled.record, [r.radicand for r in live_roots(compiled)])
-        grid = grid_of([float(at.min()), float(at.max())], self._way(compiled, main, {}))
+        at, kept, radicands = (
+            self.arrays[main],
+            compiled.record.kept,
+            [r.radicand for r in live_roots(compiled)],
+        )
+        low, high, key = float(at.min()), float(at.max()), (f"{CLEAR} {main}", tuple(radicands))
+        least, most = kept.get(key, (math.inf, -math.inf))  # within these it is known
+        if least <= low and high <= most:
+            return True
+        code = code_of(compiled.record, radicands)
+        grid = grid_of([low, high], self._way(compiled, main, {}))
         for start in range(0, len(grid) - 1, BLOCK):
             here = grid[start : start + BLOCK + 1]
             if any(map(may_vanish, code.run({compiled.inputs[main]: here}, len(here)))):
                 return False
+        if len(grid) < MOST_CELLS:  # else it is coarser than that of fewer rows
+            kept[key] = (min(least, low), max(most, high))
         return True
 
     def _clear(self, compiled: CompiledSweep, main: str, others: list[str]) -> Mask:
