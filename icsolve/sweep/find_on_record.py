@@ -358,6 +358,7 @@ class RangeSearch:
         edges = np.linspace(first, last, CELLS + 1)
         mid, half = (edges[:-1] + edges[1:]) / 2.0, np.diff(edges) / 2.0
         seen, narrow, open_ = 0, (last - first) * NARROW, 0
+        found: list[tuple[Decimal, Decimal, float]] = []
         while mid.size:
             seen += mid.size
             if seen > MOST_CELLS:
@@ -368,11 +369,12 @@ class RangeSearch:
             for radicand in whole[len(nodes) :]:
                 there &= ~(radicand.value.mid + radicand.value.rad < 0.0)
             decide = _decided_peak if peaks else _decided
-            empty, single, bent = decide(whole[: len(nodes)], points[: len(nodes)], half)
-            done = ~there | empty | single | bent
-            for k in np.flatnonzero(there & ~empty & (single | bent)):
+            empty, rises, bent = decide(whole[: len(nodes)], points[: len(nodes)], half)
+            decided = (rises != 0.0) | bent
+            done = ~there | empty | decided
+            for k in np.flatnonzero(there & ~empty & decided):
                 low, high = as_written(mid[k] - half[k]), as_written(mid[k] + half[k])
-                yield low, high, bool(bent[k] and not single[k])
+                found.append((low, high, float(rises[k])))
             left = np.flatnonzero(~done & (half > narrow))
             mid, half = (
                 np.concatenate([mid[left] - half[left] / 2.0, mid[left] + half[left] / 2.0]),
@@ -380,6 +382,13 @@ class RangeSearch:
             )
         if open_:
             self.notes[UNSHOWN.format(count=open_)] = None
+        runs: list[tuple[Decimal, Decimal, float]] = []
+        for low, high, sign in sorted(found):  # cells side by side in which it rises, or falls, are one
+            if runs and sign and sign == runs[-1][2] and low - runs[-1][1] <= Decimal(narrow / 2.0):
+                runs[-1] = (runs[-1][0], high, sign)
+            else:
+                runs.append((low, high, sign))
+        yield from ((low, high, not sign) for low, high, sign in runs)
 
     def _reached(self, first: float, last: float) -> Mapping[int, Decimal] | None:
         """The inputs at a place between two; None where the links reach one another at none that is tried."""
@@ -472,8 +481,9 @@ def _may_touch(f: Array, slope: Array, step: Array) -> Mask:
     return np.asarray((p * q <= 0.0) & (a * b > 0.0) & (meet * a <= 0.5 * a * a))
 
 
-def _decided(whole: Sequence[Jet], points: Sequence[Jet], half: Array) -> tuple[Mask, Mask, Mask]:
-    """Cells without a zero; those in which the function is monotone; those in which its slope is."""
+def _decided(whole: Sequence[Jet], points: Sequence[Jet], half: Array) -> tuple[Mask, Array, Mask]:
+    """Cells without a zero; the sign of the slope where the function is monotone, else 0; whether the slope
+    is monotone."""
     (cell,), (at,) = whole, points
     bend = np.abs(cell.second.mid) + cell.second.rad
     slope = np.abs(at.first.mid) + at.first.rad
@@ -481,17 +491,17 @@ def _decided(whole: Sequence[Jet], points: Sequence[Jet], half: Array) -> tuple[
         reach = slope * half + bend * half * half / 2.0
         empty = cell.value.excludes_zero | (np.abs(at.value.mid) - at.value.rad > reach)
         single = cell.first.excludes_zero | (np.abs(at.first.mid) - at.first.rad > bend * half)
-    return empty, single, cell.second.excludes_zero
+    return empty, np.where(single, np.sign(at.first.mid), 0.0), cell.second.excludes_zero
 
 
-def _decided_peak(whole: Sequence[Jet], points: Sequence[Jet], half: Array) -> tuple[Mask, Mask, Mask]:
+def _decided_peak(whole: Sequence[Jet], points: Sequence[Jet], half: Array) -> tuple[Mask, Array, Mask]:
     """The same for the numerator of a quotient's slope."""
     wide, narrow = _wronskian(*whole), _wronskian(*points)
     with np.errstate(all="ignore"):
         reach = (np.abs(wide[1].mid) + wide[1].rad) * half
         empty = wide[0].excludes_zero | (np.abs(narrow[0].mid) - narrow[0].rad > reach)
-    single = wide[1].excludes_zero
-    return empty, single, np.zeros_like(single)
+    rises = np.where(wide[1].excludes_zero, np.sign(wide[1].mid), 0.0)
+    return empty, rises, np.zeros_like(empty)
 
 
 def _wronskian(top: Jet, bottom: Jet) -> tuple[BallArray, BallArray]:
