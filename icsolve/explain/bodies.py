@@ -1,31 +1,32 @@
-"""Free bodies: the three equations of every link with their numbers, and the reactions."""
+"""Free bodies: the equations of every link with their numbers, three in the plane and six in space, and the
+reactions."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer.bodies import Reaction
+from icsolve.answer.space import Parts, SpatialReaction
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, product
 from icsolve.explain.given import Figures, load_name
-from icsolve.report.derivation import Acting, Known, acting_loads, rope_pulls
-from icsolve.screws.plane import Point
+from icsolve.report.derivation import Known, acting_loads, rope_pulls
+from icsolve.screws.plane import subtract
+from icsolve.screws.space import ZERO, Vec, size, times
 from icsolve.tuples import NamedTuple
 
 NOTHING = 1e-13
 
 
 class On(NamedTuple):
-    """A force or couple on a link: its symbol, place (None for a couple alone) and numbers, in force and
-    force times length."""
+    """A force and a couple on a link: symbol, place (None for a couple alone) and components, in force and in
+    force times length; in the plane a force along x and y, a couple about z."""
 
     name: str
     low: str
-    at: Point | None
-    x: float
-    y: float
-    couple: float
+    at: Vec | None
+    force: Vec
+    couple: Vec
 
 
 def bodies_sections(known: Known, figures: Figures) -> Iterable[Section]:
@@ -33,120 +34,121 @@ def bodies_sections(known: Known, figures: Figures) -> Iterable[Section]:
     answer = known.answer
     if answer is None or not answer.reactions:
         return
-    yield _reactions(known, figures, answer.reactions)
+    units, reactions = known.case.units, answer.reactions
+    heading = (f"x, {units.force}", f"y, {units.force}", "size", f"couple, {units.torque}")
+    rows = [(name, r, (r.x, r.y, r.magnitude, r.moment)) for name, r in reactions.items()]
+    told = reactions_section(figures, heading, rows)
+    open_ones = sorted({r.why for r in reactions.values() if None in (r.x, r.y, r.moment) and r.why})
+    more = (Items(tuple((f"? : {why}",) for why in open_ones)),) if open_ones else ()
+    yield told._replace(blocks=(*told.blocks, *more))
     for link in known.case.links:
         if link != known.case.ground:
-            yield _link(known, figures, link, list(_acting_on(known, link)))
+            forces = list(_acting_on(known, link))
+            yield link_section(figures, link, forces, _about(known, link), known.size, "xy")
 
 
-def _reactions(known: Known, figures: Figures, reactions: dict[str, Reaction]) -> Section:
-    units = known.case.units
-    rows: list[tuple[tuple[Inline, ...], ...]] = []
-    for name, r in reactions.items():
-        numbers = tuple((open_number(figures, value),) for value in (r.x, r.y, r.magnitude, r.moment))
-        where = f"{r.kind} at {r.where}" if r.where else r.kind
-        rows.append(((name,), (where,), *numbers))
-    open_ones = sorted({r.why for r in reactions.values() if None in (r.x, r.y, r.moment) and r.why})
-    heading = ("force", "joint", f"x, {units.force}", f"y, {units.force}", "size", f"couple, {units.torque}")
-    blocks: list[Block] = [
-        words("The force of the first link on the second, with the couple about the joint:"),
-        ShownTable(heading, tuple(rows)),
+def reactions_section(
+    figures: Figures,
+    heading: tuple[str, ...],
+    rows: Iterable[tuple[str, Reaction | SpatialReaction, Sequence[float | None]]],
+) -> Section:
+    """A table of the reactions: name, joint, and numbers under a heading, question marks for those that
+    equilibrium leaves open."""
+    table: list[tuple[tuple[Inline, ...], ...]] = [
+        (
+            (name,),
+            (f"{r.kind} at {r.where}" if r.where else r.kind,),
+            *(("?" if value is None else figures.number(value),) for value in numbers),
+        )
+        for name, r, numbers in rows
     ]
-    if open_ones:
-        blocks.append(Items(tuple((f"? : {why}",) for why in open_ones)))
-    return Section("Reactions", tuple(blocks))
-
-
-def open_number(figures: Figures, value: float | None) -> Inline:
-    """A number, or a question mark for one that equilibrium leaves open."""
-    return "?" if value is None else figures.number(value)
+    said = words("The force of the first link on the second, with the couple about the joint:")
+    return Section("Reactions", (said, ShownTable(("force", "joint", *heading), tuple(table))))
 
 
 def _acting_on(known: Known, link: str) -> Iterable[On | None]:
     """Every reaction and load on a link; None for a reaction that is not determined."""
     answer = known.answer
     assert answer is not None
-    for name, r in (answer.reactions or {}).items():
-        if link in (r.by, r.on):
-            yield _reaction(known, r if r.on == link else r.reversed(), f"@{r.where}," if "@" in name else "")
+    for name, reaction in (answer.reactions or {}).items():
+        if link in (reaction.by, reaction.on):
+            r = reaction if reaction.on == link else reaction.reversed()
+            yield reaction_on(known, name, r, (r.x, r.y, 0.0), (0.0, 0.0, r.moment))
     for rope in known.case.ropes:
         for pull in rope_pulls(known, rope):
             if pull.link == link:
-                yield None if pull.tension is None else On(*pull.symbol, pull.at, *pull.force, 0.0)
+                at, force = (*pull.at, 0.0), (*pull.force, 0.0)
+                yield None if pull.tension is None else On(*pull.symbol, at, force, ZERO)
     for acting in acting_loads(known):
         if link in (acting.link, acting.against) and not acting.link.startswith("@"):
-            yield _load(known, acting, 1.0 if link == acting.link else -1.0)
+            sign, own = 1.0 if link == acting.link else -1.0, load_name(acting.load.name)
+            place = None if acting.at is None else (*acting.at, 0.0)
+            force, couple = (*acting.force, 0.0), (0.0, 0.0, acting.couple)
+            yield On(own.base, own.low, place, times(sign, force), times(sign, couple))
 
 
-def _reaction(known: Known, r: Reaction, where: str) -> On | None:
-    if r.x is None or r.y is None or r.moment is None:
+def reaction_on(
+    known: Known, name: str, r: Reaction | SpatialReaction, force: Parts, couple: Parts
+) -> On | None:
+    """A reaction on its second link; None of one that is not determined."""
+    x, y, z, mx, my, mz = (*force, *couple)
+    if x is None or y is None or z is None or mx is None or my is None or mz is None:
         return None
     low = r.by + r.on if len(r.by) == len(r.on) == 1 else f"{r.by}-{r.on}"
-    return On("F", low + where, r.at, r.x, r.y, r.moment / known.case.units.torque_per_force_length)
+    low, per = f"{low}@{r.where}," if "@" in name else low, known.case.units.torque_per_force_length
+    x0, y0, *z0 = r.at
+    return On("F", low, (x0, y0, z0[0] if z0 else 0.0), (x, y, z), (mx / per, my / per, mz / per))
 
 
-def _load(known: Known, acting: Acting, sign: float) -> On:
-    name = load_name(acting.load.name)
-    if acting.at is None:
-        return On(name.base, name.low, None, 0.0, 0.0, sign * acting.couple)
-    return On(name.base, name.low, acting.at, sign * acting.force[0], sign * acting.force[1], 0.0)
-
-
-def _link(known: Known, figures: Figures, link: str, forces: Sequence[On | None]) -> Section:
-    """The sums of forces along x and y and of moments about a joint."""
+def link_section(
+    figures: Figures, link: str, forces: Sequence[On | None], about: tuple[Vec, str], reach: float, axes: str
+) -> Section:
+    """The sums of the forces along the axes, and of the moments about a point and its name; in the plane
+    (``axes`` xy) of those about z. ``reach`` is the size of an arm [case length]."""
     title = f"Equilibrium of link {link}"
-    if any(force is None for force in forces):
-        return Section(
-            title, (words("Its joints share the load in a way that equilibrium does not determine."),)
-        )
-    known_forces = [force for force in forces if force is not None]
-    about, where = _about(known, link)
-    largest = max((math.hypot(f.x, f.y) for f in known_forces), default=0.0)
-    blocks: list[Block] = [
-        words("Forces along x:"),
-        *_sum(figures, [(f, f.x) for f in known_forces], "x", largest),
-    ]
-    blocks += [words("Forces along y:"), *_sum(figures, [(f, f.y) for f in known_forces], "y", largest)]
-    blocks += [words(f"Moments about {where}:"), *_moments(figures, known_forces, about, largest, known.size)]
+    found = [force for force in forces if force is not None]
+    if len(found) < len(forces):
+        said = "Its joints share the load in a way that equilibrium does not determine."
+        return Section(title, (words(said),))
+    largest = max((size(on.force) for on in found), default=0.0)
+    place, where = about
+    blocks: list[Block] = []
+    for k, axis in enumerate(axes):
+        blocks += [words(f"Forces along {axis}:"), _forces(figures, found, k, axis, largest)]
+    for k, along in [(2, "")] if len(axes) == 2 else [(k, f" along {axis}") for k, axis in enumerate(axes)]:
+        moments = _moments(figures, found, place, k, NOTHING * largest * reach)
+        blocks += [words(f"Moments about {where}{along}:"), moments]
     return Section(title, tuple(blocks))
 
 
-def _about(known: Known, link: str) -> tuple[Point, str]:
+def _about(known: Known, link: str) -> tuple[Vec, str]:
     """A named point of the link."""
     for name in known.case.carries.get(link, ()):
         if name in known.points and not name.startswith("@"):
-            return known.points[name], name
-    return (0.0, 0.0), "the origin"
+            return (*known.points[name], 0.0), name
+    return ZERO, "the origin"
 
 
-def _sum(figures: Figures, parts: Sequence[tuple[On, float]], axis: str, largest: float) -> Iterable[Block]:
+def _forces(figures: Figures, forces: Sequence[On], k: int, axis: str, largest: float) -> Block:
     """Symbols, then numbers, then zero."""
-    kept = [(on, value) for on, value in parts if abs(value) > NOTHING * largest]
+    kept = [on for on in forces if abs(on.force[k]) > NOTHING * largest]
     if not kept:
-        yield words("No force acts that way.")
-        return
-    symbols: Expr = Sum(tuple((1, Name(on.name, f"{on.low}{axis}" if on.low else axis)) for on, _ in kept))
-    numbers: Expr = Sum(tuple((1, figures.number(value)) for _, value in kept))
-    yield formula(symbols, numbers, Num("0"))
+        return words("No force acts that way.")
+    symbols = Sum(tuple((1, Name(on.name, on.low + axis)) for on in kept))
+    return formula(symbols, Sum(tuple((1, figures.number(on.force[k])) for on in kept)), Num("0"))
 
 
-def _moments(
-    figures: Figures, forces: Sequence[On], about: Point, largest: float, size: float
-) -> Iterable[Block]:
-    """Each force by its components and their arms, each couple by itself."""
+def _moments(figures: Figures, forces: Sequence[On], about: Vec, k: int, least: float) -> Block:
+    """Arms times components, and couples: M_x = y F_z - z F_y and so on round."""
+    i, j = (k + 1) % 3, (k + 2) % 3
     terms: list[tuple[int, Expr]] = []
-    least = NOTHING * largest * size
-    for force in forces:
-        if force.at is not None:
-            dx, dy = force.at[0] - about[0], force.at[1] - about[1]
-            if abs(dx * force.y) > least:
-                terms.append((1, product(figures.length(dx), figures.number(force.y))))
-            if abs(dy * force.x) > least:
-                sign = 1 if dy < 0.0 else -1
-                terms.append((sign, product(figures.length(abs(dy)), figures.number(force.x))))
-        if abs(force.couple) > least:
-            terms.append((1, figures.number(force.couple)))
-    if terms:
-        yield formula(Sum(tuple(terms)), Num("0"))
-    else:
-        yield words("No force has an arm about it.")
+    for on in forces:
+        arm = subtract(on.at, about) if on.at is not None else ZERO
+        if abs(arm[i] * on.force[j]) > least:
+            terms.append((1, product(figures.length(arm[i]), figures.number(on.force[j]))))
+        if abs(arm[j] * on.force[i]) > least:
+            sign = 1 if arm[j] < 0.0 else -1
+            terms.append((sign, product(figures.length(abs(arm[j])), figures.number(on.force[i]))))
+        if abs(on.couple[k]) > least:
+            terms.append((1, figures.number(on.couple[k])))
+    return formula(Sum(tuple(terms)), Num("0")) if terms else words("No force has an arm about it.")

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
-from icsolve.explain.bodies import NOTHING, open_number
+from icsolve.explain.bodies import On, link_section, reaction_on, reactions_section
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
-from icsolve.explain.formula import Expr, Name, Num, Sum, product
+from icsolve.explain.formula import Name, Num, Sum, product
 from icsolve.explain.given import Figures, load_name
 from icsolve.report.derivation import Known
 from icsolve.report.derivation.spatial import InSpace, Push, in_space
 from icsolve.screws.plane import subtract
-from icsolve.screws.space import Vec, size
+from icsolve.screws.space import ZERO, size, times
 from icsolve.statics.space.reaction_basis import SpatialTie
 from icsolve.statics.space.reactions import direction_words
-from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 AXES = "xyz"
@@ -103,94 +102,28 @@ def _power(known: Known, figures: Figures) -> Section:
 def _reactions(known: Known, figures: Figures) -> Section:
     assert known.answer is not None and known.answer.spatial is not None
     units = known.case.units
-    rows: list[tuple[tuple[Inline, ...], ...]] = []
-    for name, r in known.answer.spatial.reactions.items():
-        numbers = tuple((open_number(figures, value),) for value in (*r.force, *r.couple))
-        rows.append(((name,), (f"{r.kind} at {r.where}" if r.where else r.kind,), *numbers))
     forces = tuple(f"F{axis}, {units.force}" for axis in AXES)
     couples = tuple(f"M{axis}, {units.torque}" for axis in AXES)
-    said = words("The force of the first link on the second, with the couple about the joint:")
-    return Section("Reactions", (said, ShownTable(("force", "joint", *forces, *couples), tuple(rows))))
-
-
-class SpatialOn(NamedTuple):
-    """A force and a couple on a link, in force and force times length."""
-
-    name: str
-    low: str
-    at: Vec | None
-    force: Vec
-    couple: Vec
+    rows = [(name, r, (*r.force, *r.couple)) for name, r in known.answer.spatial.reactions.items()]
+    return reactions_section(figures, (*forces, *couples), rows)
 
 
 def _link(known: Known, figures: Figures, scene: InSpace, link: str) -> Section:
-    title = f"Equilibrium of link {link}"
     forces = list(_acting(known, scene, link))
-    if any(force is None for force in forces):
-        return Section(
-            title, (words("Its joints share the load in a way that equilibrium does not determine."),)
-        )
-    found = [force for force in forces if force is not None]
-    about = next(iter(scene.carried(link)), (0.0, 0.0, 0.0))
+    about = next(iter(scene.carried(link)), ZERO)
     where = next((name for name, place in scene.places.items() if place == about), "the origin")
-    largest = max((size(on.force) for on in found), default=0.0)
     reach = max((size(subtract(p, about)) for p in scene.places.values()), default=0.0)
-    blocks: list[Block] = []
-    for k, axis in enumerate(AXES):
-        blocks += [words(f"Forces along {axis}:"), _forces(figures, found, k, largest)]
-    for k, axis in enumerate(AXES):
-        blocks += [
-            words(f"Moments about {where} along {axis}:"),
-            _moments(figures, found, about, k, largest * reach),
-        ]
-    return Section(title, tuple(blocks))
+    return link_section(figures, link, forces, (about, where), reach, AXES)
 
 
-def _acting(known: Known, scene: InSpace, link: str) -> Iterable[SpatialOn | None]:
+def _acting(known: Known, scene: InSpace, link: str) -> Iterable[On | None]:
     """All reactions and loads on a link; None for a reaction that is open."""
     assert known.answer is not None and known.answer.spatial is not None
-    per = known.case.units.torque_per_force_length
     for title, reaction in known.answer.spatial.reactions.items():
-        if link not in (reaction.by, reaction.on):
-            continue
-        r = reaction if reaction.on == link else reaction.reversed()
-        numbers = [value for value in (*r.force, *r.couple) if value is not None]
-        if len(numbers) < 6:
-            yield None
-            continue
-        low = r.by + r.on if len(r.by) == len(r.on) == 1 else f"{r.by}-{r.on}"
-        x, y, z, mx, my, mz = numbers
-        low = f"{low}@{r.where}," if "@" in title else low
-        yield SpatialOn("F", low, r.at, (x, y, z), (mx / per, my / per, mz / per))
+        if link in (reaction.by, reaction.on):
+            r = reaction if reaction.on == link else reaction.reversed()
+            yield reaction_on(known, title, r, r.force, r.couple)
     for push in scene.loads:
         if link in (push.link, push.against):
-            sign = 1.0 if link == push.link else -1.0
-            name = load_name(push.name)
-            force, couple = (_scaled(sign, v) for v in (push.force, push.couple))
-            yield SpatialOn(name.base, name.low, push.at, force, couple)
-
-
-def _scaled(s: float, v: Vec) -> Vec:
-    return (s * v[0], s * v[1], s * v[2])
-
-
-def _forces(figures: Figures, forces: Sequence[SpatialOn], k: int, largest: float) -> Block:
-    kept = [on for on in forces if abs(on.force[k]) > NOTHING * largest]
-    if not kept:
-        return words("No force acts that way.")
-    symbols = Sum(tuple((1, Name(on.name, on.low + AXES[k])) for on in kept))
-    return formula(symbols, Sum(tuple((1, figures.number(on.force[k])) for on in kept)), Num("0"))
-
-
-def _moments(figures: Figures, forces: Sequence[SpatialOn], about: Vec, k: int, largest: float) -> Block:
-    """Arms times components, and couples: M_x = y F_z - z F_y and so on round."""
-    i, j = (k + 1) % 3, (k + 2) % 3
-    terms: list[tuple[int, Expr]] = []
-    for on in forces:
-        arm = subtract(on.at, about) if on.at is not None else (0.0, 0.0, 0.0)
-        for sign, a, b in ((1, i, j), (-1, j, i)):
-            if abs(arm[a] * on.force[b]) > NOTHING * largest:
-                terms.append((sign, product(figures.length(arm[a]), figures.number(on.force[b]))))
-        if abs(on.couple[k]) > NOTHING * largest:
-            terms.append((1, figures.number(on.couple[k])))
-    return formula(Sum(tuple(terms)), Num("0")) if terms else words("No force has an arm about it.")
+            sign, name = 1.0 if link == push.link else -1.0, load_name(push.name)
+            yield On(name.base, name.low, push.at, times(sign, push.force), times(sign, push.couple))
