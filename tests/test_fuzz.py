@@ -124,7 +124,7 @@ def test_links_that_lead_round_are_seen_once(here: Path) -> None:
         Path(f"all/in/up{n}").symlink_to("..")
     code, said, trace = run(["check", "all/**/*.yaml"], apart=False)
     assert (code, said.count("case.yaml")) == (0, 0), trace
-    from icsolve.cli.inputs import sources
+    from icsolve.cli.run import sources
 
     assert [source.path for source in sources("all/**/*.yaml")] == ["all/in/case.yaml"]
     assert [source.path for source in sources(f"{here}/**/c*.yaml")] == [f"{here}/all/in/case.yaml"]

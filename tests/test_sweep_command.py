@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 import icsolve
 from icsolve.cli import output
-from icsolve.cli.spans import progression
+from icsolve.cli.sweeping import progression
 from shell import exit_status
 
 PRESS = """icsolve: 1

@@ -11,8 +11,7 @@ from typing import Any, TypeVar
 
 import click
 
-from icsolve.cli.inputs import sources
-from icsolve.cli.run import DONE, UNREADABLE, complain
+from icsolve.cli.run import DONE, UNREADABLE, complain, sources
 from icsolve.files import KeptError, folder_of, whole_file
 
 OUTPUT = click.option("-o", "--output", metavar="FILE", help="Write here instead of standard output.")
