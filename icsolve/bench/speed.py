@@ -15,15 +15,21 @@ from icsolve.bench.full_turn import (
     FOUR_BAR,
     FOUR_BAR_CASE,
     MECHANISMS,
+    PEERS,
     POSITIONS,
+    TORQUE,
     Array,
     CrankTurning,
     compiled,
+    componentwise,
     in_c,
+    ran,
+    written_out,
 )
 from icsolve.bench.gates import Effort, Gate, Kept, least, peak_memory, ratio, table
 from icsolve.case import Case
 from icsolve.read import load
+from icsolve.solve import solve
 from icsolve.sweep import sweep
 from icsolve.tuples import NamedTuple
 
@@ -143,9 +149,6 @@ def one_scene(effort: Effort, kept: Kept) -> str:
     """
     from itertools import cycle
 
-    from icsolve.bench.full_turn import componentwise, written_out
-    from icsolve.solve import solve
-
     a, b, c, d, torque = FOUR_BAR
     numbers = (d, a, b, c, 60.0, torque)
     case = load(FOUR_BAR_CASE)
@@ -208,8 +211,6 @@ def _turn_gates(name: str, by: dict[str, Timed]) -> list[Gate]:
 
 def other_programs(effort: Effort, kept: Kept) -> str:
     """The full turn of the four-bar by other programs, in the same run as `full_turn`."""
-    from icsolve.bench.full_turn import PEERS, POSITIONS, TORQUE, ran
-
     own = next(score for score in kept.turns if score.method == SWEPT)
     seconds = 1e-6 * own.micros * POSITIONS
     found = [ran(peer, effort.rounds) for peer in PEERS]

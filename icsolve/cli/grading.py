@@ -13,6 +13,7 @@ import click
 
 from icsolve.cli.options import Verb
 from icsolve.cli.run import DONE, NO_ANSWER, complain, refusing
+from icsolve.files import check_free, files_of, folder_of, note, scratch, whole_file, write_whole
 
 if TYPE_CHECKING:
     from icsolve.grade.course import Course
@@ -109,7 +110,6 @@ def _job(options: dict[str, Any]) -> Job:
 
 def _note_inputs(options: dict[str, Any]) -> None:
     """Remember all that will be read before anything is written."""
-    from icsolve.files import files_of, note
     from icsolve.grade.importing import expand
 
     named = (options[name] for name in ("roster", "course", "metadata", "cases", "against"))
@@ -133,8 +133,6 @@ def _check_kinds(options: dict[str, Any]) -> None:
 
 def _check(path: str | None, options: dict[str, Any]) -> None:
     """An output may not be there already, nor be one of the inputs."""
-    from icsolve.files import check_free
-
     if path is not None and path != "-":
         check_free(path, options["force"])
 
@@ -181,7 +179,6 @@ def _pairs(texts: tuple[str, ...]) -> dict[str, str]:
 
 
 def _graded(job: Job, options: dict[str, Any]) -> int:
-    from icsolve.files import folder_of, whole_file
     from icsolve.grade.run import Sinks, grade
 
     changed = ""
@@ -210,8 +207,6 @@ def _graded(job: Job, options: dict[str, Any]) -> int:
 @contextmanager
 def _results(options: dict[str, Any], force: bool) -> Iterator[tuple[IO[str] | None, str]]:
     """Where the results go, and the file in which other outputs find them."""
-    from icsolve.files import folder_of, scratch, whole_file
-
     output = options["output"]
     again = any(options[name] for name in ("writes", "against", "review", "html", "students"))
     with ExitStack() as stack:
@@ -267,7 +262,6 @@ def _further(job: Job, results: str, options: dict[str, Any]) -> None:
 
 def _regraded(results: str, options: dict[str, Any]) -> str:
     """The queue for a person, and the changes against earlier results: in a file, and as text."""
-    from icsolve.files import write_whole
     from icsolve.grade.results import changes_csv, changes_text, compared, review_queue
 
     if options["review"]:
@@ -282,7 +276,6 @@ def _regraded(results: str, options: dict[str, Any]) -> str:
 
 def _pages(graded: Graded, job: Job, results: str, options: dict[str, Any]) -> None:
     """The page for the teacher, and one for each student."""
-    from icsolve.files import write_whole
     from icsolve.grade.course import read_roster
     from icsolve.grade.results import by_student
     from icsolve.grade.statistics import statistics

@@ -13,7 +13,7 @@ import click
 
 from icsolve.cli import BUG, bug_report
 from icsolve.errors import CaseError, NotACase, Problem, SceneError
-from icsolve.files import KeptError, files_of, is_plain, note, reading
+from icsolve.files import KeptError, can_fork, files_of, is_plain, note, reading, started
 from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
@@ -205,8 +205,6 @@ def _outcomes(
     if count < 2:
         yield from (outcome(source, work, settings) for source in every)
         return
-    from icsolve.files import started
-
     def share(some: list[InputSource]) -> list[Outcome]:
         return [outcome(source, work, settings) for source in some]
 
@@ -216,8 +214,6 @@ def _outcomes(
 
 
 def _processes(files: int) -> int:
-    from icsolve.files import can_fork
-
     return (os.cpu_count() or 1) if files >= MANY and can_fork() else 1
 
 

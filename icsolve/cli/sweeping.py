@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from icsolve.cli.options import DIGITS, SET, Verb
-from icsolve.cli.output import OUTPUT, one_source, write_output
+from icsolve.cli.output import OUTPUT, Progress, one_source, write_output
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, for_each, on_stderr
 from icsolve.errors import SceneError, Status
 from icsolve.tuples import NamedTuple, replace
@@ -241,7 +241,6 @@ def _path_of(case: Case, name: str) -> str:
 
 def _table(read: Case, path: str, asked: SweepOptions) -> int:
     """All rows, as a table or a picture."""
-    from icsolve.cli.output import Progress
     from icsolve.sweep import sweep
     from icsolve.sweep.table import FORMATS
 

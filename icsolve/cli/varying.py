@@ -11,7 +11,7 @@ import click
 from icsolve.cli.options import Verb
 from icsolve.cli.output import watched
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, refusing
-from icsolve.files import reading_text
+from icsolve.files import can_fork, check_free, reading_text, started, write_whole
 
 if TYPE_CHECKING:
     from icsolve.grade.case_store import CaseStore
@@ -107,7 +107,6 @@ def _unreadable(case_store: CaseStore, name: str) -> int:
 
 def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force: bool, quiet: bool) -> int:
     """One case: values and key of all students, then figures and sheets."""
-    from icsolve.files import check_free, write_whole
     from icsolve.grade.tolerance import NoKeyError
     from icsolve.grade.variants.record import key_csv, tasks, values_csv
 
@@ -136,8 +135,6 @@ def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force
 
 def _figures(varied: Varied, found: list[VariantTask], folder: str, force: bool, quiet: bool) -> None:
     """A figure for each variant, and a sheet for each student; by two processes where that pays."""
-    from icsolve.files import can_fork, check_free, started
-
     start = time.perf_counter()
     by_label: dict[str, list[VariantTask]] = {}
     for task in found:
@@ -162,7 +159,6 @@ _WORTH_TWO = 50
 
 def _draw(varied: Varied, groups: list[list[VariantTask]], folder: str, force: bool, quiet: bool) -> None:
     """The figure of each group of students with the same variant, and their sheets."""
-    from icsolve.files import write_whole
     from icsolve.grade.platforms.questions import figure
     from icsolve.grade.variants.record import sheet
 
@@ -212,7 +208,6 @@ def export_command(kind: str, cases: str, output: str, **options: Any) -> int:
 
 def _exported(kind: str, cases: str, output: str, options: dict[str, Any]) -> int:
     from icsolve.cli.grading import course_file, course_of
-    from icsolve.files import check_free
     from icsolve.grade.case_store import CaseStore
     from icsolve.grade.platforms.export import ExportOrder, export
 

@@ -9,11 +9,7 @@ import math
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
-from icsolve.case import (
-    Case,
-    Joint,
-    Spring,
-)
+from icsolve.case import Case, Joint, Spring
 from icsolve.case.joints import Guided, Mesh, Rolling, Sliding
 from icsolve.case.profiles import Circle, Flat, Knife, Roller, points_of
 from icsolve.draw.marks import Box, Mark, Point, View, along
@@ -83,8 +79,6 @@ def round_things(case: Case, points: Mapping[str, Point]) -> Round:
             edges += [thing for thing in rolled if isinstance(thing, Edge)]
         if isinstance(joint, Sliding) and joint.only_pushes and joint.at in points:
             if case.profiles is not None and {*joint.links} <= case.profiles.shapes.keys():
-                from icsolve.draw.scene import surfaces
-
                 known = surfaces(case, joint, points)
                 wheels += [thing for thing in known if isinstance(thing, Wheel)]
                 edges += [thing for thing in known if isinstance(thing, Edge)]

@@ -4,6 +4,7 @@ the equation of power, the answer, its check by free bodies. As text, Markdown w
 from __future__ import annotations
 
 from icsolve.case import Case
+from icsolve.draw.figure import Drawing, draw, drawn
 from icsolve.explain.document import AsMarkdown, AsText
 from icsolve.explain.solution import solution
 from icsolve.report.derivation import Known, known_of
@@ -29,7 +30,6 @@ def explain(
         return AsText().whole(document)
     if form == "md":
         return AsMarkdown().whole(document)
-    from icsolve.draw.figure import Drawing, draw, drawn
     from icsolve.explain.typeset import AsHtml, AsTex
 
     drawing = Drawing(bodies=bodies, captions=False)

@@ -7,13 +7,7 @@ from collections.abc import Container, Iterable
 from typing import TypeGuard
 
 from icsolve.answer import Centre
-from icsolve.case import (
-    Centroid,
-    Coordinates,
-    Number,
-    Units,
-    pair_name,
-)
+from icsolve.case import Centroid, Coordinates, Number, Units, pair_name
 from icsolve.draw.words import name_runs
 from icsolve.explain.document import Block, Items, Section, ShownTable, words
 from icsolve.explain.formula import Name, Num, Quantity

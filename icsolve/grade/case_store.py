@@ -13,7 +13,7 @@ from icsolve.grade.keys import AnyKey
 from icsolve.grade.solved import SolvedCase, asked_of, canonical, unknowns
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import VariantRecord, Varied
-from icsolve.read import case_name
+from icsolve.read import case_name, read_file
 
 _MOST_SLIPS = 200
 """Names that are no case for which one that may be meant is looked for."""
@@ -159,8 +159,6 @@ class CaseStore:
 
         Raises NoKeyError.
         """
-        from icsolve.read import read_file
-
         if name in self.twice:
             raise NoKeyError(f"two files are the case {name}: {' and '.join(self.twice[name])}")
         if name not in self.paths:

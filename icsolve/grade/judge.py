@@ -8,16 +8,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from icsolve.grade.keys import (
-    AGAINST,
-    NEITHER,
-    AnyKey,
-    ChoiceKey,
-    NumberKey,
-    PlaceKey,
-    RangeKey,
-    unit_factor,
-)
+from icsolve.grade.keys import AGAINST, NEITHER, AnyKey, ChoiceKey, NumberKey, PlaceKey, RangeKey, unit_factor
 from icsolve.grade.mistakes import Wrong, message, together
 from icsolve.grade.mistakes.lookup import near_miss
 from icsolve.grade.tolerance import SLACK

@@ -10,12 +10,12 @@ from icsolve.grade.course import Course, Roster, read_roster
 from icsolve.grade.importing import Import, Issue, Issues, Store, expand
 from icsolve.grade.keys import NumberKey
 from icsolve.grade.marking import Marker
-from icsolve.grade.results import HEADER, Override, Overrides, json_line, line
+from icsolve.grade.results import HEADER, Override, Overrides, json_line, line, read_overrides
 from icsolve.grade.solved import unknowns
 from icsolve.grade.statistics import Counts
 from icsolve.grade.tables.columns import HeaderError, StoredAnswer
 from icsolve.grade.tolerance import NoKeyError
-from icsolve.grade.variants.record import GivenValue, Neighbours
+from icsolve.grade.variants.record import GivenValue, Neighbours, changes, other_seed, read_records
 from icsolve.tuples import NamedTuple
 
 _STEP = 5000
@@ -157,8 +157,6 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
 
 def _overrides(job: Job, case_store: CaseStore, roster: Roster | None) -> dict[tuple[str, str], Override]:
     """The marks given by hand; a later file goes over an earlier one."""
-    from icsolve.grade.results import read_overrides
-
     found: dict[tuple[str, str], Override] = {}
     for path in job.overrides:
         found |= read_overrides(path, case_store, roster)
@@ -194,8 +192,6 @@ def _take_in(imported: Import, paths: Iterable[tuple[str, str]], job: Job) -> No
 
 def _note_other_seeds(job: Job, case_store: CaseStore, given: list[GivenValue], issues: Issues) -> None:
     """Say of a case most of whose answers are to the numbers of another seed which one that is."""
-    from icsolve.grade.variants.record import other_seed
-
     for name in dict.fromkeys(one.question.partition(":")[0] for one in given):
         varied = case_store.variation(name)
         if varied is None or varied.record is not None:
@@ -212,8 +208,6 @@ def _note_other_seeds(job: Job, case_store: CaseStore, given: list[GivenValue], 
 
 def _keep_to_record(job: Job, case_store: CaseStore, roster: Roster | None, issues: Issues) -> None:
     """The numbers that were handed out count; what has changed since is noted."""
-    from icsolve.grade.variants.record import changes, read_records
-
     case_store.keep_to(read_records(job.variants, case_store, roster))
     for name, record in case_store.records.items():
         varied = case_store.variation(name)

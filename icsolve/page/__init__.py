@@ -7,7 +7,12 @@ from icsolve.case import Case
 from icsolve.draw.marks import kinds_of
 from icsolve.draw.svg import sheet
 from icsolve.explain.solution import solution
-from icsolve.page.document import PageParts, html_of
+from icsolve.page.document import PageParts, equation_of, html_of
+from icsolve.page.figure import figure_of
+from icsolve.page.live import live_of
+from icsolve.page.model import model_of
+from icsolve.page.motion import motion_of, why_still
+from icsolve.page.pictures import ALWAYS, circle_svg, figure_svg, plot_data, plot_svg, plots_of, still_svg
 from icsolve.report.derivation import Known, known_of, needed_steps
 
 DIGITS = 6
@@ -25,9 +30,6 @@ def page_html(case: Case | Known) -> str:
 
 
 def _in_space(known: Known) -> PageParts:
-    from icsolve.page.motion import why_still
-    from icsolve.page.pictures import still_svg
-
     picture, marks = still_svg(known)
     model = {"window": [0, 0, 1, 1], "steps": 0, "centres": [], "loads": {}, "anchors": {}, "answers": []}
     rules = sheet(kinds_of(marks))
@@ -37,13 +39,7 @@ def _in_space(known: Known) -> PageParts:
 
 
 def _in_plane(known: Known) -> PageParts:
-    from icsolve.page.document import equation_of
-    from icsolve.page.figure import figure_of
     from icsolve.page.forces import forces_data
-    from icsolve.page.live import live_of
-    from icsolve.page.model import model_of
-    from icsolve.page.motion import motion_of, why_still
-    from icsolve.page.pictures import ALWAYS, circle_svg, figure_svg, plot_data, plot_svg, plots_of
 
     steps = needed_steps(known) if known.whole is not None else ()
     motion = motion_of(known, [step.centre.pair for step in steps])

@@ -11,18 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from icsolve.case import (
-    Case,
-    Centroid,
-    Coordinates,
-    Like,
-    Load,
-    Number,
-    Pair,
-    Rope,
-    Torque,
-    pair_name,
-)
+from icsolve.case import Case, Centroid, Coordinates, Like, Load, Number, Pair, Rope, Torque, pair_name
 from icsolve.case.joints import Guided, Mesh, without_friction
 from icsolve.draw.figure import genevas
 from icsolve.draw.plot import asymptotes, dead_centres

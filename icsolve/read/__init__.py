@@ -12,6 +12,7 @@ from icsolve.read.document import Mapping, Node, checked, parse, take_in, text_o
 from icsolve.read.keys import SECTIONS
 from icsolve.read.names import Problems, Stop
 from icsolve.read.reading import read_units
+from icsolve.tuples import replace
 
 Settings = Named[str, str | float]
 """Values by path: ``{"angles.AB": "30", "loads.P": "500 lbf"}``."""
@@ -84,7 +85,6 @@ def _case(root: Mapping, settings: Settings, problems: Problems, name: str) -> C
         _set(root, settings, problems)
         return _built(root, problems, name)
     from icsolve.read.variables import read_variables, substitute
-    from icsolve.tuples import replace
 
     variables = read_variables(root, problems)
     given = {path[10:]: str(value) for path, value in settings.items() if path.startswith("variables.")}

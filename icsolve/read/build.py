@@ -4,21 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from icsolve.case import (
-    Case,
-    Centroid,
-    Coordinates,
-    Corner,
-    Direction,
-    Inertia,
-    Joint,
-    Length,
-    Load,
-    Motion,
-    Number,
-    Rope,
-    Units,
-)
+from icsolve.case import Case, Centroid, Joint, Number, Rope, Units
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.figure import (
     FRAMES,
@@ -41,7 +27,6 @@ from icsolve.read.keys import SECTIONS, SPACE_JOINTS
 from icsolve.read.loads import PLANE, driven, read_motion, read_section
 from icsolve.read.names import Problems, shown
 from icsolve.read.reading import Reading, number
-from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.case.expected import Expected, Tolerance
@@ -51,23 +36,6 @@ NO_CASE = "this is not an icsolve case: it has no 'icsolve: 1' at its top"
 TEXTS = ("title", "source", "reconstructed")
 
 
-class _Parts(NamedTuple):
-    """The sections as values."""
-
-    joints: tuple[Joint, ...]
-    loads: tuple[Load, ...]
-    points: dict[str, Coordinates | Centroid]
-    links: dict[str, tuple[str, ...]]
-    near: dict[str, tuple[float, float]]
-    motion: tuple[Motion, ...]
-    lengths: tuple[Length, ...]
-    angles: tuple[Direction | Corner, ...]
-    expect: tuple[Expected, ...]
-    profiles: Profiles | None
-    inertia: dict[str, Inertia]
-    ropes: tuple[Rope, ...]
-
-
 def build(root: Mapping, problems: Problems, name: str, units: Units) -> Case:
     """The case of a planar tree; whether it may be used, the problems tell."""
     reading = Reading(problems, units)
@@ -75,34 +43,24 @@ def build(root: Mapping, problems: Problems, name: str, units: Units) -> Case:
     reading.check_keys(root, SECTIONS, "a case")
     mention_links(reading, root.items.get("joints"))
     ground = ground_of(reading, root)
-    parts = _parts(reading, root)
-    welds = [joint.links for joint in parts.joints if not joint.freedom]
-    check_frame(reading, "ground" in root.items, ground, welds)
-    check_unknowns(reading, parts.loads)
+    parts, shaped = _parts(reading, root)
+    joints, loads, motion = parts["joints"], parts["loads"], parts["motion"]
+    check_frame(reading, "ground" in root.items, ground, [one.links for one in joints if not one.freedom])
+    check_unknowns(reading, loads)
     if readable(root, "points", "lengths", "angles"):
         check_given(reading)
-        figure = FigureData(parts.joints, parts.lengths, parts.angles, parts.points, _shaped(parts))
+        figure = FigureData(joints, parts["lengths"], parts["angles"], parts["points"], shaped)
         if not reading.problems.found:
-            reading.noticed += check_loads(reading, root, figure, parts.loads, parts.motion, ground)
+            reading.noticed += check_loads(reading, root, figure, loads, motion, ground)
             reading.noticed += stray_points(reading, figure)
     links = tuple(reading.links or ())
     return Case(
         **told_of_itself(reading, root, name, units, ground),
-        points=parts.points,
-        lengths=parts.lengths,
-        angles=parts.angles,
-        near=parts.near,
-        joints=parts.joints,
-        loads=parts.loads,
-        motion=parts.motion,
-        expect=parts.expect,
-        carries=carried(links, ground, parts.joints, parts.loads, _shaped(parts), parts.motion),
+        **parts,
+        carries=carried(links, ground, joints, loads, shaped, motion),
         gravity=_gravity(reading, root) or Case.gravity,
-        profiles=parts.profiles,
         directed=tuple(reading.directed),
         unknowns=tuple(reading.unknowns),
-        inertia=parts.inertia,
-        ropes=parts.ropes,
         dynamic=read_dynamic(reading, root.items.get("dynamic")),
         noticed=tuple(reading.noticed),
     )
@@ -140,8 +98,9 @@ def is_in_space(root: Mapping) -> bool:
     )
 
 
-def _parts(reading: Reading, root: Mapping) -> _Parts:
-    """Joints, loads and points first: their names tell how a key such as AB is read."""
+def _parts(reading: Reading, root: Mapping) -> tuple[dict[str, Any], dict[str, tuple[str, ...]]]:
+    """The sections as fields of the case, and further points of links. Joints, loads and points first: their
+    names tell how a key such as AB is read."""
     section = root.items.get("profile")
     reading.profiled = set(section.items) if type(section) is Mapping else set()
     listed = root.items.get("joints")
@@ -174,8 +133,9 @@ def _parts(reading: Reading, root: Mapping) -> _Parts:
         expect = read_expect(reading, published, named) if readable(root, "loads") else ()
     middles = {name: Centroid(ends) for name, ends in reading.middles.items()}
     points = {**points, **reading.hidden, **middles}
-    figure = (joints, loads, points, links, near, motion, lengths, angles)
-    return _Parts(*figure, expect, profiles, inertia, ropes)
+    fields: dict[str, Any] = {"points": points, "lengths": lengths, "angles": angles, "near": near}
+    fields |= {"joints": joints, "loads": loads, "motion": motion, "inertia": inertia, "ropes": ropes}
+    return fields | {"profiles": profiles, "expect": expect}, _shaped(links, ropes, profiles)
 
 
 def check_version(root: Mapping, problems: Problems) -> None:
@@ -260,15 +220,16 @@ def _hyphened(root: Mapping) -> set[str]:
     return {name for key in keys for name in key.split("-")}
 
 
-def _shaped(parts: _Parts) -> dict[str, tuple[str, ...]]:
+def _shaped(
+    links: dict[str, tuple[str, ...]], ropes: tuple[Rope, ...], profiles: Profiles | None
+) -> dict[str, tuple[str, ...]]:
     """Further points of links: those of ``links:``, of ropes, and of profiles."""
-    links = dict(parts.links)
-    for rope in parts.ropes:
+    links = dict(links)
+    for rope in ropes:
         for point, link in zip(rope.points, rope.links, strict=False):
             links[link] = (*links.get(link, ()), point)
-    if parts.profiles is None:
+    if profiles is None:
         return links
     from icsolve.case.profiles import points_of
 
-    shapes = parts.profiles.shapes
-    return links | {link: (*links.get(link, ()), *points_of(s)) for link, s in shapes.items()}
+    return links | {link: (*links.get(link, ()), *points_of(s)) for link, s in profiles.shapes.items()}

@@ -21,6 +21,7 @@ from icsolve.grade.mistakes.engine import Known
 from icsolve.grade.solved import SolvedCase
 from icsolve.grade.tolerance import NoKeyError, drawn_band, size_of
 from icsolve.grade.variants.at_once import VariedNumbers, solved_at_once, together
+from icsolve.read import read_text
 from icsolve.read.document import Mapping as Tree
 from icsolve.read.document import Scalar, parse
 from icsolve.read.names import Problems
@@ -249,8 +250,6 @@ class Varied:
 
     def read(self, values: Texts) -> Case:
         """The case with these values, its figure and all."""
-        from icsolve.read import read_text
-
         return read_text(self.text, self.path, {f"variables.{name}": value for name, value in values.items()})
 
     # --- tasks ------------------------------------------------------------------------------------

@@ -4,14 +4,7 @@ from __future__ import annotations
 
 import re
 
-from icsolve.grade.written.answer import (
-    NO_NUMBER,
-    TWO_VALUES,
-    flagged,
-    holds_digits,
-    tail,
-    words_of,
-)
+from icsolve.grade.written.answer import NO_NUMBER, TWO_VALUES, flagged, holds_digits, tail, words_of
 from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, WrittenNumber, numeral
 from icsolve.grade.written.words import UnitWord, WrittenDirection, unit_word
 from icsolve.tuples import NamedTuple
