@@ -57,67 +57,37 @@ DEAD = ("dead-centre",)
 CLOSE = ("dead-centre", "near-singular")
 
 
-def three_cranks(third: str) -> str:
-    """A coupler on three cranks; the end of the third as given."""
-    return scene(
-        f"points: {{A: [0, 0], B: [2, 0], C: [5, 0], D: [1, 2], E: [3, 2], F: [{third}]}}\n"
-        "joints:\n"
-        "  - {pin: [0, 1], at: A}\n"
-        "  - {pin: [0, 2], at: B}\n"
-        "  - {pin: [0, 3], at: C}\n"
-        "  - {pin: [1, 4], at: D}\n"
-        "  - {pin: [2, 4], at: E}\n"
-        "  - {pin: [3, 4], at: F}\n",
-        torques(2, 1),
-    )
-
-
-def turned_cranks(angle: float) -> str:
-    """The same with all points turned by an angle in radians, as a program writes them."""
-    c, s = math.cos(angle), math.sin(angle)
-    spots = {"A": (0, 0), "B": (2, 0), "C": (5, 0), "D": (1, 2), "E": (3, 2), "F": (6, 2)}
-    points = ", ".join(f"{p}: [{x * c - y * s!r}, {x * s + y * c!r}]" for p, (x, y) in spots.items())
-    text = three_cranks("6, 2")
-    return text.replace(text[text.index("points:") : text.index("\njoints:")], f"points: {{{points}}}")
-
-
-FIVE_BAR = scene(
-    "points: {A: [0, 0], B: [1, 2], C: [3, 3], D: [5, 2], E: [6, 0]}\n"
-    "joints:\n"
-    "  - {pin: [0, 1], at: A}\n"
-    "  - {pin: [1, 2], at: B}\n"
-    "  - {pin: [2, 3], at: C}\n"
-    "  - {pin: [3, 4], at: D}\n"
-    "  - {pin: [4, 0], at: E}\n",
-    torques(4, 1),
-)
-
-TRIANGLE = scene(
-    "points: {A: [0, 0], B: [4, 0], C: [1, 3]}\n"
-    "joints:\n  - {pin: [0, 1], at: A}\n  - {pin: [0, 2], at: B}\n  - {pin: [1, 2], at: C}\n",
-    torques(2, 1),
-)
-
-TRUSS = scene(
-    "points: {A: [0, 0], B: [4, 0], C: [1, 0]}\n"
-    "joints:\n  - {pin: [0, 1], at: A}\n  - {pin: [0, 2], at: B}\n  - {pin: [1, 2], at: C}\n",
-    torques(2, 1),
-)
-
-
-def eight_bar(points: str, edges: str, loads: str) -> str:
+def pinned(points: str, edges: str, loads: str) -> str:
     """Links from 0, pinned in the pattern of a graph, pins A, B, C, ... in its order."""
     pins = [f"  - {{pin: [{e[0]}, {e[1]}], at: {chr(65 + k)}}}\n" for k, e in enumerate(edges.split())]
     places = ", ".join(f"{chr(65 + k)}: [{p}]" for k, p in enumerate(points.split("; ")))
     return scene(f"points: {{{places}}}\njoints:\n{''.join(pins)}", loads)
 
 
-BUTTERFLY = eight_bar(
+CRANKS = "01 02 03 14 24 34"
+
+
+def three_cranks(third: str) -> str:
+    """A coupler on three cranks; the end of the third as given."""
+    return pinned(f"0, 0; 2, 0; 5, 0; 1, 2; 3, 2; {third}", CRANKS, torques(2, 1))
+
+
+def turned_cranks(angle: float) -> str:
+    """The same with all points turned by an angle in radians, as a program writes them."""
+    c, s = math.cos(angle), math.sin(angle)
+    spots = ((0, 0), (2, 0), (5, 0), (1, 2), (3, 2), (6, 2))
+    return pinned("; ".join(f"{x * c - y * s!r}, {x * s + y * c!r}" for x, y in spots), CRANKS, torques(2, 1))
+
+
+FIVE_BAR = pinned("0, 0; 1, 2; 3, 3; 5, 2; 6, 0", "01 12 23 34 40", torques(4, 1))
+TRIANGLE = pinned("0, 0; 4, 0; 1, 3", "01 02 12", torques(2, 1))
+TRUSS = pinned("0, 0; 4, 0; 1, 0", "01 02 12", torques(2, 1))
+BUTTERFLY = pinned(
     "6, 1; 1, -1; 11, -1; 4, 3; 8, 3; 7, 9; -1, 4; 3, 6; 11, 4; 9, 6",
     "01 04 05 16 17 23 24 26 35 37",
     "M4: {torque: 60, link: 4}, M5: {torque: unknown, link: 5}",
 )
-FLIER = eight_bar(
+FLIER = pinned(
     "0, 0; 6, -1; 9, 1; 2, 5; 4, 2; 7, 6; 5, 8; 1, 9; 3, 7; 8, 4",
     "01 06 07 14 23 26 27 34 45 57",
     torques(7, 1),
