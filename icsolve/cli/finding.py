@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from icsolve.errors import Status
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 SCHEMA = "icsolve/find/1"
 WORDS = ("dead", "max")
+EQUILIBRIUM = ("rest", "neutral", "hold")
+"""Of loads that are all known."""
 KINDS = {
     "dead": Status.DEAD_CENTRE,
     "limit": "limit",
@@ -77,7 +79,7 @@ def finding(case: Case, word: str, varied: Mapping[str, Values], driven: Mapping
 
     columns = columns_of(case, varied, driven)
     own = along_of(columns)
-    if word in _EQUILIBRIUM:
+    if word in EQUILIBRIUM:
         values = columns.arrays[own]
         return _equilibrium(case, word, own, float(values.min()), float(values.max()))
     return _places(case, word, columns.names[own], varied, driven)
@@ -232,37 +234,23 @@ def _equilibrium(case: Case, word: str, along: str, low: float, high: float) -> 
         raise RequestError(f"--find neutral varies a load's number, as loads.P, not {along}")
     found = [
         {"kind": word, "at": {along: one.value + 0.0}, "error": {along: one.error}, **told}
-        for one, told in _EQUILIBRIUM[word](case, along, low, high)
+        for one, told in _found(case, word, along, low, high)
     ]
     return Finding(word, along, found)
 
 
-def _rest(case: Case, along: str, low: float, high: float) -> Iterable[tuple[Any, dict[str, Any]]]:
-    from icsolve.answer.equilibrium import stability_dict
-    from icsolve.solve.positions import find_along
+def _found(
+    case: Case, word: str, along: str, low: float, high: float
+) -> Iterable[tuple[Any, dict[str, Any]]]:
+    """Each place with what is told of it."""
+    if word == "rest":
+        from icsolve.answer.equilibrium import stability_dict
+        from icsolve.solve.positions import find_along
 
-    for one in find_along(case, along, low, high):
-        yield one, stability_dict(one.stability, one.stiffness, one.why)
+        for one in find_along(case, along, low, high):
+            yield one, stability_dict(one.stability, one.stiffness, one.why)
+        return
+    from icsolve.solve.stability import holding_values, neutral_values
 
-
-def _neutral(case: Case, along: str, low: float, high: float) -> Iterable[tuple[Any, dict[str, Any]]]:
-    from icsolve.solve.stability import neutral_values
-
-    return _changes(neutral_values(case, along, low, high))
-
-
-def _hold(case: Case, along: str, low: float, high: float) -> Iterable[tuple[Any, dict[str, Any]]]:
-    from icsolve.solve.stability import holding_values
-
-    return _changes(holding_values(case, along, low, high))
-
-
-def _changes(found: Iterable[Any]) -> Iterable[tuple[Any, dict[str, Any]]]:
-    return ((one, {"from": one.before, "to": one.after}) for one in found)
-
-
-_EQUILIBRIUM: dict[str, Callable[[Case, str, float, float], Iterable[tuple[Any, dict[str, Any]]]]] = {
-    "rest": _rest,
-    "neutral": _neutral,
-    "hold": _hold,
-}
+    for change in (neutral_values if word == "neutral" else holding_values)(case, along, low, high):
+        yield change, {"from": change.before, "to": change.after}

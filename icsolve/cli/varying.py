@@ -11,7 +11,7 @@ import click
 from icsolve.cli.options import Verb
 from icsolve.cli.output import watched
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, refusing
-from icsolve.files import can_fork, check_free, reading_text, started, write_whole
+from icsolve.files import can_fork, check_free, started, write_whole
 
 if TYPE_CHECKING:
     from icsolve.grade.case_store import CaseStore
@@ -79,7 +79,7 @@ def _all(
         if varied is not None:
             some = True
             code = max(code, _one(varied, people, os.path.join(output, name), figures, force, quiet))
-        elif "$" in _text(case_store.paths[name]):
+        elif "$" in case_store.text(name):
             code = max(code, _unreadable(case_store, name))
     if not some:
         complain(
@@ -87,11 +87,6 @@ def _all(
         )
         return max(code, UNREADABLE)
     return code
-
-
-def _text(path: str) -> str:
-    with reading_text(path, encoding="utf-8", errors="replace") as file:
-        return file.read()
 
 
 def _unreadable(case_store: CaseStore, name: str) -> int:

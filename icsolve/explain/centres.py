@@ -161,9 +161,8 @@ def _blocks(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio) -> Ite
                 f" is a point of links {ratio.of} and {ratio.link}, with one velocity; {_sense(ratio)}.",
             )
             yield from _distances(known, figures, (own, common, other), ratio)
-            spans: Expr = Quotient(Spanned(own, common), Spanned(other, common))
             numbers = Quotient(*(_measured(known, figures, ratio, n) for n in (0, 1)))
-            yield formula(left, _signed(spans, ratio), _signed(numbers, ratio), value)
+            yield formula(left, _by_distances(known, ratio), _signed(numbers, ratio), value)
         case "slides":
             yield words(
                 f"Link {ratio.link} slides, so all of it moves as ",
@@ -171,7 +170,7 @@ def _blocks(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio) -> Ite
                 f" does: {_heading(figures, ratios, ratio.link)}.",
             )
             yield from _distances(known, figures, (own, common), ratio)
-            yield formula(left, _signed(Spanned(own, common), ratio), figures.distance(ratio.value))
+            yield formula(left, _by_distances(known, ratio), figures.distance(ratio.value))
         case "drives":
             yield words(
                 "",
@@ -179,9 +178,8 @@ def _blocks(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio) -> Ite
                 f" of link {ratio.link} moves as link {ratio.of}: {_heading(figures, ratios, ratio.of)}.",
             )
             yield from _distances(known, figures, (other, common), ratio)
-            spans = Quotient(Num("1"), Spanned(other, common))
             numbers = Quotient(Num("1"), _measured(known, figures, ratio, 1))
-            yield formula(left, _signed(spans, ratio), _signed(numbers, ratio), value)
+            yield formula(left, _by_distances(known, ratio), _signed(numbers, ratio), value)
         case "glides":
             yield from _gliding(known, figures, ratios, ratio, left)
 
@@ -279,7 +277,8 @@ def worked_speeds(known: Known, figures: Figures) -> Iterable[Section]:
 
 def _by_distances(known: Known, ratio: Ratio) -> Expr:
     """A ratio of speeds by the distances of its centres."""
-    if ratio.rope is not None or ratio.screw is not None:
+    tied = ratio.rope is not None or ratio.screw is not None
+    if tied or (ratio.kind not in ("turns", "slides", "drives") and ratio.value != 1.0):
         return Quotient(motion_name(known, ratio.link), motion_name(known, ratio.of))
     own, other, common = (centre_name(known, pair) for pair in ratio.pairs)
     match ratio.kind:
@@ -289,11 +288,7 @@ def _by_distances(known: Known, ratio: Ratio) -> Expr:
             return _signed(Spanned(own, common), ratio)
         case "drives":
             return _signed(Quotient(Num("1"), Spanned(other, common)), ratio)
-    return (
-        Num("1")
-        if ratio.value == 1.0
-        else Quotient(motion_name(known, ratio.link), motion_name(known, ratio.of))
-    )
+    return Num("1")
 
 
 def _speed(known: Known, figures: Figures, link: str, value: float) -> Expr:

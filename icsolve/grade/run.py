@@ -130,7 +130,9 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
     roster = read_roster(job.roster, lambda at, why: issues.note(job.roster, at, why)) if job.roster else None
     if job.variants:
         _keep_to_record(job, case_store, roster, issues)
-    overrides = _overrides(job, case_store, roster)
+    overrides: dict[tuple[str, str], Override] = {}
+    for path in job.overrides:  # a later file goes over an earlier one
+        overrides |= read_overrides(path, case_store, roster)
     store = Store()
     try:
         imported = Import(store, case_store, issues, roster, progress, job.dates)
@@ -153,14 +155,6 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
     if neighbours is not None:
         _note_other_seeds(job, case_store, marker.given, issues)
     return _graded(marker, issues, case_store, imported.count, len(students))
-
-
-def _overrides(job: Job, case_store: CaseStore, roster: Roster | None) -> dict[tuple[str, str], Override]:
-    """The marks given by hand; a later file goes over an earlier one."""
-    found: dict[tuple[str, str], Override] = {}
-    for path in job.overrides:
-        found |= read_overrides(path, case_store, roster)
-    return found
 
 
 def _note_unmet(overrides: Overrides, marker: Marker, job: Job, issues: Issues) -> None:

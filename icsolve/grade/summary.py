@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 
+from icsolve.grade.judge import VERDICTS
 from icsolve.grade.mistakes import CODES
 from icsolve.grade.results import ResultRow, marks_of
 from icsolve.grade.run import Graded
@@ -81,11 +82,7 @@ def by_count(mistakes: Counter[str]) -> list[tuple[str, int]]:
 
 def ordered_verdicts(counts: Counts) -> list[tuple[str, int]]:
     """The verdicts that occur, in the order right, wrong, invalid, review, missing."""
-    return [
-        (v, counts.verdicts[v])
-        for v in ("right", "wrong", "invalid", "review", "missing")
-        if counts.verdicts[v]
-    ]
+    return [(verdict, counts.verdicts[verdict]) for verdict in VERDICTS if counts.verdicts[verdict]]
 
 
 def blocks(counts: Counts) -> Iterator[str]:
@@ -206,7 +203,6 @@ body{color:#e6e9ed;background:#14181d}a{color:#8ab4f8}td,th{border-color:#3d444d
 .bar{fill:#7fa3cc}.far{fill:#8d97a3}.mark{stroke:#f2b8b5}.good{stroke:#81c995}}
 @media print{h2{break-after:avoid}svg,table{break-inside:avoid}}
 """
-_HEADS = ("right", "wrong", "invalid", "review", "missing")
 _TEXTS = 10
 """Texts of a question that are shown: the commonest."""
 
@@ -271,12 +267,12 @@ def _overview(graded: Graded, found: Statistics | None) -> str:
         rows.append([f'<a href="#q{n}">{escape(item)}</a>', *_cells([counts]), *extra])
     if len(graded.counts) > 1:
         rows.append(["all questions", *_cells(list(graded.counts.values())), *([""] if found else [])])
-    heads = ["question", *_HEADS, "mean mark", *(["discrimination"] if found is not None else [])]
+    heads = ["question", *VERDICTS, "mean mark", *(["discrimination"] if found is not None else [])]
     return _table("Marks by question", heads, rows, range(1, len(heads)))
 
 
 def _cells(counts: list[Counts]) -> list[str]:
-    cells = [str(sum(c.verdicts[head] for c in counts)) for head in _HEADS]
+    cells = [str(sum(c.verdicts[head] for c in counts)) for head in VERDICTS]
     score, most = sum(c.score for c in counts), sum(c.max_score for c in counts)
     return [*cells, _share(score / most if most else None)]
 

@@ -54,12 +54,8 @@ class WantedValue(NamedTuple):
     reactions: bool = False
 
 
-class _MissingError(Exception):
-    """The answer has no such value; ``verdict`` is what the row says then."""
-
-    def __init__(self, why: str, verdict: str = DISAGREES) -> None:
-        super().__init__(why)
-        self.verdict = verdict
+class _NotAskedError(LookupError):
+    """A value that was not solved for."""
 
 
 def wanted(case: Case) -> WantedValue:
@@ -82,10 +78,7 @@ def value_of(answer: Answer, target: Target) -> tuple[float, ...]:
 
     Raises LookupError, with a sentence, where the answer has no such value.
     """
-    try:
-        return _found(answer, Expected("", target, ()))
-    except _MissingError as missing:
-        raise LookupError(str(missing)) from None
+    return _found(answer, Expected("", target, ()))
 
 
 def _row(answer: Answer, expected: Expected) -> Row:
@@ -94,8 +87,9 @@ def _row(answer: Answer, expected: Expected) -> Row:
         if expected.holds is not None:
             return _verdict(expected, published, *_range(answer, expected, expected.holds))
         values = _found(answer, expected)
-    except _MissingError as missing:
-        return Row(expected.key, published, "", missing.verdict, str(missing))
+    except LookupError as missing:
+        verdict = NOT_EXAMINED if isinstance(missing, _NotAskedError) else DISAGREES
+        return Row(expected.key, published, "", verdict, str(missing))
     return _verdict(expected, published, _shown(values, expected), _agrees(values, expected))
 
 
@@ -112,7 +106,7 @@ def _range(answer: Answer, expected: Expected, ends: tuple[Number | None, Number
     assert isinstance(expected.target, LoadIs)
     found = answer.answers.get(expected.target.load)
     if found is None or found.holds is None:
-        raise _MissingError(f"{expected.target.load} holds over no range: it has one value, or is given")
+        raise LookupError(f"{expected.target.load} holds over no range: it has one value, or is given")
     agrees = all(
         math.isinf(end)
         if number is None
@@ -131,7 +125,7 @@ def _ends(low: str | None, high: str | None) -> str:
 def _resting(answer: Answer, path: str, expected: Expected) -> float:
     """Of the positions of equilibrium (those of the kind that is meant) the nearest to the published one."""
     if answer.positions is None:
-        raise _MissingError("positions of equilibrium were not asked for", NOT_EXAMINED)
+        raise _NotAskedError("positions of equilibrium were not asked for")
     near = expected.value[0].value if expected.value else 0.0
     turn = 360.0 if path.startswith("angles.") else math.inf
     found = []
@@ -143,7 +137,7 @@ def _resting(answer: Answer, path: str, expected: Expected) -> float:
         found.append(near + _off(near, low, high, turn))
     if not found:
         kind = f" {expected.stability}" if expected.stability else ""
-        raise _MissingError(f"there is no{kind} position of equilibrium with {path}")
+        raise LookupError(f"there is no{kind} position of equilibrium with {path}")
     return min(found, key=lambda value: abs(value - near))
 
 
@@ -211,7 +205,9 @@ def _width(expected: Expected, number: Number, size: float) -> float:
 def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
     """The value that the published one is about; positive in the published sense where that is in words."""
     if answer.spatial is not None:
-        return (_in_space(answer, expected),)
+        from icsolve.report.published import found_in_space
+
+        return (found_in_space(answer, expected.target, expected.sense),)
     match expected.target:
         case LoadIs(load):
             return (_load(answer, load, expected.sense),)
@@ -231,26 +227,14 @@ def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
             return (_of_bodies(answer, target),)
 
 
-def _in_space(answer: Answer, expected: Expected) -> float:
-    from icsolve.report.published import found_in_space
-
-    try:
-        return found_in_space(answer, expected.target, expected.sense)
-    except LookupError as error:
-        raise _MissingError(str(error)) from None
-
-
 def _of_bodies(answer: Answer, target: OfBodies) -> float:
     from icsolve.report.published import found_value
 
     if answer.reactions is None and not isinstance(target, FrictionRadiusIs):
         if any(found.holds is not None for found in answer.answers.values()):
-            raise _MissingError("at rest friction leaves the reactions open: give `motion`")
-        raise _MissingError("reactions were not asked for", NOT_EXAMINED)
-    try:
-        return found_value(answer, target)
-    except LookupError as error:
-        raise _MissingError(str(error)) from None
+            raise LookupError("at rest friction leaves the reactions open: give `motion`")
+        raise _NotAskedError("reactions were not asked for")
+    return found_value(answer, target)
 
 
 def _load(answer: Answer, name: str, sense: str | None) -> float:
@@ -281,12 +265,12 @@ def _load_value(answer: Answer, name: str) -> float:
     if isinstance(value, Like):
         times = 1.0 if value.times is None else value.times.value
         return times * _load_value(answer, value.load)
-    raise _MissingError(f"{name} was not solved for")
+    raise LookupError(f"{name} was not solved for")
 
 
 def _found_value(name: str, found: Found) -> float:
     if found.holds is not None:
-        raise _MissingError(f"{name} {holding(found, _digits)}: give `motion` for one value")
+        raise LookupError(f"{name} {holding(found, _digits)}: give `motion` for one value")
     return found.value
 
 
@@ -297,7 +281,7 @@ def _named_load(case: Case, name: str) -> Load | None:
 def _centre(answer: Answer, pair: Pair) -> Centre:
     centre = answer.centres.get(pair) or answer.centres.get((pair[1], pair[0]))
     if centre is None:
-        raise _MissingError(f"the centre {pair_name(answer.case, pair)} was not found")
+        raise LookupError(f"the centre {pair_name(answer.case, pair)} was not found")
     return centre
 
 
@@ -305,7 +289,7 @@ def _place(answer: Answer, pair: Pair, kind: str) -> tuple[float, ...]:
     centre = _centre(answer, pair)
     if centre.kind == kind:
         return centre.place
-    raise _MissingError(f"the centre {pair_name(answer.case, pair)} {_otherwise(centre)}")
+    raise LookupError(f"the centre {pair_name(answer.case, pair)} {_otherwise(centre)}")
 
 
 def _otherwise(centre: Centre) -> str:
@@ -321,23 +305,23 @@ def _end(answer: Answer, end: Pair | str) -> tuple[float, ...]:
     if not isinstance(end, str):
         return _place(answer, end, "at")
     if end not in answer.points:
-        raise _MissingError(f"the point {end} was not found")
+        raise LookupError(f"the point {end} was not found")
     return answer.points[end]
 
 
 def _rate(answer: Answer, link: str) -> float:
     rate = (answer.rates or {}).get(link)
     if rate is None:
-        raise _MissingError(f"the rate of link {link} was not found")
+        raise LookupError(f"the rate of link {link} was not found")
     if isinstance(rate, str):
-        raise _MissingError(f"the rate of link {link} is undetermined: {rate}")
+        raise LookupError(f"the rate of link {link} is undetermined: {rate}")
     return rate
 
 
 def _ratio(answer: Answer, over: str, under: str) -> float:
     rate = _rate(answer, under)
     if rate == 0.0:
-        raise _MissingError(f"link {under} does not turn: w{over}/w{under} has no value")
+        raise LookupError(f"link {under} does not turn: w{over}/w{under} has no value")
     return _rate(answer, over) / rate
 
 
@@ -345,9 +329,9 @@ def _speed(answer: Answer, point: str, link: str, sense: str | None) -> float:
     """Magnitude of a velocity; negative where it does not go the published way."""
     velocity = (answer.velocities or {}).get((point, link))
     if velocity is None:
-        raise _MissingError(f"the velocity of {point} on link {link} was not found")
+        raise LookupError(f"the velocity of {point} on link {link} was not found")
     if isinstance(velocity, str):
-        raise _MissingError(f"the velocity of {point} on link {link} is undetermined: {velocity}")
+        raise LookupError(f"the velocity of {point} on link {link} is undetermined: {velocity}")
     size = math.hypot(*velocity)
     way = None if sense is None or size == 0.0 else bearing(sense, None, answer.points)
     if sense is None or way is None:

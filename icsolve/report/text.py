@@ -241,20 +241,15 @@ def _rates(answer: Answer, digits: int) -> list[str]:
         return []
     unit = "Angular velocities, rad/s" if _has_speed(answer.case) else "Angular velocities, scaled"
     errors = answer.errors.get("rates", {})
-    rows = [(f"w{link}", _rate(rate, errors.get(link), digits)) for link, rate in answer.rates.items()]
-    return [unit, *_table([name for name, _ in rows], [value for _, value in rows])]
+    rates = []
+    for link, rate in answer.rates.items():
+        certain = digits if isinstance(rate, str) else _certain(abs(rate), errors.get(link), digits)
+        rates.append(_signed(rate, _formatter(certain)))
+    return [unit, *_table([f"w{link}" for link in answer.rates], rates)]
 
 
 def _has_speed(case: Case) -> bool:
     return any(motion.speed is not None for motion in case.motion)
-
-
-def _rate(rate: float | str, error: float | None, digits: int) -> str:
-    if isinstance(rate, str):
-        return f"undetermined: {rate}"
-    if rate == 0.0:
-        return "0"
-    return f"{_shown(abs(rate), error, digits)} {'ccw' if rate > 0.0 else 'cw'}"
 
 
 def _velocities(answer: Answer, digits: int) -> list[str]:
