@@ -6,7 +6,6 @@ that have some put annotations off (``from __future__``), so that making one eva
 
 from __future__ import annotations
 
-from functools import cache
 from typing import TYPE_CHECKING, Any
 
 __all__ = ["NamedTuple", "cached_property", "dataclass", "field", "replace"]
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
     from typing import NamedTuple
 else:
     from operator import itemgetter
-    from types import CodeType, FunctionType
+    from types import FunctionType
 
     try:
         from _collections import _tuplegetter as field_of
@@ -64,19 +63,37 @@ else:
             defaults = {field: inside[field] for field in fields if field in inside}
             if fields[len(fields) - len(defaults) :] != tuple(defaults):
                 raise TypeError(f"{name}: a field without a default follows one that has one")
-            code = _maker_of(len(fields)).replace(co_varnames=("_cls", *fields))
-            new = FunctionType(code, {"_new": tuple.__new__}, "__new__", tuple(defaults.values()))
+            code = _MAKERS[len(fields)].__code__.replace(co_varnames=("_cls", *fields))
+            new = FunctionType(code, _MADE_BY, "__new__", tuple(defaults.values()))
             new.__annotations__ = annotations
-            inside |= {field: field_of(place, "") for place, field in enumerate(fields)}
+            inside.update(zip(fields, _GETTERS, strict=False))
             inside |= {"_fields": fields, "_field_defaults": defaults, "__match_args__": fields}
             inside |= {"__new__": new, "__slots__": ()}
             return type(name, tuple(_Fields if base is NamedTuple else base for base in bases), inside)
 
-    @cache
-    def _maker_of(fields: int) -> CodeType:
-        """What makes a tuple of so many fields."""
-        names = "".join(f"_{place}, " for place in range(fields))
-        return eval(f"lambda _cls, {names}: _new(_cls, ({names}))").__code__
+    class _Makers(dict):
+        """What makes a tuple of so many fields; the usual ones need not be compiled at each start."""
+
+        def __missing__(self, fields: int) -> FunctionType:
+            names = "".join(f"_{place}, " for place in range(fields))
+            return eval(f"lambda _cls, {names}: _new(_cls, ({names}))", _MADE_BY)
+
+    _new = tuple.__new__
+    _MADE_BY = {"_new": _new}
+    _USUAL = (
+        lambda _cls, a: _new(_cls, (a,)),
+        lambda _cls, a, b: _new(_cls, (a, b)),
+        lambda _cls, a, b, c: _new(_cls, (a, b, c)),
+        lambda _cls, a, b, c, d: _new(_cls, (a, b, c, d)),
+        lambda _cls, a, b, c, d, e: _new(_cls, (a, b, c, d, e)),
+        lambda _cls, a, b, c, d, e, f: _new(_cls, (a, b, c, d, e, f)),
+        lambda _cls, a, b, c, d, e, f, g: _new(_cls, (a, b, c, d, e, f, g)),
+        lambda _cls, a, b, c, d, e, f, g, h: _new(_cls, (a, b, c, d, e, f, g, h)),
+        lambda _cls, a, b, c, d, e, f, g, h, i: _new(_cls, (a, b, c, d, e, f, g, h, i)),
+        lambda _cls, a, b, c, d, e, f, g, h, i, j: _new(_cls, (a, b, c, d, e, f, g, h, i, j)),
+    )
+    _MAKERS = _Makers(enumerate(_USUAL, 1))
+    _GETTERS = [field_of(place, "") for place in range(64)]
 
     NamedTuple = type.__new__(_Maker, "NamedTuple", (), {})
 
