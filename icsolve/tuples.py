@@ -1,4 +1,5 @@
-"""Named tuples and frozen classes that cost little to make: those of `typing` and `dataclasses`, uncompiled.
+"""Named tuples and frozen classes that cost little to make: those of `typing` and `dataclasses`, uncompiled;
+and modules that are imported on use.
 
 A hundred are made at each start, and each by `typing.NamedTuple` takes as long as ten plain classes. Modules
 that have some put annotations off (``from __future__``), so that making one evaluates none.
@@ -6,9 +7,26 @@ that have some put annotations off (``from __future__``), so that making one eva
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-__all__ = ["NamedTuple", "cached_property", "dataclass", "field", "replace"]
+__all__ = ["NamedTuple", "Room", "cached_property", "dataclass", "field", "replace"]
+
+
+class Room:
+    """A module that is imported when something of it is first used: words of refusals, what few cases need.
+
+    Where it stands a type checker is given the import itself.
+    """
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def __getattr__(self, name: str) -> Any:
+        value = getattr(import_module(self._name), name)
+        setattr(self, name, value)
+        return value
+
 
 if TYPE_CHECKING:
     from dataclasses import dataclass, field, replace

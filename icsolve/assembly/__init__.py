@@ -7,9 +7,9 @@ construction again with another arithmetic (arrays, numbers on a tape, more digi
 from __future__ import annotations
 
 from collections.abc import Collection
+from typing import TYPE_CHECKING
 
 from icsolve.assembly.conditions import agrees, size_of
-from icsolve.assembly.refusals import compare, notes_of
 from icsolve.assembly.steps import Figure, Given, Placement, Step, place
 from icsolve.assembly.workspace import (
     GUIDE,
@@ -28,6 +28,12 @@ from icsolve.case import Case
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.plane import Point
+from icsolve.tuples import Room
+
+if TYPE_CHECKING:
+    from icsolve.assembly import refusals
+else:
+    refusals = Room("icsolve.assembly.refusals")
 
 __all__ = [
     "Figure",
@@ -116,7 +122,7 @@ def _compared(
     size = size_of(workspace, goal)
     if agrees(workspace, data, size) and all(d.kind in (GUIDE, LINE) for d in data):
         return ()
-    miss, offs = compare(workspace, steps, data, size)
+    miss, offs = refusals.compare(workspace, steps, data, size)
     if miss is not None:
         raise SceneError(miss.status, miss.message)
-    return notes_of(workspace, offs, frozenset(), True, size)
+    return refusals.notes_of(workspace, offs, frozenset(), True, size)

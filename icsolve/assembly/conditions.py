@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterable
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 from icsolve.assembly.loci import length_of
 from icsolve.assembly.workspace import (
@@ -32,9 +33,13 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.screws.joints import Points
 from icsolve.screws.plane import Point
-from icsolve.screws.ropes import rope_parts
 from icsolve.structure.topology import topology
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, Room
+
+if TYPE_CHECKING:
+    from icsolve.screws import ropes as rope_screws
+else:
+    rope_screws = Room("icsolve.screws.ropes")
 
 Unknown = tuple[str, int]
 """A coordinate: the point and 0 for x, 1 for y."""
@@ -109,7 +114,7 @@ def _mean(workspace: Workspace, datum: Datum, part: int) -> Condition:
 def _rope(workspace: Workspace, datum: Datum, part: int) -> Condition:
     """The rope's length less the given one; its pull at each place is the derivative by it."""
     rope = workspace.case.ropes[datum.ref]  # type: ignore[index]
-    parts = rope_parts(rope, workspace.points, workspace.frame.scale, workspace.arithmetic)  # type: ignore[arg-type]
+    parts = rope_screws.rope_parts(rope, workspace.points, workspace.frame.scale, workspace.arithmetic)  # type: ignore[arg-type]
     aways = [(0.0, 0.0), *(each.along for each in parts), (0.0, 0.0)]
     pulls = tuple((before[0] - after[0], before[1] - after[1]) for before, after in pairwise(aways))
     return Condition(length_of(workspace, datum) - workspace.length(datum), pulls)

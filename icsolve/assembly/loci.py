@@ -9,12 +9,17 @@ which must not be negative; callers test those.
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from icsolve.assembly.workspace import Datum, Key, LineDirection, Span, Workspace, X
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.screws.plane import Point
-from icsolve.screws.ropes import rope_length
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, Room
+
+if TYPE_CHECKING:
+    from icsolve.screws import ropes as rope_screws
+else:
+    rope_screws = Room("icsolve.screws.ropes")
 
 
 class PlacedCircle(NamedTuple):
@@ -236,7 +241,7 @@ def length_of(workspace: Workspace, datum: Datum, without: str = "") -> Scalar:
     """How long a rope is where the points are, without its parts at one (normalised)."""
     rope = workspace.case.ropes[datum.ref]  # type: ignore[index]
     points = {p: workspace.points[p] for p in rope.points if p != without}
-    return rope_length(rope, points, workspace.frame.scale, workspace.arithmetic, without)
+    return rope_screws.rope_length(rope, points, workspace.frame.scale, workspace.arithmetic, without)
 
 
 class Shifted(NamedTuple):

@@ -8,20 +8,35 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.assembly.conditions import size_of
 from icsolve.assembly.order import Order, order_of
-from icsolve.assembly.refusals import Miss, measure, mirrored, notes_of, plain
-from icsolve.assembly.steps import CLOSED_FORMS, Figure, Given, Meet, Step, leading_to, points_of
+from icsolve.assembly.steps import (
+    CLOSED_FORMS,
+    Figure,
+    Given,
+    Meet,
+    Miss,
+    Polar,
+    Step,
+    Turned,
+    leading_to,
+    points_of,
+)
 from icsolve.assembly.walk import EVEN, DeadEnd, Mode, Path, Walk, squared_distance
-from icsolve.assembly.workspace import Frame, Workspace, case_point, frame_of, names_of
+from icsolve.assembly.workspace import CORNER, RAY, Frame, Workspace, case_point, data_in, frame_of, names_of
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.plane import Point
-from icsolve.tuples import NamedTuple, replace
+from icsolve.tuples import NamedTuple, Room, replace
 from icsolve.wording.sentences import listed
+
+if TYPE_CHECKING:
+    from icsolve.assembly import refusals
+else:
+    refusals = Room("icsolve.assembly.refusals")
 
 SIDEWAYS = 0.05
 """Two ways are equally near where their distances from `near` have at least the ratio EVEN, and `near`
@@ -41,7 +56,7 @@ def refusal(walk: Walk) -> Miss:
     if walk.gave_up:
         steps = walk.order.steps
         forks = [step.target for step in steps if isinstance(step, Meet) and step.sign]
-        names = ", ".join(plain(key) for key in forks if key not in walk.near)
+        names = ", ".join(refusals.plain(key) for key in forks if key not in walk.near)
         message = f"the figure has too many open branches to try them all; give near: for some of {names}"
         return Miss(Status.AMBIGUOUS, message)
     first = walk.dead_ends[0]
@@ -135,8 +150,8 @@ def _promise(walk: Walk, chosen: Mode, end: DeadEnd) -> Miss:
         p for p in ours if squared_distance(ours[p], walk.near[p]) < squared_distance(theirs[p], walk.near[p])
     ]
     there = {p: _pair(case_point(workspace.frame, theirs[p])) for p in held[:MOST_LISTED]}
-    places = listed([f"{plain(p)} at ({at})" for p, at in there.items()])
-    away = measure(workspace, max(math.dist(theirs[p], walk.near[p]) for p in held))
+    places = listed([f"{refusals.plain(p)} at ({at})" for p, at in there.items()])
+    away = refusals.measure(workspace, max(math.dist(theirs[p], walk.near[p]) for p in held))
     message = (
         f"what lies at near: does not assemble: {end.miss.message}; the figure assembles only with {places}, "
         f"{away} from near: correct the data, or move near: there if that is meant"
@@ -152,9 +167,10 @@ def far_from_near(walk: Walk, chosen: Mode, points: tuple[str, ...]) -> tuple[st
     for p, near in walk.near.items():
         at = chosen.points.get(p)
         if at is not None and math.dist(at, near) > half:
+            off, there = refusals.measure(workspace, math.dist(at, near)), case_point(workspace.frame, at)
             out.append(
-                f"near: for {plain(p)} is {measure(workspace, math.dist(at, near))} from where the data put "
-                f"it, ({_pair(case_point(workspace.frame, at))}): farther than half the figure"
+                f"near: for {refusals.plain(p)} is {off} from where the data put it, ({_pair(there)}): "
+                "farther than half the figure"
             )
     return tuple(out)
 
@@ -193,7 +209,7 @@ def _listing(workspace: Workspace, rivals: list[Mode], points: tuple[str, ...]) 
         for step in rivals[0].steps
         if isinstance(step, Meet) and step.sign and step.target in forked
     ] or forked
-    lines = [f"{plain(p)}: {_listed(workspace, rivals, str(p))}" for p in forks]
+    lines = [f"{refusals.plain(p)}: {_listed(workspace, rivals, str(p))}" for p in forks]
     hint = _hint(workspace, rivals, str(next((p for p in forks if p not in workspace.case.near), forks[0])))
     return f"the figure assembles in several ways, {'; '.join(lines)}; {hint}"
 
@@ -213,10 +229,10 @@ def _hint(workspace: Workspace, rivals: list[Mode], point: str) -> str:
     example = _pair(case_point(workspace.frame, rivals[0].points[point]))
     if point in workspace.case.near:
         return (
-            f"near: for {plain(point)} is about as far from the one as from the other; "
+            f"near: for {refusals.plain(point)} is about as far from the one as from the other; "
             "move it nearer to the one that is meant"
         )
-    return f"add near: {{{plain(point)}: [{example}]}} for the one that is meant"
+    return f"add near: {{{refusals.plain(point)}: [{example}]}} for the one that is meant"
 
 
 def _pair(at: tuple[float, float]) -> str:
@@ -304,15 +320,26 @@ def _figure(walk: Walk, mode: Mode) -> Figure | Miss:
     """The figure of the mode that is meant; a miss where what lies at `near` is another."""
     order, workspace = walk.order, walk.workspace
     workspace.points = mode.points
-    miss = mirrored(workspace, mode.steps, walk.near, size_of(workspace, order.points))
-    if miss is not None:
-        return miss
+    turned = [
+        step
+        for step in mode.steps
+        if isinstance(step, Polar | Meet | Turned) and step.target in walk.near and _turns(step)
+    ]
+    if turned:
+        miss = refusals.mirrored(workspace, turned, walk.near, size_of(workspace, order.points))
+        if miss is not None:
+            return miss
     notes: tuple[str, ...] = ()
     if mode.offs:
         given = any(isinstance(step, Given) for step in order.steps)
-        notes = notes_of(workspace, mode.offs, walk.used, given, size_of(workspace, order.points))
+        notes = refusals.notes_of(workspace, mode.offs, walk.used, given, size_of(workspace, order.points))
     notes += far_from_near(walk, mode, order.points)
     return Figure(workspace.frame, {p: mode.points[p] for p in order.points}, mode.steps, notes, ())
+
+
+def _turns(step: Step) -> bool:
+    """Whether a step goes by an angle."""
+    return any(datum.kind in (RAY, CORNER) for datum in data_in(step))
 
 
 # --- every way in which the figure of a case assembles ---
@@ -419,13 +446,13 @@ def _ways(walk: Walk, order: Order, loose: list[str]) -> Ways:
     if walk.gave_up:
         notes.append(f"there are more ways: the search ended after {len(modes)}")
     elif not walk.complete:
-        names = "; ".join(listed([plain(t) for t in group.targets]) for group in _groups(order))
+        names = "; ".join(listed([refusals.plain(t) for t in group.targets]) for group in _groups(order))
         notes.append(
             f"not shown to be all: points {names} can only be found together, and the search of their places "
             "by exclusion came to an end before every part was empty or held one way"
         )
     if loose:
-        notes.append(f"nothing says where {listed([plain(p) for p in loose])} may be")
+        notes.append(f"nothing says where {listed([refusals.plain(p) for p in loose])} may be")
     frame = walk.workspace.frame
     picked = _choices(modes, order)
     digits = _digits(modes, picked, frame)

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING
 
 from icsolve.assembly.clusters import LooseFigure
 from icsolve.assembly.order import grow
-from icsolve.assembly.refusals import Miss, datum_words, measure, plain
-from icsolve.assembly.steps import Given, Group, Meet, Step, needs, newton_step
+from icsolve.assembly.refusals import datum_words, measure, plain
+from icsolve.assembly.steps import Given, Group, Meet, Miss, Step, needs, newton_step
 from icsolve.assembly.workspace import CORNER, LENGTH, LINE, ROPE, Frame, Key, Workspace, data_in, facts_of
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Set
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 from icsolve.assembly.clusters import ALL_CLUSTERS, LOOSE_CLUSTERS, NOBODY, Cluster, LooseFigure
 from icsolve.assembly.conditions import FigureEquation, Unknown, parts_of
-from icsolve.assembly.refusals import plain
 from icsolve.assembly.steps import Base, Group, Step, leading_to, points_of, sensed
 from icsolve.assembly.workspace import (
     CORNER,
@@ -33,8 +33,13 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.structure.plan import loose, matched, strongly_connected
 from icsolve.structure.topology import reached
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, Room
 from icsolve.wording.sentences import listed
+
+if TYPE_CHECKING:
+    from icsolve.assembly import refusals
+else:
+    refusals = Room("icsolve.assembly.refusals")
 
 
 class Order(NamedTuple):
@@ -229,7 +234,7 @@ def _parts(system: System) -> list[list[str]]:
 
 def _said(system: System, part: list[str], known: set[str]) -> str:
     """What one free part lacks."""
-    names = listed([plain(p) for p in part])
+    names = listed([refusals.plain(p) for p in part])
     unknowns = [(p, axis) for p in part for axis in (0, 1)]
     missing = sum(u not in system.matched for u in unknowns)
     rows = {i for u in unknowns for i in system.of[u]}
@@ -247,7 +252,7 @@ def _said(system: System, part: list[str], known: set[str]) -> str:
         )
     hint = ""
     if len(anchors) == 1 and not turned and missing == 1:
-        about = plain(next(iter(anchors)))
+        about = refusals.plain(next(iter(anchors)))
         hint = f"; nothing fixes how it is turned about {about}: give the direction of a pair"
     subject = "point" if len(part) == 1 else "points"
     verb = "is" if missing == 1 else "are"

@@ -5,7 +5,7 @@ for: the facts of a step that failed, and of redundant data, which are compared 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from icsolve.assembly.conditions import CONDITIONS, ROUNDING, parts_of, residual, scale_of
 from icsolve.assembly.loci import (
@@ -18,7 +18,7 @@ from icsolve.assembly.loci import (
     Tether,
     is_round,
 )
-from icsolve.assembly.steps import Base, Given, Group, Mean, Meet, Polar, Step, Turned, leading_to
+from icsolve.assembly.steps import Base, Given, Group, Mean, Meet, Miss, Polar, Step, Turned, leading_to
 from icsolve.assembly.workspace import (
     CORNER,
     GUIDE,
@@ -44,7 +44,6 @@ from icsolve.case import Number
 from icsolve.errors import Status
 from icsolve.numbers.arithmetic import Floats, turn_of
 from icsolve.numbers.units import numbers_in
-from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 
@@ -138,20 +137,6 @@ def _how(step: Step) -> str:
             return f"carried by the shape that {plain(base)} and {held} hold"
         case Group(_, equations):
             return f"together, by Newton's method on their {len(equations)} data"
-
-
-class Miss(NamedTuple):
-    """A way in which the figure does not assemble.
-
-    ``amount`` is how far off (normalised); ``loci`` the pair that turned out to be one locus;
-    ``vague`` where an earlier miss says more.
-    """
-
-    status: str
-    message: str
-    amount: float = math.inf
-    loci: frozenset[object] | None = None
-    vague: bool = False
 
 
 def measure(workspace: Workspace, length: float) -> str:
@@ -259,20 +244,18 @@ class Mirrored(Floats):
         return c, -s
 
 
+Turning = Polar | Meet | Turned
+"""The steps that an angle may turn."""
 ROUGH = 0.02
 """What `near` may be off, over the figure's size, whatever it says."""
 
 
 def mirrored(
-    workspace: Workspace, steps: tuple[Step, ...], near: Mapping[str, tuple[float, float]], size: float
+    workspace: Workspace, steps: Sequence[Turning], near: Mapping[str, tuple[float, float]], size: float
 ) -> Miss | None:
     """The first point whose `near` lies where the opposite angles would put it, and not where it is."""
     for step in steps:
-        if not isinstance(step, Polar | Meet | Turned) or step.target not in near:
-            continue
         angles = [d for d in data_in(step) if d.kind in (RAY, CORNER)]
-        if not angles:
-            continue
         p = str(step.target)
         at, other = workspace.points[p], _opposite(step, workspace, near[p])
         apart = math.dist(other, at)
@@ -281,9 +264,7 @@ def mirrored(
     return None
 
 
-def _opposite(
-    step: Polar | Meet | Turned, workspace: Workspace, near: tuple[float, float]
-) -> tuple[float, float]:
+def _opposite(step: Turning, workspace: Workspace, near: tuple[float, float]) -> tuple[float, float]:
     """Where the opposite angles would put a step's point: of two places the one nearer to its `near`."""
     scratch = Workspace(workspace.case, workspace.frame, Mirrored())
     scratch.points = dict(workspace.points)

@@ -5,7 +5,9 @@ Each puts points on a workspace (``place``), its ``targets``, and is made of oth
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Sequence
+from typing import TYPE_CHECKING
 
 from icsolve.assembly.conditions import FigureEquation, Unknown
 from icsolve.assembly.loci import (
@@ -32,9 +34,13 @@ from icsolve.assembly.workspace import (
 )
 from icsolve.case import Case
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, magnitude
-from icsolve.numbers.linear import Row, eliminate
 from icsolve.screws.plane import Point
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, Room
+
+if TYPE_CHECKING:
+    from icsolve.numbers import linear
+else:
+    linear = Room("icsolve.numbers.linear")
 
 
 class Given(NamedTuple):
@@ -218,10 +224,10 @@ class NewtonStep(NamedTuple):
     flatness: float
 
 
-def newton_step(values: Sequence[Scalar], rows: Sequence[Row]) -> NewtonStep:
+def newton_step(values: Sequence[Scalar], rows: Sequence[linear.Row]) -> NewtonStep:
     """The step of Newton's method for n equations with these values, and derivatives by column."""
     n = len(rows)
-    found = eliminate([{**row, n: 0.0 - f} for row, f in zip(rows, values, strict=True)], n)
+    found = linear.eliminate([{**row, n: 0.0 - f} for row, f in zip(rows, values, strict=True)], n)
     sizes = [magnitude(pivot) for pivot in found.pivots]
     flatness = 0.0 if found.free else min(sizes) / max(sizes)
     return NewtonStep([found.of(k).get(n, 0.0) for k in range(n)], flatness)
@@ -258,7 +264,7 @@ class Group(NamedTuple):
 
         assert isinstance(workspace.arithmetic, Balls)
 
-        def system(x: Sequence[Scalar]) -> tuple[list[Scalar], list[Row]]:
+        def system(x: Sequence[Scalar]) -> tuple[list[Scalar], list[linear.Row]]:
             self.put(workspace, x)
             return self.system(workspace)
 
@@ -270,7 +276,7 @@ class Group(NamedTuple):
         for k, target in enumerate(self.targets):
             workspace.points[target] = (x[2 * k], x[2 * k + 1])
 
-    def system(self, workspace: Workspace) -> tuple[list[Scalar], list[Row]]:
+    def system(self, workspace: Workspace) -> tuple[list[Scalar], list[linear.Row]]:
         """Values of the equations where the points are, and derivatives by the place of a coordinate."""
         place = {unknown: k for k, unknown in enumerate(self.unknowns())}
         rows = [equation.row(workspace) for equation in self.equations]
@@ -358,6 +364,20 @@ class Figure(NamedTuple):
     steps: tuple[Step, ...]
     notes: tuple[str, ...] = ()
     skipped: tuple[str, ...] = ()
+
+
+class Miss(NamedTuple):
+    """A way in which the figure does not assemble.
+
+    ``amount`` is how far off (normalised); ``loci`` the pair that turned out to be one locus;
+    ``vague`` where an earlier miss says more.
+    """
+
+    status: str
+    message: str
+    amount: float = math.inf
+    loci: frozenset[object] | None = None
+    vague: bool = False
 
 
 class Placement(NamedTuple):

@@ -13,28 +13,21 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.assembly.conditions import TOO_CLOSE, agrees, residual, size_of
 from icsolve.assembly.loci import PlacedCircle, gaps_of, is_ray, is_round, side
 from icsolve.assembly.order import Order
-from icsolve.assembly.refusals import (
-    Miss,
-    behind,
-    clash,
-    compare,
-    concentric,
-    degenerate,
-    merged,
-    parallel,
-    plain,
-    too_far,
-)
-from icsolve.assembly.steps import CLOSED_FORMS, Meet, Step, aims, needs
+from icsolve.assembly.steps import CLOSED_FORMS, Meet, Miss, Step, aims, needs
 from icsolve.assembly.workspace import Datum, Key, Workspace, normalised
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.screws.plane import Point
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, Room
+
+if TYPE_CHECKING:
+    from icsolve.assembly import refusals
+else:
+    refusals = Room("icsolve.assembly.refusals")
 
 T = TypeVar("T")
 
@@ -301,7 +294,7 @@ class Walk:
         data = [d for d in self.order.facts.data if all(p in mode.points for p in d.points)]
         if self.used.issuperset(data) and agrees(self.workspace, data, size):
             return None, {}
-        return compare(self.workspace, mode.steps, data, size)
+        return refusals.compare(self.workspace, mode.steps, data, size)
 
     def _beyond(self, path: Path) -> bool:
         """Whether a way is clearly farther from `near` already than the best mode so far."""
@@ -349,7 +342,7 @@ class Walk:
                 else:
                     self.dead_ends.append(DeadEnd(depth, miss, longer))
         except ZeroDivisionError:
-            self.dead_ends.append(DeadEnd(depth, degenerate(step, self.workspace), path))
+            self.dead_ends.append(DeadEnd(depth, refusals.degenerate(step, self.workspace), path))
 
     def _longer(self, path: Path, step: Step) -> Path:
         """The path with one more step, whose points are on the workspace."""
@@ -365,7 +358,7 @@ class Walk:
         elif not close:
             yield from self._put(self._branches(depth, path, step), in_doubt=True)
         else:
-            miss = merged(plain(step.targets[0]), *map(plain, close[0]))
+            miss = refusals.merged(refusals.plain(step.targets[0]), *map(refusals.plain, close[0]))
             self.dead_ends.append(DeadEnd(depth, miss, path))
 
     def _put(self, branches: Sequence[Step], in_doubt: bool) -> Iterator[Step]:
@@ -415,11 +408,11 @@ class Walk:
         if not is_round(step.second):
             if signs[0] != 0:
                 return [step]
-            miss = parallel(step, self.workspace)
+            miss = refusals.parallel(step, self.workspace)
         elif is_round(step.first) and signs[3] == 0:
-            miss = concentric(step, self.workspace)
+            miss = refusals.concentric(step, self.workspace)
         elif min(signs) < 0:
-            miss = too_far(step, self.workspace, [gap.value for gap in gaps])
+            miss = refusals.too_far(step, self.workspace, [gap.value for gap in gaps])
             self.workspace.points[step.target] = _middle_of_gap(step, self.workspace)
             path = self._longer(path, step)
         elif min(signs) == 0:
@@ -442,14 +435,14 @@ class Walk:
             exact = self.decimals.decided(step, partial(gaps_ahead_of, step))
             gaps = exact or [gap._replace(sign=int(gap.value > TOO_CLOSE)) for gap in gaps]
         worst = min(gaps, key=lambda gap: (gap.sign, gap.value))
-        return None if worst.sign > 0 else behind(step, self.workspace, worst.value)
+        return None if worst.sign > 0 else refusals.behind(step, self.workspace, worst.value)
 
     def _clash(self, depth: int) -> Miss | None:
         for datum in self.checks.get(depth, ()):
             off, ahead = residual(self.workspace, datum)
             reach = 1.0 + max(abs(c) for p in datum.points for c in self.workspace.points[p])
             if not ahead or abs(off) > COARSE * reach:
-                return clash(self.workspace, datum, off, ahead)
+                return refusals.clash(self.workspace, datum, off, ahead)
         return None
 
 

@@ -22,8 +22,7 @@ from icsolve.answer import Centre
 from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import Pair, ordered_pair
 from icsolve.kinematics.twists import Closure, is_dead, products, rate_sizes
-from icsolve.numbers.arithmetic import ROUNDING_NOISE, Arithmetic, Showing, all_vanish
-from icsolve.numbers.linear import ROUNDING
+from icsolve.numbers.arithmetic import ROUNDING, ROUNDING_NOISE, Arithmetic, Showing, all_vanish
 from icsolve.screws.joints import freedoms, joint_freedoms, joint_points, pitch_point
 from icsolve.screws.plane import Triple, cross, subtract
 from icsolve.structure.topology import Bond, Topology

@@ -5,6 +5,7 @@ equations of the whole scene. What is singular, redundant or rigid is said here.
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from icsolve.assembly.workspace import PlacedCase
 from icsolve.errors import SceneError, Status
@@ -21,11 +22,15 @@ from icsolve.numbers.arithmetic import Arithmetic, decider
 from icsolve.numbers.units import Number
 from icsolve.screws.joints import freedoms, guide_direction
 from icsolve.screws.plane import Triple, cross, subtract, velocity
-from icsolve.screws.ropes import end_twist, rope_parts
 from icsolve.structure.plan import Plan
 from icsolve.structure.topology import Topology
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, Room
 from icsolve.wording.sentences import near_structure, structure
+
+if TYPE_CHECKING:
+    from icsolve.screws import ropes as rope_screws
+else:
+    rope_screws = Room("icsolve.screws.ropes")
 
 
 class Motions(NamedTuple):
@@ -86,7 +91,7 @@ def by_loops(place: PlacedCase) -> Motions:
     """
     top, points, arithmetic = place.top, place.points, place.arithmetic
     bases = {k: freedoms(bond, points, arithmetic) for k, bond in enumerate(top.bonds)}
-    ropes = [rope_parts(rope, points, place.frame.scale, arithmetic) for rope in top.ropes]
+    ropes = [rope_screws.rope_parts(rope, points, place.frame.scale, arithmetic) for rope in top.ropes]
     motions = all_motions(top, bases, ropes=ropes, vanishes=decider(arithmetic))
     notes: tuple[str, ...] = ()
     exact = bool(motions.found.basis)
@@ -123,9 +128,9 @@ def with_ends(motions: Motions, place: PlacedCase) -> Motions:
         twists[screw.rotor] = tuple((0.0, 0.0, per * (x * vx + y * vy)) for vx, vy in both)
     for rope in case.ropes:
         if rope.is_free:
-            parts = rope_parts(rope, points, frame.scale, arithmetic)
+            parts = rope_screws.rope_parts(rope, points, frame.scale, arithmetic)
             each = [{link: ts[m] for link, ts in motions.twists.items()} for m in range(motions.mobility)]
-            twists[rope.end] = tuple(end_twist(parts, one) for one in each)
+            twists[rope.end] = tuple(rope_screws.end_twist(parts, one) for one in each)
     return motions._replace(twists=twists)
 
 

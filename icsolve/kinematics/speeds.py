@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import Case
@@ -22,9 +23,13 @@ from icsolve.numbers.arithmetic import (
     decider,
     zero_of,
 )
-from icsolve.numbers.linear import null_space
 from icsolve.screws.plane import Point, Triple, velocity
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, Room
+
+if TYPE_CHECKING:
+    from icsolve.numbers import linear
+else:
+    linear = Room("icsolve.numbers.linear")
 
 Twists = Mapping[str, Sequence[Triple]]
 STILL = ROUNDING_NOISE
@@ -127,7 +132,7 @@ def _combined(rows: list[Row], motions: int, a: Arithmetic) -> Speed:
     matrix = [[*values, -target] for values, target in rows]
     sizes = [math.ldexp(1.0, math.frexp(max(map(abs, row)))[1]) for row in matrix]  # rounds nothing
     scaled = [[v / s for v in row] for row, s in zip(matrix, sizes, strict=True)]
-    found = null_space(scaled, motions + 1, 1e-12, vanishes=decider(a))
+    found = linear.null_space(scaled, motions + 1, 1e-12, vanishes=decider(a))
     with_target = [vector for vector in found.basis if not a.vanishes(vector[-1], LOOSE)]
     if not with_target:
         message = "the motions given contradict each other: no motion has all of them."

@@ -15,9 +15,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
-from icsolve.numbers.arithmetic import Arithmetic, Scalar, all_vanish, decider, magnitude
-from icsolve.numbers.linear import ZERO, NullSpace, Vanishes, null_space
+from icsolve.numbers.arithmetic import ZERO, Arithmetic, Scalar, all_vanish, decider, magnitude
 from icsolve.screws.joints import transmitted, weights_of
 from icsolve.screws.plane import (
     Point,
@@ -33,10 +33,15 @@ from icsolve.screws.plane import (
     subtract,
     times,
 )
-from icsolve.screws.ropes import RopePart
 from icsolve.structure.plan import Group, Plan
 from icsolve.structure.topology import Bond, Topology
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, Room
+
+if TYPE_CHECKING:
+    from icsolve.numbers import linear
+    from icsolve.screws.ropes import RopePart
+else:
+    linear = Room("icsolve.numbers.linear")
 
 Bases = Mapping[int, tuple[Triple, ...]]
 ORIGIN: Triple = (0.0, 0.0, 0.0)
@@ -169,7 +174,7 @@ class LoopMotions(NamedTuple):
     """
 
     twists: dict[int, tuple[Triple, ...]]
-    found: NullSpace
+    found: linear.NullSpace
 
 
 def rope_row(top: Topology, tree: Tree, parts: Sequence[RopePart]) -> list[Scalar]:
@@ -189,7 +194,7 @@ def all_motions(
     bases: Bases,
     zero: float = ZERO,
     ropes: Sequence[Sequence[RopePart]] = (),
-    vanishes: Vanishes | None = None,
+    vanishes: linear.Vanishes | None = None,
 ) -> LoopMotions:
     """Null space of the loop equations of the bonds in ``bases`` and of ropes.
 
@@ -209,7 +214,7 @@ def all_motions(
     tree = span(top, sorted(bases), (top.ground,), bases, [group[0] for group in top.afloat])
     rows = [row[:-1] for row in loop_rows(top, tree, bases, {top.ground: ORIGIN})]
     rows += [rope_row(top, tree, parts) for parts in ropes]
-    found = null_space(rows, tree.columns, zero, 1.0, vanishes)
+    found = linear.null_space(rows, tree.columns, zero, 1.0, vanishes)
     motions = [twists_on(tree, (*rates, 0.0), {top.ground: ORIGIN}) for rates in found.basis]
     return LoopMotions({body: tuple(m[body] for m in motions) for body in tree.branches}, found)
 
@@ -439,7 +444,7 @@ def _eliminated(group: Group, top: Topology, bases: Bases, pool: _Pool, arithmet
     if not ends <= tree.branches.keys():  # part of it hangs on nothing known: all joints at once then
         return _open(group)
     rows = loop_rows(top, tree, bases, roots)
-    solved = null_space(rows, tree.columns + 1, unit=1.0, vanishes=decider(arithmetic))
+    solved = linear.null_space(rows, tree.columns + 1, unit=1.0, vanishes=decider(arithmetic))
     if len(solved.basis) != 1:
         return _open(group)
     rates = solved.basis[0]

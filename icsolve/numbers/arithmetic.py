@@ -82,6 +82,9 @@ class Showing(Arithmetic, Protocol):
         """The nearest double, and a bound on its error (in floats nothing is known of it: infinite)."""
 
 
+ROUNDING = 2.0**-53
+ZERO = 64 * ROUNDING
+"""A pivot below this fraction of the largest is zero, times the number of rows (normalised frame)."""
 ROUNDING_NOISE = 2e-14
 """Rounding of a few hundred operations, as a fraction; numbers on a tape know their own."""
 

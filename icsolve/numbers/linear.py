@@ -13,7 +13,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Callable, Mapping, Sequence
 
-from icsolve.numbers.arithmetic import Scalar, magnitude
+from icsolve.numbers.arithmetic import ZERO, Scalar, magnitude
 from icsolve.tuples import NamedTuple
 
 SINGULAR = 1e-14
@@ -88,11 +88,6 @@ def inverse(matrix: Sequence[Sequence[float]]) -> list[list[float]] | None:
 
 
 # --- null space, by complete pivoting -------------------------------------------------------------------
-
-
-ROUNDING = 2.0**-53
-ZERO = 64 * ROUNDING
-"""A pivot below this fraction of the largest is zero, times the number of rows (normalised frame)."""
 
 
 Vanishes = Callable[[Scalar, float], bool]

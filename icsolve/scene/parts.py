@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from decimal import Decimal
+from typing import TYPE_CHECKING
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
 from icsolve.case import Case, Number, Pair, link_order
@@ -27,14 +28,18 @@ from icsolve.scene.program import (
     slopes,
     unknown_values,
 )
-from icsolve.scene.sensitivity import numbers_of, unsettled
 from icsolve.screws.plane import Triple
 from icsolve.statics import power
 from icsolve.statics.power import Bounded, Outcome, Value, Wrench, known_value, load_value
-from icsolve.tuples import NamedTuple, cached_property, replace
+from icsolve.tuples import NamedTuple, Room, cached_property, replace
 from icsolve.wording import sentences
 from icsolve.wording.senses import sense_of, unit_of
 from icsolve.wording.sentences import link_words
+
+if TYPE_CHECKING:
+    from icsolve.scene import sensitivity
+else:
+    sensitivity = Room("icsolve.scene.sensitivity")
 
 
 class Power(NamedTuple):
@@ -183,7 +188,7 @@ class AnswerBuilder:
         notes = [sentences.EXPLAINED] if self.scene.explained else []
         notes += self.scene.ask(_notes)
         if self.scene.certain and self.given is None and self.case.profiles is None:
-            notes += unsettled(self.case, answers, self._change())
+            notes += sensitivity.unsettled(self.case, answers, self._change())
         return notes
 
     @cached_property
@@ -191,14 +196,14 @@ class AnswerBuilder:
         """Derivative of every unknown load by every number of the case: by the tape, and so near a singular
         position that a tape says nothing, by differences of many digits."""
         with suppress(SceneError, ZeroDivisionError):
-            numbers = numbers_of(self.case)
+            numbers = sensitivity.numbers_of(self.case)
             by_all = slopes(self.traced or evaluate_bounded(self.program))
             found = {load: {p: s for p, s in by.items() if p in numbers} for load, by in by_all.items()}
             told = found and all(any(by.values()) for by in found.values())  # nothing of an answer that is 0
             if not self.scene.certain or (told and self._tape_tells()):
                 return found
         by_load: dict[str, dict[str, float]] = {load: {} for load in self.unknowns}
-        for number in numbers_of(self.case).values():
+        for number in sensitivity.numbers_of(self.case).values():
             step = Decimal(repr(1e-40 * (abs(number.value) or 1.0)))
             with suppress(*OPEN, KeyError):
                 more, less = (self._with(number, way, PRECISIONS[-1]) for way in (step, -step))

@@ -22,7 +22,6 @@ from icsolve.errors import SceneError, Status
 from icsolve.kinematics import motion, speeds
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing
 from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, HalfUnits, MoreDigits
-from icsolve.numbers.tape import Tape
 from icsolve.scene import refusals
 from icsolve.screws.joints import points_of
 from icsolve.screws.plane import Triple
@@ -308,6 +307,8 @@ UNASKED = "no bound was asked for"
 
 def evaluate_bounded(program: Program) -> Bounded:
     """Evaluate a program on a tape."""
+    from icsolve.numbers.tape import Tape
+
     tape = Tape()
     return Bounded(evaluate(program, tape)[1], tape)
 

@@ -4,16 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from icsolve.case import Case, Weight
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import Motions
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, all_vanish
 from icsolve.screws.joints import Points
-from icsolve.screws.ropes import rope_parts
 from icsolve.statics import power
 from icsolve.structure.topology import Topology, reached, topology
+from icsolve.tuples import Room
 from icsolve.wording import sentences
+
+if TYPE_CHECKING:
+    from icsolve.screws import ropes as rope_screws
+else:
+    rope_screws = Room("icsolve.screws.ropes")
 
 
 def refuse_loose(case: Case) -> None:
@@ -60,7 +66,7 @@ HANGS = 2e-3
 
 def refuse_no_hanging(case: Case, points: Points, scale: float) -> None:
     """Refuse a weight at the free end of a rope whose last part does not hang, and parts without a length."""
-    ropes = {rope.end: rope_parts(rope, points, scale, FLOATS) for rope in case.ropes}
+    ropes = {rope.end: rope_screws.rope_parts(rope, points, scale, FLOATS) for rope in case.ropes}
     for load in case.loads:
         if isinstance(load, Weight) and load.link in ropes:
             x, y = ropes[load.link][-1].along

@@ -47,14 +47,17 @@ from icsolve.numbers.arithmetic import (
     sum_of_sizes,
     zero_of,
 )
-from icsolve.numbers.linear import null_space
-from icsolve.numbers.tape import Tape
 from icsolve.screws.plane import Point, Triple, force_wrench, unit_between
-from icsolve.screws.ropes import rope_parts
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, Room
 
 if TYPE_CHECKING:
     from icsolve.case.space import Load as SpatialLoad
+    from icsolve.numbers import linear
+    from icsolve.numbers.tape import Tape
+    from icsolve.screws import ropes as rope_screws
+else:
+    linear = Room("icsolve.numbers.linear")
+    rope_screws = Room("icsolve.screws.ropes")
 
 Points = Mapping[str, Point]
 L = TypeVar("L", bound="Load | SpatialLoad")
@@ -221,7 +224,7 @@ def _unit_wrench(load: Load, place: PlacedCase) -> tuple[Triple, Scalar]:
         case Force(over=Stretch() as over):
             return _spread(load, over, place)
         case Force(heading=AlongRope(rope)):
-            along = rope_parts(rope, points, frame.scale, arithmetic)[-1].along
+            along = rope_screws.rope_parts(rope, points, frame.scale, arithmetic)[-1].along
             return force_wrench(along, points[load.at]), 1.0
         case Force():
             return force_wrench(direction(load, points, arithmetic), points[load.at]), 1.0
@@ -549,8 +552,8 @@ def _solved_many(
     # over powers of two that bring their largest entries near 1
     sizes = [math.ldexp(1.0, math.frexp(max(map(abs, row.values)))[1]) for row in powers]
     count, rows = len(roots), [[v / s for v in row.values] for row, s in zip(powers, sizes, strict=True)]
-    free = null_space([row[:count] for row in rows], count, 1e-13, vanishes=decider(arithmetic))
-    whole = null_space(rows, count + 1, 1e-13, vanishes=decider(arithmetic))
+    free = linear.null_space([row[:count] for row in rows], count, 1e-13, vanishes=decider(arithmetic))
+    whole = linear.null_space(rows, count + 1, 1e-13, vanishes=decider(arithmetic))
     if whole.rank > free.rank:
         verdict = "no value" if free.rank < count and len(rows) <= count else "too few unknowns"
         return Solution(verdict, {}, idle, _workless(powers, roots))

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from icsolve.assembly.workspace import Frame, PlacedCase
 from icsolve.case import Case, Guide, Joint, Number, Pin, Rope, Screw, Slide, Thread
@@ -21,9 +22,13 @@ from icsolve.kinematics.motion import TURN
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.screws.joints import Points, freedoms, guide_direction, pitch_point, rolling_centres, transmitted
 from icsolve.screws.plane import Point, Triple, basis_at, shift, subtract, unit_between
-from icsolve.screws.ropes import RopePart, rope_parts, tension_ratios
 from icsolve.structure.topology import Bond, Topology, pairs_of, topology
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, Room
+
+if TYPE_CHECKING:
+    from icsolve.screws import ropes as rope_screws
+else:
+    rope_screws = Room("icsolve.screws.ropes")
 
 Force = tuple[Scalar, Scalar, Scalar]
 """Force and couple about the tie's point."""
@@ -75,7 +80,7 @@ class RopeTie(NamedTuple):
     """
 
     rope: Rope
-    parts: tuple[RopePart, ...]
+    parts: tuple[rope_screws.RopePart, ...]
     ratios: tuple[Scalar, ...]
     senses: tuple[float, ...]
 
@@ -144,7 +149,7 @@ def rope_ties(place: PlacedCase) -> tuple[RopeTie, ...]:
     """Every rope of a case, without friction: its tension is one."""
     found = []
     for rope in place.case.ropes:
-        parts = rope_parts(rope, place.points, place.frame.scale, place.arithmetic)
+        parts = rope_screws.rope_parts(rope, place.points, place.frame.scale, place.arithmetic)
         found.append(RopeTie(rope, parts, (1.0,) * len(parts), (0.0,) * (len(parts) - 1)))
     return tuple(found)
 
@@ -155,7 +160,9 @@ def slipping(position: Position, senses: Iterable[tuple[float, ...]]) -> Positio
     Raises SceneError where no number holds how much the pull of one grows.
     """
     ropes = [
-        tie._replace(ratios=tension_ratios(tie.rope, tie.parts, own, position.arithmetic), senses=own)
+        tie._replace(
+            ratios=rope_screws.tension_ratios(tie.rope, tie.parts, own, position.arithmetic), senses=own
+        )
         for tie, own in zip(position.ropes, senses, strict=True)
     ]
     return position._replace(ropes=tuple(ropes))
