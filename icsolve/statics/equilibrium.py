@@ -201,7 +201,11 @@ def value_of(row: Row, parameters: Mapping[int, Scalar]) -> Scalar:
 
 
 def equilibrium(
-    position: Position, ties: Sequence[Tie], balance: Balance, rubs: Sequence[Rub] = ()
+    position: Position,
+    ties: Sequence[Tie],
+    balance: Balance,
+    rubs: Sequence[Rub] = (),
+    general: General | None = None,
 ) -> Statics:
     """Solve the equilibrium of every link in the plane but the frame for what the joints transmit.
 
@@ -214,6 +218,7 @@ def equilibrium(
     ties : as of `ties_of`
     balance : the loads
     rubs : places whose friction is a parameter
+    general : the general solution, where it is known already
 
     Returns
     -------
@@ -222,7 +227,7 @@ def equilibrium(
     """
     bare = columns_of(tuple(ties), balance, position.arithmetic, position.ropes, tuple(rubs))
     ground = position.case.ground
-    return solve_statics(bare, actions_of(bare, position, balance.wrenches), ground)
+    return solve_statics(bare, actions_of(bare, position, balance.wrenches), ground, general)
 
 
 def columns_of(
@@ -241,7 +246,9 @@ def columns_of(
     )
 
 
-def solve_statics(bare: Equilibrium[T], actions: Iterable[Action], ground: str) -> Equilibrium[T]:
+def solve_statics(
+    bare: Equilibrium[T], actions: Iterable[Action], ground: str, general: General | None = None
+) -> Equilibrium[T]:
     """The statics with its equations and their general solution.
 
     Parameters
@@ -249,11 +256,13 @@ def solve_statics(bare: Equilibrium[T], actions: Iterable[Action], ground: str) 
     bare : ties, columns, scale
     actions : of all columns; those of the joints first
     ground : link without equations
+    general : the general solution, where it is known already
     """
     equations = _equations(actions, bare.known, ground)
-    rows = [row for _, rows in equations.values() for row in rows]
-    vanishes = decider(bare.arithmetic)
-    return bare._replace(equations=equations, general=eliminate(rows, bare.known, vanishes=vanishes))
+    if general is None:
+        rows = [row for _, rows in equations.values() for row in rows]
+        general = eliminate(rows, bare.known, vanishes=decider(bare.arithmetic))
+    return bare._replace(equations=equations, general=general)
 
 
 UNIQUE = 1e-9

@@ -91,6 +91,7 @@ def told(
     solved: Solved,
     power: Mapping[str, tuple[float, float]] | None,
     a: Showing,
+    asked: bool = True,
 ) -> FreeBodies:
     """What a solution of the free bodies says: reactions, pulls, the unknown loads beside those from power.
 
@@ -100,6 +101,7 @@ def told(
     solved : its equilibrium, with friction or without
     power : by unknown load its value by power and the bound of that [case units]; None where power says none
     a : arithmetic of the solution
+    asked : whether all reactions are asked for, or those alone of which something is to be said
 
     Raises
     ------
@@ -116,7 +118,9 @@ def told(
             bounds = bounds_of(statics, powers_of(statics, balance), position.twists, terms)
         both = witnesses(power, {root: value for root, (value, _) in shown.items()}, bounds)
         refuse_apart(both, position.slack)
-    reactions = reactions_of(position, statics, parameters, a)
+    reactions = Reactions()
+    if asked or statics.general.free or any(tie.joint.only_pushes for tie in statics.ties):
+        reactions = reactions_of(position, statics, parameters, a)
     notes = notes_of(statics, reactions, names_by_tie(position.case, statics.ties))
     return FreeBodies(
         reactions, both, notes, tensions=tensions_of(statics, parameters, a, position.case.units.force)

@@ -223,7 +223,9 @@ def _why(tie: Tie, kept: list[Scalar | None]) -> str:
 
 
 def notes_of(statics: Statics, reactions: Reactions, names: Sequence[str]) -> tuple[str, ...]:
-    """All sentences, in the order of the joints."""
+    """All sentences, in the order of the joints; without reactions those that need none."""
+    if not reactions:
+        return tuple(_black_boxes(statics.ties))
     ties = [tie for tie in statics.ties if not tie.on.startswith("@")]
     names = [name for name in names if name in reactions]
     shown = [reactions[name] for name in names]

@@ -94,7 +94,7 @@ def in_motion(scene: FrictionScene, reactions: bool = False) -> Slipping:
     rough = on_flanks(_flanks(scene, ties, workless), solve)
     proven = _proven(scene, rough, senses, reactions)
     solved = rough if proven.why else rough._replace(unknowns=dict(proven.values), friction=proven.friction)
-    bodies = _bodies(scene, solved, slides[-1], rates)
+    bodies = _bodies(scene, solved, slides[-1], rates, reactions)
     if proven.reactions is not None:
         bodies = bodies._replace(reactions=proven.reactions, tensions=proven.tensions)
     return Slipping(scene, solved, senses, proven, bodies)
@@ -267,14 +267,14 @@ def _statics(scene: FrictionScene, ties: Sequence[Tie], flanks: Mapping[int, flo
     Raises SceneError where the joints leave a rubbing force open.
     """
     ties = reaction_basis.with_flanks(scene.position, ties, flanks)
-    statics = equilibrium(scene.position, ties, scene.balance, rubs_of(scene.position, ties))
-    senses = [tie.senses for tie in statics.ropes]
+    senses, general = [tie.senses for tie in scene.position.ropes], None
     if scene.enclose is not None:
         with suppress(SceneError):  # what no digits decide is left to rounding
             exact = scene.enclose(lambda placed: placed.statics(flanks, senses))
             solved, free, left, pivots = exact.general
-            rounded = General({c: _floats(row) for c, row in solved.items()}, free, tuple(map(_floats, left)))
-            statics = statics._replace(general=rounded._replace(pivots=tuple(map(float, pivots))))
+            rows = {c: _floats(row) for c, row in solved.items()}
+            general = General(rows, free, tuple(map(_floats, left)), pivots=tuple(map(float, pivots)))
+    statics = equilibrium(scene.position, ties, scene.balance, rubs_of(scene.position, ties), general)
     refuse_doubt(len(statics.general.left), scene.position.mobility)
     try:
         forces_of(statics)
@@ -303,12 +303,14 @@ def _shared(tie: Tie, ties: Sequence[Tie]) -> str:
     )
 
 
-def _bodies(scene: FrictionScene, solved: Solved, found: Slid, rates: RubbingRates) -> FreeBodies:
+def _bodies(
+    scene: FrictionScene, solved: Solved, found: Slid, rates: RubbingRates, reactions: bool
+) -> FreeBodies:
     """What the free bodies say, and what rubs."""
     statics, by_power = solved.statics, None
     if scene.solution.verdict not in ("no value", "any value"):
         by_power = {q: (value, 0.0) for q, value in _by_power(scene, solved).items()}
-    bodies = told(scene.position, scene.balance, solved, by_power, FLOATS)
+    bodies = told(scene.position, scene.balance, solved, by_power, FLOATS, reactions)
     of_ropes = _ropes_rubbing(scene, statics, bodies.tensions, rates)
     rubbing = (*rubbing_of(scene, solved, rates.rubs), *of_ropes)
     refuse_power(rubbing)
