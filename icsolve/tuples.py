@@ -10,10 +10,10 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-__all__ = ["NamedTuple", "Room", "cached_property", "dataclass", "field", "replace"]
+__all__ = ["LateModule", "NamedTuple", "cached_property", "dataclass", "field", "replace"]
 
 
-class Room:
+class LateModule:
     """A module that is imported when something of it is first used: words of refusals, what few cases need.
 
     Where it stands a type checker is given the import itself.
@@ -94,21 +94,25 @@ else:
 
         def __missing__(self, fields: int) -> FunctionType:
             names = "".join(f"_{place}, " for place in range(fields))
-            return eval(f"lambda _cls, {names}: _new(_cls, ({names}))", _MADE_BY)
+            return eval(f"lambda _cls, {names}: _t(_cls, ({names}))", _MADE_BY)
 
-    _new = tuple.__new__
-    _MADE_BY = {"_new": _new}
+    _t = tuple.__new__
+    _MADE_BY = {"_t": _t}
     _USUAL = (
-        lambda _cls, a: _new(_cls, (a,)),
-        lambda _cls, a, b: _new(_cls, (a, b)),
-        lambda _cls, a, b, c: _new(_cls, (a, b, c)),
-        lambda _cls, a, b, c, d: _new(_cls, (a, b, c, d)),
-        lambda _cls, a, b, c, d, e: _new(_cls, (a, b, c, d, e)),
-        lambda _cls, a, b, c, d, e, f: _new(_cls, (a, b, c, d, e, f)),
-        lambda _cls, a, b, c, d, e, f, g: _new(_cls, (a, b, c, d, e, f, g)),
-        lambda _cls, a, b, c, d, e, f, g, h: _new(_cls, (a, b, c, d, e, f, g, h)),
-        lambda _cls, a, b, c, d, e, f, g, h, i: _new(_cls, (a, b, c, d, e, f, g, h, i)),
-        lambda _cls, a, b, c, d, e, f, g, h, i, j: _new(_cls, (a, b, c, d, e, f, g, h, i, j)),
+        lambda z, a: _t(z, (a,)),
+        lambda z, a, b: _t(z, (a, b)),
+        lambda z, a, b, c: _t(z, (a, b, c)),
+        lambda z, a, b, c, d: _t(z, (a, b, c, d)),
+        lambda z, a, b, c, d, e: _t(z, (a, b, c, d, e)),
+        lambda z, a, b, c, d, e, f: _t(z, (a, b, c, d, e, f)),
+        lambda z, a, b, c, d, e, f, g: _t(z, (a, b, c, d, e, f, g)),
+        lambda z, a, b, c, d, e, f, g, h: _t(z, (a, b, c, d, e, f, g, h)),
+        lambda z, a, b, c, d, e, f, g, h, i: _t(z, (a, b, c, d, e, f, g, h, i)),
+        lambda z, a, b, c, d, e, f, g, h, i, j: _t(z, (a, b, c, d, e, f, g, h, i, j)),
+        lambda z, a, b, c, d, e, f, g, h, i, j, k: _t(z, (a, b, c, d, e, f, g, h, i, j, k)),
+        lambda z, a, b, c, d, e, f, g, h, i, j, k, m: _t(z, (a, b, c, d, e, f, g, h, i, j, k, m)),
+        lambda z, a, b, c, d, e, f, g, h, i, j, k, m, n: _t(z, (a, b, c, d, e, f, g, h, i, j, k, m, n)),
+        lambda z, a, b, c, d, e, f, g, h, i, j, k, m, n, p: _t(z, (a, b, c, d, e, f, g, h, i, j, k, m, n, p)),
     )
     _MAKERS = _Makers(enumerate(_USUAL, 1))
     _GETTERS = [field_of(place, "") for place in range(64)]

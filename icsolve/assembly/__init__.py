@@ -28,12 +28,12 @@ from icsolve.case import Case
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.plane import Point
-from icsolve.tuples import Room
+from icsolve.tuples import LateModule
 
 if TYPE_CHECKING:
     from icsolve.assembly import refusals
 else:
-    refusals = Room("icsolve.assembly.refusals")
+    refusals = LateModule("icsolve.assembly.refusals")
 
 __all__ = [
     "Figure",

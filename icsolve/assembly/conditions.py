@@ -34,12 +34,12 @@ from icsolve.numbers.arithmetic import Scalar
 from icsolve.screws.joints import Points
 from icsolve.screws.plane import Point
 from icsolve.structure.topology import topology
-from icsolve.tuples import NamedTuple, Room
+from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.screws import ropes as rope_screws
 else:
-    rope_screws = Room("icsolve.screws.ropes")
+    rope_screws = LateModule("icsolve.screws.ropes")
 
 Unknown = tuple[str, int]
 """A coordinate: the point and 0 for x, 1 for y."""

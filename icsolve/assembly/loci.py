@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING
 from icsolve.assembly.workspace import Datum, Key, LineDirection, Span, Workspace, X
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.screws.plane import Point
-from icsolve.tuples import NamedTuple, Room
+from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.screws import ropes as rope_screws
 else:
-    rope_screws = Room("icsolve.screws.ropes")
+    rope_screws = LateModule("icsolve.screws.ropes")
 
 
 class PlacedCircle(NamedTuple):

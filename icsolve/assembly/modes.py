@@ -30,13 +30,13 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.plane import Point
-from icsolve.tuples import NamedTuple, Room, replace
+from icsolve.tuples import LateModule, NamedTuple, replace
 from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:
     from icsolve.assembly import refusals
 else:
-    refusals = Room("icsolve.assembly.refusals")
+    refusals = LateModule("icsolve.assembly.refusals")
 
 SIDEWAYS = 0.05
 """Two ways are equally near where their distances from `near` have at least the ratio EVEN, and `near`

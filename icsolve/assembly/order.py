@@ -33,13 +33,13 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.structure.plan import loose, matched, strongly_connected
 from icsolve.structure.topology import reached
-from icsolve.tuples import NamedTuple, Room
+from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:
     from icsolve.assembly import refusals
 else:
-    refusals = Room("icsolve.assembly.refusals")
+    refusals = LateModule("icsolve.assembly.refusals")
 
 
 class Order(NamedTuple):

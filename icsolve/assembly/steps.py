@@ -35,12 +35,12 @@ from icsolve.assembly.workspace import (
 from icsolve.case import Case
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, magnitude
 from icsolve.screws.plane import Point
-from icsolve.tuples import NamedTuple, Room
+from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.numbers import linear
 else:
-    linear = Room("icsolve.numbers.linear")
+    linear = LateModule("icsolve.numbers.linear")
 
 
 class Given(NamedTuple):

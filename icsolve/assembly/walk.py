@@ -22,12 +22,12 @@ from icsolve.assembly.steps import CLOSED_FORMS, Meet, Miss, Step, aims, needs
 from icsolve.assembly.workspace import Datum, Key, Workspace, normalised
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.screws.plane import Point
-from icsolve.tuples import NamedTuple, Room
+from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.assembly import refusals
 else:
-    refusals = Room("icsolve.assembly.refusals")
+    refusals = LateModule("icsolve.assembly.refusals")
 
 T = TypeVar("T")
 

@@ -153,6 +153,12 @@ def cpu_seconds(command: list[str]) -> float:
     return (after.ru_utime - before.ru_utime) + (after.ru_stime - before.ru_stime)
 
 
+def own_command() -> list[str]:
+    """The command `icsolve` as it was installed beside this interpreter; where it was not, the module."""
+    installed = os.path.join(os.path.dirname(sys.executable), "icsolve")
+    return [installed] if os.path.exists(installed) else [sys.executable, "-m", "icsolve"]
+
+
 def peak_memory(code: str) -> float | None:
     """Largest resident memory in MB of a Python process that runs some code; None where it is not told.
 

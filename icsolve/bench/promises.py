@@ -19,7 +19,7 @@ import numpy as np
 
 from icsolve.bench.families import BUTTERFLY, FamilySheet, by_sides, chain, linkage
 from icsolve.bench.full_turn import FOUR_BAR, FOUR_BAR_CASE, Array
-from icsolve.bench.gates import Effort, Gate, Kept, cpu_seconds, least, once, ratio, table
+from icsolve.bench.gates import Effort, Gate, Kept, cpu_seconds, least, once, own_command, ratio, table
 from icsolve.bench.speed import FRESH_CASES
 from icsolve.files import scratch
 from icsolve.read import load
@@ -260,7 +260,7 @@ def _starts(effort: Effort, kept: Kept, files: int) -> str:
     rows = []
     with scratch() as folder:
         best: dict[str, float] = {}
-        runs = {imports: ["-c", f"import {imports}"] for imports in (PLAIN, NUMPY, SHAPELY)}
+        runs = {imports: [sys.executable, "-c", f"import {imports}"] for imports in (PLAIN, NUMPY, SHAPELY)}
         for verb, text, _, _ in STARTS:
             path = os.path.join(folder, f"{NAMED[text]}.yaml")
             with open(path, "w", encoding="utf-8") as file:
@@ -268,10 +268,10 @@ def _starts(effort: Effort, kept: Kept, files: int) -> str:
             more = ["--vary", "angles.AB=0:359:1"] if verb == "sweep" else []
             kind = {"sweep": "csv", "draw": "svg", "page": "html"}.get(verb)
             out = ["-o", os.path.join(folder, f"o.{kind}")] if kind else []
-            runs[f"icsolve {verb} {NAMED[text]}.yaml"] = ["-m", "icsolve", verb, path, *more, *out]
+            runs[f"icsolve {verb} {NAMED[text]}.yaml"] = [*own_command(), verb, path, *more, *out]
         for _ in range(effort.rounds + 1):
-            for name, arguments in runs.items():
-                best[name] = min(best.get(name, np.inf), cpu_seconds([sys.executable, *arguments]))
+            for name, command in runs.items():
+                best[name] = min(best.get(name, np.inf), cpu_seconds(command))
         for verb, text, imports, limit in STARTS:
             name = f"icsolve {verb} {NAMED[text]}.yaml"
             times = best[name] / best[imports]
@@ -284,7 +284,7 @@ def _starts(effort: Effort, kept: Kept, files: int) -> str:
             with open(os.path.join(cases, f"{k}.yaml"), "w", encoding="utf-8") as file:
                 file.write(text)
         alone = once(lambda: [solve(load(text)) for text in texts])
-        whole = cpu_seconds([sys.executable, "-m", "icsolve", "check", cases]) - best[PLAIN]
+        whole = cpu_seconds([*own_command(), "check", cases]) - best[PLAIN]
     kept.gates.append(ratio(f"`icsolve check` of {files} files / load and solve of each", whole / alone, 2))
     rows.append([f"icsolve check, {files} files", f"{whole / alone:.2f}", f"{1e3 * whole:.0f}"])
     return table(("whole process, cold", "x its imports", "CPU ms"), rows)

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from icsolve.case.bodies import Inertia, Rope, Screw
 from icsolve.case.figure import Centroid, Coordinates, Corner, Direction, Guide, Length, Mark, Units, Unknown
 from icsolve.case.joints import (
     Belt,
@@ -35,10 +34,13 @@ from icsolve.case.loads import (
     Force,
     ForceVector,
     Heading,
+    Inertia,
     Like,
     Load,
     Magnitude,
     Motion,
+    Rope,
+    Screw,
     Slope,
     Spring,
     Stretch,

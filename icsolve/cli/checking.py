@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from icsolve.cli.options import CASES, DIGITS, JOBS, JSON, SET, Verb
+from icsolve.cli.commands import CASES, DIGITS, JOBS, JSON, SET, Verb
 from icsolve.cli.run import DONE, NO_ANSWER, complain, for_each, on_stderr
 from icsolve.cli.solving import print_json
 from icsolve.report.check import (

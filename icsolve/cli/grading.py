@@ -11,7 +11,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 import click
 
-from icsolve.cli.options import Verb
+from icsolve.cli.commands import Verb
 from icsolve.cli.run import DONE, NO_ANSWER, complain, refusing
 from icsolve.files import check_free, files_of, folder_of, note, scratch, whole_file, write_whole
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from icsolve.cli import BUG
-from icsolve.cli.options import DIGITS, SET, Verb
+from icsolve.cli.commands import DIGITS, SET, Verb
 from icsolve.cli.output import OUTPUT, one_source, watched, write_output
 from icsolve.cli.run import (
     DONE,

@@ -205,6 +205,7 @@ def _outcomes(
     if count < 2:
         yield from (outcome(source, work, settings) for source in every)
         return
+
     def share(some: list[InputSource]) -> list[Outcome]:
         return [outcome(source, work, settings) for source in some]
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from icsolve.cli.options import CASES, DIGITS, JOBS, JSON, SET, Verb
+from icsolve.cli.commands import CASES, DIGITS, JOBS, JSON, SET, Verb
 from icsolve.cli.run import DONE, Work, for_each
 from icsolve.tuples import NamedTuple, replace
 

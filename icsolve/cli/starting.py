@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from icsolve.cli.options import Verb
+from icsolve.cli.commands import Verb
 from icsolve.cli.output import unwritten
 from icsolve.cli.run import DONE, UNREADABLE, complain
 from icsolve.files import KeptError, whole_file

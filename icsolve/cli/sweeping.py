@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from icsolve.cli.options import DIGITS, SET, Verb
+from icsolve.cli.commands import DIGITS, SET, Verb
 from icsolve.cli.output import OUTPUT, Progress, one_source, write_output
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, for_each, on_stderr
 from icsolve.errors import SceneError, Status

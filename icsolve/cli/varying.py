@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from icsolve.cli.options import Verb
+from icsolve.cli.commands import Verb
 from icsolve.cli.output import watched
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, refusing
 from icsolve.files import can_fork, check_free, started, write_whole

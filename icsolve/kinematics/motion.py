@@ -24,13 +24,13 @@ from icsolve.screws.joints import freedoms, guide_direction
 from icsolve.screws.plane import Triple, cross, subtract, velocity
 from icsolve.structure.plan import Plan
 from icsolve.structure.topology import Topology
-from icsolve.tuples import NamedTuple, Room
+from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording.sentences import near_structure, structure
 
 if TYPE_CHECKING:
     from icsolve.screws import ropes as rope_screws
 else:
-    rope_screws = Room("icsolve.screws.ropes")
+    rope_screws = LateModule("icsolve.screws.ropes")
 
 
 class Motions(NamedTuple):

@@ -24,12 +24,12 @@ from icsolve.numbers.arithmetic import (
     zero_of,
 )
 from icsolve.screws.plane import Point, Triple, velocity
-from icsolve.tuples import NamedTuple, Room
+from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.numbers import linear
 else:
-    linear = Room("icsolve.numbers.linear")
+    linear = LateModule("icsolve.numbers.linear")
 
 Twists = Mapping[str, Sequence[Triple]]
 STILL = ROUNDING_NOISE

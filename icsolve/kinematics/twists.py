@@ -35,13 +35,13 @@ from icsolve.screws.plane import (
 )
 from icsolve.structure.plan import Group, Plan
 from icsolve.structure.topology import Bond, Topology
-from icsolve.tuples import NamedTuple, Room
+from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.numbers import linear
     from icsolve.screws.ropes import RopePart
 else:
-    linear = Room("icsolve.numbers.linear")
+    linear = LateModule("icsolve.numbers.linear")
 
 Bases = Mapping[int, tuple[Triple, ...]]
 ORIGIN: Triple = (0.0, 0.0, 0.0)

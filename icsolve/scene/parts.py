@@ -31,7 +31,7 @@ from icsolve.scene.program import (
 from icsolve.screws.plane import Triple
 from icsolve.statics import power
 from icsolve.statics.power import Bounded, Outcome, Value, Wrench, known_value, load_value
-from icsolve.tuples import NamedTuple, Room, cached_property, replace
+from icsolve.tuples import LateModule, NamedTuple, cached_property, replace
 from icsolve.wording import sentences
 from icsolve.wording.senses import sense_of, unit_of
 from icsolve.wording.sentences import link_words
@@ -39,7 +39,7 @@ from icsolve.wording.sentences import link_words
 if TYPE_CHECKING:
     from icsolve.scene import sensitivity
 else:
-    sensitivity = Room("icsolve.scene.sensitivity")
+    sensitivity = LateModule("icsolve.scene.sensitivity")
 
 
 class Power(NamedTuple):

@@ -13,13 +13,13 @@ from icsolve.numbers.arithmetic import FLOATS, Arithmetic, all_vanish
 from icsolve.screws.joints import Points
 from icsolve.statics import power
 from icsolve.structure.topology import Topology, reached, topology
-from icsolve.tuples import Room
+from icsolve.tuples import LateModule
 from icsolve.wording import sentences
 
 if TYPE_CHECKING:
     from icsolve.screws import ropes as rope_screws
 else:
-    rope_screws = Room("icsolve.screws.ropes")
+    rope_screws = LateModule("icsolve.screws.ropes")
 
 
 def refuse_loose(case: Case) -> None:

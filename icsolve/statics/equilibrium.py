@@ -9,11 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import accumulate
-from typing import Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
 
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
 from icsolve.numbers.linear import General, Row, eliminate
-from icsolve.screws import space
 from icsolve.statics.power import (
     Balance,
     L,
@@ -26,7 +25,12 @@ from icsolve.statics.power import (
     unknown_loads,
 )
 from icsolve.statics.reaction_basis import Force, Position, RopeTie, Tie
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import LateModule, NamedTuple
+
+if TYPE_CHECKING:
+    from icsolve.screws import space
+else:
+    space = LateModule("icsolve.screws.space")
 
 Components = tuple[Scalar, ...]
 """Of a point its 2 or 3 coordinates; of a force with its couple 3 or 6 components; of a twist as many."""

@@ -48,7 +48,7 @@ from icsolve.numbers.arithmetic import (
     zero_of,
 )
 from icsolve.screws.plane import Point, Triple, force_wrench, unit_between
-from icsolve.tuples import NamedTuple, Room
+from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.case.space import Load as SpatialLoad
@@ -56,8 +56,8 @@ if TYPE_CHECKING:
     from icsolve.numbers.tape import Tape
     from icsolve.screws import ropes as rope_screws
 else:
-    linear = Room("icsolve.numbers.linear")
-    rope_screws = Room("icsolve.screws.ropes")
+    linear = LateModule("icsolve.numbers.linear")
+    rope_screws = LateModule("icsolve.screws.ropes")
 
 Points = Mapping[str, Point]
 L = TypeVar("L", bound="Load | SpatialLoad")

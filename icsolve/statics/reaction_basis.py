@@ -23,12 +23,12 @@ from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.screws.joints import Points, freedoms, guide_direction, pitch_point, rolling_centres, transmitted
 from icsolve.screws.plane import Point, Triple, basis_at, shift, subtract, unit_between
 from icsolve.structure.topology import Bond, Topology, pairs_of, topology
-from icsolve.tuples import NamedTuple, Room
+from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.screws import ropes as rope_screws
 else:
-    rope_screws = Room("icsolve.screws.ropes")
+    rope_screws = LateModule("icsolve.screws.ropes")
 
 Force = tuple[Scalar, Scalar, Scalar]
 """Force and couple about the tie's point."""

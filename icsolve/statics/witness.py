@@ -6,16 +6,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from icsolve.answer.bodies import Witness
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar, decider
 from icsolve.numbers.linear import Row, inverse, solve_square
-from icsolve.screws import space
 from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Components, Equilibrium, T
 from icsolve.statics.power import L, PowerFactors
+from icsolve.tuples import LateModule
 from icsolve.wording.sentences import plural
+
+if TYPE_CHECKING:
+    from icsolve.screws import space
+else:
+    space = LateModule("icsolve.screws.space")
 
 Terms = dict[str, tuple[Components, tuple[tuple[float, float], ...]]]
 """For each link the point of its moments; of its equations the sum of absolute terms, and the sum."""

@@ -24,13 +24,12 @@ from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, size_of
 from icsolve.numbers.balls import Balls, MoreDigits
 from icsolve.numbers.krawczyk import enclosed_root
 from icsolve.numbers.linear import Row, eliminate
-from icsolve.numbers.tape import SMALL
 from icsolve.statics.equilibrium import Rub, Statics, equations_of, equilibrium
 from icsolve.statics.free_bodies import Solved, carrying_flanks
 from icsolve.statics.friction.equations import forces_of
 from icsolve.statics.friction.interface import rubbing_rates, rubs_of
 from icsolve.statics.power import Balance, Bounded, Wrench
-from icsolve.statics.reaction_basis import Position, rope_ties, slipping, ties_of, with_flanks
+from icsolve.statics.reaction_basis import Position, meshes, rope_ties, slipping, ties_of, with_flanks
 from icsolve.statics.witness import independent
 from icsolve.tuples import NamedTuple
 
@@ -70,6 +69,8 @@ def slopes(
     """
     if any(sense and not friction for sense, friction in zip(senses, solved.friction, strict=True)):
         raise LookupError(AT_KINK)
+    from icsolve.numbers.tape import SMALL
+
     tape, outcome, statics = traced.tape, traced.outcome, solved.statics
     x = statics.filled(solved.parameters)
     weights = _weights(statics, x, senses)
@@ -180,7 +181,9 @@ def enclosed(scene: SceneOnBalls, solved: Solved, senses: Sequence[float]) -> So
     rope_senses = [tie.senses for tie in solved.statics.ropes]
     if not _moves_so(scene, senses, rope_senses):
         return None
-    flanks = carrying_flanks(scene.position, ties_of(scene.position), solved)
+    flanks = {}
+    if meshes(solved.statics.ties):
+        flanks = carrying_flanks(scene.position, ties_of(scene.position), solved)
     statics = scene.statics(flanks, rope_senses)
     rubs = statics.rubs
     roots = {statics.root(n): solved.unknowns[q] * statics.scale for n, q in enumerate(statics.roots)}

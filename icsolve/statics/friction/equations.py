@@ -22,6 +22,8 @@ from icsolve.tuples import NamedTuple
 
 Form = tuple[float, ...]
 """An affine form: the constant, then the coefficients of y."""
+Y = tuple[float, ...]
+"""Lengths, (rubs,) [scaled force]."""
 
 
 class Lengths(NamedTuple):
@@ -338,3 +340,22 @@ def reduced_workless(statics: Statics, senses: Sequence[float]) -> Reduced | Non
     return Reduced(
         Lengths(lengths, vectors, tuple(_touching(statics))), (_alone(most, n, 1.0),), tuple(gains)
     )
+
+
+def contracted(equations: Lengths) -> Y:
+    """The fixed point of a contraction, (rubs,) [scaled force]: Newton's method, from plain iteration where
+    that does not settle.
+    """
+    y = without_friction(equations)
+    for _ in range(200):
+        found = newton(equations, y)
+        if found is not None and min(found, default=0.0) >= -1e-12 * scale_at(equations, found):
+            return found
+        for _ in range(20):
+            y = tuple(math.hypot(*vector(forms, y)) for forms in equations.vectors)
+    return y
+
+
+def without_friction(equations: Lengths) -> Y:
+    """Sizes of the forces where nothing rubs."""
+    return tuple(math.hypot(*(form[0] for form in forms)) for forms in equations.vectors)

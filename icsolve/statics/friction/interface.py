@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
+from typing import TYPE_CHECKING
 
 from icsolve.answer import Term, bodies
 from icsolve.case import Case, Friction, Number, Rope, Screw
@@ -21,12 +22,16 @@ from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.numbers.linear import solve_square
 from icsolve.screws.joints import guide_direction
 from icsolve.screws.plane import pairing, subtract, velocity
-from icsolve.screws.ropes import slip_rates
 from icsolve.statics.equilibrium import Rub, Statics
 from icsolve.statics.power import Balance, force_scale, friction_of, known_power
 from icsolve.statics.reaction_basis import COUPLE, Force, Position, RopeTie, Tie, thread, ties_of
 from icsolve.statics.witness import independent, powers_of
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import LateModule, NamedTuple
+
+if TYPE_CHECKING:
+    from icsolve.screws import ropes as rope_screws
+else:
+    rope_screws = LateModule("icsolve.screws.ropes")
 
 
 def rubs_of(position: Position, ties: Sequence[Tie]) -> tuple[Rub, ...]:
@@ -157,7 +162,10 @@ def rubbing_rates(position: Position, speed: Speed) -> RubbingRates:
     own = [rate(rates, partial(_open, ties[rub.tie])) for rub, rates in zip(rubs, by_motion, strict=True)]
     ropes = []
     for tie in position.ropes:
-        runs = [slip_rates(tie.parts, {link: ts[m] for link, ts in position.twists.items()}) for m in motions]
+        runs = [
+            rope_screws.slip_rates(tie.parts, {link: ts[m] for link, ts in position.twists.items()})
+            for m in motions
+        ]
         places = zip(tie.rope.mu[1:-1], zip(*runs, strict=True), strict=True)
         refusal = partial(_open_rope, tie.rope)
         ropes.append(tuple([0.0 if mu is None else rate(rates, refusal) for mu, rates in places]))

@@ -19,12 +19,16 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import pairwise, product
+from typing import TYPE_CHECKING
 
 from icsolve.errors import SceneError, Status
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.friction.equations import (
+    Lengths,
     Reduced,
+    Y,
     at,
+    contracted,
     contraction,
     error_of,
     fixed_point,
@@ -32,19 +36,43 @@ from icsolve.statics.friction.equations import (
     is_sound,
     reduced,
     reduced_workless,
-)
-from icsolve.statics.friction.solutions import (
-    COUNTED,
-    Solutions,
-    Y,
-    all_roots,
-    followed,
-    near,
-    solutions,
     without_friction,
 )
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording.sentences import listed
+
+if TYPE_CHECKING:
+    from icsolve.statics.friction import solutions as every
+else:  # where one is not proven to be the only one
+    every = LateModule("icsolve.statics.friction.solutions")
+
+CONTRACTS = "the friction equations contract: Banach's theorem gives one solution and no other"
+COUNTED = "all solutions were counted"
+
+
+class Solutions(NamedTuple):
+    """The solution of the friction equations that grows out of none.
+
+    Attributes
+    ----------
+    main : (rubs,) [scaled force]; None: it stops at ``share`` of the friction
+    unique : how it is known that there are no others; empty where that is not known
+    share : fraction of full friction to which ``main`` could be followed
+    grows : whether its forces grew without bound there
+    """
+
+    main: Y | None
+    unique: str
+    share: float = 1.0
+    grows: bool = False
+
+
+def solutions(equations: Lengths) -> Solutions:
+    """That of a fixed point y = |v(y)|: the one where it contracts, else followed from no friction."""
+    if contraction(equations) is not None:
+        return Solutions(contracted(equations), CONTRACTS)
+    main, share, grows = every.followed(equations)
+    return Solutions(main, "", share, grows)
 
 
 class Slid(NamedTuple):
@@ -91,7 +119,7 @@ def slid(statics: Statics, senses: Sequence[float], workless: bool, alone: bool 
         return _of(statics, equations, found.main, (), found.unique)
     by, roots = _counted(statics, senses, equations)
     unique = "" if roots is None else COUNTED
-    others = [y for y in roots or () if found.main is None or not near(by.sizes(y), found.main)]
+    others = [y for y in roots or () if found.main is None or not every.near(by.sizes(y), found.main)]
     if found.main is not None:
         loads = tuple(by.load(other)[0] / statics.scale for other in others if by.loads)
         return _of(statics, equations, found.main, loads, unique)
@@ -111,7 +139,7 @@ def _counted(statics: Statics, senses: Sequence[float], equations: Reduced) -> t
     alone = len(statics.roots) == len(statics.general.left) == 1
     if alone and any(abs(a) > LITTLE for a in equations.loads[0][1:]):
         equations = reduced_workless(statics, senses) or equations
-    return equations, all_roots(equations.equations)
+    return equations, every.all_roots(equations.equations)
 
 
 LITTLE = 1e4
@@ -150,7 +178,7 @@ def _workless(statics: Statics, senses: Sequence[float]) -> Slid:
     equations = reduced_workless(statics, senses)
     if equations is None:
         raise SceneError(Status.NO_VALUE, nothing_rubs(statics))
-    found = all_roots(equations.equations)
+    found = every.all_roots(equations.equations)
     if found is None:
         raise SceneError(Status.UNSUPPORTED, _too_many(statics))
     if not found:
@@ -308,15 +336,14 @@ def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> En
     equations = reduced(statics, senses)
     assert equations is not None
     if contraction(equations.equations) is not None:
-        found = solutions(equations.equations)
-        assert found.main is not None
-        return _moving(statics, equations, senses, found.main, pushing)
-    y, share, grows = followed(equations.equations)
+        return _moving(statics, equations, senses, contracted(equations.equations), pushing)
+    y, share, grows = every.followed(equations.equations)
     if y is not None:
         return _moving(statics, equations, senses, y, pushing)
-    last = followed(equations.equations.scaled(0.999 * share))[0] or without_friction(equations.equations)
+    short = equations.equations.scaled(0.999 * share)
+    last = every.followed(short)[0] or without_friction(equations.equations)
     change = sum(a * x for a, x in zip(equations.loads[0][1:], last, strict=True))
-    if pushing and not is_sound(equations.equations.scaled(0.999 * share), last):
+    if pushing and not is_sound(short, last):
         return None
     if grows or _locks(equations):
         return End(math.copysign(math.inf, change), tuple(senses))
@@ -394,7 +421,7 @@ def pressed(statics: Statics, senses: Sequence[float]) -> StaticRange:
     equations = reduced_workless(statics, senses)
     if equations is None:
         raise SceneError(Status.NO_VALUE, f"no value of {name} holds: it does no work, and no friction does.")
-    roots = all_roots(equations.equations)
+    roots = every.all_roots(equations.equations)
     if roots is None:
         raise SceneError(Status.UNSUPPORTED, _too_many(statics))
     moving = {load: equations.friction(y) for load, y in sorted((equations.load(y)[0], y) for y in roots)}
@@ -439,7 +466,7 @@ def _capacity(statics: Statics, against: Sequence[float], powers: Sequence[float
     ]
     touching = [statics.ties[rub.tie].joint.only_pushes for rub in statics.rubs]
     equations = fixed_point(vectors, touching)
-    y, _, _ = followed(equations)
+    y, _, _ = every.followed(equations)
     if y is None:
         return math.inf
     for forms, only in zip(equations.vectors, touching, strict=True):

@@ -1,7 +1,5 @@
-"""The solution that grows out of that without friction, and whether there are others.
-
-Where the equations contract there is exactly one. Else friction is brought in little by little from
-none, the solution followed, and all solutions are counted.
+"""The solution that grows out of that without friction, where the equations do not contract: friction is
+brought in little by little from none, and the solution followed; and whether there are others.
 
 All solutions of the friction equations, where one is not proven to be the only one: as many quadrics as
 unknowns, whose zeros are found by exclusion in a box that holds them all.
@@ -17,21 +15,17 @@ from icsolve.numbers.linear import solve_square
 from icsolve.statics.friction.equations import (
     Form,
     Lengths,
-    contraction,
+    Y,
     is_sound,
     newton,
     own_length,
     scale_at,
     slopes,
     vector,
+    without_friction,
 )
 from icsolve.structure.plan import strongly_connected
-from icsolve.tuples import NamedTuple
 
-Y = tuple[float, ...]
-
-CONTRACTS = "the friction equations contract: Banach's theorem gives one solution and no other"
-COUNTED = "all solutions were counted"
 LONGEST = 0.125
 FINE = 1e-6
 """How closely the share of friction is found at which forces grow without bound."""
@@ -42,54 +36,10 @@ NEAR = 0.05
 """A prediction that is corrected by more was too far, of the sum of the sizes."""
 
 
-class Solutions(NamedTuple):
-    """The solution of the friction equations that grows out of none.
-
-    Attributes
-    ----------
-    main : (rubs,) [scaled force]; None: it stops at ``share`` of the friction
-    unique : how it is known that there are no others; empty where that is not known
-    share : fraction of full friction to which ``main`` could be followed
-    grows : whether its forces grew without bound there
-    """
-
-    main: Y | None
-    unique: str
-    share: float = 1.0
-    grows: bool = False
-
-
-def solutions(equations: Lengths) -> Solutions:
-    """That of a fixed point y = |v(y)|: the one where it contracts, else followed from no friction."""
-    if contraction(equations) is not None:
-        return Solutions(contracted(equations), CONTRACTS)
-    main, share, grows = followed(equations)
-    return Solutions(main, "", share, grows)
-
-
 def near(y: Sequence[float], other: Sequence[float]) -> bool:
     """Whether two solutions are one."""
     size = max(map(abs, (*y, *other)), default=0.0) or 1.0
     return max((abs(a - b) for a, b in zip(y, other, strict=True)), default=0.0) <= 1e-7 * size
-
-
-def contracted(equations: Lengths) -> Y:
-    """The fixed point of a contraction, (rubs,) [scaled force]: Newton's method, from plain iteration where
-    that does not settle.
-    """
-    y = without_friction(equations)
-    for _ in range(200):
-        found = newton(equations, y)
-        if found is not None and min(found, default=0.0) >= -1e-12 * scale_at(equations, found):
-            return found
-        for _ in range(20):
-            y = tuple(math.hypot(*vector(forms, y)) for forms in equations.vectors)
-    return y
-
-
-def without_friction(equations: Lengths) -> Y:
-    """Sizes of the forces where nothing rubs."""
-    return tuple(math.hypot(*(form[0] for form in forms)) for forms in equations.vectors)
 
 
 def followed(equations: Lengths) -> tuple[Y | None, float, bool]:
