@@ -220,17 +220,19 @@ def commands(dice: Dice, text: str) -> list[list[str]]:
         [["moodle-xml"], ["gift"], ["qti"], ["prairielearn", "--no-figures"], ["gradescope-zip"]]
     )
     words = [path, dice.choice(names), *re.findall(r"[a-z]+", text)[:40]]
+    shown = [
+        ["draw", "case.yaml", *some(dice, DRAW)],
+        ["explain", "case.yaml", *some(dice, EXPLAIN)],
+        ["sheet", "case.yaml", *some(dice, [["--title", dice.choice(TOKENS[:40])], ["-o", "exam.tex"]])],
+    ]
     return [
         ["solve", "case.yaml"],
         ["solve", "case.yaml", *some(dice, SOLVE), *dice.choice([[], ["--stability", path]])],
         ["check", "case.yaml", *some(dice, [["--json"], ["--table"]])],
         ["validate", "case.yaml"],
         ["ways", "case.yaml", *some(dice, [["--json"]])],
-        ["draw", "case.yaml", *some(dice, DRAW)],
-        ["explain", "case.yaml", *some(dice, EXPLAIN)],
-        *([["page", "case.yaml"]] if FULL else []),  # the gallery makes the page too
+        *([["page", "case.yaml"], *shown] if FULL else [dice.choice(shown)]),  # the gallery draws and explains too
         ["gallery", "case.yaml", "-o", "shown", "--force"],
-        ["sheet", "case.yaml", *some(dice, [["--title", dice.choice(TOKENS[:40])], ["-o", "exam.tex"]])],
         ["sweep", "case.yaml", *vary, *some(dice, SWEEP), *dice.choice([[], ["--find", find]])],
         ["sweep", "case.yaml", "--vary", f"{path}={dice.choice(spans)}", "--find", find, "--json"],
         ["variants", "case.yaml", "--roster", "roster.csv", "-o", "sheets", "--force", "--no-figures"],
