@@ -167,8 +167,6 @@ MANY = 256
 """Rows from which one elimination for all of them pays."""
 SOLVED = 1e-11
 """The largest residual of a solution (normalised)."""
-ROUNDED = 4e-15
-"""A residual that is rounding: a solution, though steps beside a singular position stay large."""
 
 
 class Guess(Moved):
@@ -393,7 +391,7 @@ class Solver:
             if not active.size:
                 break
         residual = np.abs(self.system(env, q, derivatives=False)[0]).max(axis=1)
-        return q, good & (residual < SOLVED) | (residual < ROUNDED)
+        return q, good & (residual < SOLVED)
 
     def _move(self, env: Mapping[int, Array], q: Array, direct: Code | None) -> tuple[Array, Array]:
         """The next step of every row, cut to half the figure, and its full size."""
