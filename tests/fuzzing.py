@@ -231,7 +231,7 @@ def commands(dice: Dice, text: str) -> list[list[str]]:
         ["check", "case.yaml", *some(dice, [["--json"], ["--table"]])],
         ["validate", "case.yaml"],
         ["ways", "case.yaml", *some(dice, [["--json"]])],
-        *([["page", "case.yaml"], *shown] if FULL else [dice.choice(shown)]),  # the gallery draws and explains too
+        *([["page", "case.yaml"], *shown] if FULL else [dice.choice(shown)]),  # the gallery has them
         ["gallery", "case.yaml", "-o", "shown", "--force"],
         ["sweep", "case.yaml", *vary, *some(dice, SWEEP), *dice.choice([[], ["--find", find]])],
         ["sweep", "case.yaml", "--vary", f"{path}={dice.choice(spans)}", "--find", find, "--json"],
