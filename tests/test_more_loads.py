@@ -436,3 +436,26 @@ def test_they_do_what_the_forces_they_come_to_do(seed: int) -> None:
     row = icsolve.sweep(icsolve.load(texts[0]), vary={"loads.R": [0.0, 7.0]}).answers["U"]
     there = icsolve.solve(icsolve.load(texts[0], settings={"loads.R": 7.0})).answers["U"].value
     assert row[1] == pytest.approx(there, abs=1e-9 * max(size, abs(there)))
+
+
+@pytest.mark.parametrize("number", ["20", "[20, -50]"])
+def test_along_a_line_without_a_length_nothing_acts(number: str) -> None:
+    """A and C are one point; what is unknown there can hold nothing."""
+    text = f"""icsolve: 1
+points: {{A: [0, 0], D: [0, 4]}}
+lengths: {{AB: 1, AC: 0}}
+angles: {{AB: 20, AC: 30}}
+joints: [{{pin: [1, 2], at: A}}]
+loads:
+  q: {{distributed: {number}, link: 2, from: A, to: C, angle: -90}}
+  W: {{weight: 5, link: 2, at: B}}
+  T: {{torque: unknown, link: 2}}
+"""
+    answer = icsolve.solve(icsolve.load(text))
+    assert answer.answers["T"].value == pytest.approx(5 * math.cos(math.radians(20)), rel=1e-15)
+    unknown = text.replace(f"distributed: {number}", "distributed: unknown").replace(
+        "torque: unknown", "torque: 3"
+    )
+    with pytest.raises(icsolve.SceneError) as refused:
+        icsolve.solve(icsolve.load(unknown))
+    assert refused.value.status == "no-value"

@@ -58,7 +58,7 @@ class Program(NamedTuple):
     top: Topology
     plan: Plan | None
     figure: Figure
-    directions: tuple[tuple[str, tuple[str, str]], ...]
+    directions: refusals.Directions
 
 
 @lru_cache(maxsize=32)
@@ -230,7 +230,10 @@ class EvaluatedScene:
 
     def too_close(self) -> SceneError:
         """The refusal of what the highest precision leaves open."""
-        program, outcome = self.run(self.program, FLOATS)
+        try:
+            program, outcome = self.run(self.program, FLOATS)
+        except (BelowZero, ZeroDivisionError):
+            return refusals.not_as_written()
         unknown = next(iter(outcome.solution.values), "the answer")
         return refusals.too_close(program.top, outcome.motions, unknown, None)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from icsolve.case import Case, Weight
@@ -36,9 +35,19 @@ def refuse_loose(case: Case) -> None:
         raise SceneError(Status.LOOSE, sentences.loose(case, names))
 
 
-def directions(case: Case) -> tuple[tuple[str, tuple[str, str]], ...]:
-    """What has its direction from two points, and these: loads, guides and wheels."""
+Directions = tuple[tuple[str, tuple[str, str]], ...]
+"""What has its direction from two points, and these."""
+
+
+def directions(case: Case) -> Directions:
+    """Those of loads, guides and wheels."""
     lines = [(f"load {load.name}", power.line_of(load)) for load in case.loads if not power.may_vanish(load)]
+    return (*((what, ends) for what, ends in lines if ends is not None), *directions_of_joints(case))
+
+
+def directions_of_joints(case: Case) -> Directions:
+    """Those of guides and wheels."""
+    lines: list[tuple[str, tuple[str, str] | None]] = []
     for bond in topology(case).bonds:
         names = sentences.listed(bond.links)
         guide = bond.joint.guide
@@ -47,9 +56,7 @@ def directions(case: Case) -> tuple[tuple[str, tuple[str, str]], ...]:
     return tuple([(what, ends) for what, ends in lines if ends is not None])
 
 
-def refuse_no_direction(
-    lines: Sequence[tuple[str, tuple[str, str]]], points: Points, arithmetic: Arithmetic
-) -> None:
+def refuse_no_direction(lines: Directions, points: Points, arithmetic: Arithmetic) -> None:
     """Refuse directions that two points give that lie at one place [frame]."""
     for what, (a, b) in lines:
         if a in points and b in points and power.at_one_place(points[a], points[b], arithmetic):

@@ -250,7 +250,8 @@ def _spread(load: Force, over: Stretch, place: PlacedCase) -> tuple[Triple, Scal
     """
     _, frame, points, arithmetic = place
     a, b = points[over.a], points[over.b]
-    length = unit_between(a, b, arithmetic)[1] / frame.scale
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    length = arithmetic.sqrt(dx * dx + dy * dy) / frame.scale
     along, value = direction(load, points, arithmetic), load.value
     if over.end is None:
         return force_wrench(along, points[load.at]), length

@@ -291,7 +291,7 @@ class RowScenes:
         points: dict[str, Coordinates | Centroid] = {}
         with localcontext(CONTEXT):
             for name in self.points:
-                x, y = (next(found).quantize(LEAST) / scale + o for o in (ox, oy))
+                x, y = (_without_dust(next(found)) / scale + o for o in (ox, oy))
                 points[name] = Coordinates(_exact(x, f"points.{name}.x"), _exact(y, f"points.{name}.y"))
             turned = {path: angle(next(found), next(found)) for path in self.directions}
         numbers = {path: _exact(v, path) for path, v in {**values, **turned}.items()}
@@ -329,6 +329,11 @@ def counted_about(case: Case, angles: Mapping[str, float]) -> Case:
         for load in case.loads
     ]
     return replace(case, loads=tuple(loads)) if angles else case
+
+
+def _without_dust(value: Decimal) -> Decimal:
+    """A coordinate [frame] without what is left of it where it is zero."""
+    return value if abs(value) > 1 else value.quantize(LEAST)
 
 
 def _exact(value: Decimal, path: str) -> Number:

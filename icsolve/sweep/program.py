@@ -17,7 +17,7 @@ from icsolve.assembly.driven.motion import DrivenMotion, order_of, set_moving
 from icsolve.assembly.workspace import names_of, number_of
 from icsolve.case import Case, Pair
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.numbers.record import Record, varies
 from icsolve.scene import refusals
 from icsolve.screws.plane import Point
@@ -124,6 +124,7 @@ def setting_of(case: Case, paths: Sequence[str], links: Sequence[str], *, posing
     refusals.refuse_loose(case)
     figure = placed_figure(case, *wanted_points(case))
     refuse_misfit(case, figure.points, figure.frame.scale)
+    refusals.refuse_no_direction(refusals.directions_of_joints(case), figure.points, FLOATS)
     drive = Drive((), (), ())
     if links or any(path.split(".")[0] in ("points", "lengths", "angles") for path in own):
         drive = _drive(case, figure, own, links, posing=posing)
