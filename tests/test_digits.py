@@ -22,8 +22,8 @@ import loading
 import mechanisms
 import transcribe
 from figures import from_lengths, without_order
-from icsolve.bench.accuracy import every_row, shown
-from icsolve.bench.families import EXACT, Family
+from icsolve.bench.accuracy import every_row, friction_ends, shown
+from icsolve.bench.families import EXACT, RUBBING, Family
 from icsolve.errors import SceneError
 from icsolve.manual import template
 from icsolve.report.derivation import known_of
@@ -175,6 +175,12 @@ def scenes(family: Family, count: int) -> Iterator[icsolve.Case]:
 def test_every_number_of_the_families_of_the_benchmark(family: Family) -> None:
     for case in scenes(family, 1000 if FULL else 12):
         assert [one.fault for one in shown(case) if one.fault] == []
+
+
+@pytest.mark.parametrize("family", RUBBING, ids=lambda family: family.name)
+def test_both_ends_that_friction_holds_are_those_in_closed_form(family: Family) -> None:
+    for case in scenes(family, 1000 if FULL else 20):
+        assert [one.fault for one in friction_ends(case) if one.fault] == []
 
 
 @pytest.mark.parametrize("family", EXACT[:5], ids=lambda family: family.name)

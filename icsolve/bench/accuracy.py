@@ -11,7 +11,7 @@ from statistics import median
 from typing import Any
 
 from icsolve.answer import Answer
-from icsolve.bench.families import ALL_JOINTS, BOUNDED, EXACT, SIX_BARS, Family, scaled
+from icsolve.bench.families import ALL_JOINTS, BOUNDED, EXACT, RUBBING, SIX_BARS, Family, scaled
 from icsolve.bench.rivals import Failed, Method, OtherData, RivalFigure, drawn
 from icsolve.case import Case, Force, Number, Pair
 from icsolve.errors import SceneError
@@ -284,7 +284,7 @@ def bits_kept(case: Case) -> float:
 
 
 FORWARD_FAMILIES = (*SIX_BARS, ALL_JOINTS)
-HELD = (*FORWARD_FAMILIES, *BOUNDED, *EXACT)
+HELD = (*FORWARD_FAMILIES, *BOUNDED, *EXACT, *RUBBING)
 
 
 def held(measure: Measure, families: Iterable[Family], scenes: int, jobs: int = 1) -> list[Law]:
@@ -425,6 +425,47 @@ def _rates(answer: Answer, program: Program, exact: Outcome) -> Iterator[Shown]:
 def every_number(case: Case) -> float:
     """How many numbers of a scene were held to their law; negative where one breaks it."""
     faults = [one.fault for one in shown(case)]
+    return -1.0 if any(faults) else float(len(faults))
+
+
+def friction_ends(case: Case) -> Iterator[Shown]:
+    """The ends of the range of the crank's torque that holds a slider-crank of which all joints rub.
+
+    In closed form, crank A B from the origin, slider C pushed to the left by P: the rod's force acts along a
+    common tangent of its two friction circles (radii r sin(atan(mu))), the crank's torque balances that force
+    at B and at the friction circle of A (J. L. Meriam, L. G. Kraige, Statics, 6/6). The senses of the rubs
+    are those of turning one way and the other.
+    """
+    arithmetic = AsWritten()
+    with arithmetic.mp.workdps(EVERY_DIGIT):
+        mp, numbers = arithmetic.mp, numbers_of(case)
+        given = {path: arithmetic.given(number) for path, number in numbers.items()}
+        pins = [f"joints.{at}" for at in ("A", "B", "3-4@C")]
+        circles = [given[f"{at}.radius"] * mp.sin(mp.atan(given[f"{at}.mu"])) for at in pins]
+        cos, sin = arithmetic.turn(numbers["angles.AB"])
+        bx, by, rod = given["lengths.AB"] * cos, given["lengths.AB"] * sin, given["lengths.BC"]
+        inclined = mp.asin((given["points.C.y"] - by) / rod)
+        ends = []
+        for turning in (1, -1):
+            rate = -turning * bx / (rod * mp.cos(inclined))
+            senses = (turning, mp.sign(rate - turning), mp.sign(rate))
+            a, b, c = (sense * radius for sense, radius in zip(senses, circles, strict=True))
+            slides = mp.sign(-turning * by - rod * mp.sin(inclined) * rate)
+            tangent = inclined - mp.asin((b + c) / rod)
+            wall = slides * given["joints.4-1@C.mu"] * abs(mp.sin(tangent))
+            force = given["loads.P"] / (mp.cos(tangent) - wall)
+            ends.append(force * (bx * mp.sin(tangent) - by * mp.cos(tangent) + a - b))
+        found = solve(case).answers["U"]
+        assert found.holds is not None
+        worst = max(math.ulp(end) for end in found.holds)
+        for end, true in zip(found.holds, sorted(ends), strict=True):
+            exact = found.error is not None and found.error <= 2.0 * worst
+            yield Shown("end", end if exact else math.inf, true, max(abs(true), 1))
+
+
+def every_end(case: Case) -> float:
+    """How many ends of a range were held to their law; negative where one breaks it."""
+    faults = [one.fault for one in friction_ends(case)]
     return -1.0 if any(faults) else float(len(faults))
 
 

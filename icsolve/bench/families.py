@@ -403,6 +403,28 @@ def coupler_slot(rng: Random) -> str:
     return sheet.text(torques(5, 2))
 
 
+def rubbing_slider_crank(rng: Random) -> str:
+    """A slider-crank of which all joints rub, two in five of them beside a dead centre; nothing moves it."""
+    crank, rod = round(rng.uniform(0.5, 2.0), 3), round(rng.uniform(3.0, 8.0), 3)
+    offset, angle = round(rng.uniform(-0.4, 0.4), 3), round(rng.uniform(0.0, 360.0), 4)
+    if rng.random() < 0.4:
+        offset, angle = 0.0, rng.choice((0, 180)) + 10.0 ** rng.uniform(-12.0, -2.0)
+    mu = [f"mu: {rng.uniform(0.01, 0.3):.3f}" for _ in range(4)]
+    radii = [f"radius: {rng.uniform(0.02, 0.2):.3f}" for _ in range(3)]
+    return f"""icsolve: 1
+points: {{A: [0, 0], C: [unknown, {offset!r}]}}
+lengths: {{AB: {crank!r}, BC: {rod!r}}}
+angles: {{AB: {angle!r}}}
+near: {{C: [{rod!r}, {offset!r}]}}
+joints:
+  - {{pin: [1, 2], at: A, {mu[0]}, {radii[0]}}}
+  - {{pin: [2, 3], at: B, {mu[1]}, {radii[1]}}}
+  - {{pin: [3, 4], at: C, {mu[2]}, {radii[2]}}}
+  - {{slide: [4, 1], at: C, along: 0, {mu[3]}}}
+loads: {{P: {{force: 100, link: 4, at: C, angle: 180}}, U: {{torque: unknown, link: 2}}}}
+"""
+
+
 class Family(NamedTuple):
     """Scenes of one kind: a name for tables, how one is drawn, how many of them count for one."""
 
@@ -445,6 +467,9 @@ EXACT: tuple[Family, ...] = (
     Family("twelve links found together", by_sides(linkage(FOURTEEN_BAR), (1, 3)), 400),
 )
 """On which every number is held to its last digit, and rows of sweeps to their scenes."""
+
+RUBBING = (Family("slider-crank with friction", rubbing_slider_crank, 2),)
+"""Of which the ends of the range that holds are known in closed form."""
 
 BOUNDED: tuple[Family, ...] = (
     ALL_JOINTS,

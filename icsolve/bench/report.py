@@ -14,6 +14,7 @@ from icsolve.bench.accuracy import (
     Score,
     bits_kept,
     bound_over_error,
+    every_end,
     every_number,
     every_row,
     forward_error,
@@ -21,7 +22,7 @@ from icsolve.bench.accuracy import (
     scenes,
     scored,
 )
-from icsolve.bench.families import BOUNDED, EXACT, FAMILIES
+from icsolve.bench.families import BOUNDED, EXACT, FAMILIES, RUBBING
 from icsolve.bench.full_turn import compiler_version
 from icsolve.bench.gates import FULL, USUAL, Effort, Gate, Kept, gate_table, nothing, table, table_row
 from icsolve.bench.rivals import METHODS, OWN
@@ -109,8 +110,12 @@ def laws(effort: Effort, kept: Kept) -> Iterator[str]:
     kept.gates.append(Gate(f"bounds that are less than the error, of {count}", broken, 0))
     kept.gates.append(Gate("bound over error, worst median of a family", middle, PESSIMISM))
     yield _laws(f"error bound / error; median at most {PESSIMISM:g}, never broken", found)
-    for name, law, share in (("numbers", every_number, 1), ("rows of sweeps", every_row, 10)):
-        found = held(law, EXACT, effort.digits // share, effort.jobs)
+    for name, law, families, share in (
+        ("numbers", every_number, EXACT, 1),
+        ("rows of sweeps", every_row, EXACT, 10),
+        ("ends with friction", every_end, RUBBING, 1),
+    ):
+        found = held(law, families, effort.digits // share, effort.jobs)
         broken, count = _broken(found), _scenes(found)
         kept.gates.append(Gate(f"{name} that are not the exact ones, in {count} scenes", broken, 0))
         rows = [[law.family, str(law.scenes), str(law.broken), f"{law.median:g}"] for law in found]
