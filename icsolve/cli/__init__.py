@@ -39,7 +39,8 @@ def main(arguments: list[str] | None = None) -> NoReturn:
             code = _run(arguments)
         sys.stdout.flush()
     except BrokenPipeError:
-        _silence_stdout()
+        # not even what the interpreter flushes at its end goes to a closed pipe
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         code = CLOSED_PIPE
     except OSError as error:
         code = _cannot_write(error)
@@ -156,8 +157,3 @@ def _cannot_write(error: OSError) -> int:
     with suppress(OSError):
         print(f"icsolve: {error.strerror or error}", file=sys.stderr)  # noqa: T201
     return UNWRITABLE
-
-
-def _silence_stdout() -> None:
-    """Nothing more to a closed pipe, not even what the interpreter flushes at its end."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -201,7 +201,9 @@ def _outcomes(
         yield from (outcome(source, work, settings) for source in sources(argument))
         return
     every = list(sources(argument))
-    count = _processes(len(every)) if jobs is None else min(jobs, len(every))
+    if jobs is None:
+        jobs = (os.cpu_count() or 1) if len(every) >= MANY and can_fork() else 1
+    count = min(jobs, len(every))
     if count < 2:
         yield from (outcome(source, work, settings) for source in every)
         return
@@ -212,10 +214,6 @@ def _outcomes(
     with started([(share, (every[k::count],)) for k in range(1, count)]) as others:
         shares = [share(every[::count]), *others()]
     yield from (shares[n % count][n // count] for n in range(len(every)))
-
-
-def _processes(files: int) -> int:
-    return (os.cpu_count() or 1) if files >= MANY and can_fork() else 1
 
 
 def outcome(source: InputSource, work: Work[T], settings: Mapping[str, str] | None = None) -> Outcome:

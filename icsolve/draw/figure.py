@@ -110,7 +110,7 @@ def _shortest(known: Known) -> float:
 def figure_marks(scene: Scene, steps: Sequence[Step] = (), *, velocities: bool = False) -> list[Mark]:
     """The whole figure: frame, links, centres, joints, loads, and all labels."""
     bodies = [body_of(scene, link) for link in scene.case.links if link != scene.case.ground]
-    bodies.sort(key=_depth)
+    bodies.sort(key=lambda body: (len(body.blocks), -float(shapely.area(outline(body)))))  # rods first
     ropes = courses(scene)
     pulleys = tuple(mark for marks in pulley_marks(ropes).values() for mark in marks)
     links = joined([*(bars(body) for body in bodies), *filled(ropes)])
@@ -155,11 +155,6 @@ def _hides_its_foot(scene: Scene, body: DrawnBody) -> bool:
 def _filled(links: shapely.Geometry, parts: Iterable[Part]) -> shapely.Geometry:
     """What the arrow of a load had better not cover."""
     return joined([links, *(soft.geometry for part in parts for soft in part.soft)])
-
-
-def _depth(body: DrawnBody) -> tuple[int, float]:
-    """Rods under blocks, large plates under small ones."""
-    return (len(body.blocks), -float(shapely.area(outline(body))))
 
 
 # --- the drawing that is asked for -----------------------------------------------------------------------

@@ -352,7 +352,8 @@ def _anchors(
     spots: list[Point] = []
     for k, p in enumerate(points):
         for q in points[k + 1 :]:
-            spots += [_point_along(p, q, share) for share in (0.5, 0.36, 0.64)]
+            way = (q[0] - p[0], q[1] - p[1])
+            spots += [along(p, way, share) for share in (0.5, 0.36, 0.64)]
     for w in wheels:
         corners = ((1, -1), (-1, -1), (1, 1), (-1, 1))
         spots += [along(w.centre, unit(a, b), 0.62 * w.radius) for a, b in corners]
@@ -362,10 +363,6 @@ def _anchors(
         inside = shape.representative_point()
         spots = [(inside.x, inside.y)]
     return tuple(spots[:9])
-
-
-def _point_along(p: Point, q: Point, share: float) -> Point:
-    return (p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1]))
 
 
 def wheel_parts(bodies: Iterable[DrawnBody]) -> list[Part]:

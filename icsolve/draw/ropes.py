@@ -151,13 +151,10 @@ def rope_marks(scene: Scene, ropes: Sequence[RopeCourse]) -> list[Part]:
             f"rope-{rope.rope.name}", "", (Stroke(rope.line, "rope"),), f"rope {rope.rope.name}"
         )
         solid = tuple(around(disc.centre, AXLE) for _, disc in rope.pulleys)
-        soft = (Soft(shapely.LineString(rope.line), 3.0), *(Soft(ring, 1.5) for ring in _rims(rope)))
+        rims = (shapely.Point(disc.centre).buffer(disc.radius).boundary for _, disc in rope.pulleys)
+        soft = (Soft(shapely.LineString(rope.line), 3.0), *(Soft(ring, 1.5) for ring in rims))
         parts.append(Part((group,), soft, solid, tuple(_tensions(scene, rope))))
     return parts
-
-
-def _rims(rope: RopeCourse) -> Iterable[shapely.Geometry]:
-    return (shapely.Point(disc.centre).buffer(disc.radius).boundary for _, disc in rope.pulleys)
 
 
 def _tensions(scene: Scene, course: RopeCourse) -> Iterable[Label]:

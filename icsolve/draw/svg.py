@@ -178,8 +178,8 @@ def document(marks: Iterable[Mark], view: Box, title: str, description: str) -> 
     """A whole SVG document with a paper behind the marks."""
     marks = tuple(marks)
     left, top, right, bottom = view
-    size = (number(right - left), number(bottom - top))
-    box = " ".join((number(left), number(top), *size))
+    corner, size = (number(left), number(top)), (number(right - left), number(bottom - top))
+    box = " ".join((*corner, *size))
     used = kinds_of(marks) | {"paper"}
     return "\n".join(
         (
@@ -188,15 +188,11 @@ def document(marks: Iterable[Mark], view: Box, title: str, description: str) -> 
             f"<title>{escaped(title)}</title>",
             f"<desc>{escaped(description)}</desc>",
             f"<style>{sheet(used, painted=False)}</style>",
-            _paper(number(left), number(top), *size),
+            f'<rect class="paper" x="{corner[0]}" y="{corner[1]}" width="{size[0]}" height="{size[1]}"/>',
             *(element(mark, halo=True) for mark in marks),
             "</svg>\n",
         )
     )
-
-
-def _paper(x: str, y: str, width: str, height: str) -> str:
-    return f'<rect class="paper" x="{x}" y="{y}" width="{width}" height="{height}"/>'
 
 
 def element(mark: Mark, *, halo: bool = False) -> str:

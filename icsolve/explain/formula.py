@@ -262,13 +262,9 @@ class Notation(NamedTuple):
 # --- plain text, LaTeX, MathML ----------------------------------------------------------------------
 
 
-def _plain_name(base: str, low: str) -> str:
-    return f"{base}{low}" if low[:1].isdigit() or not low else f"{base}_{low}"
-
-
 PLAIN = Notation(
     number=str,
-    name=_plain_name,
+    name=lambda base, low: f"{base}{low}" if low[:1].isdigit() or not low else f"{base}_{low}",
     unit=str,
     quantity="{} {}",
     span="|{} {}|",

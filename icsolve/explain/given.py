@@ -113,9 +113,8 @@ def given_section(known: Known, figures: Figures) -> Section:
     """Links and joints, the points, the loads, and the question."""
     case, told = known.case, figures.statement(known)
     others = [link for link in case.links if link != case.ground]
-    blocks: list[Block] = [
-        words(f"The frame is link {case.ground}; link{_s(others)} {listed(others)} move{_verb(others)}.")
-    ]
+    s, verb = ("", "s") if len(others) == 1 else ("s", "")
+    blocks: list[Block] = [words(f"The frame is link {case.ground}; link{s} {listed(others)} move{verb}.")]
     rows = [told.joint(joint) for joint in case.joints]
     rows += [told.rope(rope) for rope in case.ropes]
     rows += [(f"link {link}", told.mass(inertia)) for link, inertia in case.inertia.items()]
@@ -165,14 +164,6 @@ def position_asked(known: Known) -> str:
             what += f" from {one.low.digits} to {one.high.digits} {unit}"
         said.append(what)
     return f"For which {listed(said)} do the loads balance?"
-
-
-def _s(items: list[str]) -> str:
-    return "" if len(items) == 1 else "s"
-
-
-def _verb(items: list[str]) -> str:
-    return "s" if len(items) == 1 else ""
 
 
 def _points(known: Known, figures: Figures, told: Statement) -> list[Block]:

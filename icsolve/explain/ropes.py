@@ -135,7 +135,8 @@ def ropes_section(known: Known, figures: Figures, headings: Headings, before: Se
         if not (rope.slips and any(a.unknown for a in _at_end(known, rope))):
             blocks += _drawn(known, figures, rope, found)
     shown = {b.equation.sides[0] for s in before for b in s.blocks if isinstance(b, Formula)}
-    found |= {a.load.name for a in acting_loads(known) if not a.unknown or _works(known, a)}
+    still = {known.case.ground, *filter(known.rests, known.twists)}
+    found |= {a.load.name for a in acting_loads(known) if not a.unknown or {a.link, a.against} - still}
     links = [link for link in known.case.links if _alone(known, link)]
     for link in [*links, *links]:  # one may give what an earlier one needs
         blocks += _by_itself(known, figures, headings, link, found, shown)
@@ -147,10 +148,6 @@ def ropes_section(known: Known, figures: Figures, headings: Headings, before: Se
     if missing:
         blocks.append(words(f"The equations of equilibrium (below) give the tension of {listed(missing)}."))
     return Told(Section("Ropes" if len(known.case.ropes) > 1 else "The rope", tuple(blocks)), bool(missing))
-
-
-def _works(known: Known, acting: Acting) -> bool:
-    return not all(known.rests(link) or link == known.case.ground for link in (acting.link, acting.against))
 
 
 def _tensions(known: Known, rope: Rope) -> list[float]:

@@ -46,9 +46,10 @@ def figure_of(known: Known, steps: Sequence[Step], motion: PageMotion | None) ->
     bodies.sort(key=lambda body: (len(body.blocks), -float(shapely.area(outline(body)))))
     ropes = tuple(courses(scene))
     links = joined([*map(bars, bodies), *filled(ropes)])
+    inside = [w.link for w in scene.round.wheels if w.rim and w.link != scene.case.ground]
     parts = [
         *_wheels(bodies),
-        *(_following(part, f"rim-{w}", ("data-turn", w)) for part in rims(scene) for w in _rim_links(scene)),
+        *(_following(part, f"rim-{w}", ("data-turn", w)) for part in rims(scene) for w in inside),
         *frame_parts(scene, links, following=True),
         *(_turning(link_part(scene, body), body.link) for body in bodies),
         *_belts(scene),
@@ -134,10 +135,6 @@ def _along(scene: Scene, motion: PageMotion, link: str, point: str, u: Point) ->
         dy = np.sin(turn) * rx + np.cos(turn) * ry + py - y0
     way = (dx * u[0] - dy * u[1]) * scene.view.scale
     return min(float(way.min()), 0.0), max(float(way.max()), 0.0)
-
-
-def _rim_links(scene: Scene) -> list[str]:
-    return [w.link for w in scene.round.wheels if w.rim and w.link != scene.case.ground]
 
 
 def _following(part: Part, name: str, data: tuple[str, str]) -> Part:

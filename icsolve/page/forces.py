@@ -50,13 +50,14 @@ def forces_data(scene: Scene, motion: PageMotion | None) -> dict[str, Any]:
         if link == known.case.ground or not spots:
             continue
         some = [dict(_named(scene, pose, link)) for pose in poses]
+        every = dict.fromkeys(name for one in some for name in one)
         most = max((math.hypot(*push.force) for one in some for push in one.values()), default=0.0)
         twists = [_nothing if pose is None else _twists(pose).get(link, _nothing) for pose in poses]
         data[link] = {
             "spots": [[round(x, 5), round(y, 5)] for x, y in spots],
             "names": [p for p in known.case.carries.get(link, ()) if p in scene.at],
             "twist": [exact(column, SIZES) for column in zip(*twists, strict=True)],
-            "pushes": [_through(name, [one.get(name) for one in some], most, reach) for name in _every(some)],
+            "pushes": [_through(name, [one.get(name) for one in some], most, reach) for name in every],
         }
     units = known.case.units
     words = [unit_word(unit) for unit in (units.force, units.torque, units.length)]
@@ -99,10 +100,6 @@ def _named(scene: Scene, here: Known | None, link: str) -> Iterable[tuple[str, D
         places = {name: scene.view.at(p) for name, p in here.points.items()}
         for push in pushes_on(scene._replace(known=here, at=places), link):
             yield push.name, push
-
-
-def _every(some: Iterable[dict[str, DrawnPush]]) -> Iterable[str]:
-    return dict.fromkeys(name for one in some for name in one)
 
 
 def _through(name: str, pushes: list[DrawnPush | None], most: float, reach: float) -> dict[str, Any]:

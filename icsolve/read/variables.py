@@ -61,11 +61,6 @@ def names_in(text: str) -> list[str]:
     return [first or second for first, second in _NAME.findall(text)]
 
 
-def with_texts(text: str, values: Named[str, str]) -> str:
-    """A text with each ``$name`` replaced by what was drawn for it, as in a title."""
-    return _NAME.sub(lambda found: values.get(found.group(1) or found.group(2), found.group()), text)
-
-
 def replaced(text: str, values: Named[str, str]) -> tuple[str, Fraction | None]:
     """A quantity with its arithmetic worked out and its unit kept; and the exact number, where that is no
     decimal of few digits.
@@ -318,7 +313,8 @@ def _put_in(node: Node, values: dict[str, str], used: set[str], problems: Proble
     used.update(() if free else names)
     try:
         if free:
-            return Scalar(with_texts(node.text, values), node.plain, node.mark)
+            text = _NAME.sub(lambda name: values.get(name[1] or name[2], name[0]), node.text)
+            return Scalar(text, node.plain, node.mark)
         text, exact = replaced(node.text, values)
         return Scalar(text, node.plain, node.mark, exact)
     except FormulaError as error:

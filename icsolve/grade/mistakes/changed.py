@@ -457,14 +457,11 @@ def _masses(case: Case) -> Iterator[Changed]:
             point = case.inertia | {link: own._replace(moment=None)}
             yield Changed("no-inertia", replace(case, inertia=point), f"the couple of link {link}")
     for factor in (RPM, 1.0 / RPM):
-        yield Changed("rpm", replace(case, motion=tuple(_faster(given, factor) for given in case.motion)))
+        faster = (given._replace(speed=given.speed and _times(given.speed, factor)) for given in case.motion)
+        yield Changed("rpm", replace(case, motion=tuple(faster)))
     if any(given.acceleration is not None for given in case.motion):
         steady = tuple(given._replace(acceleration=None) for given in case.motion)
         yield Changed("no-acceleration", replace(case, motion=steady))
         turned = (given.acceleration and _times(given.acceleration, -1.0) for given in case.motion)
         slowing = (given._replace(acceleration=a) for given, a in zip(case.motion, turned, strict=True))
         yield Changed("no-acceleration", replace(case, motion=tuple(slowing)))
-
-
-def _faster(given: Motion, factor: float) -> Motion:
-    return given._replace(speed=_times(given.speed, factor)) if given.speed else given

@@ -171,18 +171,14 @@ def _questions(columns: TableColumns, ids: set[int]) -> tuple[dict[int, str], li
         if (index in taken and not mapped) or (not mapped and name in ("", *FIELDS["attempt"])):
             continue
         exact = columns.find(columns.header[index]) is not None
-        meta = not exact and _is_meta(name)
+        about = name.partition("/")[0] in ABOUT_STUDENTS  # ``Grade/10.00``
+        meta = not exact and (about or bool(_META.match(name)) or is_aside(name))
         question = columns.question_of(index) if mapped or not meta else None
         if question is not None:
             asked[index] = question
         elif _RESPONSE.match(name) or not meta:
             strange.append(index)
     return asked, strange
-
-
-def _is_meta(name: str) -> bool:
-    """Whether a column is about the student or the hand-in: ``Grade/10.00``."""
-    return name.partition("/")[0] in ABOUT_STUDENTS or bool(_META.match(name)) or is_aside(name)
 
 
 def _no_row(cells: list[str]) -> bool:

@@ -139,7 +139,7 @@ def changes(varied: Varied, record: VariantRecord) -> Iterator[str]:
     varied.ready(record.handed)
     seed = varied.course.seed
     asked = sorted(record.handed)[:_ASKED]
-    drawn = [student for student in asked if varied.is_drawn(student, record.handed[student].values)]
+    drawn = [one for one in asked if record.handed[one].values in varied.draws(one)]
     if 2 * len(drawn) <= len(asked):
         yield (
             f"these numbers were not drawn with the seed {seed!r} from the variables that {varied.name} has "

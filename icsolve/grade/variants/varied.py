@@ -6,7 +6,7 @@ import hashlib
 import math
 import re
 from collections import OrderedDict
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from typing import TypeVar
 
@@ -199,9 +199,9 @@ class Varied:
         text = found.text if type(found) is Scalar else ""
         return " ".join(re.sub(r"\(?[^\s(]*\$\w+[^\s)]*\)?", "", text).split())
 
-    def is_drawn(self, student: str, values: Texts) -> bool:
-        """Whether values are a draw of this student by the present seed, whatever the filter says of it."""
-        return any(self._values(student, trial) == values for trial in range(TRIALS))
+    def draws(self, student: str) -> Iterator[Texts]:
+        """All draws of a student by the present seed, whatever the filter says of them."""
+        return (self._values(student, trial) for trial in range(TRIALS))
 
     def drawn_otherwise(self, handed: Mapping[str, Draw]) -> list[str]:
         """Of some students those who would now be given other numbers than were handed out."""
