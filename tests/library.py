@@ -13,7 +13,8 @@ from zlib import crc32
 import icsolve
 from icsolve.page import page_html
 from icsolve.page.motion import PageMotion, motion_of
-from icsolve.report.derivation import Known, known_of, needed_steps
+from icsolve.report.derivation.known import Known, known_of
+from icsolve.report.derivation.ratios import needed_steps
 from sizes import FULL
 
 LIBRARY = Path(__file__).parent.parent / "cases"

@@ -26,7 +26,7 @@ from icsolve.bench.accuracy import every_row, friction_ends, shown
 from icsolve.bench.families import EXACT, RUBBING, Family
 from icsolve.errors import SceneError
 from icsolve.manual import template
-from icsolve.report.derivation import known_of
+from icsolve.report.derivation.known import known_of
 from sizes import FULL
 
 

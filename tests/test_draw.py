@@ -29,7 +29,8 @@ from icsolve.draw import Drawing, draw
 from icsolve.draw.figure import scene_of
 from icsolve.draw.links import body_of
 from icsolve.draw.scene import geneva_of
-from icsolve.report.derivation import known_of, needed_steps
+from icsolve.report.derivation.known import known_of
+from icsolve.report.derivation.ratios import needed_steps
 from library import FILES, LIBRARY, sample
 from pictures import Picture, on_arrows, outside, overlaps, parsed, shapes
 from sizes import FULL

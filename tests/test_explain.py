@@ -26,7 +26,7 @@ from icsolve.draw import draw
 from icsolve.explain import explain
 from icsolve.explain.document import ShownTable
 from icsolve.explain.sheet import exercise
-from icsolve.report.derivation import known_of
+from icsolve.report.derivation.known import known_of
 from library import FILES, sample
 from sizes import FULL
 from test_draw import DEAD_CENTRE, FOUR_BAR, HOSTILE

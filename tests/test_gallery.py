@@ -16,7 +16,7 @@ import icsolve
 from icsolve.draw.words import answer_sentences
 from icsolve.explain.sheet import exercise, sheet_tex
 from icsolve.page.gallery import ENDINGS, KINDS, exhibit, index_html
-from icsolve.report.derivation import known_of
+from icsolve.report.derivation.known import known_of
 from pictures import parsed
 from shell import exit_status
 from test_draw import DEAD_CENTRE, FOUR_BAR, HOSTILE

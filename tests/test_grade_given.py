@@ -13,7 +13,7 @@ from grade_shell import CASES
 from icsolve.case import Coordinates
 from icsolve.explain.document import AsText, Document
 from icsolve.explain.given import Figures, asked_section, given_section
-from icsolve.report.derivation import Known
+from icsolve.report.derivation.known import Known
 from icsolve.sweep.numbers import numbers_of
 from icsolve.wording.statement import Statement
 

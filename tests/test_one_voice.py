@@ -31,7 +31,8 @@ from icsolve.explain import explain
 from icsolve.manual import template
 from icsolve.page import page_html
 from icsolve.report.check import value_of
-from icsolve.report.derivation import Known, answer_ratios, known_of
+from icsolve.report.derivation.known import Known, known_of
+from icsolve.report.derivation.ratios import answer_ratios
 from icsolve.report.text import answer_text
 from icsolve.statics.power import reacting
 from icsolve.sweep.find_on_record import Query, find

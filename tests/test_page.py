@@ -30,7 +30,7 @@ from icsolve.page import page_html
 from icsolve.page.figure import figure_of
 from icsolve.page.forces import forces_data
 from icsolve.page.motion import motion_of
-from icsolve.report.derivation import known_of
+from icsolve.report.derivation.known import known_of
 from icsolve.scene.refusals import rubs
 from icsolve.screws.ropes import offsets_of, rope_length
 from library import FILES, LIBRARY, PAGED, motion, page_of

@@ -23,7 +23,8 @@ from icsolve.draw.words import figure_number, unit_word
 from icsolve.page import page_html
 from icsolve.page.figure import figure_of
 from icsolve.page.motion import PageMotion
-from icsolve.report.derivation import known_of, needed_steps
+from icsolve.report.derivation.known import known_of
+from icsolve.report.derivation.ratios import needed_steps
 from library import FILES, PAGED, known, motion, page_of, sample
 from pictures import parsed
 from test_page import hostile, ten_links

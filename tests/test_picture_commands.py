@@ -14,7 +14,7 @@ import pytest
 
 import icsolve
 from icsolve.draw.words import answer_sentences
-from icsolve.report.derivation import known_of
+from icsolve.report.derivation.known import known_of
 from pictures import parsed
 from shell import exit_status
 from test_draw import DEAD_CENTRE, FOUR_BAR

@@ -15,7 +15,7 @@ from icsolve import Answer, load, solve
 from icsolve.answer.space import SpatialReaction
 from icsolve.errors import CaseError, SceneError
 from icsolve.report.check import AGREES, compare
-from icsolve.report.derivation import known_of
+from icsolve.report.derivation.known import known_of
 from icsolve.report.text import answer_text
 from shell import exit_status
 

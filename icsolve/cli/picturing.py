@@ -29,7 +29,7 @@ from icsolve.tuples import NamedTuple
 if TYPE_CHECKING:
     from icsolve.case import Case
     from icsolve.page.gallery import Exhibit
-    from icsolve.report.derivation import Known
+    from icsolve.report.derivation.known import Known
 
 DRAWN = {".svg": "svg", ".tex": "tex"}
 EXPLAINED = {
@@ -175,7 +175,7 @@ def sheet_command(
 
         def work(case: Case, path: str, given: Values = values, to: list[Exercise] = found) -> int:
             from icsolve.read import load
-            from icsolve.report.derivation import known_of
+            from icsolve.report.derivation.known import known_of
 
             own = {f"variables.{v.name}": given[v.name] for v in case.variables if v.name in given}
             known = known_of(load(path, own) if own else case)
@@ -241,7 +241,7 @@ def laid_out(
         return UNREADABLE
 
     def work(case: Case, path: str) -> int:
-        from icsolve.report.derivation import known_of
+        from icsolve.report.derivation.known import known_of
 
         known = known_of(case, reactions=reactions)
         code = write_output(verb, made(known), output)

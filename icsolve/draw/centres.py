@@ -32,7 +32,8 @@ from icsolve.draw.marks import (
 from icsolve.draw.place import Label, Soft, clipped
 from icsolve.draw.scene import Part, Scene, around, with_labels
 from icsolve.draw.words import centre_runs, quantity
-from icsolve.report.derivation import Known, Step, joint_of_normal
+from icsolve.report.derivation.known import Known, joint_of_normal
+from icsolve.report.derivation.ratios import Step
 from icsolve.tuples import NamedTuple
 
 BEYOND = 16.0

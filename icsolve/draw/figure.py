@@ -31,7 +31,8 @@ from icsolve.draw.scene import (
 from icsolve.draw.svg import document
 from icsolve.draw.tikz import standalone
 from icsolve.draw.words import captioned, description
-from icsolve.report.derivation import Known, Step, all_steps, known_of, needed_steps
+from icsolve.report.derivation.known import Known, known_of
+from icsolve.report.derivation.ratios import Step, all_steps, needed_steps
 from icsolve.tuples import NamedTuple
 
 SHORT, LARGER = 52.0, 1.5

@@ -16,7 +16,7 @@ from icsolve.draw.marks import Box, Mark, Point, View, along
 from icsolve.draw.place import Label, Placer, Soft
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS, turn_of
-from icsolve.report.derivation import Known
+from icsolve.report.derivation.known import Known
 from icsolve.screws.joints import guide_direction, mesh_weights
 from icsolve.structure.topology import Bond, topology
 from icsolve.tuples import NamedTuple

@@ -34,7 +34,7 @@ from icsolve.draw.marks import (
 from icsolve.draw.place import Label, Soft, area, bar, hatched, joined, plate, tilted
 from icsolve.draw.scene import HALF, PIN, Part, around, together, with_labels
 from icsolve.draw.words import force_runs, name_runs, quantity
-from icsolve.report.derivation import Known
+from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.spatial import InSpace, Push, in_space
 from icsolve.screws.plane import add, cross, subtract
 from icsolve.screws.space import AXES, Vec, dot, size, times

@@ -10,7 +10,8 @@ from icsolve.answer.bodies import Reaction
 from icsolve.case import pair_name
 from icsolve.draw.marks import Mark, MarkGroup, TextMark, TextRun, bounds, text_width
 from icsolve.draw.svg import runs_of
-from icsolve.report.derivation import Known, Step
+from icsolve.report.derivation.known import Known
+from icsolve.report.derivation.ratios import Step
 from icsolve.report.text import positions_text
 from icsolve.wording.senses import holding, spelt
 from icsolve.wording.sentences import plural

@@ -7,7 +7,7 @@ from icsolve.case import Case
 from icsolve.draw.figure import Drawing, draw, drawn
 from icsolve.explain.document import AsMarkdown, AsText
 from icsolve.explain.solution import solution
-from icsolve.report.derivation import Known, known_of
+from icsolve.report.derivation.known import Known, known_of
 
 FORMATS = ("text", "md", "html", "tex")
 

@@ -10,7 +10,8 @@ from icsolve.answer.space import Parts, SpatialReaction
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, product
 from icsolve.explain.given import Figures, load_name
-from icsolve.report.derivation import Known, acting_loads, rope_pulls
+from icsolve.report.derivation.known import Known, acting_loads
+from icsolve.report.derivation.ropes import rope_pulls
 from icsolve.screws.plane import subtract
 from icsolve.screws.space import ZERO, Vec, size, times
 from icsolve.tuples import NamedTuple

@@ -25,8 +25,8 @@ from icsolve.explain.formula import (
 from icsolve.explain.given import Figures, centre_name, place_words, rate_name
 from icsolve.explain.levers import difference, motion_name, place
 from icsolve.explain.ropes import rope_ratio, screw_ratio
-from icsolve.report.derivation import Known, Ratio, Ratios, Step, joint_of_normal
-from icsolve.report.derivation.ratios import ratios_of
+from icsolve.report.derivation.known import Known, joint_of_normal
+from icsolve.report.derivation.ratios import Ratio, Ratios, Step, ratios_of
 from icsolve.wording.joints import centre_words, normal_words
 from icsolve.wording.sentences import link_words
 

@@ -13,7 +13,7 @@ from icsolve.explain.document import Block, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, product
 from icsolve.explain.given import Figures, load_name
 from icsolve.explain.power import AGREE, NOTHING, factor_of, gain_of, sprung, torque_words
-from icsolve.report.derivation import Acting, Known, acting_loads, known_at
+from icsolve.report.derivation.known import Acting, Known, acting_loads, known_at
 from icsolve.report.derivation.ratios import OneMotion, independent_motions, speed_words
 from icsolve.report.text import place_text
 from icsolve.screws.plane import Point, Triple, velocity

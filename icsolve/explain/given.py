@@ -11,7 +11,7 @@ from icsolve.case import Centroid, Coordinates, Number, Units, pair_name
 from icsolve.draw.words import name_runs
 from icsolve.explain.document import Block, Items, Section, ShownTable, words
 from icsolve.explain.formula import Name, Num, Quantity
-from icsolve.report.derivation import Known
+from icsolve.report.derivation.known import Known
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 from icsolve.wording.statement import Row, Statement

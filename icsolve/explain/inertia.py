@@ -8,7 +8,7 @@ from icsolve.case import ForceVector, Like, Torque
 from icsolve.explain.document import Block, Section, formula, words
 from icsolve.explain.formula import Name, Product, minus, product
 from icsolve.explain.given import Figures, load_name
-from icsolve.report.derivation import Known
+from icsolve.report.derivation.known import Known
 
 DALEMBERT = (
     "With the inertia forces of its motion among the loads a mechanism counts as in equilibrium "

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from icsolve.explain.document import Block, Inline, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, Trig, product
 from icsolve.explain.given import Figures, centre_name, rate_name, speed_name
-from icsolve.report.derivation import Known
+from icsolve.report.derivation.known import Known
 from icsolve.screws.plane import Point
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import link_words

@@ -25,8 +25,8 @@ from icsolve.explain.document import Block, Items, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Quotient, Square, Sum, Trig, product, solved_for, total
 from icsolve.explain.given import Figures, load_name
 from icsolve.explain.levers import lever, motion_name
-from icsolve.report.derivation import Acting, Known, Ratios
-from icsolve.report.derivation.ratios import OneMotion, independent_motions, speed_words
+from icsolve.report.derivation.known import Acting, Known
+from icsolve.report.derivation.ratios import OneMotion, Ratios, independent_motions, speed_words
 from icsolve.screws.plane import velocity
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed

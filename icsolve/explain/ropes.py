@@ -27,16 +27,9 @@ from icsolve.explain.formula import (
 from icsolve.explain.given import Figures, load_name
 from icsolve.explain.levers import Lever, lever, motion_name, pivot
 from icsolve.numbers.arithmetic import FLOATS
-from icsolve.report.derivation import (
-    Acting,
-    Known,
-    Pull,
-    Ratio,
-    Ratios,
-    acting_loads,
-    rope_pulls,
-    tension_name,
-)
+from icsolve.report.derivation.known import Acting, Known, acting_loads
+from icsolve.report.derivation.ratios import Ratio, Ratios
+from icsolve.report.derivation.ropes import Pull, rope_pulls, tension_name
 from icsolve.screws.joints import guide_direction
 from icsolve.screws.plane import velocity
 from icsolve.screws.ropes import rope_parts, wrap_angle

@@ -11,7 +11,7 @@ from icsolve.draw.words import answer_sentences, position_sentences, reaction_se
 from icsolve.explain.document import Block, Inline
 from icsolve.explain.given import asked_section, figures_of, given_section, load_name
 from icsolve.explain.typeset import AsTex, picture_tex
-from icsolve.report.derivation import Known
+from icsolve.report.derivation.known import Known
 from icsolve.tuples import NamedTuple
 
 ASKED = Drawing(centres="none", captions=False)

@@ -24,7 +24,8 @@ from icsolve.explain.given import (
 from icsolve.explain.inertia import inertia_section
 from icsolve.explain.power import friction_section, motions_section, power_section
 from icsolve.explain.ropes import ropes_section, screws_section
-from icsolve.report.derivation import Known, Step, acting_loads, all_steps, answer_ratios, needed_steps
+from icsolve.report.derivation.known import Known, acting_loads
+from icsolve.report.derivation.ratios import Step, all_steps, answer_ratios, needed_steps
 from icsolve.report.text import positions_text
 from icsolve.statics.power import is_unknown
 from icsolve.wording.senses import holding, spelt

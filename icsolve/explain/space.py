@@ -8,7 +8,7 @@ from icsolve.explain.bodies import On, link_section, reaction_on, reactions_sect
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.formula import Name, Num, Sum, product
 from icsolve.explain.given import Figures, load_name
-from icsolve.report.derivation import Known
+from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.spatial import InSpace, Push, in_space
 from icsolve.screws.plane import subtract
 from icsolve.screws.space import ZERO, size, times

@@ -13,7 +13,8 @@ from icsolve.page.live import live_of
 from icsolve.page.model import model_of
 from icsolve.page.motion import motion_of, why_still
 from icsolve.page.pictures import ALWAYS, circle_svg, figure_svg, plot_data, plot_svg, plots_of, still_svg
-from icsolve.report.derivation import Known, known_of, needed_steps
+from icsolve.report.derivation.known import Known, known_of
+from icsolve.report.derivation.ratios import needed_steps
 
 DIGITS = 6
 """Significant digits of the worked solution."""

@@ -34,7 +34,8 @@ from icsolve.page.live import Live, why_presolved
 from icsolve.page.model import forces_in_joints, gain_rows
 from icsolve.page.motion import Array, PageMotion, exact, script_json
 from icsolve.page.pictures import track_svg
-from icsolve.report.derivation import Acting, Known, Step, acting_loads, resting
+from icsolve.report.derivation.known import Acting, Known, acting_loads, resting
+from icsolve.report.derivation.ratios import Step
 from icsolve.tuples import NamedTuple
 
 

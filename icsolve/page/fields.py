@@ -19,7 +19,7 @@ from icsolve.read import load
 from icsolve.read.joints import JOINTS
 from icsolve.read.keys import LOADS
 from icsolve.read.settings import places
-from icsolve.report.derivation import Known
+from icsolve.report.derivation.known import Known
 from icsolve.statics.inertia import is_loaded
 from icsolve.sweep.numbers import numbers_of
 from icsolve.tuples import NamedTuple

@@ -22,7 +22,8 @@ from icsolve.draw.place import Label, Placer, joined
 from icsolve.draw.ropes import RopeCourse, belts, courses, filled, pulley_marks, rope_marks
 from icsolve.draw.scene import ORDER, Part, Scene, Wheel, around, together
 from icsolve.page.motion import Array, PageMotion, moved
-from icsolve.report.derivation import Acting, Known, Step, acting_loads
+from icsolve.report.derivation.known import Acting, Known, acting_loads
+from icsolve.report.derivation.ratios import Step
 from icsolve.tuples import NamedTuple
 
 ROOM = (430.0, 350.0)

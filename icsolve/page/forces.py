@@ -15,7 +15,7 @@ from icsolve.draw.scene import Scene
 from icsolve.draw.words import unit_word
 from icsolve.errors import SceneError
 from icsolve.page.motion import PageMotion, exact
-from icsolve.report.derivation import Known, known_at
+from icsolve.report.derivation.known import Known, known_at
 from icsolve.scene import solve_scene
 from icsolve.screws.plane import Triple
 from icsolve.sweep import Sweep

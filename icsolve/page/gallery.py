@@ -15,7 +15,7 @@ from icsolve.draw.svg import escaped
 from icsolve.draw.words import answer_sentences, description
 from icsolve.explain.given import position_asked
 from icsolve.page import page_html
-from icsolve.report.derivation import Known, known_of
+from icsolve.report.derivation.known import Known, known_of
 from icsolve.statics.power import is_unknown
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed

@@ -38,7 +38,7 @@ from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.numbers.record import Record
 from icsolve.numbers.source import JAVASCRIPT, JAVASCRIPT_FUNCTIONS, straight_line
 from icsolve.page.fields import handles_of, text_data, units_to_write
-from icsolve.report.derivation import Known
+from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ratios import independent_motions
 from icsolve.scene.program import Program, Want, prepare
 from icsolve.scene.refusals import HANGS, rubs

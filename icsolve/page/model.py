@@ -25,7 +25,8 @@ from icsolve.errors import Status
 from icsolve.page.figure import PageFigure
 from icsolve.page.live import Live
 from icsolve.page.motion import FINE, Array, PageMotion, compact, exact, moved, moves
-from icsolve.report.derivation import Acting, Known, Step, acting_loads, resting
+from icsolve.report.derivation.known import Acting, Known, acting_loads, resting
+from icsolve.report.derivation.ratios import Step
 from icsolve.wording.senses import holding, sense_of, spelt, unit_of
 
 # --- loads through a motion ------------------------------------------------------------------------------

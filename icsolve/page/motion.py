@@ -18,7 +18,8 @@ from icsolve.draw.plot import asymptotes, dead_centres
 from icsolve.draw.words import figure_number, unit_word
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
-from icsolve.report.derivation import Known, loaded_links
+from icsolve.report.derivation.known import Known
+from icsolve.report.derivation.ratios import loaded_links
 from icsolve.scene.refusals import rubs
 from icsolve.screws.plane import Point
 from icsolve.screws.ropes import rope_length, rope_parts

@@ -17,7 +17,8 @@ from icsolve.draw.words import description, figure_number
 from icsolve.errors import Status
 from icsolve.page.figure import PageFigure
 from icsolve.page.motion import FINE, Array, PageMotion, compact
-from icsolve.report.derivation import Known, Step
+from icsolve.report.derivation.known import Known
+from icsolve.report.derivation.ratios import Step
 from icsolve.tuples import NamedTuple
 from icsolve.wording.senses import unit_of
 

@@ -31,7 +31,7 @@ from icsolve.tuples import NamedTuple
 def figure(case: Case) -> str:
     """The case drawn without its answer, as SVG."""
     from icsolve.draw import Drawing, draw
-    from icsolve.report.derivation import known_of
+    from icsolve.report.derivation.known import known_of
 
     return draw(case, Drawing(centres="none"), known_of(case, centres=False)._replace(answer=None))
 
