@@ -12,7 +12,7 @@ import pytest
 
 from grade_bench import CASES, questions
 from grade_mistakes import mistakes
-from icsolve.grade.run import Job, Sinks, grade
+from icsolve.grade.run import Job, grade
 
 FILES = {path.stem: path for path in CASES.rglob("*.yaml")}
 
@@ -59,7 +59,7 @@ def graded(tmp_path_factory: pytest.TempPathFactory) -> list[tuple[Student, dict
         rows.writerow(["student_id", "case", "answer"])
         rows.writerows([f"{n:05d}", s.case, s.answer] for n, s in enumerate(students))
     out = io.StringIO()
-    grade(Job((str(table),), str(CASES)), Sinks(out))
+    grade(Job((str(table),), str(CASES)), out)
     lines = {(row["student_id"], row["case"]): row for row in csv.DictReader(io.StringIO(out.getvalue()))}
     return [(s, lines[f"{n:05d}", s.case]) for n, s in enumerate(students)]
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import pytest
 
-from icsolve.grade.run import Job, Sinks, grade
+from icsolve.grade.run import Job, grade
 
 CORPUS = Path(__file__).parent / "data" / "written_answers.txt"
 HEAD = "icsolve: 1\njoints:\n  - {pin: [1, 2], at: A}\n"
@@ -135,7 +135,7 @@ def judged(tmp_path_factory: pytest.TempPathFactory) -> Judged:
         rows = csv.writer(file)
         rows.writerow(["student_id", "case", "answer"])
         rows.writerows([f"{n:05d}", ASKED.get(a.question, a.question), a.text] for n, a in enumerate(answers))
-    grade(Job((str(table),), str(cases)), Sinks(out))
+    grade(Job((str(table),), str(cases)), out)
     found = {(row["student_id"], row["case"]): row for row in csv.DictReader(io.StringIO(out.getvalue()))}
     lines = (found[f"{n:05d}", ASKED.get(a.question, a.question)] for n, a in enumerate(answers))
     return list(zip(answers, lines, strict=True))

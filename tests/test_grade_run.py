@@ -14,7 +14,7 @@ import pytest
 from grade_bench import CASES, write_class
 from grade_shell import PRESS, Class
 from icsolve.grade.importing import Store
-from icsolve.grade.run import Job, Sinks, grade
+from icsolve.grade.run import Job, grade
 from icsolve.grade.tables.columns import timestamp
 
 
@@ -159,7 +159,7 @@ def graded(table: str, folder: Path, most: int | None = None) -> str:
     with pytest.MonkeyPatch.context() as patch:
         if most is not None:
             patch.setattr(Store.__init__, "__defaults__", (most,))
-        grade(Job((str(path),), str(CASES)), Sinks(out))
+        grade(Job((str(path),), str(CASES)), out)
     return out.getvalue()
 
 

@@ -159,26 +159,19 @@ class Score(NamedTuple):
     scenes: int
 
 
-class KnownAnswer(NamedTuple):
-    """A scene and what is true of it."""
-
-    scene: RivalFigure
-    truth: Truth
-
-
-def scenes(family: Family, count: int) -> Iterator[KnownAnswer]:
-    """Scenes of a family that have an answer in exact arithmetic."""
+def scenes(family: Family, count: int) -> Iterator[tuple[RivalFigure, Truth]]:
+    """Scenes of a family that have an answer in exact arithmetic, and what is true of them."""
     for k in range(count):
         case = load(family.draw(Random(f"{family.name} {k}")))
         try:
-            known = KnownAnswer(drawn(case), truth(case))
+            scene, true = drawn(case), truth(case)
         except SceneError:
             continue
-        if known.truth.value != 0:
-            yield known
+        if true.value != 0:
+            yield scene, true
 
 
-def scored(method: Method, family: Family, known: Iterable[KnownAnswer]) -> Score:
+def scored(method: Method, family: Family, known: Iterable[tuple[RivalFigure, Truth]]) -> Score:
     """Run a method on the scenes of a family; where it is made for other data it has no scenes."""
     errors, units, times, lost = [], [], [], []
     refused = 0

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from decimal import Context, Decimal
 from itertools import combinations
 from random import Random
@@ -114,15 +114,14 @@ Draw = Callable[[Random], str]
 """One scene of a family."""
 
 
-def linkage(edges: str, places: Iterable[Spot] | None = None) -> Draw:
+def linkage(edges: str) -> Draw:
     """Links pinned in the pattern of a graph, numbered from 0 there and from 1 in the case."""
 
     def draw(rng: Random) -> str:
         sheet = FamilySheet(rng)
-        given = iter(places) if places is not None else None
         pairs = [(int(edge[0], 36) + 1, int(edge[1], 36) + 1) for edge in edges.split()]
         for i, j in pairs:
-            sheet.pin(i, j, next(given) if given is not None else None)
+            sheet.pin(i, j)
         return sheet.text(torques(max(max(pair) for pair in pairs), 2))
 
     return draw

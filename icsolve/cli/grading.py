@@ -179,7 +179,7 @@ def _pairs(texts: tuple[str, ...]) -> dict[str, str]:
 
 
 def _graded(job: Job, options: dict[str, Any]) -> int:
-    from icsolve.grade.run import Sinks, grade
+    from icsolve.grade.run import grade
 
     changed = ""
     with ExitStack() as stack:
@@ -190,7 +190,7 @@ def _graded(job: Job, options: dict[str, Any]) -> int:
             stack.enter_context(folder_of(options["jsonl"]))
             jsonl = stack.enter_context(whole_file(options["jsonl"], force))
         with _progress(quiet) as progress:
-            graded = grade(job, Sinks(csv, jsonl), progress)
+            graded = grade(job, csv, jsonl, progress)
         for note in graded.notes:
             complain(str(note))
         if csv is not None:

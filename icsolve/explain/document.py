@@ -9,7 +9,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
-from icsolve.explain.formula import LATEX, PLAIN, Expr, Notation, Quantity, ShownEquation
+from icsolve.explain.formula import LATEX, PLAIN, Expr, Notation, Quantity
 from icsolve.tuples import NamedTuple
 
 Inline = str | Expr
@@ -23,9 +23,9 @@ class Words(NamedTuple):
 
 
 class Formula(NamedTuple):
-    """A displayed formula."""
+    """A displayed formula: expressions that are equal."""
 
-    equation: ShownEquation
+    sides: tuple[Expr, ...]
 
 
 class Items(NamedTuple):
@@ -68,7 +68,7 @@ def words(*parts: Inline) -> Words:
 def formula(*sides: Expr) -> Formula:
     """A displayed formula; a side that the next one only repeats is left out."""
     kept = [one for one, after in pairwise(sides) if not _repeats(after, one)]
-    return Formula(ShownEquation((*kept, sides[-1])))
+    return Formula((*kept, sides[-1]))
 
 
 def _repeats(after: Expr, before: Expr) -> bool:
@@ -134,7 +134,7 @@ class AsText(Layout):
             case Words():
                 yield from textwrap.wrap(self.inline(block.parts), self.width)
             case Formula():
-                yield f"    {self.notation.equation(block.equation)}"
+                yield f"    {self.notation.equation(block.sides)}"
             case Items():
                 for n, entry in enumerate(block.entries, 1):
                     mark = f"  {n}. " if block.numbered else "  - "
@@ -178,7 +178,7 @@ class AsMarkdown(Layout):
             case Words():
                 return self.inline(block.parts)
             case Formula():
-                return f"$$ {self.notation.equation(block.equation)} $$"
+                return f"$$ {self.notation.equation(block.sides)} $$"
             case Items():
                 marks = (f"{n}." if block.numbered else "-" for n in range(1, len(block.entries) + 1))
                 entries = zip(marks, block.entries, strict=True)

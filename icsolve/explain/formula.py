@@ -6,7 +6,7 @@ One walk decides what is set in brackets and which sign stands where; a `Notatio
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from html import escape
 
 from icsolve.tuples import NamedTuple
@@ -84,12 +84,6 @@ class Quantity(NamedTuple):
 
 
 Expr = Num | Name | Spanned | Product | Quotient | Sum | Trig | RootOf | Square | Exp | Quantity
-
-
-class ShownEquation(NamedTuple):
-    """Expressions that are equal."""
-
-    sides: tuple[Expr, ...]
 
 
 def product(*factors: Expr) -> Expr:
@@ -193,9 +187,9 @@ class Notation(NamedTuple):
     flat: bool = False
     """a quotient stands on the line, so that its parts need brackets, and a function has them"""
 
-    def equation(self, equation: ShownEquation) -> str:
-        """All sides with the sign of equality between."""
-        return self.equals.join(self.side(side) for side in equation.sides)
+    def equation(self, sides: Iterable[Expr]) -> str:
+        """Expressions that are equal, with the sign of equality between."""
+        return self.equals.join(map(self.side, sides))
 
     def side(self, expression: Expr) -> str:
         """One side of an equation."""

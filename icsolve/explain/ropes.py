@@ -108,26 +108,22 @@ def screw_ratio(known: Known, figures: Figures, ratio: Ratio) -> Iterable[Block]
 # --- tensions ----------------------------------------------------------------------------------------------
 
 
-class Told(NamedTuple):
-    """What was said of the ropes, and whether a tension is left to the equations of the links."""
-
-    section: Section | None
-    open: bool
-
-
-def ropes_section(known: Known, figures: Figures, headings: Headings, before: Sequence[Section]) -> Told:
+def ropes_section(
+    known: Known, figures: Figures, headings: Headings, before: Sequence[Section]
+) -> tuple[Section | None, bool]:
     """The tension of every rope: by the load at its free end, or by the equilibrium of one link; Euler's
-    formula where it slips. Formulas that stand ``before`` are not repeated."""
+    formula where it slips; and whether a tension is left to the equations of the links. Formulas that stand
+    ``before`` are not repeated."""
     answer = known.answer
     if answer is None or not answer.tensions:
-        return Told(None, False)
+        return None, False
     blocks: list[Block] = []
     found: set[str] = set()
     for rope in known.case.ropes:
         blocks += _slipping(known, figures, rope)
         if not (rope.slips and any(a.unknown for a in _at_end(known, rope))):
             blocks += _drawn(known, figures, rope, found)
-    shown = {b.equation.sides[0] for s in before for b in s.blocks if isinstance(b, Formula)}
+    shown = {b.sides[0] for s in before for b in s.blocks if isinstance(b, Formula)}
     still = {known.case.ground, *filter(known.rests, known.twists)}
     found |= {a.load.name for a in acting_loads(known) if not a.unknown or {a.link, a.against} - still}
     links = [link for link in known.case.links if _alone(known, link)]
@@ -140,7 +136,7 @@ def ropes_section(known: Known, figures: Figures, headings: Headings, before: Se
     missing = [rope.name for rope in known.case.ropes if rope.name not in found]
     if missing:
         blocks.append(words(f"The equations of equilibrium (below) give the tension of {listed(missing)}."))
-    return Told(Section("Ropes" if len(known.case.ropes) > 1 else "The rope", tuple(blocks)), bool(missing))
+    return Section("Ropes" if len(known.case.ropes) > 1 else "The rope", tuple(blocks)), bool(missing)
 
 
 def _tensions(known: Known, rope: Rope) -> list[float]:

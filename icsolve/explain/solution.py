@@ -243,20 +243,16 @@ def _sections(known: Known, figures: Figures, bodies: bool) -> Iterable[Section]
     power = list(_by_power(known, figures))
     yield from power
     ratios = answer_ratios(known)
-    ropes = ropes_section(known, figures, {} if ratios is None else ratios.headings, power)
+    ropes, is_open = ropes_section(known, figures, {} if ratios is None else ratios.headings, power)
     screws = screws_section(known, figures)
-    yield from (section for section in (ropes.section, screws) if section is not None)
+    yield from (section for section in (ropes, screws) if section is not None)
     rubbed = friction_section(known, figures)
     yield from () if rubbed is None else (rubbed,)
     yield from answer_section(known, figures)
     yield from left_out(known, steps, bodies=bodies)
     yield from check_section(known, figures)
-    if (
-        bodies
-        or known.structure
-        or ropes.open
-        or (known.answer is not None and known.answer.friction is not None)
-    ):
+    rubs = known.answer is not None and known.answer.friction is not None
+    if bodies or known.structure or is_open or rubs:
         from icsolve.explain.bodies import bodies_sections
 
         yield from bodies_sections(known, figures)

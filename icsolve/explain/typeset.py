@@ -65,7 +65,7 @@ class AsHtml(Layout):
             case Words():
                 return f"<p>{self.inline(block.parts)}</p>\n"
             case Formula():
-                return f'<math display="block">{self.notation.equation(block.equation)}</math>\n'
+                return f'<math display="block">{self.notation.equation(block.sides)}</math>\n'
             case Items():
                 tag = "ol" if block.numbered else "ul"
                 entries = "".join(f"<li>{self.inline(entry)}</li>" for entry in block.entries)
@@ -119,7 +119,7 @@ class AsTex(Layout):
             case Words():
                 return f"\\noindent {self.inline(block.parts)}\\par\n"
             case Formula():
-                sides = [self.notation.side(side) for side in block.equation.sides]
+                sides = [self.notation.side(side) for side in block.sides]
                 lines = (f"{sides[0]} & = {sides[1]}", *sides[2:]) if sides[1:] else sides
                 broken = " \\\\\n& = ".join(lines)
                 return f"\\begin{{align*}}\n{broken}\n\\end{{align*}}\n"

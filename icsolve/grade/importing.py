@@ -322,9 +322,8 @@ IN_MEMORY = 110_000
 class Store:
     """Entries; many are in a temporary file, which is gone when closed."""
 
-    def __init__(self, most: int = IN_MEMORY) -> None:
+    def __init__(self) -> None:
         self._few: list[StoredAnswer] = []
-        self._most = most
         self._disk: sqlite3.Connection | None = None
         self._own = ExitStack()
 
@@ -335,7 +334,7 @@ class Store:
         while batch := list(islice(source, _BATCH)):
             count += len(batch)
             self._few += batch
-            if self._disk is not None or len(self._few) > self._most:
+            if self._disk is not None or len(self._few) > IN_MEMORY:
                 self._to_disk()
         return count
 

@@ -13,37 +13,13 @@ from icsolve.grade.marking import Marker
 from icsolve.grade.results import HEADER, Override, Overrides, json_line, line, read_overrides
 from icsolve.grade.solved import unknowns
 from icsolve.grade.statistics import Counts
-from icsolve.grade.tables.columns import HeaderError, StoredAnswer
+from icsolve.grade.tables.columns import HeaderError
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import GivenValue, Neighbours, changes, other_seed, read_records
 from icsolve.tuples import NamedTuple
 
 _STEP = 5000
 """Results between two reports of progress."""
-
-
-class Sinks(NamedTuple):
-    """Where results go as they come: CSV and JSON Lines, None for neither."""
-
-    csv: IO[str] | None = None
-    jsonl: IO[str] | None = None
-
-
-def _judged(
-    entries: Iterator[StoredAnswer], students: Iterable[str], marker: Marker, sinks: Sinks, report: Report
-) -> None:
-    """Judge sorted entries; the results go to the sinks as they come."""
-    csv, jsonl = sinks
-    for n, result in enumerate(marker.results(entries, students), 1):
-        if not n % _STEP:
-            report(n)
-        if csv is not None:
-            csv.write(line(result))
-        if jsonl is not None:
-            jsonl.write(json_line(result))
-
-
-Report = Callable[[int], None]
 
 
 class Job(NamedTuple):
@@ -87,10 +63,6 @@ Progress = Callable[[str, float], None]
 """Told what is being done, and how much of it is, from 0 to 1."""
 
 
-def silent(what: str, share: float) -> None:
-    """No report."""
-
-
 def spare_collector() -> None:
     """Millions of small tuples and no cycles: look for garbage seldom."""
     import gc
@@ -98,13 +70,18 @@ def spare_collector() -> None:
     gc.set_threshold(200_000, 20, 100)
 
 
-def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
+def grade(
+    job: Job,
+    csv: IO[str] | None = None,
+    jsonl: IO[str] | None = None,
+    progress: Progress = lambda what, share: None,
+) -> Graded:
     """Grade all submissions of a job.
 
     Parameters
     ----------
     job : files of answers, cases, course, roster
-    sinks : where results go, sorted by student and question
+    csv, jsonl : where results go as they come, sorted by student and question; None for nowhere
     progress : told what is being done, and how much of it is, from 0 to 1
 
     Returns
@@ -143,12 +120,18 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
         students = sorted({*imported.students, *owing})
         if not imported.count:
             raise ValueError(f"there is no table of answers in {', '.join(job.submissions)}")
-        if sinks.csv is not None:
-            sinks.csv.write(HEADER + "\n")
+        if csv is not None:
+            csv.write(HEADER + "\n")
         case_store.ready(students)
         neighbours = Neighbours(case_store, students) if case_store.varied else None
         marker = Marker(case_store, _shown(paths), issues, questions, neighbours, overrides)
-        _judged(store.sorted(), students, marker, sinks, lambda n: progress("judging", n / imported.count))
+        for n, result in enumerate(marker.results(store.sorted(), students), 1):
+            if not n % _STEP:
+                progress("judging", n / imported.count)
+            if csv is not None:
+                csv.write(line(result))
+            if jsonl is not None:
+                jsonl.write(json_line(result))
     finally:
         store.close()
     _note_unmet(overrides, marker, job, issues)

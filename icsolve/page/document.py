@@ -118,7 +118,7 @@ def unit_exerted(known: Known, acting: Acting) -> str:
 
 
 def _displayed(block: Formula) -> str:
-    return f'<math display="block">{MATHML.equation(block.equation)}</math>'
+    return f'<math display="block">{MATHML.equation(block.sides)}</math>'
 
 
 def _math(expression: Expr) -> str:

@@ -34,7 +34,7 @@ from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import RowRequest, compile_sweep, setting_of
 from icsolve.sweep.recorded_scene import pairs
 from icsolve.sweep.request import SweepRequest
-from icsolve.tuples import NamedTuple, replace
+from icsolve.tuples import replace
 from icsolve.wording.senses import unit_of
 
 _NEARER = 0.81
@@ -47,15 +47,9 @@ Columns = dict[str, Array]
 Rows = npt.NDArray[np.int64]
 
 
-class SolvedRow(NamedTuple):
-    """A case solved in a row, and the cases with another load by which its wrong answers are known."""
-
-    answer: Answer
-    known: Known
-
-
-def solved_at_once(cases: Sequence[Case]) -> Iterator[SolvedRow | None]:
-    """Cases of one shape, each with those of its wrong loads; None of one that is to be solved by itself."""
+def solved_at_once(cases: Sequence[Case]) -> Iterator[tuple[Answer, Known] | None]:
+    """Cases of one shape, each with those with another load by which its wrong answers are known; None of one
+    that is to be solved by itself."""
     answers = together(cases)
     found = [(case, answer) for case, answer in zip(cases, answers, strict=True) if answer is not None]
     kinds: dict[str, list[Answers]] = {}
@@ -75,7 +69,7 @@ def solved_at_once(cases: Sequence[Case]) -> Iterator[SolvedRow | None]:
             yield None
             continue
         loads, quarters, doubt = next(rows)
-        yield None if doubt else SolvedRow(answer, {"loads": loads, "quarters": quarters})
+        yield None if doubt else (answer, {"loads": loads, "quarters": quarters})
 
 
 def _never_solved(cases: Sequence[Case]) -> bool:

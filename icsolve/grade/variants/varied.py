@@ -310,10 +310,9 @@ class Varied:
         cases = self._new_cases(v for values in draws for v in (self._figure(values), self._base(values)))
         for key, solved in zip(cases, solved_at_once(list(cases.values())), strict=True):
             if solved is not None:
-                far = swing(solved.answer) <= self._limit
-                seen = Seen(True, swallowed(solved.answer, solved.known)) if far else _UNFIT
+                seen = Seen(True, swallowed(*solved)) if swing(solved[0]) <= self._limit else _UNFIT
                 _keep(self._seen, key, seen, _KNOWN)
-                _keep(self._rows, key, solved.answer, _KNOWN_ROWS)
+                _keep(self._rows, key, solved[0], _KNOWN_ROWS)
 
     def _new_cases(self, some: Iterable[Texts]) -> dict[tuple[str, ...], Case]:
         """The cases that are not known, by their values, where they are enough for a record."""
