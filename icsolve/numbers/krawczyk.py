@@ -83,6 +83,8 @@ def _enclosed(
     for _ in range(WIDENINGS):
         box = [_ball(balls, x, radius) for x in middle]
         left = _left(rough, system(box)[1])
+        if max(left) >= 1.0:  # a wider box contracts no more than this one
+            break
         reach = [(step + radius * most) * UP + TINY for step, most in zip(off, left, strict=True)]
         if max(reach) < radius < WIDEST:
             return [_ball(balls, x, r) for x, r in zip(middle, reach, strict=True)]
