@@ -37,8 +37,7 @@ class Op(IntEnum):
     """the nearest whole number"""
 
 
-TWO = frozenset((Op.ADD, Op.SUB, Op.MUL, Op.DIV, Op.ANGLE))
-"""The operations on two nodes."""
+ADD, SUB, MUL, NEG = Op.ADD, Op.SUB, Op.MUL, Op.NEG
 
 
 class Traced:
@@ -208,8 +207,8 @@ class Record:
         if abs(c) in (0.0, 1.0) and not varies(degrees) and self._is_exact(degrees):
             return c, s
         angle = self.lifted(degrees)
-        cos = self._put(Op.COS, angle.index, 0, c, angle.row)
-        return cos, self._put(Op.SIN, angle.index, cos.index, s, angle.row)
+        cos = self._of_one(Op.COS, angle, c)
+        return cos, self._of_one(Op.SIN, angle, s, cos.index)
 
     def direct(self, number: Number, direction: tuple[Scalar, Scalar]) -> Number:
         """A number that stands for a direction which moves with a link."""
@@ -247,7 +246,7 @@ class Record:
     def sqrt(self, value: Scalar) -> Scalar:
         """Square root; of what is below zero: zero."""
         root = math.sqrt(max(float(value), 0.0))
-        return self._put(Op.SQRT, value.index, 0, root, value.row) if isinstance(value, Traced) else root
+        return self._of_one(Op.SQRT, value, root) if isinstance(value, Traced) else root
 
     def root(self, one: tuple[Scalar, Scalar], two: tuple[Scalar, Scalar]) -> Scalar:
         """Square root of a product of two margins, each with the size of its terms."""
@@ -267,7 +266,7 @@ class Record:
         if not (isinstance(x, Traced) or isinstance(y, Traced)):
             return degrees
         one, two = self.lifted(x), self.lifted(y)
-        return self._put(Op.ANGLE, one.index, two.index, degrees, one.row or two.row)
+        return self._of_two(Op.ANGLE, one, two, degrees)
 
     def turns(self, x: Scalar, y: Scalar, about: Scalar = 0.0) -> Scalar:
         """By how much a vector has turned from +x, whole turns too: those nearest to a guess, which
@@ -286,7 +285,7 @@ class Record:
     def nearest(self, value: Scalar) -> Scalar:
         """The nearest whole number."""
         whole = float(round(float(value)))
-        return self._put(Op.NEAREST, value.index, 0, whole, value.row) if isinstance(value, Traced) else whole
+        return self._of_one(Op.NEAREST, value, whole) if isinstance(value, Traced) else whole
 
     def vanishes(self, value: Scalar, size: float) -> bool:
         """Zero in every row, as its value in this one tells."""
@@ -294,42 +293,46 @@ class Record:
 
     def add(self, a: Scalar, b: Scalar) -> Scalar:
         """a + b"""
-        if not isinstance(b, Traced):
+        if type(b) is not Traced:
             a, b = b, a
-        if not isinstance(a, Traced):
+        if type(a) is not Traced:
             if a == 0.0:
                 return b
             a = self.lifted(a)
             b = self.lifted(b)
-        if b.op == Op.NEG:
+        if b.op is NEG:
             return self.subtract(a, self.nodes[b.a])
-        if a.op == Op.NEG:
+        if a.op is NEG:
             return self.subtract(b, self.nodes[a.a])
-        if a.index > b.index:
-            a, b = b, a
-        return self._put(Op.ADD, a.index, b.index, a.value + b.value, a.row or b.row)
+        return self._sum(ADD, *((a, b) if a.index <= b.index else (b, a)), a.value + b.value)
 
     def subtract(self, a: Scalar, b: Scalar) -> Scalar:
         """a - b"""
-        if not isinstance(b, Traced):
+        if type(b) is not Traced:
             if b == 0.0:
                 return a
             b = self.lifted(b)
-        if not isinstance(a, Traced):
+        if type(a) is not Traced:
             if a == 0.0:
                 return self.negate(b)
             a = self.lifted(a)
         if a is b:
             return 0.0
-        if b.op == Op.NEG:
+        if b.op is NEG:
             return self.add(a, self.nodes[b.a])
-        return self._put(Op.SUB, a.index, b.index, a.value - b.value, a.row or b.row)
+        return self._sum(SUB, a, b, a.value - b.value)
+
+    def _sum(self, op: Op, a: Traced, b: Traced, value: float) -> Scalar:
+        """A sum or difference; two exact numbers that cancel leave nothing."""
+        if value == 0.0 and not (a.row or b.row) and self._exact(a.index) and self._exact(b.index):
+            return 0.0
+        return self._of_two(op, a, b, value)
 
     def multiply(self, a: Scalar, b: Scalar) -> Scalar:
         """a b"""
-        if not isinstance(b, Traced):
+        if type(b) is not Traced:
             a, b = b, a
-        if not isinstance(a, Traced):
+        if type(a) is not Traced:
             if a == 0.0:
                 return 0.0
             if a == 1.0:
@@ -337,57 +340,60 @@ class Record:
             if a == -1.0:
                 return self.negate(b)
             a = self.lifted(a)
-        if Op.NEG in (a.op, b.op):
+        if a.op is NEG or b.op is NEG:
             return self._outside(self.multiply, a, b)
-        if a.index > b.index:
-            a, b = b, a
-        return self._put(Op.MUL, a.index, b.index, a.value * b.value, a.row or b.row)
+        return self._of_two(MUL, *((a, b) if a.index <= b.index else (b, a)), a.value * b.value)
 
     def divide(self, a: Scalar, b: Scalar) -> Scalar:
         """a / b"""
-        if not isinstance(a, Traced):
+        if type(a) is not Traced:
             if a == 0.0:
                 return 0.0
             a = self.lifted(a)
-        if not isinstance(b, Traced):
+        if type(b) is not Traced:
             if b == 1.0:
                 return a
             if b == -1.0:
                 return self.negate(a)
             b = self.lifted(b)
-        if Op.NEG in (a.op, b.op):
+        if a.op is NEG or b.op is NEG:
             return self._outside(self.divide, a, b)
         value = a.value / b.value if b.value else math.copysign(math.inf, a.value)
-        return self._put(Op.DIV, a.index, b.index, value, a.row or b.row)
+        return self._of_two(Op.DIV, a, b, value)
 
     def _outside(self, operation: Callable[[Scalar, Scalar], Scalar], a: Traced, b: Traced) -> Scalar:
         """A product or quotient with the minus signs of its operands before it."""
-        one, two = (self.nodes[v.a] if v.op == Op.NEG else v for v in (a, b))
-        found = operation(one, two)
-        return found if (a.op == Op.NEG) == (b.op == Op.NEG) else self.negate(found)
+        found = operation(*(self.nodes[v.a] if v.op is NEG else v for v in (a, b)))
+        return found if a.op is b.op else self.negate(found)
 
     def negate(self, a: Scalar) -> Scalar:
         """-a"""
-        if not isinstance(a, Traced):
+        if type(a) is not Traced:
             return -a
-        if a.op == Op.NEG:
+        if a.op is NEG:
             return self.nodes[a.a]
-        if a.op == Op.SUB:
-            return self._put(Op.SUB, a.b, a.a, -a.value, a.row)
-        return self._put(Op.NEG, a.index, 0, -a.value, a.row)
+        if a.op is SUB:
+            return self._sum(SUB, self.nodes[a.b], self.nodes[a.a], -a.value)
+        return self._of_one(NEG, a, -a.value)
 
     def lifted(self, value: Scalar) -> Traced:
         """A number as a node of this record."""
         return value if isinstance(value, Traced) else self._constant(float(value), 0.0, "exact")
 
-    def _put(self, op: Op, a: int, b: int, value: float, row: bool) -> Scalar:
-        """A new value; two exact numbers that cancel leave nothing."""
-        if value == 0.0 and not row and op in (Op.ADD, Op.SUB) and self._exact(a) and self._exact(b):
-            return 0.0
-        known, of = self._known[op], (a, b) if op in TWO else (a,)
+    def _of_two(self, op: Op, a: Traced, b: Traced, value: float) -> Scalar:
+        """What an operation makes of two nodes; the same is made once."""
+        known, of = self._known[op], (a.index, b.index)
         found = known.get(of)
         if found is None:
-            found = known[of] = Traced(self, op, a, b, value, row, 0.0, of)
+            found = known[of] = Traced(self, op, *of, value, a.row or b.row, 0.0, of)
+        return found
+
+    def _of_one(self, op: Op, a: Traced, value: float, beside: int = 0) -> Traced:
+        """The same of one node."""
+        known, of = self._known[op], (a.index,)
+        found = known.get(of)
+        if found is None:
+            found = known[of] = Traced(self, op, a.index, beside, value, a.row, 0.0, of)
         return found
 
     def _is_exact(self, value: Scalar) -> bool:
