@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+import icsolve
 from icsolve.assembly import solve_figure
 from icsolve.errors import SceneError, Status
 from test_figure import FOUR_BAR, LOOP, PINS, SLIDER, butterfly, case, solved
@@ -351,3 +352,26 @@ def test_a_direction_told_twice_does_not_place_a_point(angles: str, lengths: str
     for near in ("", "near: {B: [3, 1]}\n"):
         lacks = "B: one more length, angle or coordinate"
         assert_refused(near + text, Status.UNDERDETERMINED, lacks, wanted=["A", "B"])
+
+
+def test_no_points_are_called_in_line_that_are_not() -> None:
+    """A plate on three legs of length 1 whose lines meet in (4, 4): that is singular, and no loop is flat."""
+    text = """icsolve: 1
+points: {A: [0, 0], D: [7, 0], E: [4, -0.9]}
+lengths: {AB: 1, BP: 1, DQ: 1, ER: 1, PQ: 4.8, PR: 2.5, QR: 2.5}
+angles: {AB: 0}
+near: {P: [1.6, 0.8], Q: [6.4, 0.8], R: [4, 0.1]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: P}
+  - {pin: [1, 5], at: D}
+  - {pin: [5, 4], at: Q}
+  - {pin: [1, 6], at: E}
+  - {pin: [6, 4], at: R}
+loads: {W: {force: 10, link: 4, at: P, angle: -70}, T: {torque: unknown, link: 2}}
+"""
+    with pytest.raises(SceneError) as refused:
+        icsolve.solve(icsolve.load(text))
+    assert refused.value.status == Status.NEAR_SINGULAR
+    assert "one line" not in refused.value.message

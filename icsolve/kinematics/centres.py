@@ -420,10 +420,10 @@ def lined_up(closure: Closure, top: Topology, body: int, arithmetic: Arithmetic)
 
 def tightest(closures: Iterable[Closure]) -> Closure | None:
     """The group that is nearest to dead, or to leaving a body at rest."""
-    return min((closure for closure in closures if closure.columns), key=_tightness, default=None)
+    return min((closure for closure in closures if closure.columns), key=tightness, default=None)
 
 
-def _tightness(closure: Closure) -> float:
+def tightness(closure: Closure) -> float:
     """The smallest determinant of a group, over the products that it is summed from."""
     *bases, _ = closure.columns
     pairs = zip((closure.factor, *closure.numerators), (products(*bases), *rate_sizes(closure)), strict=True)
