@@ -420,14 +420,20 @@ def lined_up(closure: Closure, top: Topology, body: int, arithmetic: Arithmetic)
 
 def tightest(closures: Iterable[Closure]) -> Closure | None:
     """The group that is nearest to dead, or to leaving a body at rest."""
-    return min((closure for closure in closures if closure.columns), key=tightness, default=None)
+    return min((closure for closure in closures if closure.columns), key=_tightness, default=None)
 
 
-def tightness(closure: Closure) -> float:
+def _tightness(closure: Closure) -> float:
     """The smallest determinant of a group, over the products that it is summed from."""
+    pairs = zip(closure.numerators, rate_sizes(closure), strict=True)
+    return min(flatness(closure), *(abs(value) / size if size > 0.0 else 1.0 for value, size in pairs))
+
+
+def flatness(closure: Closure) -> float:
+    """The determinant of a group's own bonds over its products: zero where their centres are in line."""
     *bases, _ = closure.columns
-    pairs = zip((closure.factor, *closure.numerators), (products(*bases), *rate_sizes(closure)), strict=True)
-    return min(abs(value) / size if size > 0.0 else 1.0 for value, size in pairs)
+    size = products(*bases)
+    return abs(closure.factor) / size if size > 0.0 else 1.0
 
 
 def aligned(top: Topology, bonds: Iterable[int], verb: str = "lie on") -> str:

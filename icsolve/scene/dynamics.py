@@ -7,6 +7,7 @@ friction and pictures treat them as they treat all loads.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
@@ -34,7 +35,10 @@ TOO_CLOSE = (
     "worked with. Take another position."
 )
 
-TOO_FAST = "the square of a speed of this motion is beyond any number: give the motion a smaller speed."
+TOO_FAST = (
+    "a force of inertia in this motion is beyond any number: give the motion a smaller speed, or the figure "
+    "smaller coordinates."
+)
 
 
 class Accelerations(NamedTuple):
@@ -89,6 +93,8 @@ def _found(case: Case, program: Program, arithmetic: Balls) -> tuple[Case, Accel
 
     def number(value: Scalar, path: str) -> Number:
         near = _rounded(value, arithmetic, moves.size)
+        if not math.isfinite(near):
+            raise OverflowError
         return Number(near, 0.0, path, repr(near))
 
     loads: list[Load] = []

@@ -164,14 +164,14 @@ def overflow(load: str) -> SceneError:
 
 
 FLAT = 1e-6
-"""The tightness of a loop of links of which three centres are said to lie nearly on one line."""
+"""How flat a loop of links is whose three centres are said to lie nearly on one line."""
 
 
 def too_close(top: Topology, motions: Motions, load: str, open_by: float | None) -> SceneError:
     """The refusal of a scene whose data do not decide it."""
-    from icsolve.kinematics.centres import aligned, tightest, tightness
+    from icsolve.kinematics.centres import aligned, flatness, tightest
 
     group = tightest(motions.closures)
-    flat = group is not None and tightness(group) < FLAT
+    flat = group is not None and flatness(group) < FLAT
     why = aligned(top, sorted(group.group.bonds), "lie nearly on") if group and flat else ""
     return SceneError(Status.NEAR_SINGULAR, sentences.too_close(load, why, open_by))
