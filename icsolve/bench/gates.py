@@ -72,7 +72,7 @@ class Effort(NamedTuple):
     @property
     def rounds(self) -> int:
         """Runs of what takes a tenth of a second or more."""
-        return max(2, int(4 * self.seconds))
+        return max(1, int(4 * self.seconds))
 
 
 USUAL = Effort(80, 1_000, 500, 200, 400, 3.0, 1)
