@@ -98,7 +98,7 @@ class Backward:
             For each target the bound of its absolute error, (rows,) [its units]; inf or nan where a value
             that leads to it does not exist.
         """
-        self.code.run({**given, **{g: given[s] for g, s in self.guesses.items()}}, rows)
+        self.code.fill({**given, **{g: given[s] for g, s in self.guesses.items()}}, rows)
         with np.errstate(all="ignore"):
             return [self._passed(target, rows) for target in self.targets]
 

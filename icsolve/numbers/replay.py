@@ -141,13 +141,18 @@ class Code:
             Where an input that leads to a wanted node is not given. Numbers raise nothing: what does not
             exist is nan or inf, but a root of what is negative is 0.
         """
+        buffers = self.fill(given, rows)
+        return [self._cut(k, buffers, rows) for k in self.wanted]
+
+    def fill(self, given: Mapping[int, Array], rows: int) -> Array:
+        """As `run`, for values that are then asked for one by one: the buffers."""
         steps, buffers = self.bound(rows)
         for k in self.given:
             np.copyto(buffers[self.place[k], :rows], given[k])
         with np.errstate(all="ignore"):
             for function, arguments in steps:
                 function(*arguments)
-        return [self._cut(k, buffers, rows) for k in self.wanted]
+        return buffers
 
     def place_of(self, k: int, room: int) -> Array:
         """The whole buffer of a node, (room,) with ``room`` at least ``rows``; () where it does not vary."""
