@@ -10,7 +10,16 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-__all__ = ["LateModule", "NamedTuple", "cached_property", "dataclass", "field", "replace"]
+__all__ = [
+    "Generic",
+    "LateModule",
+    "NamedTuple",
+    "Protocol",
+    "cached_property",
+    "dataclass",
+    "field",
+    "replace",
+]
 
 
 class LateModule:
@@ -31,7 +40,7 @@ class LateModule:
 if TYPE_CHECKING:
     from dataclasses import dataclass, field, replace
     from functools import cached_property
-    from typing import NamedTuple
+    from typing import Generic, NamedTuple, Protocol
 else:
     from operator import itemgetter
     from types import FunctionType
@@ -43,6 +52,16 @@ else:
         def field_of(place: int, words: str) -> property:
             """The attribute that reads a field, where the interpreter has none of its own."""
             return property(itemgetter(place), doc=words)
+
+    class Generic:
+        """What only a type checker reads, as is `Protocol`: those of `typing` do far more with each class."""
+
+        __slots__ = ()
+
+        def __class_getitem__(cls, _of: object) -> type:
+            return cls
+
+    Protocol = Generic
 
     class _Fields(tuple):
         """What all named tuples share."""

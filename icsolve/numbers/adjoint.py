@@ -9,11 +9,12 @@ the record itself (`gradient`), floats (`still_noise`), arrays on buffers (`icso
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Protocol, TypeVar
+from typing import TypeVar
 
 from icsolve.numbers.arithmetic import RADIAN, Scalar
 from icsolve.numbers.record import Op, Record, Traced, live
 from icsolve.numbers.tape import TURN_NOISE, UNIT
+from icsolve.tuples import Protocol
 
 ROUNDINGS = {Op.NEG: 0.0, Op.NEAREST: 0.0, Op.COS: TURN_NOISE, Op.SIN: TURN_NOISE, Op.ANGLE: 0.0}
 """Relative rounding error of an operation's own; of all others it is `UNIT`."""

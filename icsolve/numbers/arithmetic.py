@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Protocol
+from typing import Any
 
 from icsolve.numbers.units import ExactRatio, Number, nearest
+from icsolve.tuples import Protocol
 
 Scalar = Any
 """A float, an array of them, or any number type with + - * /."""

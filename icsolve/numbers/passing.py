@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from icsolve.numbers.arithmetic import RADIAN
 from icsolve.numbers.record import Implicit, Op, Record, Traced
 from icsolve.numbers.replay import Array, Code, Step
 from icsolve.numbers.tape import UNIT
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, Protocol
 
 FACTORED = (Op.MUL, Op.DIV, Op.SQRT, Op.NEG)
 """Operations whose operands' relative errors are those of the result."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import accumulate
-from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
 from icsolve.numbers.linear import General, Row, eliminate
@@ -25,7 +25,7 @@ from icsolve.statics.power import (
     unknown_loads,
 )
 from icsolve.statics.reaction_basis import Force, Position, RopeTie, Tie
-from icsolve.tuples import LateModule, NamedTuple
+from icsolve.tuples import Generic, LateModule, NamedTuple, Protocol
 
 if TYPE_CHECKING:
     from icsolve.screws import space

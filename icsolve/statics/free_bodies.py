@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Protocol, TypeVar
+from typing import TypeVar
 
 from icsolve.answer import Answer
 from icsolve.answer.bodies import FrictionFound, Reactions, Tension, Witness
@@ -41,7 +41,7 @@ from icsolve.statics.witness import (
     unknowns_of,
     witnesses,
 )
-from icsolve.tuples import NamedTuple, replace
+from icsolve.tuples import NamedTuple, Protocol, replace
 from icsolve.wording.sentences import listed
 
 

@@ -11,7 +11,7 @@ import math
 from collections.abc import Mapping, Sequence
 from functools import reduce
 from operator import add, mul, sub
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import (
@@ -48,7 +48,7 @@ from icsolve.numbers.arithmetic import (
     zero_of,
 )
 from icsolve.screws.plane import Point, Triple, force_wrench, unit_between
-from icsolve.tuples import LateModule, NamedTuple
+from icsolve.tuples import Generic, LateModule, NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.case.space import Load as SpatialLoad

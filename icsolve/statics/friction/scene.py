@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from typing import Protocol, TypeVar
+from typing import TypeVar
 
 from icsolve.answer import Answer, Deferred, Found
 from icsolve.answer.bodies import FrictionFound, Rubbing, Tension
@@ -51,7 +51,7 @@ from icsolve.statics.power import Balance, Bounded, Solution, Value, is_unknown
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import names_by_tie, reactions_of, tensions_of
 from icsolve.statics.witness import refuse_doubt, residual, terms_of
-from icsolve.tuples import NamedTuple, replace
+from icsolve.tuples import NamedTuple, Protocol, replace
 from icsolve.wording.sentences import listed, plural
 
 
