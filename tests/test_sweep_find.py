@@ -368,3 +368,28 @@ def test_what_turns_in_a_sweep_can_be_searched(name: str, monkeypatch: pytest.Mo
             for spot in find(case, None, Query("max"), drive={link: rows}):
                 assert abs(spot.at) <= 5.0
             return
+
+
+@pytest.mark.parametrize("load", ["F.x", "F.y"])
+def test_both_components_of_a_force_of_unknown_direction_are_found(load: str) -> None:
+    """Two bars at 60 and -20 degrees with M on the second, F at its end: F.y cos(b) - F.x sin(b) = -M and
+    F.y cos(a) - F.x sin(a) = W cos(a) with lengths of 1."""
+    case = icsolve.load("""icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 1, BC: 1}
+angles: {AB: 60, BC: -20}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}]
+loads:
+  W: {weight: 9, link: 2, at: B}
+  M: {torque: 8, link: 3}
+  F: {force: [unknown, unknown], link: 3, at: C}
+""")
+    b = np.radians(-20.0)
+
+    def held(a: float) -> np.ndarray:
+        sides = np.array([[-np.sin(b), np.cos(b)], [-np.sin(a), np.cos(a)]])
+        return np.linalg.solve(sides, [-8.0, 9.0 * np.cos(a)])
+
+    (one,) = find(case, {"angles.AB": np.array([0.0, 100.0])}, Query("value", load, 3.0))
+    assert one.answer == 3.0
+    assert held(np.radians(one.at))["xy".index(load[-1])] == pytest.approx(3.0, abs=1e-12)

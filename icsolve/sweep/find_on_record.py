@@ -18,6 +18,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
+from icsolve.answer import by_load
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
@@ -249,7 +250,7 @@ class RangeSearch:
         answer = None
         if load is not None:
             with suppress(SceneError):
-                answer = float(solve_scene(self.scene(s)).answers[load].value)
+                answer = float(by_load(solve_scene(self.scene(s)).answers)[load].value)
         return FoundPosition(at, kind, answer, abs(at) * UNIT if error is None else error)
 
     # --- zeros ------------------------------------------------------------------------------------
