@@ -339,6 +339,32 @@ def test_a_branch_that_balances_everywhere_is_said_and_the_others_are_listed() -
     )
 
 
+@pytest.mark.parametrize("rate", [300, 100, 0])
+@pytest.mark.parametrize("span", ["[45, 179]", "[90, 170]", "[1, 90]"])
+def test_where_one_point_stands_still_the_others_tell_the_stiffness(rate: int, span: str) -> None:
+    """J. L. Meriam, Statics, sample problem 7/5: a bar between two guides, on a spring, upright too, where
+    its upper end stands still. By its tilt t, V = W b/2 cos t + k b^2/2 sin^2 t."""
+    text = (
+        "icsolve: 1\npoints: {O: [0, 0], A: [0, unknown], B: [unknown, 0], G: {centroid: [A, B]}}\n"
+        f"lengths: {{AB: 0.6}}\nangles: {{BA: {{unknown: {span}}}}}\n"
+        "joints: [{slot: [2, 1], at: A, along: 90}, {slot: [2, 1], at: B, along: 0}]\n"
+        "loads:\n  W: {weight: 98.1, link: 2, at: G}\n"
+        f"  S: {{spring: {rate} N/m, free: 0, link: 2, at: B, to: O}}\n"
+    )
+    weight, spring = 98.1 * 0.3, rate * 0.36
+    low, high = map(float, span.strip("[]").split(","))
+    tilts = [0.0, *(sign * math.degrees(math.acos(weight / spring)) for sign in (-1, 1) if spring > weight)]
+    expected = sorted(90.0 + tilt for tilt in tilts if low <= 90.0 + tilt <= high)
+    found = positions(text)
+    assert [one.at["angles.BA"] for one in found] == pytest.approx(expected, abs=1e-9)
+    for one, angle in zip(found, expected, strict=True):
+        tilt = math.radians(angle - 90.0)
+        stiffness = spring * math.cos(2.0 * tilt) - weight * math.cos(tilt)
+        assert one.stiffness is not None
+        assert one.stiffness.value == pytest.approx(stiffness, rel=1e-9)
+        assert one.stability == ("stable" if stiffness > 0.0 else "unstable")
+
+
 def test_at_a_limit_a_position_is_stable_by_the_motion_that_is_left(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -283,6 +283,7 @@ def test_a_band_brake_by_its_two_pulls(turns: str, torque: float, slack_end: boo
     ratio = math.exp(0.3 * math.pi)
     loose = 100 / (ratio - 1)
     assert answer.answers["P"].value == exactly((loose if slack_end else loose * ratio) * 0.4 / 0.8)
+    assert answer.notes == ()
 
 
 def test_a_band_brake_at_rest_holds_from_a_pull_upward() -> None:

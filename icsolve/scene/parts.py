@@ -391,7 +391,8 @@ def _notes(found: Evaluation) -> list[str]:
         count = sentences.plural(len(solution.idle), "passive freedom")
         ends = sentences.free_ends(program.top, program.case)
         notes.append(f"{count} in which no load does work{': ' if ends else ''}{ends}.")
-    if program.case.loads and not solution.values and motions.mobility:
+    loads = program.case.loads
+    if loads and not any(map(power.is_unknown, loads)) and motions.mobility:
         notes.append(sentences.nothing_asked(motions.mobility, solution.verdict == "balanced"))
     return notes
 

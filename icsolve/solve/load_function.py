@@ -11,6 +11,7 @@ import itertools
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
+from functools import partial
 
 import numpy as np
 
@@ -417,27 +418,42 @@ def bearers(case: Case) -> dict[str, list[str]]:
 def _rate(
     scene: RecordedScene, twists: Mapping[str, tuple[tuple[Scalar, Scalar, Scalar], ...]], given: int
 ) -> tuple[Scalar, bool]:
-    """The rate of the free number in the motion: that with which a point goes along its path, over how
-    far it goes along that path for each unit of the number; and whether all points go along such paths."""
+    """The rate of the free number in the motion: that with which the points go along their paths, over how
+    far they go along them for each unit of the number; and whether all points go along such paths.
+
+    All of them count, each by the square of that: one alone may stand still in some position.
+    """
     case, record = scene.case, scene.record
-    best: tuple[float, Scalar] = (0.0, 0.0)
-    ways: list[list[tuple[float, float, float, float]]] = []
+    best: tuple[float, float] = (0.0, 0.0)
+    ways: list[tuple[tuple[Scalar, Scalar], list[tuple[Scalar, Scalar]]]] = []
     for name, links in bearers(case).items():
         if name not in scene.points or name.startswith("@"):
             continue
         x, y = scene.points[name]
         dx, dy = gradient(record, x, (given,))[given], gradient(record, y, (given,))[given]
         on = [velocity(twists[link][0], (x, y)) for link in links]
-        ways.append([(float(dx), float(dy), float(vx), float(vy)) for vx, vy in on])
-        square = dx * dx + dy * dy
-        if float(square) > 4.0 * best[0]:
+        ways.append(((dx, dy), on))
+        square = float(dx * dx + dy * dy)
+        if square > 4.0 * best[0]:
             # where links roll or slip on one another a point goes with neither, or with one of them
             vx, vy = min(on, key=lambda v: abs(float(v[0] * dy - v[1] * dx)))
-            best = (float(square), (vx * dx + vy * dy) / square)
-    rate = float(best[1])
-    off = [min(math.hypot(v - rate * d, w - rate * e) for d, e, v, w in each) for each in ways]
-    fastest = max((abs(c) for each in ways for one in each for c in one[2:]), default=0.0)
-    return best[1], not any(one > APART * fastest for one in off)
+            best = (square, float(vx * dx + vy * dy) / square)
+
+    def off(way: tuple[Scalar, Scalar], v: tuple[Scalar, Scalar]) -> float:
+        return math.hypot(float(v[0] - best[1] * way[0]), float(v[1] - best[1] * way[1]))
+
+    fastest = max((abs(float(c)) for _, on in ways for v in on for c in v), default=0.0)
+    speed: Scalar = 0.0
+    squares: Scalar = 0.0
+    poses = True
+    for way, on in ways:
+        going = min(on, key=partial(off, way))
+        if off(way, going) > APART * fastest:
+            poses = False
+        else:
+            speed = speed + going[0] * way[0] + going[1] * way[1]
+            squares = squares + way[0] * way[0] + way[1] * way[1]
+    return (speed / squares if float(squares) else 0.0), poses
 
 
 __all__ = ["LoadFunction", "load_functions"]
