@@ -16,6 +16,8 @@ from typing import Generic, TypeVar
 
 import pytest
 
+from icsolve.bench.full_turn import FOUR_BAR_CASE
+from icsolve.bench.promises import MOVING
 from icsolve.manual import kinds, template
 from icsolve.read import load
 from icsolve.tuples import NamedTuple, dataclass, field, replace
@@ -50,6 +52,28 @@ def test_one_scene_needs_neither_numpy_nor_shapely(
     modules = imported("-m", "icsolve", "solve", *options, str(path))
     assert "icsolve.solve" in modules
     assert not {name for name in modules if name.partition(".")[0] in {"numpy", "shapely"}}
+
+
+LATE = {
+    f"icsolve.{room}" for room in ("screws.ropes", "screws.space", "assembly.refusals", "assembly.newton")
+}
+
+
+@pytest.mark.parametrize(
+    ("text", "late"),
+    [
+        (FOUR_BAR_CASE, {*LATE, "icsolve.numbers.linear", "icsolve.statics.equilibrium"}),
+        (MOVING, {*LATE, "icsolve.numbers.tape", "icsolve.statics.friction.solutions"}),
+    ],
+)
+def test_a_linkage_imports_no_room_of_what_it_does_not_have(
+    tmp_path: Path, text: str, late: set[str]
+) -> None:
+    """Ropes, space, groups for Newton's method, refusals, more solutions than the one that is proven."""
+    path = tmp_path / "one.yaml"
+    path.write_text(text)
+    modules = imported("-m", "icsolve", "solve", str(path))
+    assert "icsolve.statics.power" in modules and not modules & late
 
 
 CAMS = ["tangent_cam", "square_cam", "oscillating_flat_follower", "offset_roller_follower"]
