@@ -487,6 +487,38 @@ def test_markdown_has_latex() -> None:
     )
 
 
+def test_a_load_that_is_called_w_is_no_angular_velocity() -> None:
+    """R. C. Hibbeler calls a load per length w; what a link turns at is omega."""
+    text = BEAM.replace("F: {force: 10,", "w2: {force: 10,")
+    markdown = explain(icsolve.load(text), "md")
+    assert "- $w_{2}$: " in markdown
+    assert r"w_{2}\,h_{\mathrm{w2}}\,\omega_{2}" in markdown
+
+
+@pytest.mark.parametrize(
+    ("joint", "more", "question"),
+    [
+        ("", "", "What is the load that holds the mechanism in equilibrium in this position?"),
+        (", mu: 0.2, radius: 1", "", "Over what range of the load does the mechanism hold still in this"),
+        (", mu: 0.2, radius: 1", "motion: {link: 2, turns: cw}", "What is the load that keeps the motion up"),
+    ],
+)
+def test_the_question_is_the_one_that_is_answered(joint: str, more: str, question: str) -> None:
+    """Also on an exercise sheet: friction at rest leaves a range."""
+    case = icsolve.load(BEAM.replace("at: A}", f"at: A{joint}}}") + more)
+    assert question in explain(case)
+    assert question in explain(case, "tex")
+
+
+BEAM = """icsolve: 1
+points: {A: [0, 0], B: [2, 0], C: [1, 0]}
+joints: [{pin: [1, 2], at: A}]
+loads:
+  F: {force: 10, link: 2, at: B, angle: -90}
+  Q: {force: unknown, link: 2, at: C, angle: 90}
+"""
+
+
 def test_html_has_mathml_and_the_figure_and_loads_nothing() -> None:
     html = explain(icsolve.load(FILES["ch13/13_08_four_bar.yaml"]), "html")
     assert "<msub><mi>\N{GREEK SMALL LETTER OMEGA}</mi><mtext>4</mtext></msub>" in html

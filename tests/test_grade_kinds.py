@@ -84,6 +84,15 @@ def test_any_position_of_equilibrium_is_right_and_whole_turns_do_not_count(a_cla
     assert {(row["case"], row["verdict"]) for row in named} == {("crank", "right")}
 
 
+def test_several_positions_are_right_where_each_is_and_never_one_with_a_direction(a_class: Class) -> None:
+    """An angle has no direction at an angle: two angles are two values."""
+    a_class.case("crank", TWO.read_text())
+    right = ("50.04 deg, 233.1 deg", "50,04°; 233,1°", "50.04 and 233.1 deg", "50.04 deg or -126.9 deg")
+    assert set(a_class.verdicts(*right, case="crank")) == {"right"}
+    open_ = ("50.04 deg, 130 deg", "50.04° and 70°", "50.04 deg at 30 deg", "50.04, unstable, 233.1")
+    assert set(a_class.verdicts(*open_, case="crank")) == {"review"}
+
+
 def test_mistakes_with_a_position_are_named(a_class: Class) -> None:
     a_class.case("bar", BAR)
     assert a_class.verdicts(f"{rest(0.2):.5g}", case="bar") == ["right"]

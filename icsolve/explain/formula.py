@@ -256,9 +256,16 @@ class Notation(NamedTuple):
 # --- plain text, LaTeX, MathML ----------------------------------------------------------------------
 
 
+def _plain_name(base: str, low: str) -> str:
+    letters = "w" if base == OMEGA else base
+    return f"{letters}{low}" if low[:1].isdigit() or not low else f"{letters}_{low}"
+
+
+OMEGA = "omega"
+"""An angular velocity, a w in plain text: the loads of books are w too."""
 PLAIN = Notation(
     number=str,
-    name=lambda base, low: f"{base}{low}" if low[:1].isdigit() or not low else f"{base}_{low}",
+    name=_plain_name,
     unit=str,
     quantity="{} {}",
     span="|{} {}|",
@@ -276,7 +283,7 @@ PLAIN = Notation(
 )
 """``w4 = 1.5 x 2 / 3``: ASCII, in the order in which a calculator takes it."""
 GREEK = {
-    "w": "\N{GREEK SMALL LETTER OMEGA}",
+    OMEGA: "\N{GREEK SMALL LETTER OMEGA}",
     "phi": "\N{GREEK SMALL LETTER PHI}",
     "alpha": "\N{GREEK SMALL LETTER ALPHA}",
     "beta": "\N{GREEK SMALL LETTER BETA}",
@@ -285,7 +292,7 @@ GREEK = {
     "pi": "\N{GREEK SMALL LETTER PI}",
 }
 """Symbols by their names in plain text."""
-_LATEX = {name: rf"\{name}" for name in GREEK} | {"w": r"\omega", "phi": r"\varphi"}
+_LATEX = {name: rf"\{name}" for name in GREEK} | {"phi": r"\varphi"}
 
 
 def _latex_number(digits: str) -> str:

@@ -10,8 +10,9 @@ from icsolve.answer import Centre
 from icsolve.case import Centroid, Coordinates, Number, Units, pair_name
 from icsolve.draw.words import name_runs
 from icsolve.explain.document import Block, Items, Section, ShownTable, words
-from icsolve.explain.formula import Name, Num, Quantity
+from icsolve.explain.formula import OMEGA, Name, Num, Quantity
 from icsolve.report.derivation.known import Known
+from icsolve.statics.power import has_friction
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 from icsolve.wording.statement import Row, Statement
@@ -84,7 +85,7 @@ def load_name(name: str) -> Name:
 
 def rate_name(link: str) -> Name:
     """The angular velocity of a link, or of a screw."""
-    return Name("w", link.removeprefix("@").replace(" ", "_"))
+    return Name(OMEGA, link.removeprefix("@").replace(" ", "_"))
 
 
 def speed_name(link: str) -> Name:
@@ -145,10 +146,15 @@ def asked_section(known: Known, figures: Figures) -> Section:
         what = "instant centres, and how fast the links move"
         what = "forces and couples in the joints" if known.structure else what
         return Section("Asked", (words(f"The {what}."),))
-    count = "is the load that holds" if len(unknown) == 1 else "are the loads that hold"
-    return Section(
-        "Asked", (words(f"What {count} the mechanism in equilibrium in this position?"), _loads(unknown))
-    )
+    one = len(unknown) == 1
+    loads, s = ("is the load", "s") if one else ("are the loads", "")
+    said = f"What {loads} that hold{s} the mechanism in equilibrium in this position?"
+    if has_friction(known.case):
+        said = f"What {loads} that keep{s} the motion up in this position?"
+        if not known.case.motion:
+            load = "load does" if one else "loads do"
+            said = f"Over what range of the {load} the mechanism hold still in this position?"
+    return Section("Asked", (words(said), _loads(unknown)))
 
 
 def position_asked(known: Known) -> str:

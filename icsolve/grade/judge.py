@@ -12,7 +12,7 @@ from icsolve.grade.keys import AGAINST, NEITHER, AnyKey, ChoiceKey, NumberKey, P
 from icsolve.grade.mistakes import Wrong, message, together
 from icsolve.grade.mistakes.lookup import near_miss
 from icsolve.grade.tolerance import SLACK
-from icsolve.grade.written.answer import MISSING, NO_NUMBER, Combined, WrittenAnswer, flagged
+from icsolve.grade.written.answer import MISSING, NO_NUMBER, TWO_VALUES, Combined, WrittenAnswer, flagged
 from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, figures, plain
 from icsolve.grade.written.two_numbers import WrittenPlace, WrittenRange, read_place, read_range
 from icsolve.grade.written.words import CASE, ENERGY, unit_word
@@ -57,6 +57,7 @@ _ALL_PARTS = (True, True, True)
 
 
 Read = WrittenAnswer | WrittenPlace | WrittenRange
+_LISTED = re.compile(r" ?; ?|, | (?:and|or|und|oder|et|ou|y|o|e|&) ")
 _GROUPED = re.compile(r"[-+]?[1-9]\d{0,2}\.\d{3}(?![\d.])")
 
 
@@ -110,8 +111,13 @@ def _judge_choice(
     key: ChoiceKey, combined: Combined, answer: str, unit: str, direction: str
 ) -> tuple[Judgement, Read]:
     """By the nearest of several right values, whose mistakes alone are looked up where it is right; else by
-    the first of which it shows a known mistake."""
-    number, word, _, _, _, _ = combined.read(answer, unit, direction)
+    the first of which it shows a known mistake. Several values are right where each of them is."""
+    number, word, _, _, flag, _ = combined.read(answer, unit, direction)
+    parts = _LISTED.split(answer) if flag == TWO_VALUES else []
+    if len(parts) > 1:
+        several = [_judge_choice(key, combined, part, unit, direction) for part in parts]
+        if all(judged.verdict == RIGHT for judged, _ in several):
+            return several[0]
 
     def off(one: NumberKey | RangeKey) -> float:
         if isinstance(one, RangeKey):

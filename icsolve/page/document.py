@@ -26,7 +26,7 @@ from icsolve.draw.words import (
     unit_word,
 )
 from icsolve.explain.document import Document, Formula, formula
-from icsolve.explain.formula import MATHML, Expr, Name, Num, Quotient, Sum, product
+from icsolve.explain.formula import MATHML, OMEGA, Expr, Name, Num, Quotient, Sum, product
 from icsolve.explain.given import load_name
 from icsolve.explain.typeset import AsHtml
 from icsolve.page.fields import section
@@ -130,7 +130,7 @@ def speed_of(known: Known, acting: Acting) -> Name:
     if acting.at is not None:
         return Name("v", acting.load.name)
     low = acting.link if acting.against == known.case.ground else f"{acting.link}/{acting.against}"
-    return Name("w", low)
+    return Name(OMEGA, low)
 
 
 def ratio_unit(known: Known, root: Acting, of: Acting) -> str:

@@ -346,8 +346,11 @@ def _pieces(text: str) -> list[str]:
 
 def _checked(read: WrittenAnswer) -> WrittenAnswer:
     """Flags of its parts."""
-    if read.direction is not None and read.direction.flag:
-        return flagged(read.direction.flag)
+    way, unit = read.direction, read.unit
+    if way is not None and way.flag:
+        return flagged(way.flag)
+    if way is not None and way.measured and unit is not None and unit.unit.dims == DIMENSIONS["angle"]:
+        return flagged(TWO_VALUES)
     return _doubted(read.note) or read
 
 
