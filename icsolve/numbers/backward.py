@@ -38,6 +38,7 @@ class Backward:
         self.record, self.targets, self.exact = record, targets, frozenset(exact)
         self.groups = {min(group.solved): group for group in record.implicit}
         self.member = {k: group for group in record.implicit for k in group.solved}
+        self._ahead: dict[int, list[int]] = {}
         nodes = self.reached(targets)
         self.guesses = {
             g: s
@@ -55,12 +56,15 @@ class Backward:
     def reached(self, targets: Iterable[int]) -> set[int]:
         """The nodes that vary and lead to the targets, through groups as well."""
         seen: set[int] = set()
-        stack = [k for k in targets if self.record.nodes[k].row]
+        nodes, known = self.record.nodes, self._ahead
+        stack = [k for k in targets if nodes[k].row]
         while stack:
             k = stack.pop()
             if k not in seen:
                 seen.add(k)
-                stack += [n for n in self._behind(k) if self.record.nodes[n].row]
+                if k not in known:
+                    known[k] = [n for n in self._behind(k) if nodes[n].row]
+                stack += known[k]
         return seen
 
     def _behind(self, k: int) -> Iterable[int]:

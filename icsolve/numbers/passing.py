@@ -72,6 +72,7 @@ class Pass:
 
     def __init__(self, backward: Source, target: int, room: int) -> None:
         self.backward, self.record, self.room = backward, backward.record, room
+        self.buffers = backward.code.bound(room)[1]
         self.steps: list[Step] = []
         self.weights: dict[int, Weight] = {}
         self.by: dict[int, Weight] = {}
@@ -182,7 +183,7 @@ class Pass:
     # --- weights as arrays on buffers (`adjoint.Adjoints`) -------------------------------------------
 
     def _value(self, k: int) -> Array:
-        return self.backward.code.place_of(k, self.room)
+        return self.backward.code.held(k, self.buffers)
 
     def wants(self, n: int) -> bool:
         """Whether a node needs a weight: it varies, or is a zero with an error."""

@@ -116,7 +116,8 @@ class Code:
                 outs = [None if n is None else held[n] for n in (cosine, sine)]
                 yield turn, (value(node.a), *outs, *rows[-SCRATCH:])
 
-    def _value(self, k: int, buffers: Array) -> Array:
+    def held(self, k: int, buffers: Array) -> Array:
+        """The whole buffer of a node among those of `bound`; () where it does not vary."""
         found: Array = buffers[self.place[k]] if k in self.place else np.array(self.record.nodes[k].value)
         return found
 
@@ -154,12 +155,8 @@ class Code:
                 function(*arguments)
         return buffers
 
-    def place_of(self, k: int, room: int) -> Array:
-        """The whole buffer of a node, (room,) with ``room`` at least ``rows``; () where it does not vary."""
-        return self._value(k, self.bound(room)[1])
-
     def _cut(self, k: int, buffers: Array, rows: int) -> Array:
-        value = self._value(k, buffers)
+        value = self.held(k, buffers)
         return value[:rows] if value.ndim else value
 
     def value(self, k: int, rows: int) -> Array:
