@@ -87,16 +87,32 @@ class InSixtyDigits:
         for _ in range(8):
             self.values = {k: v for k, v in self.values.items() if self.record.nodes[k].op == Op.INPUT}
             self.values.update(zip(group.guesses, guess, strict=True))
-            f = mp.matrix([self.or_float(v) for v in group.residuals])
-            j = mp.matrix([[self.or_float(v) for v in row] for row in group.derivatives])
-            move = mp.lu_solve(j, f)
-            units = (1, 1, RADIAN)
+            f = np.array([self.or_float(v) for v in group.residuals])
+            j = np.array([[self.or_float(v) for v in row] for row in group.derivatives])
+            move, units = least_squares(j, f), (1, 1, RADIAN)
             guess = [g - m / units[n % 3] for n, (g, m) in enumerate(zip(guess, move, strict=True))]
+            if max(map(abs, move)) < mpf(10) ** (5 - mp.dps):  # its square is beyond all digits
+                break
         self.values = {k: v for k, v in self.values.items() if self.record.nodes[k].op == Op.INPUT}
         self.values.update(zip(group.solved, guess, strict=True))
 
     def or_float(self, value: Any) -> Any:
         return self.of(value.index) if isinstance(value, Traced) else mpf(float(value))
+
+
+def least_squares(j: Any, f: Any) -> list[Any]:
+    """x with ``j x = f``, (m, n) and (m,) of objects, by elimination with partial pivoting."""
+    if j.shape[0] > j.shape[1]:
+        j, f = j.T @ j, j.T @ f
+    a, n = np.column_stack([j, f]), len(f)
+    for c in range(n):
+        r = c + int(np.argmax(np.abs(a[c:, c])))
+        a[[c, r]] = a[[r, c]]
+        a[c + 1 :, c:] -= np.outer(a[c + 1 :, c] / a[c, c], a[c, c:])
+    x: list[Any] = [mpf(0)] * n
+    for c in reversed(range(n)):
+        x[c] = (a[c, n] - sum(a[c, k] * x[k] for k in range(c + 1, n))) / a[c, c]
+    return x
 
 
 def truths(sweep: icsolve.Sweep, row: int) -> dict[tuple[str, str], list[Any]]:
