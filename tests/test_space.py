@@ -14,6 +14,8 @@ import pytest
 from icsolve import Answer, load, solve
 from icsolve.answer.space import SpatialReaction
 from icsolve.errors import CaseError, SceneError
+from icsolve.explain import explain
+from icsolve.page import page_html
 from icsolve.report.check import AGREES, compare
 from icsolve.report.derivation.known import known_of
 from icsolve.report.text import answer_text
@@ -497,6 +499,13 @@ CHANGES = {
     "axis that is a number": ("axis: x", "axis: 30", 5, 35, "should be x, y, z"),
     "two kinds": ("{thrust: [1, 2]", "{thrust: [1, 2], ball: [1, 2]", 5, 22, "a joint is of one kind"),
     "kind misspelt": ("{thrust: [1", "{thurst: [1", 5, 6, "did you mean 'thrust'?"),
+    "an unknown component": (
+        "[-40, 500, 0]",
+        "[-40, 500, unknown]",
+        8,
+        14,
+        "it is `force: unknown` with its direction, as in `along: -z`; else one",
+    ),
     "angle of a force": (", along: z}", ", angle: 90}", 9, 39, "that is for the plane; in space"),
     "no direction": (", along: z}", "}", 9, 6, "needs its direction: along, toward, away"),
     "two components": ("[-40, 500, 0]", "[-40, 500]", 8, 14, "three components [x, y, z]"),
@@ -651,3 +660,18 @@ def test_powers_of_couples_and_forces_in_space_are_in_one_unit(units: str, ratio
     found = {term.load: (term.factor, term.power) for term in answer.terms}
     wanted = {"F": (30.0, 600.0), "K": (ratio, 3.0 * ratio), "T": (ratio, torque * ratio)}
     assert found == {name: pytest.approx(both, rel=1e-15) for name, both in wanted.items()}
+
+
+@pytest.mark.parametrize(
+    "unknown", ["{force: unknown, link: 2, at: C, toward: D}", "{torque: unknown, link: 2, along: y}"]
+)
+def test_a_known_load_and_an_unknown_one_in_space_have_their_ratio_told(unknown: str) -> None:
+    """A plate on two hinges, held by a rope or a couple (F. P. Beer, E. R. Johnston, Statics, ch. 4)."""
+    case = load(
+        "icsolve: 1\npoints: {A: [0, 0, 0], B: [0, 4, 0], D: [0, 4, 2], C: [3, 4, 0], G: [1.5, 2, 0]}\n"
+        "joints: [{radial: [1, 2], at: A, axis: y}, {thrust: [1, 2], at: B, axis: y}]\n"
+        f"loads: {{W: {{weight: 1000, link: 2, at: G}}, T: {unknown}}}\n"
+    )
+    ratio = solve(case).answers["T"].value / 1000.0
+    assert f"T / W = {ratio:.6g}" in explain(case)
+    assert page_html(known_of(case))

@@ -83,9 +83,9 @@ def _advantage(known: Known, figures: Figures) -> Iterable[Block]:
     bottom = next(name for name in loads if name not in answer.answers)
     units = {term.load: term.unit for term in answer.terms}
     under, unit, value = load_name(bottom), units[bottom], answer.advantage
-    acting = next(a for a in acting_loads(known) if a.load.name == bottom)
-    if isinstance(acting.load, Spring):  # its force, not its stiffness
-        under, unit, value = Name("F", bottom), known.case.units.force, value / acting.gain
+    for acting in acting_loads(known):
+        if acting.load.name == bottom and isinstance(acting.load, Spring):  # its force, not its stiffness
+            under, unit, value = Name("F", bottom), known.case.units.force, value / acting.gain
     alike = units[top] == unit
     kind = (
         f"The mechanical advantage, where {top} is the output" if alike else "For one unit of the known load"

@@ -311,11 +311,16 @@ class Entry:
             return self.magnitude(key, node)
         axes = self.reading.axes
         found = [type(one) is Scalar and one.text == "unknown" for one in node.items]
-        if not any(found) or len(axes) > 2:
+        if not any(found):
             return self.numbers(key, node, axes, self.path)
         self.reading.marks[self.path] = node.mark
-        if not all(found) or len(found) != len(axes):
-            said = "along a known line it is `force: unknown` with its direction, else [unknown, unknown]"
+        in_space = len(axes) > 2
+        if in_space or not all(found) or len(found) != len(axes):
+            said = f"along a known line it is `{key}: unknown` with its direction, " + (
+                "as in `along: -z`; else one such load along each of x, y and z"
+                if in_space
+                else "else [unknown, unknown]"
+            )
             self.refuse(node.mark, f"'{key}' of {self.what}: {said}")
         return ()
 
