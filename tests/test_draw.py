@@ -362,3 +362,29 @@ def test_a_geneva_wheel_is_told_by_its_crank(slots: int) -> None:
                 outline, 360.0 / slots, origin=scene_of(known).view.at(found.centre)
             )
             assert shapely.area(shapely.symmetric_difference(turned, outline)) < 0.02 * outline.area
+
+
+@pytest.mark.parametrize(
+    "on",
+    [
+        "joints: [{roll: [1, 2], at: C, radii: [0.5, 0.2]}]",
+        "joints: [{roll: [1, 2], at: C, radii: [-0.5, 0.2]}]",
+        "profile: {1: {circle: O, radius: 0.5}, 2: {roller: Q, radius: 0.2}}\n"
+        "joints: [{contact: [1, 2]}, {slide: [2, 1], at: Q, along: 160}]",
+    ],
+)
+def test_the_round_ground_that_something_runs_on_is_there(on: str) -> None:
+    """A disk on a hill or in a hollow, a roller on a fixed cam: 0.5 to 0.2, hatched."""
+    q = 0.3 if "-0.5" in on else 0.7
+    svg = draw(
+        icsolve.load(
+            "icsolve: 1\npoints: {O: [0, 0]}\nlengths: {OC: 0.5, "
+            f"OQ: {q}}}\nangles: {{OC: 70, OQ: 70}}\nlinks: {{1: [O]}}\n{on}\n"
+            "loads: {W: {weight: 50, link: 2, at: Q}}\n"
+        )
+    )
+    frame = svg.partition('<g id="link-1">')[2].partition("</g>")[0]
+    ground = max(map(float, re.findall(r'<circle [^>]* r="([^"]*)"', frame)))
+    disk = max(map(float, re.findall(r'<circle class="body" [^>]* r="([^"]*)"', svg)))
+    assert ground / disk == pytest.approx(2.5, rel=0.1)  # to the line beside it
+    assert 'class="hatch"' in frame

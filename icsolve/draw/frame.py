@@ -47,9 +47,7 @@ def frame_parts(scene: Scene, links: shapely.Geometry, *, following: bool = Fals
     held += [("data-rail", joint.at) for joint in guides if joint.thread is None]
     parts += [_spindle(scene, joint) for joint in guides if joint.thread is not None]
     parts += [_surface(scene, edge) for edge in scene.round.edges if edge.link == ground]
-    parts += [
-        _annulus(scene, w) for w in scene.round.wheels if w.link == ground and w.kind in ("gear", "post")
-    ]
+    parts += [_annulus(scene, w) for w in scene.round.wheels if w.link == ground]
     anchors = tuple(a for part in parts for a in part.labels[0].anchors)[:6]
     bare = [part._replace(labels=()) for part in parts]
     for n, data in enumerate(held if following else ()):
