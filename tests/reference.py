@@ -228,20 +228,22 @@ def null_by_svd(rows: list[list[Any]], columns: int) -> list[list[Any]]:
 
 
 def null_by_elimination(rows: list[list[Any]], columns: int) -> list[list[Any]]:
-    """Gauss-Jordan with complete pivoting in many digits."""
+    """Gauss-Jordan with complete pivoting in many digits; doubles tell which pivot is the largest."""
     a = np.array(rows, dtype=object).reshape(len(rows), columns)
     order: list[int] = []
     for k in range(min(a.shape)):
-        free = [j for j in range(columns) if j not in order]
-        best = max(((abs(a[i, j]), i, j) for i in range(k, len(a)) for j in free), key=lambda t: t[0])
-        if best[0] < ZERO_PIVOT:
+        sizes = np.abs(a[k:].astype(float))
+        sizes[:, order] = 0.0
+        i, j = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
+        if sizes[i, j] < ZERO_PIVOT:
             break
-        a[[k, best[1]]] = a[[best[1], k]]
-        order.append(best[2])
-        a[k] = a[k] / a[k, best[2]]
-        for i in range(len(a)):
-            if i != k and a[i, best[2]] != 0:
-                a[i] = a[i] - a[i, best[2]] * a[k]
+        a[[k, k + i]] = a[[k + i, k]]
+        order.append(int(j))
+        a[k] = a[k] / a[k, j]
+        filled = np.flatnonzero(a[k])
+        for n in np.flatnonzero(a[:, j]):
+            if n != k:
+                a[n, filled] = a[n, filled] - a[n, j] * a[k, filled]
     return [_solution(a, order, j) for j in range(columns) if j not in order]
 
 
