@@ -24,6 +24,7 @@ from icsolve.case.expected import (
     SpeedIs,
     Target,
 )
+from icsolve.manual import template
 from icsolve.read import load
 from icsolve.report.check import Row, compare, wanted
 from icsolve.solve import solve
@@ -213,3 +214,11 @@ expect: {F12: 182.1}
     (only,) = compare(solve(case, reactions=True))
     assert only.verdict == "disagrees"
     assert any("give `motion`" in str(part) for part in only)
+
+
+@pytest.mark.parametrize(("asked", "text"), [("FAD-AB", "F1-AD"), ("FAB-AD@A", "F1-AB")])
+def test_a_force_between_two_links_of_a_pin_of_several_says_who_carries_it(asked: str, text: str) -> None:
+    case = load(template("truss") + f"expect: {{{asked}: 4}}\n")
+    (only,) = compare(solve(case, reactions=True))
+    assert only.verdict == "disagrees"
+    assert f"the pin at A is carried by link 1, which is named first: ask for {text}" in only.text

@@ -26,6 +26,7 @@ from icsolve.draw import draw
 from icsolve.explain import explain
 from icsolve.explain.document import ShownTable
 from icsolve.explain.sheet import exercise
+from icsolve.manual import template
 from icsolve.report.derivation.known import known_of
 from library import FILES, sample
 from sizes import FULL
@@ -485,6 +486,12 @@ def test_markdown_has_latex() -> None:
         r"$$ \frac{\omega_{4}}{\omega_{2}} = \frac{\overline{I_{12}\,I_{24}}}{\overline{I_{14}\,I_{24}}}"
         in text
     )
+
+
+def test_the_bars_of_a_truss_are_held_and_do_not_move() -> None:
+    text = explain(icsolve.load(template("truss")))
+    assert "links AD, AB, BD, BC, BE, CE and DE are held." in text
+    assert " move." not in text
 
 
 def test_a_load_that_is_called_w_is_no_angular_velocity() -> None:

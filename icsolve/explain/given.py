@@ -115,7 +115,8 @@ def given_section(known: Known, figures: Figures) -> Section:
     case, told = known.case, figures.statement(known)
     others = [link for link in case.links if link != case.ground]
     s, verb = ("", "s") if len(others) == 1 else ("s", "")
-    blocks: list[Block] = [words(f"The frame is link {case.ground}; link{s} {listed(others)} move{verb}.")]
+    verb = f" {'is' if verb else 'are'} held" if known.structure else f" move{verb}"
+    blocks: list[Block] = [words(f"The frame is link {case.ground}; link{s} {listed(others)}{verb}.")]
     rows = [told.joint(joint) for joint in case.joints]
     rows += [told.rope(rope) for rope in case.ropes]
     rows += [(f"link {link}", told.mass(inertia)) for link, inertia in case.inertia.items()]

@@ -7,7 +7,7 @@ import math
 from icsolve.answer import Answer
 from icsolve.answer.bodies import Reaction
 from icsolve.answer.space import Parts, SpatialReaction
-from icsolve.case import Number
+from icsolve.case import Number, pair_name
 from icsolve.case.expected import (
     ArmIs,
     DistanceIs,
@@ -102,6 +102,11 @@ def _reaction(answer: Answer, by: str, on: str, at: str | None) -> Reaction | Sp
         found = [*answer.spatial.reactions.values()]
     found = [r for r in found if {r.by, r.on} == {by, on} and at in (None, r.where)]
     if not found:
+        for joint in answer.case.joints:
+            if joint.pivot and {by, on} <= {*joint.links} and at in (None, joint.at):
+                first = joint.links[0]
+                said = f"the pin at {joint.at} is carried by link {first}, which is named first: ask for"
+                raise LookupError(f"{said} F{pair_name(answer.case, (first, by))}, or name another first")
         place = f" at {at}" if at else ""
         raise LookupError(f"links {by} and {on} have no joint{place}")
     if len(found) > 1:
