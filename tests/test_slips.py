@@ -329,7 +329,8 @@ REFUSED = {
     "a link with a decimal": ("link: 4", "link: 4.0", 14, 25, "is not a name"),
     "a pin at two points": ("at: C}", "at: [C, E]}", 11, 23, "should be a point's name"),
     "a kind in other words": ("{pin: [4, 1], at: D}", "{fixed: D}", 12, 6, "did you mean 'weld'?"),
-    "a roller": ("{pin: [4, 1]", "{roller: [4, 1]", 12, 6, "did you mean 'roll'?"),
+    "a roller": ("{pin: [4, 1]", "{roller: [4, 1]", 12, 6, "did you mean 'slot'?"),
+    "a cable": ("torque: unknown", "cable: unknown", 15, 9, "did you mean 'force'?"),
     "a slide of no direction": (
         "{pin: [4, 1]",
         "{slide: [4, 1]",

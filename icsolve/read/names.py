@@ -61,7 +61,7 @@ def shown(text: str) -> str:
 
 _OTHER_WORDS = {
     "torque": "moment couple twist momentum drehmoment t",
-    "force": "load pull push thrust tension f kraft",
+    "force": "load pull push thrust tension f kraft cable rope wire strut cylinder actuator",
     "weight": "gravity_force w",
     "angle": "direction dir orientation theta bearing heading degrees inclination",
     "link": "body member bar part element on acts_on links",
@@ -69,7 +69,7 @@ _OTHER_WORDS = {
     "against": "from between reaction other",
     "pin": "support bearing revolute hinge pivot joint r turning pinned rotational",
     "slide": "prismatic slider track rail sliding guide p translational piston",
-    "slot": "pin_in_slot pinslot",
+    "slot": "pin_in_slot pinslot roller roller_support",
     "roll": "rolling wheel rack",
     "gears": "gear mesh",
     "contact": "cam",
