@@ -10,7 +10,10 @@ from __future__ import annotations
 import cmath
 import contextlib
 import math
+from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
+from itertools import chain, combinations
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -431,3 +434,58 @@ def test_exactly_where_a_parallelogram_folds_it_may_go_on_in_two_ways(by: str, l
         rows = [-turned, 0.0, round(180.0 - turned, 1)]
         status = icsolve.sweep(case, drive={link: rows}).status.tolist()
         assert status == ["change-point", "ok", "change-point"], (frame, crank, turned)
+
+
+PLATE = """icsolve: 1
+points: {{A: [{b[0]}, {low}], D: [{d[0]}, {d[1]}], E: [{e[0]}, {e[1]}]{more}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 4], at: B}}, {{pin: [4, 3], at: C}}, {{pin: [3, 5], at: F}},
+         {{pin: [5, 1], at: D}}, {{pin: [3, 6], at: G}}, {{pin: [6, 1], at: E}}]
+loads: {{W: {{weight: 20, link: 3, at: C}}, T: {{torque: unknown, link: 2}}}}
+"""
+BY_LENGTHS = """}}
+lengths: {{AB: 5, BC: {bars[0]}, FD: {bars[1]}, GE: {bars[2]}, CF: 3, CG: 4, FG: 5}}
+angles: {{AB: {turned}}}
+near: {{C: [0, 0], F: [3, 0], G: [0, 4]}}"""
+
+
+def _plates(dice: Random) -> Iterator[tuple[float, icsolve.Case, str]]:
+    """A plate on three bars that are parallel at 90 degrees of the crank, all in whole numbers: two ways to
+    assemble become one there. Each where it is drawn beside that, with what is left to turn, and what its
+    coordinates there are told."""
+    x, y = dice.choice([(4, 3), (-4, 3), (3, -4), (1, 0), (-3, -4)])
+    sizes = [dice.choice([-1, 1]) * n for n in dice.sample(range(1, 7), 3)]
+    b, d, e = ((px + n * x, py + n * y) for (px, py), n in zip(((0, 0), (3, 0), (0, 4)), sizes, strict=True))
+    bars = [abs(n) * math.hypot(x, y) for n in sizes]
+    plate = partial(PLATE.format, b=b, low=b[1] - 5, d=d, e=e)
+    there = icsolve.load(plate(more=f", B: [{b[0]}, {b[1]}], C: [0, 0], F: [3, 0], G: [0, 4]}}"))
+    with pytest.raises(icsolve.SceneError) as refused:
+        icsolve.solve(there)
+    for off in (-2.0, -0.5, 0.5, 2.0):
+        with contextlib.suppress(icsolve.SceneError):
+            case = icsolve.load(plate(more=BY_LENGTHS.format(bars=bars, turned=90.0 - off)))
+            icsolve.solve(case)
+            yield off, case, refused.value.status
+
+
+def test_a_group_at_its_fold_is_where_its_lengths_put_it_from_wherever_it_comes() -> None:
+    """Beside a fold the root of a rounding counts: links whose shape is taken from doubles give other values
+    (2e-6 apart, 1e-9 degrees off), and none of them the fold itself."""
+    dice, folds, pairs = Random("plates"), 0, 0
+    for _ in range(60 if FULL else 3):
+        beside: dict[int, list[tuple[float, float]]] = {0: [], 2: []}
+        for off, case, status in _plates(dice):
+            rows = [off - 1e-9, off, off + 1e-9]
+            found = icsolve.sweep(case, drive={"2": rows}, want=WANT)
+            off_there = sum(
+                abs(found.points[p] - at) for p, at in (("C", (0, 0)), ("F", (3, 0)), ("G", (0, 4)))
+            )
+            near = [n for n in (0, 2) if found.status[n] == "ok" and off_there[n].max() < 1e-3]
+            for n in near:
+                folds += 1
+                assert found.status[1] == status
+                beside[n].append((found.answers["T"][n], found.error["T"][n]))
+        for (one, error), (two, other) in chain(*(combinations(beside[n], 2) for n in beside)):
+            if abs(one - two) < 0.01 * abs(one):
+                pairs += 1
+                assert abs(one - two) <= error + other
+    assert min(folds, pairs) > 0

@@ -12,9 +12,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from decimal import Context, Decimal, DivisionByZero, localcontext
 from functools import lru_cache
 
+from icsolve.assembly.steps import Group, place
 from icsolve.case import Case, Centroid, Coordinates, Number, TorsionSpring
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.balls import Ball, Balls, BelowZero, MoreDigits
 from icsolve.numbers.linear import solve_square
 from icsolve.numbers.record import Implicit, Op, Record, Root, Traced, live, terms_of
 from icsolve.numbers.replay import BINARY
@@ -24,7 +26,7 @@ from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep
 from icsolve.tuples import replace
 
-DIGITS = 170
+DIGITS = 240
 ZERO = Decimal("1e-40")
 """What is below this fraction of its terms is zero."""
 VANISHED = Decimal("1e-60")
@@ -35,8 +37,10 @@ STEP = Decimal("1e-30")
 ROUNDS = 2 * DIGITS + 20
 """Steps of Newton's method: so many bring all digits where each leaves a third of the error (where a straight
 part of a rope ends), and half of the digits where it leaves half: where two solutions have become one."""
-HALF = Decimal("1e-50")
-"""Half of the digits."""
+HALF = Decimal("1e-70")
+"""Digits of a double root, of a threefold one too: more than a scene decides by."""
+SHORTER = Decimal("1e-9")
+"""A step longer than this and than the last leads to no solution near: beyond a fold there is none."""
 AGREED = Decimal("1e-9")
 """Conditions that were not needed to place the links are met to this (normalised)."""
 LEAST = Decimal("1e-145")
@@ -65,7 +69,7 @@ class ExactRecord:
 
     def __init__(self, compiled: CompiledSweep) -> None:
         self.compiled, self.record = compiled, compiled.record
-        self.still: Values = {}
+        self.still = self._placed() if compiled.motion is not None else {}
         self.orders: dict[tuple[int, ...], tuple[list[Step], Values]] = {}
         self.least: Values = {}
         """by divisor, and by what is under a root, what is zero beside its terms"""
@@ -79,6 +83,37 @@ class ExactRecord:
             traced.index: decimal_of(numbers[name]) if name in numbers else Decimal(value)
             for (value, name), traced in self.record._constants.items()
         }
+
+    def _placed(self) -> Values:
+        """The points as written that Newton's method places, in all digits: the record has its last step from
+        where doubles settled, and beside a fold the root of what that leaves would count."""
+        motion, setting = self.compiled.motion, self.compiled.setting
+        targets = [name for step in setting.figure.steps if isinstance(step, Group) for name in step.targets]
+        if motion is None or not targets:
+            return {}
+        try:
+            points = place(setting.figure, setting.case, Balls(DIGITS)).points
+        except (MoreDigits, BelowZero, ZeroDivisionError):
+            return {}
+        found: Values = {}
+        with localcontext(CONTEXT):
+            for name in targets:
+                for node, exact in zip(motion.mechanism.shape.ref[name], points[name], strict=True):
+                    if isinstance(node, Traced) and not node.row:
+                        at = exact.value if isinstance(exact, Ball) else Decimal(float(exact))
+                        found |= self._corrected(node, at)
+        return found
+
+    def _corrected(self, node: Traced, at: Decimal) -> Values:
+        """A coordinate, and the step from the double that led to it: what is turned round has that step."""
+        found = {node.index: at}
+        one, two = (self.record.nodes[k] for k in (node.a, node.b))
+        if node.op == Op.SUB and one.op == Op.CONST:
+            found[two.index] = Decimal(one.value) - at
+        elif node.op == Op.ADD and Op.CONST in (one.op, two.op):
+            start, step = (one, two) if one.op == Op.CONST else (two, one)
+            found[step.index] = at - Decimal(start.value)
+        return found
 
     def values(self, wanted: Iterable[Scalar], given: Mapping[int, Decimal]) -> list[Decimal]:
         """Expressions at a row, rounded in the last of their digits; not a number where something is divided
@@ -178,7 +213,7 @@ class ExactRecord:
         and half of the digits are all that there is."""
         q = [given[k] for k in group.solved]
         units = [Decimal(1), Decimal(1), pi() / 180] * (len(q) // 3)
-        least, last = Decimal(10) ** (12 - DIGITS), Decimal(0)
+        least, last = Decimal(10) ** (12 - DIGITS), Decimal(1)
         wanted = group.parts
         indices = [v.index for v in wanted if isinstance(v, Traced)]
         for _ in range(ROUNDS):
@@ -190,10 +225,10 @@ class ExactRecord:
             size = max(map(abs, move))
             if size < least:
                 return q
-            if not size < 1:
-                break
             if size < HALF and size > last / 3:
                 return [x.quantize(HALF) for x in q]
+            if not size < max(last, SHORTER):
+                break
             q = [x - m / unit for x, m, unit in zip(q, move, units, strict=True)]
             last = size
         raise Unreached

@@ -105,7 +105,7 @@ class PathTracker:
             q, turns, good = self._interpolated(s)
             solved, _, right = self._solved(given, q, turns)
             solved = np.where(right[:, None], solved, q)
-            good &= right | self.singular(s)
+            good &= right | self.singular(s) | self.ending(s)
             given = {**given, **self._state(solved, turns)}
         return given, good
 
@@ -115,6 +115,12 @@ class PathTracker:
         for one, two in self.breaks:
             found |= (s > min(one, two)) & (s < max(one, two))
         return found
+
+    def ending(self, s: Array) -> Mask:
+        """Which places, (places,), lie so near to where the following ended that doubles leave open whether
+        the groups reach there."""
+        low, high = self.ends
+        return (np.abs(s - low) <= self._slack) | (np.abs(s - high) <= self._slack)
 
     def passages(self) -> list[float]:
         """The singular positions that groups go through."""
@@ -311,14 +317,18 @@ class PathTracker:
 
     # --- between steps ----------------------------------------------------------------------------
 
+    @property
+    def _slack(self) -> float:
+        """How far beyond a last step the links may reach."""
+        return self.line.widest * SHORTEST * 16.0
+
     def _interpolated(self, s: Array) -> tuple[Array, Array, Mask]:
         """States between the steps, by the cubic through the four nearest."""
         q = np.full((len(s), self.start.q.size), np.nan)
         turns = np.zeros((len(s), self.start.turns.size))
         good = np.zeros(len(s), dtype=bool)
-        slack = self.line.widest * SHORTEST * 16.0
         for segment in self.segments:
-            here = (s >= segment.s[0] - slack) & (s <= segment.s[-1] + slack)
+            here = (s >= segment.s[0] - self._slack) & (s <= segment.s[-1] + self._slack)
             if here.any():
                 at = np.clip(s[here], segment.s[0], segment.s[-1])
                 q[here] = cubic(segment.s, segment.q, at)

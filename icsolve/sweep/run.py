@@ -215,9 +215,10 @@ class SweepRun:
 
 
 def _with_singular(part: SweepPart, found: RowsFound) -> RowsFound:
-    """Rows beside a singular position of a group are doubtful, too."""
+    """Rows beside a singular position of a group, or beside its end, are doubtful, too."""
     if part.followed is None:
         return found
     tracker = part.followed.tracker
-    singular = np.flatnonzero(tracker.singular(part.places) | tracker.bent(part.places))
+    at = part.places
+    singular = np.flatnonzero(tracker.singular(at) | tracker.bent(at) | tracker.ending(at))
     return found._replace(doubtful=np.union1d(found.doubtful, singular)) if singular.size else found
