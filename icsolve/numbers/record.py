@@ -283,9 +283,8 @@ class Record:
         return self.counted[angle.index][1]
 
     def nearest(self, value: Scalar) -> Scalar:
-        """The nearest whole number; of what is beyond all numbers itself."""
-        whole = float(value)
-        whole = float(round(whole)) if math.isfinite(whole) else whole
+        """The nearest whole number."""
+        whole = float(round(float(value)))
         return self._of_one(Op.NEAREST, value, whole) if isinstance(value, Traced) else whole
 
     def vanishes(self, value: Scalar, size: float) -> bool:

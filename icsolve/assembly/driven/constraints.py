@@ -6,6 +6,7 @@ alike) and an `OnLine`; a slot is an `OnLine`; gears and belts are a `Turning`; 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
 from itertools import pairwise
 
@@ -13,12 +14,14 @@ from icsolve.assembly.conditions import FigureEquation, at_distance, on_line
 from icsolve.assembly.driven.poses import Places, Rotation, Shape, Spot, dot, minus, plus, scaled, square
 from icsolve.assembly.workspace import Datum, Workspace
 from icsolve.case import Rope
-from icsolve.errors import SceneError
+from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import RADIAN, Scalar
 from icsolve.numbers.record import Record
 from icsolve.screws.plane import Point, Triple
 from icsolve.screws.ropes import RopePart, part_between
 from icsolve.tuples import NamedTuple
+
+BEYOND = "how links roll on one another is beyond all numbers: give them radii of the figure's size."
 
 
 class BodyLine(NamedTuple):
@@ -330,6 +333,8 @@ class ConditionRows:
                 along, contact = square(normal), plus(p, scaled(r, normal))
                 around = whole * 360.0 * RADIAN  # the line of the centres may have turned any number of times
                 value = self._left(c)
+                if not math.isfinite(float(value / around)):
+                    raise SceneError(Status.UNSUPPORTED, BEYOND)
                 value = value - around * self.shape.record.nearest(value / around)
                 return value, [(one[0], along, contact), (two[0], _less(along), contact)]
             case Roped():  # each part pulls at the points of its links on its line
