@@ -55,6 +55,26 @@ def exactly(number: float) -> Any:
 # --- closed forms ----------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("height", [0.5, 1.1, 1.5, 2.0])
+@pytest.mark.parametrize("mu", [0.3, 0.5])
+def test_a_crate_slides_or_tips_whichever_comes_first(height: float, mu: float) -> None:
+    """J. L. Meriam, Statics, ch. 6: pushed at a height h it slides at mu W, or tips at W b / 2h."""
+    answer = solved(f"""
+points: {{A: [0, 0], B: [1, 0], G: [0.5, 0.8], H: [0, {height}]}}
+joints:
+  - {{contact: [1, 2], at: A, normal: 90, mu: {mu}}}
+  - {{contact: [1, 2], at: B, normal: 90, mu: {mu}}}
+loads:
+  W: {{weight: 300, link: 2, at: G}}
+  P: {{force: unknown, link: 2, at: H, angle: 0}}
+""")
+    slides, tips = 300 * mu, 150 / height
+    found = answer.answers["P"]
+    assert found.holds == pytest.approx((-min(slides, tips), min(slides, tips)), rel=1e-9)
+    assert any("tip or lift off" in note for note in answer.notes) is (tips < slides)
+    assert (found.error is None) is (tips < slides)
+
+
 def incline(alpha: float, mu: float, motion: str = "") -> str:
     """A block of weight 100 on an incline, pushed along the horizontal."""
     return f"""

@@ -234,11 +234,13 @@ class End(NamedTuple):
     senses : (rubs,), those of the motion that is about to begin
     friction : (rubs,) [scaled]; empty where the value is infinite, or not that of an equilibrium about to
         move
+    pushes : whether every contact pushes there
     """
 
     value: float
     senses: tuple[float, ...]
     friction: tuple[float, ...] = ()
+    pushes: bool = True
 
 
 class StaticRange(NamedTuple):
@@ -252,6 +254,7 @@ class StaticRange(NamedTuple):
     self_locking : it holds with the unknown at zero, or no value moves it one way
     ends : those ends at which it is about to move
     again : values outside of the interval at which it is so too
+    parts : at which ends a contact would have to pull: there it parts, before the end
     """
 
     least: float
@@ -261,6 +264,7 @@ class StaticRange(NamedTuple):
     self_locking: bool = False
     ends: tuple[End, ...] = ()
     again: tuple[float, ...] = ()
+    parts: tuple[float, ...] = ()
 
 
 def static_range(statics: Statics, senses: Sequence[float], alone: bool = False) -> StaticRange:
@@ -292,7 +296,8 @@ def range_of(ends: Sequence[End]) -> StaticRange:
     least, most = min(end.value for end in ends), max(end.value for end in ends)
     locks = math.isinf(least) or math.isinf(most) or (least <= 0.0 <= most and least < most)
     about_to_move = tuple(end for end in ends if math.isfinite(end.value))
-    return StaticRange(least, most, (least, most), IMPENDING, locks, about_to_move)
+    parts = tuple(sorted(end.value for end in ends if not end.pushes))
+    return StaticRange(least, most, (least, most), IMPENDING, locks, about_to_move, parts=parts)
 
 
 def _again(statics: Statics, senses: Sequence[float], least: float, most: float) -> tuple[float, ...]:
@@ -343,20 +348,51 @@ def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> En
     short = equations.equations.scaled(0.999 * share)
     last = every.followed(short)[0] or without_friction(equations.equations)
     change = sum(a * x for a, x in zip(equations.loads[0][1:], last, strict=True))
-    if pushing and not is_sound(short, last):
+    pushes = is_sound(short, last)
+    if pushing and not pushes:
         return None
+    parting = None if grows else _parting(short, last)
+    if parting is not None:
+        return End(_where_it_parts(equations, parting, share) / statics.scale, tuple(senses), pushes=False)
+    value = (equations.loads[0][0] + 0.999 * share * change) / statics.scale
     if grows or _locks(equations):
-        return End(math.copysign(math.inf, change), tuple(senses))
-    return End((equations.loads[0][0] + 0.999 * share * change) / statics.scale, tuple(senses))
+        value = math.copysign(math.inf, change)
+    return End(value, tuple(senses), pushes=pushes)
+
+
+def _parting(equations: Lengths, last: Y) -> int | None:
+    """The contact that ceases to push, with which the equilibrium ends: next to nothing is left of what it
+    pushes with without friction."""
+    threes = zip(last, without_friction(equations), equations.touching, strict=True)
+    return next((k for k, (left, smooth, only) in enumerate(threes) if only and left < 0.01 * smooth), None)
+
+
+def _where_it_parts(equations: Reduced, contact: int, share: float) -> float:
+    """The load [scaled] at which a contact pushes with nothing, from three equilibria with less friction
+    (Lagrange): it is nearly linear in that force."""
+    found = []
+    for part in (0.999 * share, 0.998 * share, 0.997 * share):
+        y = every.followed(equations.equations.scaled(part))[0] or without_friction(equations.equations)
+        load = equations.loads[0][0] + part * sum(
+            a * x for a, x in zip(equations.loads[0][1:], y, strict=True)
+        )
+        found.append((y[contact], load))
+    (a, at_a), (b, at_b), (c, at_c) = found
+    return (
+        at_a * b * c / ((a - b) * (a - c))
+        + at_b * a * c / ((b - a) * (b - c))
+        + at_c * a * b / ((c - a) * (c - b))
+    )
 
 
 def _moving(
     statics: Statics, equations: Reduced, senses: Sequence[float], y: Sequence[float], pushing: bool
 ) -> End | None:
     """The end at an equilibrium about to move; None where a contact would have to pull."""
-    if pushing and not is_sound(equations.equations, y):
+    pushes = is_sound(equations.equations, y)
+    if pushing and not pushes:
         return None
-    return End(equations.load(y)[0] / statics.scale, tuple(senses), equations.friction(y))
+    return End(equations.load(y)[0] / statics.scale, tuple(senses), equations.friction(y), pushes)
 
 
 def _locks(equations: Reduced) -> bool:

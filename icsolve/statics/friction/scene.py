@@ -481,7 +481,14 @@ def notes_at_rest(root: str, found: StaticRange) -> Sequence[str]:
     ]
     if found.self_locking and found.least <= 0.0 <= found.most:
         notes.append(f"self-locking: it holds still with {root} = 0.")
-    if math.isinf(found.least) and math.isinf(found.most):
+    if found.parts:
+        ends = listed(f"{end:.6g}" for end in dict.fromkeys(found.parts) if math.isfinite(end))
+        where = f"by {root} = {ends}" if ends else "from some value on"
+        notes.append(
+            f"{where} a contact would have to pull: it parts there, and the links tip or lift off before "
+            "they slide."
+        )
+    elif math.isinf(found.least) and math.isinf(found.most):
         notes.append(f"no value of {root}, however large, moves it either way.")
     elif math.isinf(found.most):
         notes.append(f"no value of {root} above the range moves it, however large: it locks that way.")
