@@ -68,6 +68,7 @@ EQUIVALENT: dict[str, str] = {
     "icsolve/numbers/quadratics.py _Exclusion._refined #0: 6 -> 7": "six steps of Newton find all digits",
     "icsolve/scene/dynamics.py with_inertia #2: -1 -> 1": "the last of two",
     "icsolve/assembly/newton.py module #13: 100 -> 150.0": "how many equations an inverse is taken of",
+    "icsolve/statics/reaction_basis.py thread #6: rise * rise -> rise / rise": "a unit's length cancels out",
 }
 """Mutants, as they are listed, that change no answer, with the reason."""
 

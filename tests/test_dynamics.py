@@ -600,3 +600,20 @@ def test_followers_of_all_cases_by_differences_of_their_rates() -> None:
                 assert answer.accelerations[point, link] == pytest.approx(rate, rel=1e-5, abs=1e-5), path.name
         compared += 1
     assert compared >= 4
+
+
+@pytest.mark.parametrize("angle", [20, 160, 250, 330])
+def test_a_point_that_cannot_move_as_given_is_told_both_ways_that_it_can(angle: int) -> None:
+    """At 3-4-5 the end of a crank moves square to it."""
+    with pytest.raises(icsolve.SceneError) as refused:
+        icsolve.solve(
+            icsolve.load(f"""icsolve: 1
+points: {{A: [0, 0], B: [4, 3]}}
+joints: [{{pin: [1, 2], at: A}}]
+loads: {{F: {{force: 1, link: 2, at: B, angle: 0}}, T: {{torque: unknown, link: 2}}}}
+motion: {{point: B, link: 2, speed: 1, angle: {angle}}}
+"""),
+            rates=True,
+        )
+    assert refused.value.status == "inconsistent"
+    assert f"only move at 126.9 or 306.9 deg in this position, not at {angle} deg" in refused.value.message

@@ -509,3 +509,22 @@ motion: {link: 2, turns: cw}
     alone, beside = (icsolve.solve(icsolve.load(text % force)).answers["T"] for force in (0, "1e9"))
     assert beside.value == alone.value
     assert beside.error is not None and beside.error <= 2.0 * math.ulp(beside.value)
+
+
+def test_a_pin_that_does_not_turn_may_hold_more_than_the_motion_says() -> None:
+    """A, C and D are in line, so crank and coupler turn alike: friction at B does no work, and yet presses
+    the other pins."""
+    answer = icsolve.solve(
+        icsolve.load("""icsolve: 1
+points: {A: [0, 0], B: [1, 2], C: [3, 0], D: [5, 0]}
+joints:
+  - {pin: [1, 2], at: A, mu: 0.3, radius: 0.2}
+  - {pin: [2, 3], at: B, mu: 0.3, radius: 0.2}
+  - {pin: [3, 4], at: C, mu: 0.3, radius: 0.2}
+  - {pin: [4, 1], at: D, mu: 0.3, radius: 0.2}
+loads: {M: {torque: 10, link: 4}, T: {torque: unknown, link: 2}}
+""")
+    )
+    holds = answer.answers["T"].holds
+    assert holds is not None
+    assert len([note for note in answer.notes if "it may still hold" in note]) == len(holds)
