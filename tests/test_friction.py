@@ -11,6 +11,7 @@ import math
 from random import Random
 from typing import Any
 
+import numpy as np
 import pytest
 
 import icsolve
@@ -73,6 +74,28 @@ loads:
     assert found.holds == pytest.approx((-min(slides, tips), min(slides, tips)), rel=1e-9)
     assert any("tip or lift off" in note for note in answer.notes) is (tips < slides)
     assert (found.error is None) is (tips < slides)
+
+
+@pytest.mark.parametrize("slippery", ["", ", mu: 0", ", mu: 1e-9", ", mu: 0.2"])
+def test_a_corner_that_slides_on_oil_lifts_as_any_other(slippery: str) -> None:
+    """Pushed at 1.2 its sides a block presses with 150 - 1.2 P and 150 + 1.2 P on its corners: to the left it
+    tips at 125, which is before it would slide."""
+    answer = solved(f"""
+points: {{A: [0, 0], B: [1, 0], G: [0.5, 0.5], H: [1, 1.2]}}
+joints:
+  - {{contact: [1, 2], at: A, normal: 90, mu: 0.7}}
+  - {{contact: [1, 2], at: B, normal: 90{slippery}}}
+loads:
+  W: {{weight: 300, link: 2, at: G}}
+  P: {{force: unknown, link: 2, at: H, angle: 0}}
+""")
+    other = 0.2 if "0.2" in slippery else 0.0
+    slides = 150 * (0.7 + other) / (1 + 1.2 * (0.7 - other))
+    found = answer.answers["P"]
+    assert found.holds == pytest.approx((-125.0, slides), rel=1e-8)
+    assert any("P = -125 a contact would have to pull" in note for note in answer.notes)
+    rows = icsolve.sweep(answer.case, {"loads.W": [300.0, 600.0]}, ("answers", "status"))
+    assert rows.holds["P"] == pytest.approx(np.outer([1.0, 2.0], found.holds), rel=1e-8)
 
 
 def incline(alpha: float, mu: float, motion: str = "") -> str:

@@ -154,6 +154,8 @@ def rubbing(scene: RecordedScene, motions: Motions, balance: Balance) -> Frictio
     other = len(case.motion) > 1 or (turned is not None and turned.point is not None)
     if case.ropes or case.screws or other or motions.mobility != 1 or motions.slack or motions.redundant:
         return None
+    if turned is None and any(joint.only_pushes for joint in case.joints):  # where one parts a range ends
+        return None
     position = Position(*scene.place, motions.twists)
     ties = ties_of(position)
     if meshes(ties):

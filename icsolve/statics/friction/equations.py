@@ -13,7 +13,8 @@ many equations as rubs.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 
 from icsolve.numbers.linear import Row, inverse, solve_square
 from icsolve.statics.equilibrium import Statics
@@ -201,11 +202,29 @@ class Reduced(NamedTuple):
     equations : of the sizes y of the forces that press [scaled force]
     loads : of each unknown load an affine form in y [scaled]
     gains : of each rub its friction over the size of its force: the negative sense times the coefficient
+    smooth : forms of the normal forces of contacts without friction, those that equilibrium determines
     """
 
     equations: Lengths
     loads: tuple[Form, ...]
     gains: tuple[float, ...]
+    smooth: tuple[Form, ...] = ()
+
+    def scaled(self, share: float) -> Reduced:
+        """The same with friction reduced to a share of it (where y are the lengths)."""
+
+        def less(forms: Sequence[Form]) -> tuple[Form, ...]:
+            return tuple((form[0], *(share * a for a in form[1:])) for form in forms)
+
+        return self._replace(
+            equations=self.equations.scaled(share), loads=less(self.loads), smooth=less(self.smooth)
+        )
+
+    def least_push(self, y: Sequence[float]) -> float:
+        """The normal force of the contact that pushes least, over its terms; 1.0 where there is none."""
+        touching = zip(self.equations.vectors, self.equations.touching, strict=True)
+        normals = (*(forms[0] for forms, only in touching if only), *self.smooth)
+        return min((at(form, y) / (_size(form, y) or 1.0) for form in normals), default=1.0)
 
     def sizes(self, y: Sequence[float]) -> tuple[float, ...]:
         """Sizes of the forces that press."""
@@ -289,7 +308,8 @@ def reduced(statics: Statics, senses: Sequence[float]) -> Reduced | None:
 
     least = NOTHING * max((abs(form(row)[0]) for row in statics.general.solved.values()), default=0.0)
     vectors = [tuple(form(row, least) for row in rows) for rows in forces_of(statics)]
-    return Reduced(fixed_point(vectors, _touching(statics)), tuple(map(form, loads)), tuple(gains))
+    smooth = tuple(form(row, least) for row in _smooth_normals(statics))
+    return Reduced(fixed_point(vectors, _touching(statics)), tuple(map(form, loads)), tuple(gains), smooth)
 
 
 def _without(row: Mapping[int, float], roots: Mapping[int, Row]) -> Row:
@@ -307,6 +327,15 @@ def _alone(k: int, n: int, gain: float) -> Form:
 
 def _touching(statics: Statics) -> list[bool]:
     return [statics.ties[rub.tie].joint.only_pushes for rub in statics.rubs]
+
+
+def _smooth_normals(statics: Statics) -> Iterator[Row]:
+    """The normal forces of contacts without friction, as combinations of the parameters."""
+    rough = {rub.tie for rub in statics.rubs}
+    for t, tie in enumerate(statics.ties):
+        if tie.joint.only_pushes and t not in rough:
+            with suppress(LookupError):  # of how the links share a load equilibrium says nothing
+                yield _force(statics, t, (1.0,))
 
 
 def reduced_workless(statics: Statics, senses: Sequence[float]) -> Reduced | None:

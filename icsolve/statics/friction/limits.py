@@ -22,6 +22,7 @@ from itertools import pairwise, product
 from typing import TYPE_CHECKING
 
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.roots import zero_between
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.friction.equations import (
     Lengths,
@@ -345,12 +346,15 @@ def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> En
     y, share, grows = every.followed(equations.equations)
     if y is not None:
         return _moving(statics, equations, senses, y, pushing)
-    short = equations.equations.scaled(0.999 * share)
+    far = 0.999 * share
+    short = equations.equations.scaled(far)
     last = every.followed(short)[0] or without_friction(equations.equations)
     change = sum(a * x for a, x in zip(equations.loads[0][1:], last, strict=True))
-    pushes = is_sound(short, last)
+    pushes = is_sound(short, last) and equations.scaled(far).least_push(last) >= -ROUNDED
     if pushing and not pushes:
         return None
+    if not pushes and (part := _where_one_parts(equations, last, far)) is not None:
+        return End(part / statics.scale, tuple(senses), pushes=False)
     parting = None if grows else _parting(short, last)
     if parting is not None:
         return End(_where_it_parts(equations, parting, share) / statics.scale, tuple(senses), pushes=False)
@@ -388,11 +392,38 @@ def _where_it_parts(equations: Reduced, contact: int, share: float) -> float:
 def _moving(
     statics: Statics, equations: Reduced, senses: Sequence[float], y: Sequence[float], pushing: bool
 ) -> End | None:
-    """The end at an equilibrium about to move; None where a contact would have to pull."""
-    pushes = is_sound(equations.equations, y)
+    """The end at an equilibrium about to move, or where a contact parts before; None there if all are to be
+    ``pushing``."""
+    pushes = is_sound(equations.equations, y) and equations.least_push(y) >= -ROUNDED
     if pushing and not pushes:
         return None
+    if not pushes and (part := _where_one_parts(equations, y, 1.0)) is not None:
+        return End(part / statics.scale, tuple(senses), pushes=False)
     return End(equations.load(y)[0] / statics.scale, tuple(senses), equations.friction(y), pushes)
+
+
+ROUNDED = 1e-13
+"""A normal force is zero below this fraction of its terms."""
+
+
+def _where_one_parts(equations: Reduced, last: Sequence[float], far: float) -> float | None:
+    """The load [scaled] at which the first contact pushes with nothing, with less friction than the share
+    ``far`` of it: there friction holds the rest. None where one would have to pull without friction too."""
+
+    def held(share: float) -> tuple[Reduced, Sequence[float]]:
+        part = equations.scaled(share)
+        if contraction(part.equations) is not None:
+            return part, contracted(part.equations)
+        return part, every.followed(part.equations)[0] or last
+
+    def push(share: float) -> float:
+        part, y = held(share)
+        return part.least_push(y)
+
+    if push(0.0) <= 0.0 or push(far) >= 0.0:
+        return None
+    part, y = held(zero_between(push, 0.0, far, push(0.0), push(far)))
+    return part.load(y)[0]
 
 
 def _locks(equations: Reduced) -> bool:
