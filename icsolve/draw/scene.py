@@ -104,11 +104,11 @@ def _drums(case: Case, points: Mapping[str, Point]) -> Iterable[Wheel]:
 def _once(wheels: Iterable[Wheel]) -> Iterable[Wheel]:
     """Each circle once (a gear may mesh with several)."""
     wheels = list(wheels)
-    seen: dict[tuple[str, ...], Wheel] = {}
+    seen: dict[tuple[str, float, float, float], Wheel] = {}
     fine = 1e6 / (max((wheel.radius for wheel in wheels), default=0.0) or 1.0)
     for wheel in wheels:
-        sizes = (f"{size * fine:.0f}" for size in (*wheel.centre, wheel.radius))
-        seen.setdefault((wheel.link, *sizes), wheel)
+        x, y, radius = (float(f"{size * fine:.0f}") for size in (*wheel.centre, wheel.radius))
+        seen.setdefault((wheel.link, x, y, radius), wheel)
     return seen.values()
 
 
