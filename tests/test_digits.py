@@ -189,6 +189,12 @@ def test_rows_are_scenes_and_the_first_is_the_position_as_written(family: Family
         assert every_row(case) > 0.0
 
 
+def test_where_no_load_does_work_no_row_has_a_value() -> None:
+    """Links 6 and 4 move as one, and the known torque does no work either: found among random scenes."""
+    mixed = EXACT[0]
+    assert every_row(icsolve.load(mixed.draw(Random(f"{mixed.name} 1385")))) > 0.0
+
+
 HAIRS = ["179.999", "179.999999", "179.999999999", "179.9999999999999999", "180.000001"]
 
 

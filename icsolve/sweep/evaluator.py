@@ -434,9 +434,8 @@ def _compiled(case: Case, names: Mapping[str, str], asked: RowRequest, gradients
         compiled = compile_sweep(setting, _told(case, asked))
     except SceneError:  # beside the case as written nothing moves: it does so by exact data alone
         return None
-    return (
-        None if compiled.refusal is not None or compiled.delicate else _Compiled(compiled, names, gradients)
-    )
+    alone = compiled.refusal is not None or compiled.delicate or compiled.idle
+    return None if alone else _Compiled(compiled, names, gradients)
 
 
 def _told(case: Case, asked: RowRequest) -> RowRequest:

@@ -106,6 +106,8 @@ class CompiledSweep(NamedTuple):
     """of the figure as written, where it is another in each row: none may be negative"""
     delicate: bool = False
     """whether the mechanism moves only because its data are exact, or nearly so"""
+    idle: bool = False
+    """whether the known loads do no work in any row, so that a scene has to tell what the unknown one does"""
     rubbing: FrictionRows | None = None
     """of a case with friction whose unknown loads can be had in all rows at once"""
     rests: bool = False
@@ -231,7 +233,7 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
     )
     if found is None:
         return compiled
-    compiled = compiled._replace(delicate=found.delicate)
+    compiled = compiled._replace(delicate=found.delicate, idle=found.idle)
     if not (asked.answers and refusals.rubs(case)):
         return compiled._replace(refusal=found.refusal)
     return (

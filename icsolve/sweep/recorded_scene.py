@@ -30,7 +30,7 @@ from icsolve.case.joints import Guided, Mesh
 from icsolve.errors import SceneError
 from icsolve.kinematics import motion, speeds
 from icsolve.numbers.arithmetic import FLOATS, Scalar, turn_of
-from icsolve.numbers.record import Record
+from icsolve.numbers.record import Record, varies
 from icsolve.scene import refusals
 from icsolve.screws.joints import freedoms, pitch_point
 from icsolve.screws.plane import Point, Triple, subtract, velocity
@@ -91,6 +91,13 @@ class RecordedStatics(NamedTuple):
     def delicate(self) -> bool:
         """Whether it moves only because its data are exact, or nearly so."""
         return bool(self.motions.redundant or self.motions.slack)
+
+    @property
+    def idle(self) -> bool:
+        """Whether the known loads do no work in any row: what the unknown one does may then be rounding
+        alone, and any value of it balances.
+        """
+        return any(not varies(value) and not float(value) for value in self.answers.values())
 
 
 # --- a case in motion -----------------------------------------------------------------------------

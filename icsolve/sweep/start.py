@@ -130,8 +130,10 @@ def _checked(start: Start) -> Start:
     if compiled.setting.moves:
         return start
     if not any(map(_shapes, start.paths)):
-        return start._replace(one_by_one=compiled.refusal is None and _is_open(start.runner()))
-    return start._replace(one_by_one=compiled.delicate or compiled.refusal is not None)
+        is_open = compiled.refusal is None and (compiled.idle or _is_open(start.runner()))
+        return start._replace(one_by_one=is_open)
+    alone = compiled.delicate or compiled.idle or compiled.refusal is not None
+    return start._replace(one_by_one=alone)
 
 
 LOOSE = 1e-3
