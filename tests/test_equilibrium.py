@@ -531,6 +531,64 @@ def test_on_a_long_guide_a_block_is_found_wherever_its_loads_carry_it(force: flo
     assert found == pytest.approx([force / 100.0], rel=1e-15)
 
 
+@pytest.mark.parametrize("span", ["[-90, 90]", "[-80, 95]", "[-31.7, 12.3]", "[-1e-3, 1]", "[-720, 50]"])
+def test_a_position_at_zero_is_at_zero(span: str) -> None:
+    """A bar under a level force alone rests level: no rounding of some sixty digits is told as an angle."""
+    found = positions(
+        pendulum("P: {force: 10, link: 2, at: B, angle: 0}", f"{{unknown: {span}}}", weight="0")
+    )
+    assert 0.0 in [one.at["angles.AB"] for one in found]
+    assert all(
+        abs(one.at["angles.AB"] - 180.0 * round(one.at["angles.AB"] / 180.0)) <= one.error["angles.AB"]
+        for one in found
+    )
+    level = next(one for one in found if not one.at["angles.AB"])
+    assert level.answer.points["B"] == (2.0, 0.0)
+
+
+@pytest.mark.parametrize("free", ["unknown", "{unknown: [-2, 2]}", "{unknown: [-1.3, 0.7]}"])
+@pytest.mark.parametrize("mu", ["", ", mu: 0.3"])
+def test_a_block_pulled_to_the_middle_rests_there(free: str, mu: str) -> None:
+    """A spring from above the guide: x = 0, and the figure is shown with the block there."""
+    text = BLOCK.format(free=free, mu=mu, load="W: {weight: 5, link: 2, at: C}").replace(
+        "O: [0, 0]", "O: [0, 1]"
+    )
+    (one,) = positions(text)
+    assert one.answer.points["C"] == (0.0, 0.0)
+    assert mu or one.at["points.C.x"] == 0.0
+
+
+@pytest.mark.parametrize("free", ["unknown", "{unknown: [0, 360]}", "{unknown: [-90, 269]}"])
+def test_of_two_unknown_angles_each_position_is_told_once(free: str) -> None:
+    """Two bars, a level force F at the end and a weight W at the pin: both bars along their loads, either
+    way; at 0 exactly, and not at 360 again where a whole turn is searched."""
+    text = f"""icsolve: 1
+points: {{A: [0, 0]}}
+lengths: {{AB: 0.5, BC: 0.4}}
+angles: {{AB: {free}, BC: {free}}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}]
+loads:
+  F: {{force: 10, link: 3, at: C, angle: 0}}
+  W: {{weight: 5, link: 2, at: B}}
+"""
+    first = math.degrees(math.atan2(-5.0, 10.0))
+    turns = {"unknown": (0, 360), "{unknown: [0, 360]}": (0, 360.5), "{unknown: [-90, 269]}": (-90, 269)}[
+        free
+    ]
+    wanted = [
+        (a, b)
+        for a in sorted(first + 180.0 * k for k in range(-2, 4))
+        for b in (180.0 * k for k in range(-2, 4))
+        if turns[0] <= a < turns[1] and turns[0] <= b < turns[1]
+    ]
+    found = positions(text)
+    at = [(one.at["angles.AB"], one.at["angles.BC"]) for one in found]
+    assert at == [pytest.approx(pair, abs=1e-12) for pair in wanted]
+    assert all(b in (0.0, 180.0, 360.0) for _, b in at)
+    kinds = ["stable" if math.cos(math.radians(a)) > 0.0 and b % 360.0 == 0.0 else "unstable" for a, b in at]
+    assert [one.stability for one in found] == kinds
+
+
 def test_friction_holds_a_block_that_nothing_turns() -> None:
     (one,) = positions(
         BLOCK.format(free="{unknown: [-2, 2]}", mu=", mu: 0.3", load="W: {weight: 50, link: 2, at: C}")

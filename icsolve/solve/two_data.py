@@ -42,7 +42,7 @@ from icsolve.solve.load_function import (
 )
 from icsolve.solve.positions import refuse_ropes, refuse_unwritten, whole_range
 from icsolve.solve.rest import held, with_scene
-from icsolve.solve.settled import DEGREES
+from icsolve.solve.settled import DEGREES, within_a_turn
 from icsolve.statics import power
 from icsolve.structure.topology import topology
 from icsolve.sweep.drivers import Drive
@@ -118,10 +118,11 @@ def find_pairs(
             refuse_unwritten(case, path, surfaces[0].links, span is not None)
     if case.near:
         surfaces = [surfaces[nearest(case, [_distance(surface, case, limits) for surface in surfaces])]]
+    turning = [span is None and path.startswith("angles.") for span, path in zip(spans, paths, strict=True)]
     found: list[EquilibriumPosition] = []
     for surface in surfaces:
-        for values in _zeros(surface, limits, [span is None for span in spans], paths):
-            position = _described(surface, paths, values, limits, asked)
+        for values in _zeros(surface, limits, turning):
+            position = _described(surface, paths, values, limits, turning, asked)
             if position is not None and not any(_same(position, other) for other in found):
                 found.append(position)
     found.sort(key=lambda one: [float(one.at[path]) for path in paths])  # type: ignore[arg-type]
@@ -271,10 +272,8 @@ def _starts(surface: Surface, limits: Sequence[Span]) -> tuple[Array, Array]:
     return np.concatenate([gx, cx]), np.concatenate([gy, cy])
 
 
-def _zeros(
-    surface: Surface, limits: Sequence[Span], whole: Sequence[bool], paths: Sequence[str]
-) -> list[tuple[float, float]]:
-    """Newton's method from every start of the grid at once."""
+def _zeros(surface: Surface, limits: Sequence[Span], turning: Sequence[bool]) -> list[tuple[float, float]]:
+    """Newton's method from every start of the grid at once; ``turning``: which are searched over a turn."""
     code = Code(surface.compiled.record, [*surface.powers, *surface.slopes, *surface.margins])
     x, y = _starts(surface, limits)
     size = np.array([b - a for a, b in limits])
@@ -296,10 +295,7 @@ def _zeros(
             fine &= margin > 0.0
     found: list[tuple[float, float]] = []
     for pair in zip(x[fine].tolist(), y[fine].tolist(), strict=True):
-        values = [
-            v % 360.0 if turns and path.startswith("angles.") else v
-            for v, turns, path in zip(pair, whole, paths, strict=True)
-        ]
+        values = [v % 360.0 if turns else v for v, turns in zip(pair, turning, strict=True)]
         inside = all(
             a - 1e-9 * s <= v <= b + 1e-9 * s for v, (a, b), s in zip(values, limits, size, strict=True)
         )
@@ -315,11 +311,13 @@ def _described(
     paths: Sequence[str],
     values: tuple[float, float],
     limits: Sequence[Span],
+    turning: Sequence[bool],
     asked: Mapping[str, bool],
 ) -> EquilibriumPosition | None:
     """A position to the last digits, with its stiffness matrix and stability; None where it turns out to lie
     beyond the limits."""
-    (x, y), off = _to_the_last_digits(surface, paths, values, limits)
+    found, off = _to_the_last_digits(surface, paths, values, limits)
+    x, y = (within_a_turn(v, e) if turns else v for v, e, turns in zip(found, off, turning, strict=True))
     if any(not a - e <= v <= b + e for v, e, (a, b) in zip((x, y), off, limits, strict=True)):
         return None
     x, y = (min(max(v, a), b) for v, (a, b) in zip((x, y), limits, strict=True))
@@ -416,6 +414,12 @@ def _to_the_last_digits(
         here, off = holding(x, y)
         if not here.any():
             break
+    least = [math.ulp(high - low) for low, high in limits]
+    plain = [0.0 if abs(v) <= e else v for v, e in zip((x, y), least, strict=True)]
+    if plain != [x, y]:  # near 0 doubles are closer than digits tell apart
+        there, spread = holding(*plain)
+        if (np.abs(there) <= np.abs(here) + off).all():
+            (x, y), here, off = plain, there, spread
     reach = 2.0 * np.abs(inverse) @ (np.abs(here) + off)
     return (x, y), (float(reach[0]) + math.ulp(x), float(reach[1]) + math.ulp(y))
 
