@@ -589,6 +589,16 @@ loads:
     assert [one.stability for one in found] == kinds
 
 
+def test_where_no_position_has_an_answer_the_reason_is_told() -> None:
+    """The weight at the rope's end does not hang, wherever the bar is: no value is not the cause."""
+    text = pendulum("V: {weight: 6, at: Q}", "{unknown: [-80, 80]}", more=", P: [0, 4], Q: [1, 3]").replace(
+        "joints:", "joints:\n  - {rope: [B, P, Q], on: [2, 1]}"
+    )
+    with pytest.raises(SceneError, match=r"^the weight V hangs at Q, and the last part .* does not hang"):
+        positions(text)
+    assert positions(text.replace("Q: [1, 3]", "Q: [0, 3]"))
+
+
 def test_friction_holds_a_block_that_nothing_turns() -> None:
     (one,) = positions(
         BLOCK.format(free="{unknown: [-2, 2]}", mu=", mu: 0.3", load="W: {weight: 50, link: 2, at: C}")

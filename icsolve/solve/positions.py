@@ -121,6 +121,9 @@ def _find_in_modes(
     ]
     if not complete:
         notes.append(f"the figure has more than {len(functions)} ways of assembling: not all were searched.")
+    refusals = [state for state in states.values() if isinstance(state, SceneError)]
+    if not found and refusals and len(refusals) == len(states):
+        raise refusals[0]
     least = None if found else _nearest(functions, stretches)
     rests = _settled_turns(found, path, span is None)
     return Search(path, tuple(rests), tuple(dict.fromkeys(notes)), False, least)
