@@ -12,6 +12,7 @@ import pytest
 from click.testing import CliRunner
 
 from figure_drafts import Draft, Place, framework, sequence
+from icsolve import solve
 from icsolve.assembly import case_point, exclusion, solve_figure
 from icsolve.assembly.conditions import residual
 from icsolve.assembly.modes import Ways, ways_of
@@ -21,6 +22,7 @@ from icsolve.case import Case
 from icsolve.cli.commands import icsolve
 from icsolve.errors import SceneError, Status
 from icsolve.read import load
+from library import FILES
 from sizes import MORE
 from test_figure import BUTTERFLY, FOUR_BAR, LOOP, PINS, butterfly
 from test_figure import case as figure_case
@@ -241,3 +243,15 @@ def test_a_point_whose_data_tell_the_same_is_anywhere_along_a_curve(monkeypatch:
     with pytest.raises(SceneError, match="B may lie anywhere along a curve") as refusal:
         ways_of(figure_case(text))
     assert refusal.value.status == Status.UNDERDETERMINED
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_way_has_the_points_of_the_scene_digit_by_digit(name: str) -> None:
+    """Each coordinate rounded once, as `solve` tells it: a zero is no rounding of one."""
+    case = load(FILES[name])
+    try:
+        answer, found = solve(case), ways_of(case)
+    except SceneError:
+        return
+    told = [way for way in found.ways if all(way.points[p] == at for p, at in answer.points.items())]
+    assert len(told) == 1 or not answer.points

@@ -22,10 +22,21 @@ from icsolve.assembly.steps import (
     Step,
     Turned,
     leading_to,
+    place,
     points_of,
 )
 from icsolve.assembly.walk import EVEN, DeadEnd, Mode, Path, Walk, squared_distance
-from icsolve.assembly.workspace import CORNER, RAY, Frame, Workspace, case_point, data_in, frame_of, names_of
+from icsolve.assembly.workspace import (
+    CORNER,
+    RAY,
+    Frame,
+    Workspace,
+    case_places,
+    case_point,
+    data_in,
+    frame_of,
+    names_of,
+)
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
@@ -460,8 +471,23 @@ def _ways(walk: Walk, order: Order, loose: list[str]) -> Ways:
     for mode in modes:
         places = {p: case_point(frame, mode.points[p]) for p in order.points}
         near = {p: (round(places[p][0], digits), round(places[p][1], digits)) for p in picked}
-        ways.append(AssemblyWay({p: at for p, at in places.items() if not p.startswith("@")}, near))
+        figure = Figure(frame, {p: mode.points[p] for p in order.points}, mode.steps)
+        ways.append(AssemblyWay(_rounded_once(figure, walk.workspace.case), near))
     return Ways(tuple(ways), walk.complete and not walk.gave_up, tuple(notes))
+
+
+def _rounded_once(figure: Figure, case: Case) -> dict[str, Place]:
+    """The points by name in case units, as a scene shows them; as found where no digits settle one."""
+    from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, MoreDigits
+
+    for digits in PRECISIONS:
+        balls = Balls(digits, highest=digits == PRECISIONS[-1])
+        try:
+            points = place(figure, case, balls).points
+            return case_places(figure.frame, {p: points[p] for p in figure.points}, balls)
+        except (MoreDigits, BelowZero, ZeroDivisionError):
+            continue
+    return case_places(figure.frame, figure.points, FLOATS)
 
 
 def _groups(order: Order) -> list[Step]:

@@ -15,7 +15,7 @@ from functools import lru_cache
 from icsolve.case import Case, Centroid, Coordinates, Corner, Guide, Number, Rope
 from icsolve.case.joints import Guided
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, Showing
 from icsolve.screws.plane import Point, unit_between
 from icsolve.structure.topology import Topology, topology
 from icsolve.tuples import NamedTuple
@@ -196,6 +196,25 @@ class PlacedCase(NamedTuple):
 def case_point(frame: Frame, xy: tuple[float, float]) -> tuple[float, float]:
     """A point of the frame of size 1 in case lengths; a zero is positive."""
     return xy[0] / frame.scale + frame.ox + 0.0, xy[1] / frame.scale + frame.oy + 0.0
+
+
+def case_places(
+    frame: Frame, points: Mapping[str, tuple[Scalar, Scalar]], arithmetic: Showing
+) -> dict[str, tuple[float, float]]:
+    """The points that have a name in the case, in case lengths, each coordinate rounded once.
+
+    Raises MoreDigits where the digits of the arithmetic do not settle one.
+    """
+    ox, oy, scale = frame
+    spans = ((ox, 1.0 / scale + abs(ox)), (oy, 1.0 / scale + abs(oy)))
+    found = {}
+    for name, at in points.items():
+        if not name.startswith("@"):
+            (x, _), (y, _) = (
+                arithmetic.rounded(c / scale + o, size) for c, (o, size) in zip(at, spans, strict=True)
+            )
+            found[name] = (x, y)
+    return found
 
 
 def normalised(frame: Frame, xy: tuple[float, float]) -> tuple[float, float]:

@@ -16,7 +16,7 @@ from functools import lru_cache, partial
 from typing import TypeVar
 
 from icsolve.assembly import Figure, place, placed_figure, solve_figure
-from icsolve.assembly.workspace import PlacedCase, names_of
+from icsolve.assembly.workspace import PlacedCase, case_places, names_of
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics import motion, speeds
@@ -282,13 +282,7 @@ def places_in(found: Evaluation) -> dict[str, tuple[Scalar, Scalar]]:
 
 def points_shown(found: Evaluation) -> dict[str, tuple[float, float]]:
     """The points that have a name in the case, in case units, each coordinate rounded once."""
-    a, (ox, oy, scale) = found.arithmetic, found.program.figure.frame
-    sizes = (1.0 / scale + abs(ox), 1.0 / scale + abs(oy))
-    shown = {}
-    for name, at in places_in(found).items():
-        (x, _), (y, _) = (a.rounded(c, size) for c, size in zip(at, sizes, strict=True))
-        shown[name] = (x, y)
-    return shown
+    return case_places(found.program.figure.frame, found.outcome.points, found.arithmetic)
 
 
 def unknown_values(found: Evaluation) -> dict[str, Value]:

@@ -85,7 +85,8 @@ def _to_the_last_digit(
     function: LoadFunction, start: float, bracket: tuple[float, float]
 ) -> tuple[float, float] | None:
     """The double nearest to the zero and a bound of its error, by the scene's own answers; None where the
-    load jumps from one sign to the other. At 0 doubles are closer than digits tell apart: it is asked first."""
+    load jumps from one sign to the other. 0 is asked first: about it doubles lie closer than the answers
+    tell apart."""
     if bracket[0] <= 0.0 <= bracket[1] and balancing_torque(function, 0.0) == 0.0:
         return 0.0, 0.0
     step = math.ulp(start) or 5e-324
