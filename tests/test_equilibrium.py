@@ -30,6 +30,7 @@ from icsolve.manual import template
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import Record
 from icsolve.report.derivation.known import known_of
+from icsolve.report.text import answer_text
 from icsolve.scene import solve_scene
 from icsolve.solve.rest import AT_LIMIT
 from icsolve.solve.stability import with_stability
@@ -490,6 +491,17 @@ def test_of_two_unknown_data_each_position_has_what_is_asked_of_it() -> None:
     assert [one["stiffness"]["value"][k][k] for k in (0, 1)] == pytest.approx([20.0, 15.0])
     assert one["reactions"]["F12"]["y"] == pytest.approx(10.0)
     assert "undetermined" in one["velocities"]["C on 3"]
+
+
+def test_what_is_asked_of_each_position_is_printed_with_it() -> None:
+    """The text has what the JSON has: forces and motions position by position, and no load of a search."""
+    case = icsolve.load(pendulum("P: {force: 10, link: 2, at: B, angle: 0}"))
+    text = answer_text(icsolve.solve(case, reactions=True, rates=True, all_centres=True))
+    unstable, stable = text.split("In the position ")[1:]
+    assert unstable.startswith("angles.AB = 135 deg") and stable.startswith("angles.AB = 315 deg")
+    for part in (stable, unstable):
+        assert "F12  (-10, 10)" in part and "w2  1 ccw" in part and "I1-2  (0, 0)" in part
+    assert "@" not in text and "In the position" not in answer_text(icsolve.solve(case))
 
 
 def test_two_data_move_from_where_the_figure_is_written() -> None:

@@ -283,6 +283,20 @@ def test_statuses(name: str) -> None:
     assert (f"(Status: {status}.)" in said) == (status != "ok")
 
 
+ROUNDING = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?e-(?:1[5-9]|[2-9]\d|\d{3})")
+BOUNDS = ("rounding may make", "Rounding can have moved", "agree with each other to")
+
+
+@pytest.mark.parametrize("name", TOLD_OF)
+def test_no_rounding_is_told_as_a_number(name: str) -> None:
+    """What is zero is 0 in the words of every command, save where a bound is what is told."""
+    shown = known(name)
+    answer = solved(case_of(name), rates=True, all_centres=True)
+    texts = [explain(shown.case, known=shown), *([answer_text(answer)] if answer else [])]
+    lines = [line for text in texts for line in text.splitlines()]
+    assert not [line for line in lines if ROUNDING.search(line) and not any(b in line for b in BOUNDS)]
+
+
 @pytest.mark.parametrize("name", TOLD_OF)
 def test_values_senses_and_ranges(name: str) -> None:
     """The value with its sense, or the range, in the words of one room."""

@@ -9,9 +9,11 @@ from collections.abc import Mapping
 from icsolve.explain.document import Block, Inline, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, Trig, product
 from icsolve.explain.given import Figures, centre_name, rate_name, speed_name
+from icsolve.numbers.arithmetic import turn_of
 from icsolve.report.derivation.known import Known
 from icsolve.screws.plane import Point
 from icsolve.tuples import NamedTuple
+from icsolve.wording.senses import NOTHING
 from icsolve.wording.sentences import link_words
 
 
@@ -66,12 +68,13 @@ def lever(
     written = figures.number(angle)
     about = pivot(known, link)
     if about is None:
-        cosine = math.cos(math.radians(angle - headings[link]))
+        cosine = turn_of(angle - headings[link])[0]
         found = Lever(Name("c", low), figures.number(cosine), cosine)
         between = Sum(((1, written), (-1, figures.number(headings[link]))))
         said = words("The part of ", *force, f" along the motion of {link_words(link)}:")
         return found, [said, formula(found.name, Trig("cos", between), found.number)]
     arm = (at[0] - about[0]) * direction[1] - (at[1] - about[1]) * direction[0]
+    arm = arm if abs(arm) > NOTHING * math.dist(at, about) else 0.0
     found = Lever(Name("h", low), figures.length(arm), arm)
     across, up = (difference(figures, to, start) for to, start in zip(at, about, strict=True))
     moments = Sum(((1, product(across, Trig("sin", written))), (-1, product(up, Trig("cos", written)))))

@@ -29,6 +29,7 @@ from icsolve.report.derivation.known import Acting, Known
 from icsolve.report.derivation.ratios import OneMotion, Ratios, independent_motions, speed_words
 from icsolve.screws.plane import velocity
 from icsolve.tuples import NamedTuple
+from icsolve.wording.senses import NOTHING, plain_vector
 from icsolve.wording.sentences import listed
 
 
@@ -415,9 +416,6 @@ def _times(acting: Acting, root: Acting) -> float:
 # --- an equation for every motion ------------------------------------------------------------------------
 
 
-NOTHING = 1e-12
-
-
 def motions_section(known: Known, figures: Figures, loads: Sequence[Acting]) -> Section | None:
     """One equation a motion; None where the motions are not known."""
     motions = independent_motions(known)
@@ -512,7 +510,7 @@ def factor_of(
     if abs(value) <= NOTHING * size or size == 0.0:
         return 0.0, []
     angle = figures.number(math.degrees(math.atan2(dy, dx)) % 360.0)
-    x, y = (figures.number(c) for c in v)
+    x, y = map(figures.number, plain_vector(v))
     along = Sum(((1, product(x, Trig("cos", angle))), (1, product(y, Trig("sin", angle)))))
     extra = [figures.number(f) for f in (acting.gain, units) if f != 1.0]
     whole = product(*extra, along) if extra else along

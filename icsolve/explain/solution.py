@@ -3,6 +3,7 @@ check by free bodies, the rates where they are asked, and what was left out."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer import Answer, Found
@@ -28,7 +29,7 @@ from icsolve.report.derivation.known import Known, acting_loads
 from icsolve.report.derivation.ratios import Step, all_steps, answer_ratios, needed_steps
 from icsolve.report.text import positions_text
 from icsolve.statics.power import is_unknown
-from icsolve.wording.senses import holding, spelt
+from icsolve.wording.senses import holding, plain_vector, spelt
 
 SEARCHED = (
     "The loads balance where the power of all of them vanishes for the motion that the mechanism has. The "
@@ -123,10 +124,13 @@ def _velocities(known: Known, figures: Figures, timed: bool) -> Iterable[Block]:
         return
     unit = f"{known.case.units.length}/s" if timed else "scaled"
     rows: list[tuple[tuple[Inline, ...], ...]] = []
-    for (point, link), v in whole.velocities.items():
-        if isinstance(v, str) or point.startswith("@") or link == known.case.ground:
+    vectors = {key: v for key, v in whole.velocities.items() if not isinstance(v, str)}
+    fastest = max((math.hypot(*v) for v in vectors.values()), default=0.0)
+    for (point, link), v in vectors.items():
+        if point.startswith("@") or link == known.case.ground:
             continue
-        rows.append(((f"{point} on {link}",), (figures.number(v[0]),), (figures.number(v[1]),)))
+        x, y = map(figures.number, plain_vector(v, fastest))
+        rows.append(((f"{point} on {link}",), (x,), (y,)))
     if rows:
         yield ShownTable(("point", f"x, {unit}", f"y, {unit}"), tuple(rows))
 

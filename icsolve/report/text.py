@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
+from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer, Centre, Found, Term
 from icsolve.case import Case, Coordinates, Pair, Torque, link_order, pair_name
 from icsolve.scene.parts import scene_of
-from icsolve.wording.senses import SPELT, holding, spelt
+from icsolve.tuples import replace
+from icsolve.wording.senses import NOTHING, SPELT, holding, plain_vector, spelt
 
 if TYPE_CHECKING:
     from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
@@ -26,6 +28,7 @@ def answer_text(answer: Answer, digits: int = 6) -> str:
         _title(case),
         _unknowns(answer, digits),
         positions_text(answer, digits),
+        *_in_positions(answer, digits),
         _points(answer, show),
         _centres(answer, digits),
         _power(answer, digits),
@@ -74,6 +77,36 @@ def positions_text(answer: Answer, digits: int) -> list[str]:
         kind = _kind(answer.stability, answer.stiffness, answer.why_no_stiffness, digits)
         lines.append(f"the position as written{kind}")
     return lines
+
+
+def _in_positions(answer: Answer, digits: int) -> Iterable[list[str]]:
+    """What was asked of the scene in each position, section by section under where it is."""
+    show = _formatter(digits)
+    for position in answer.positions or ():
+        scene = _without_rounding(position.answer)
+        asked = [section(scene, digits) for section in (_centres, _rates, _velocities)]
+        if any((*asked, forces := _reactions(scene, show))):
+            yield [f"In the position {place_text(answer.case, position, digits)}"]
+            yield from (*asked, forces)
+
+
+def _without_rounding(scene: Answer) -> Answer:
+    """A scene in a position of equilibrium, which is a double, without what its rounding leaves of zeros."""
+    vectors = {key: v for key, v in (scene.velocities or {}).items() if not isinstance(v, str)}
+    fastest = max((math.hypot(*v) for v in vectors.values()), default=0.0)
+    size = max((math.dist(*two) for two in combinations(scene.points.values(), 2)), default=1.0)
+
+    def placed(centre: Centre) -> Centre:
+        if centre.kind != "at":
+            return centre
+        if NOTHING * math.hypot(*centre.place) > size:
+            x, y = plain_vector(centre.place)
+            return centre._replace(kind="toward", place=(math.degrees(math.atan2(y, x)) % 180.0,))
+        return centre._replace(place=plain_vector(centre.place, size))
+
+    velocities = {**(scene.velocities or {}), **{key: plain_vector(v, fastest) for key, v in vectors.items()}}
+    centres = {pair: placed(centre) for pair, centre in scene.centres.items()}
+    return replace(scene, velocities=velocities, centres=centres)
 
 
 def place_text(case: Case, position: EquilibriumPosition, digits: int) -> str:

@@ -54,7 +54,8 @@ def with_scene(
     found = held(answer.case, links, freedoms, **asked, reactions=True) if reactions else None
     found = found or solve_scene(answer.case, **asked)
     found = found if rates else replace(found, rates=None, velocities=None)
-    return replace(found, case=answer.case, answers={}, centres=found.centres if all_centres else {})
+    shown = found.centres if all_centres else {}
+    return replace(found, case=answer.case, answers={}, witnesses=(), centres=shown)
 
 
 def balances(rest: Rest) -> bool:

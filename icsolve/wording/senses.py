@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from icsolve.answer import Found
@@ -14,6 +14,18 @@ if TYPE_CHECKING:
 from collections.abc import Mapping
 
 SPELT = {"ccw": "counterclockwise", "cw": "clockwise"}
+
+
+NOTHING = 1e-12
+"""A component is nothing beside a vector of which it is less: what rounding leaves of a zero."""
+
+
+def plain_vector(vector: Sequence[float], size: float | None = None) -> tuple[float, float]:
+    """A vector of the plane as people are told it: a component that is nothing beside ``size``, by default
+    its own, is 0."""
+    least = NOTHING * (math.hypot(*vector) if size is None else size)
+    x, y = (c if abs(c) > least else 0.0 for c in vector)
+    return x, y
 
 
 def sense_of(load: Load, value: float, gain: float, degrees: float) -> str:
