@@ -7,6 +7,7 @@ from mpmath import mpf
 
 import icsolve
 from icsolve.case import Number, Rope
+from icsolve.errors import SceneError
 from icsolve.scene.program import Want, evaluate, prepare
 from icsolve.scene.sensitivity import band, entries, influences, numbers_of, text
 from icsolve.statics.power import has_friction
@@ -85,6 +86,19 @@ def test_what_an_answer_does_not_depend_on_has_no_sensitivity() -> None:
     assert {i.path for i in influences(icsolve.solve(case), "T12")} == {
         *("angles.AB", "angles.BC", "angles.DC", "lengths.AB", "loads.P", "loads.P.angle")
     }
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_no_rounding_is_told_as_a_sensitivity(name: str) -> None:
+    """A number of which the answer is free, such as where on a link that only shifts its weight hangs."""
+    case = icsolve.load(FILES[name])
+    try:
+        answer = icsolve.solve(case)
+        told = {load: influences(answer, load) for load in answer.answers if not answer.answers[load].holds}
+    except SceneError:
+        return
+    for found in told.values():
+        assert all(abs(one.percent) > 1e-13 * abs(found[0].percent) for one in found if one.percent)
 
 
 def test_one_percent_more_of_the_only_load_is_one_percent_more_torque() -> None:

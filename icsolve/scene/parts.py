@@ -193,17 +193,20 @@ class AnswerBuilder:
 
     @cached_property
     def slopes(self) -> dict[str, dict[str, float]]:
-        """Derivative of every unknown load by every number of the case: by the tape, and so near a singular
-        position that a tape says nothing, by differences of many digits."""
+        """Derivative of every unknown load by every number of the case: by the tape, and where that says
+        nothing, so near a singular position or beside much larger ones, by differences of many digits."""
+        by_load: dict[str, dict[str, float]] = {load: {} for load in self.unknowns}
+        numbers = sensitivity.numbers_of(self.case)
+        doubtful = set(numbers)
         with suppress(SceneError, ZeroDivisionError):
-            numbers = sensitivity.numbers_of(self.case)
             by_all = slopes(self.traced or evaluate_bounded(self.program))
             found = {load: {p: s for p, s in by.items() if p in numbers} for load, by in by_all.items()}
             told = found and all(any(by.values()) for by in found.values())  # nothing of an answer that is 0
-            if not self.scene.certain or (told and self._tape_tells()):
+            if not self.scene.certain:
                 return found
-        by_load: dict[str, dict[str, float]] = {load: {} for load in self.unknowns}
-        for number in sensitivity.numbers_of(self.case).values():
+            if told and self._tape_tells():
+                by_load, doubtful = found, _near_nothing(found, numbers)
+        for number in (numbers[path] for path in numbers if path in doubtful):
             step = Decimal(repr(1e-40 * (abs(number.value) or 1.0)))
             with suppress(*OPEN, KeyError):
                 more, less = (self._with(number, way, PRECISIONS[-1]) for way in (step, -step))
@@ -272,6 +275,22 @@ class AnswerBuilder:
 
     def _terms(self, found: Evaluation) -> tuple[Term, ...]:
         return tuple(power_terms(found, self._values(found), speed_of(found)))
+
+
+ROUNDED = 1e-12
+"""Of the strongest influence on an answer: what is less may be rounding."""
+
+
+def _near_nothing(found: Mapping[str, Mapping[str, float]], numbers: Mapping[str, Number]) -> set[str]:
+    """The numbers whose influence on a load is next to nothing beside the strongest."""
+    doubtful = set()
+    for slopes_of_load in found.values():
+        parts = {
+            path: abs(slope) * (abs(numbers[path].value) or 1.0) for path, slope in slopes_of_load.items()
+        }
+        strongest = max(parts.values(), default=0.0)
+        doubtful |= {path for path, part in parts.items() if 0.0 < part <= ROUNDED * strongest}
+    return doubtful
 
 
 def scene_of(answer: Answer) -> AnswerBuilder | None:
