@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import icsolve
+from icsolve.manual import kinds, template
 from icsolve.sweep.numbers import numbers_of
 from library import FILES, sample
 
@@ -71,3 +72,22 @@ def test_every_row_has_its_numbers_or_its_status(name: str) -> None:
     for sweep in sweeps(case):
         assert holes(sweep) == [], (list(sweep.vary), sweep.status.tolist())
         assert len(sweep) == len(sweep.status)
+
+
+TEMPLATES = {f"new {kind}": template(kind) for kind in kinds()}
+SOURCES = {**{name: str(path) for name, path in FILES.items()}, **TEMPLATES}
+
+
+@pytest.mark.parametrize("name", [*sample(FILES, 4, "wanted"), *TEMPLATES])
+def test_what_is_wanted_besides_changes_no_row(name: str) -> None:
+    """Velocities are worked out scene by scene: the rows are those of the sweep without them."""
+    case = icsolve.load(SOURCES[name])
+    for link in () if case.unknowns else case.links:
+        turn = {link: np.array([0.0, 0.5, 25.0])}
+        with contextlib.suppress(icsolve.SceneError):
+            plain = icsolve.sweep(case, {}, ("answers", "status"), drive=turn)
+            full = icsolve.sweep(case, {}, ("answers", "status", "velocities", "rates"), drive=turn)
+            assert full.status.tolist() == plain.status.tolist()
+            for load, values in plain.answers.items():
+                assert full.answers[load] == pytest.approx(values, rel=1e-9, abs=1e-12, nan_ok=True)
+            return

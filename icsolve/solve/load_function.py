@@ -36,7 +36,6 @@ from icsolve.statics import power
 from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.branches import may_vanish
 from icsolve.sweep.drivers import Drive
-from icsolve.sweep.exact import spring_angles
 from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.program import (
     CompiledSweep,
@@ -45,6 +44,7 @@ from icsolve.sweep.program import (
     Signs,
     compile_sweep,
     setting_of,
+    spring_angles,
     wanted_points,
 )
 from icsolve.sweep.recorded_scene import RecordedScene, motions_of
@@ -332,7 +332,6 @@ def _on_sheet(
     """The power of the loads on a record that has the figure, by its one input."""
     record, scene, given = compiled.record, compiled.scene, compiled.inputs[path]
     record.follows = True  # also where each position is read anew: turns count from one of them
-    case = scene.case
     motions = motions_of(scene)
     if motions.mobility != 1:
         raise SceneError(
@@ -361,10 +360,7 @@ def _on_sheet(
         _turning(motions.twists),
         power.force_scale(balance),
         poses,
-        {
-            name: record.lifted(angle).index
-            for name, angle in spring_angles(case, scene.points, record).items()
-        },
+        {name: record.lifted(angle).index for name, angle in spring_angles(scene).items()},
         _turns(record, given, set(compiled.inputs.values()) - {given}, span),
     )
 

@@ -18,9 +18,8 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.balls import Ball, Balls, BelowZero, MoreDigits
 from icsolve.numbers.linear import solve_square
-from icsolve.numbers.record import Implicit, Op, Record, Root, Traced, live, terms_of
+from icsolve.numbers.record import Implicit, Op, Root, Traced, live, terms_of
 from icsolve.numbers.replay import BINARY
-from icsolve.statics.power import Points, spring_angle
 from icsolve.sweep.branches import live_roots
 from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep
@@ -291,7 +290,7 @@ class RowScenes:
         self.points = dict(self.scene.points)
         self.directions = {own.path: (c, s) for own, c, s in record.directions.values()}
         self.numbers = {path: value for path, value in record.vary.items() if path.endswith("@")}
-        self.springs = spring_angles(self.scene.case, self.points, record)
+        self.springs = compiled.springs
 
     def refuse_apart(self, given: Mapping[int, Decimal]) -> None:
         """Raise SceneError where the links do not reach one another, spare conditions are not met, or two
@@ -349,12 +348,6 @@ class RowScenes:
         }
         case = replace(case, lengths=(), angles=(), near={}, expect=())
         return replace(case, points=points, carries=carries)
-
-
-def spring_angles(case: Case, points: Points, record: Record) -> dict[str, Scalar]:
-    """The angles that the torsion springs of a case follow, by load [degrees]."""
-    springs = [load for load in case.loads if isinstance(load, TorsionSpring)]
-    return {load.name: spring_angle(load, points, record) for load in springs}
 
 
 def counted_about(case: Case, angles: Mapping[str, float]) -> Case:

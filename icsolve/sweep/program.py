@@ -15,13 +15,13 @@ from icsolve.assembly.driven.constraints import Constraint, Turning
 from icsolve.assembly.driven.mechanism import Mechanism, mechanism
 from icsolve.assembly.driven.motion import DrivenMotion, order_of, set_moving
 from icsolve.assembly.workspace import names_of, number_of
-from icsolve.case import Case, Pair
+from icsolve.case import Case, Pair, TorsionSpring
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.numbers.record import Record, varies
 from icsolve.scene import refusals
 from icsolve.screws.plane import Point
-from icsolve.statics.power import points_of
+from icsolve.statics.power import points_of, spring_angle
 from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import Drive, condition, drive_of, pose_of, turning, turns_links
 from icsolve.sweep.friction_rows import FrictionRows, rubbing
@@ -92,6 +92,8 @@ class CompiledSweep(NamedTuple):
         "C")`` two, ``("centres", "2-4")`` three (x, y, w), ``("rates", "4")`` one
     motion : the mechanism driven by the inputs; None where nothing moves
     scene : the case on the record
+    springs : the angles that torsion springs follow, by load [degrees]: their turns are counted whatever is
+        asked of the rows
     refusal : why no row has an answer; None else
     """
 
@@ -101,6 +103,7 @@ class CompiledSweep(NamedTuple):
     outputs: dict[tuple[str, str], tuple[Scalar, ...]]
     motion: DrivenMotion | None
     scene: RecordedScene
+    springs: dict[str, Scalar]
     refusal: SceneError | None
     margins: tuple[int, ...] = ()
     """of the figure as written, where it is another in each row: none may be negative"""
@@ -229,7 +232,16 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
     scene = rested(scene, asked.contacts, inputs)
     outputs, found = _outputs(scene, asked)
     compiled = CompiledSweep(
-        setting, record, inputs, outputs, motion, scene, None, margins, rests=bool(asked.contacts)
+        setting,
+        record,
+        inputs,
+        outputs,
+        motion,
+        scene,
+        spring_angles(scene),
+        None,
+        margins,
+        rests=bool(asked.contacts),
     )
     if found is None:
         return compiled
@@ -239,6 +251,12 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
     return (
         compiled if found.refusal else compiled._replace(rubbing=rubbing(scene, found.motions, found.balance))
     )
+
+
+def spring_angles(scene: RecordedScene) -> dict[str, Scalar]:
+    """The angles that the torsion springs of a scene follow, by load [degrees]."""
+    springs = [load for load in scene.case.loads if isinstance(load, TorsionSpring)]
+    return {load.name: spring_angle(load, scene.points, scene.record) for load in springs}
 
 
 def _motion(
