@@ -182,10 +182,13 @@ else:
     def _keep(self, *values, **named) -> None:
         kind, own = type(self), self.__dict__
         own.update(kind._plain)
-        own.update(zip(kind._fields, values, strict=False), **named)
-        for name in kind._made.keys() - own.keys():
-            own[name] = kind._made[name]()
-        twice = len(values) + len(named) > len(named.keys() | kind._fields[: len(values)])
+        own.update(named)
+        if values:
+            own.update(zip(kind._fields, values, strict=False))
+        for name, make in kind._made.items():
+            if name not in own:
+                own[name] = make()
+        twice = values and len(values) + len(named) > len(named.keys() | kind._fields[: len(values)])
         if twice or len(own) != len(kind._fields):
             odd = set(kind._fields) ^ set(own) or "too many values, or one twice"
             raise TypeError(f"{kind.__name__}: wrong values: {odd}")

@@ -517,11 +517,10 @@ def load_value(w: UnitWrench[L], values: Mapping[str, Scalar], a: Arithmetic) ->
 
 def advantage(wrenches: Sequence[UnitWrench[L]], values: Mapping[str, Scalar], a: Showing) -> float | None:
     """unknown / known where there is one of each and the known one is not zero."""
-    ours = [w for w in wrenches if w.root in values]
-    known = [w for w in wrenches if w.root not in values]
-    if len(ours) != 1 or len(known) != 1:
+    if len(wrenches) != 2 or (wrenches[0].root in values) == (wrenches[1].root in values):
         return None
-    above, below = (load_value(w, values, a) for w in (*ours, *known))
+    ours, known = wrenches if wrenches[0].root in values else wrenches[::-1]
+    above, below = load_value(ours, values, a), load_value(known, values, a)
     return None if below == 0.0 else a.rounded(above / below)[0]
 
 
@@ -539,7 +538,9 @@ def _row(
         sums[k] = sums[k] + amount * factor
         terms[k] += abs(amount) * size
     zero = {k for k, size in enumerate(terms) if arithmetic.vanishes(sums[k], size)}
-    return PowerRow([zero_of(value) if k in zero else value for k, value in enumerate(sums)], terms, zero)
+    for k in zero:
+        sums[k] = zero_of(sums[k])
+    return PowerRow(sums, terms, zero)
 
 
 def _solved_many(
