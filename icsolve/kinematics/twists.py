@@ -244,19 +244,6 @@ class Closure(NamedTuple):
     columns: tuple[Triple, ...] = ()
 
 
-class Run(NamedTuple):
-    """The motion of a plan.
-
-    Attributes
-    ----------
-    twists : by body, (X, Y, W) relative to the entry's first body, all to one scale
-    closures : how each group closed, in the order of the plan
-    """
-
-    twists: dict[int, Triple]
-    closures: tuple[Closure, ...]
-
-
 class _Pool:
     """Known twists: each as seen from an origin of its own, so that nothing of a long chain is lost to
     its distance, and at the level (number of groups) to which its scale belongs."""
@@ -299,7 +286,9 @@ class _Pool:
         return result
 
 
-def run(plan: Plan, top: Topology, bases: Bases, arithmetic: Arithmetic) -> Run:
+def run(
+    plan: Plan, top: Topology, bases: Bases, arithmetic: Arithmetic
+) -> tuple[dict[int, Triple], tuple[Closure, ...]]:
     """Twists of the planned bodies.
 
     Parameters
@@ -311,7 +300,8 @@ def run(plan: Plan, top: Topology, bases: Bases, arithmetic: Arithmetic) -> Run:
 
     Returns
     -------
-    Run
+    twists : by body, (X, Y, W) relative to the entry's first body, all to one scale
+    closures : how each group closed, in the order of the plan
         A group that leaves a freedom of its own has D and all numerators 0 (`is_singular`), one at a dead
         centre D = 0 (`is_dead`): neither is refused here.
     """
@@ -327,7 +317,7 @@ def run(plan: Plan, top: Topology, bases: Bases, arithmetic: Arithmetic) -> Run:
         closures.append(closure)
         pool.factors.append(closure.factor)
         pool.put(found)
-    return Run(pool.all_now(), tuple(closures))
+    return pool.all_now(), tuple(closures)
 
 
 Closed = tuple[Closure, dict[int, Seen]]

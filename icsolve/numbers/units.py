@@ -334,9 +334,9 @@ def nearest(exact: ExactRatio) -> float:
         The value is beyond a double.
     """
     num, den, power = exact
-    top, bottom = _PI if power > 0 else _PI[::-1]
-    for _ in range(abs(power)):
-        num, den = num * top, den * bottom
+    if power:
+        top, bottom = _PI if power > 0 else _PI[::-1]
+        num, den = num * top ** abs(power), den * bottom ** abs(power)
     return num / den
 
 

@@ -60,9 +60,17 @@ def solve(
         Where the scene has no answer: its figure can't be built, or a load has no value in this position. Its
         ``status`` is a member of `icsolve.errors.Status`, its message says what would mend it.
     """
-    asked = {"all_centres": all_centres, "rates": rates, "reactions": reactions}
     if not (case.unknowns or _asks_for_a_position(case)):
-        return solve_scene(case, **asked, examine=examine, bound=bound, dynamic=dynamic)
+        return solve_scene(
+            case,
+            all_centres=all_centres,
+            rates=rates,
+            examine=examine,
+            bound=bound,
+            reactions=reactions,
+            dynamic=dynamic,
+        )
+    asked = {"all_centres": all_centres, "rates": rates, "reactions": reactions}
     if without_inertia(case, dynamic):
         from icsolve.scene.dynamics import solve_dynamic
 

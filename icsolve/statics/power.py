@@ -481,9 +481,10 @@ def has_friction(case: Case) -> bool:
 def force_scale(b: PowerFactors[L]) -> float:
     """A power of two that brings the largest known load near 1, so that nothing overflows."""
     most = 0.0
-    for w in b.wrenches:
-        if w.number:
-            most = max(most, abs(number_of(w, FLOATS)) * abs(w.gain) * w.measure)
+    for _, _, _, gain, _, _, measure, number, _ in b.wrenches:
+        if number:
+            value = number.value if isinstance(number, Number) else vector_size(number)
+            most = max(most, abs(value) * abs(gain) * measure)
     return math.ldexp(1.0, -math.frexp(most)[1]) if 0.0 < most < math.inf else 1.0
 
 
