@@ -63,8 +63,11 @@ class Branches:
         modes, samples = self.whole.shape
         ids = np.full((modes, samples), -1, dtype=np.int64)
         ids[:, 0] = np.where(self.whole[:, 0], np.arange(modes), -1)
-        count = modes
+        count, plain, same = modes, self._goes_straight_on(), True
         for k in range(1, samples):
+            if plain[k - 1] and same:
+                ids[:, k] = ids[:, k - 1]
+                continue
             taken: dict[int, int] = {}
             for m in range(modes):
                 if ids[m, k - 1] < 0:
@@ -85,7 +88,20 @@ class Branches:
                     ids[n, k] = taken[n]
                 else:
                     ids[n, k], count = count, count + 1
+            same = np.array_equal(ids[:, k], ids[:, k - 1])
         return self._closed(ids)
+
+    def _goes_straight_on(self) -> npt.NDArray[np.bool_]:
+        """Between which samples, (samples - 1,), no other mode lies where one is heading: all keep to their
+        branches there, if they did before."""
+        here, there = self.places[:, :-1], self.places[:, 1:]
+        ahead = np.concatenate([here[:, :1], 2.0 * here[:, 1:] - here[:, :-1]], axis=1)
+        stays = (self.whole[:, 1:] == self.whole[:, :-1]).all(axis=0)
+        for m in range(len(ahead)):
+            with np.errstate(invalid="ignore"):  # of modes that do not assemble
+                off = np.where(self.whole[:, 1:], np.abs(there - ahead[m]).max(axis=2), np.inf)
+            stays &= ~(self.whole[m, 1:] & (off < 0.25 * off[m]).any(axis=0))
+        return np.asarray(stays)
 
     def _ahead(self, ids: npt.NDArray[np.int64], m: int, k: int) -> Array:
         """Where a branch would be at the next sample, going straight on."""

@@ -154,6 +154,24 @@ class PathSegment(NamedTuple):
     q: Array
     turns: Array
 
+    def at(self, places: Array) -> tuple[Array, Array]:
+        """States (places, unknowns) and turns (places, counted) at places of the line, (places,), by Lagrange's
+        polynomial through the four (or as many as there are) nearest steps; beyond the ends it extrapolates.
+        """
+        count = min(4, len(self.s))
+        first = np.maximum(np.minimum(self.s.searchsorted(places) - count // 2, len(self.s) - count), 0)
+        each = np.arange(count)
+        nearest = first + each[:, None]
+        nodes = self.s[nearest]
+        off, apart = np.repeat((places - nodes)[None], count, axis=0), nodes[:, None] - nodes
+        off[each, each] = apart[each, each] = 1.0
+        weights = np.multiply.reduce(off / apart, axis=1)[:, :, None]
+        q, turns = (
+            np.asarray(sum(weight * values[n] for weight, n in zip(weights, nearest, strict=True)))
+            for values in (self.q, self.turns)
+        )
+        return q, turns
+
 
 def goes_on(q: Array, guess: Array, found: Array, pointed: bool) -> bool:
     """Whether a step went on where the last ones pointed.
@@ -184,30 +202,3 @@ def segment_of(steps: Sequence[Step]) -> PathSegment:
     """Steps, in order of their places, as arrays."""
     places, states, turns = zip(*steps, strict=True)
     return PathSegment(np.array(places), np.array(states), np.array(turns))
-
-
-def cubic(known: Array, values: Array, at: Array) -> Array:
-    """Lagrange's polynomial through the four (or as many as there are) nearest places.
-
-    Parameters
-    ----------
-    known : (steps,), increasing
-    values : (steps, columns)
-    at : (places,); beyond the ends it extrapolates
-
-    Returns
-    -------
-    Array
-        (places, columns).
-    """
-    count = min(4, len(known))
-    first = np.clip(np.searchsorted(known, at) - count // 2, 0, len(known) - count)
-    nodes = [known[first + n] for n in range(count)]
-    total = np.zeros((len(at), values.shape[1]))
-    for n in range(count):
-        weight = np.ones(len(at))
-        for m in range(count):
-            if m != n:
-                weight *= (at - nodes[m]) / (nodes[n] - nodes[m])
-        total += weight[:, None] * values[first + n]
-    return total

@@ -22,7 +22,6 @@ from icsolve.sweep.continuation import (
     State,
     Step,
     counts,
-    cubic,
     goes_on,
     segment_of,
 )
@@ -243,7 +242,7 @@ class PathTracker:
         if not inside.any():
             return None
         trials, back = trials[inside], back[inside]
-        guess, ahead = cubic(known.s, known.q, back), cubic(known.s, known.turns, back)
+        guess, ahead = known.at(back)
         guess += (trials - back)[:, None] * self._driven()
         found, counted, good = self._solved(self._plain(trials), guess, ahead, QUICK)
         for k in np.flatnonzero(good):
@@ -267,8 +266,7 @@ class PathTracker:
             s, q, turns = steps[-1]
             there = s + sense * min(h, sense * (end - s))
             at = np.array([there])
-            known = segment_of(steps[-4:])
-            guess, ahead = cubic(known.s, known.q, at), cubic(known.s, known.turns, at)
+            guess, ahead = segment_of(steps[-4:]).at(at)
             found, counted, good = self._solved(self._plain(at), guess, ahead, QUICK)
             if good[0] and goes_on(q, guess[0], found[0], len(steps) > 1) and counts(turns, counted[0]):
                 self._orient(s, there, at, found, counted)
@@ -331,8 +329,7 @@ class PathTracker:
             here = (s >= segment.s[0] - self._slack) & (s <= segment.s[-1] + self._slack)
             if here.any():
                 at = np.clip(s[here], segment.s[0], segment.s[-1])
-                q[here] = cubic(segment.s, segment.q, at)
-                turns[here] = cubic(segment.s, segment.turns, at)
+                q[here], turns[here] = segment.at(at)
                 good |= here
         q[~good] = self.start.q
         return q, turns, good
