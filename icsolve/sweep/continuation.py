@@ -155,8 +155,8 @@ class PathSegment(NamedTuple):
     turns: Array
 
     def at(self, places: Array) -> tuple[Array, Array]:
-        """States (places, unknowns) and turns (places, counted) at places of the line, (places,), by Lagrange's
-        polynomial through the four (or as many as there are) nearest steps; beyond the ends it extrapolates.
+        """States (places, unknowns) and turns (places, counted) at places of the line, (places,): Lagrange's
+        polynomial through the four (or as many as there are) nearest steps, beyond the ends too.
         """
         count = min(4, len(self.s))
         first = np.maximum(np.minimum(self.s.searchsorted(places) - count // 2, len(self.s) - count), 0)

@@ -25,6 +25,7 @@ from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep
 from icsolve.tuples import replace
 
+ADD, SUB, MUL = Op.ADD, Op.SUB, Op.MUL
 DIGITS = 240
 ZERO = Decimal("1e-40")
 """What is below this fraction of its terms is zero."""
@@ -163,7 +164,13 @@ class ExactRecord:
         for k, op, a, b in steps:
             if k in values:
                 continue
-            if op in (Op.DIV, Op.SQRT) and not values[b].is_nan() and abs(values[b]) <= self.least[b]:
+            if op is MUL:
+                values[k] = values[a] * values[b]
+            elif op is ADD:
+                values[k] = values[a] + values[b]
+            elif op is SUB:
+                values[k] = values[a] - values[b]
+            elif op in (Op.DIV, Op.SQRT) and not values[b].is_nan() and abs(values[b]) <= self.least[b]:
                 values[k] = Decimal("NaN") if op == Op.DIV else Decimal(0)
             else:
                 values[k] = _result(op, values[a], values[b])
@@ -390,6 +397,10 @@ def pi() -> Decimal:
         return 4 * (4 * arctan_of_inverse(5) - arctan_of_inverse(239))
 
 
+BITS = 10 * DIGITS // 3 + 64
+UNIT = Decimal(1 << BITS)
+
+
 @lru_cache(maxsize=64)
 def cos_sin(degrees: Decimal) -> tuple[Decimal, Decimal]:
     """Cosine and sine of an angle [degrees], exact at multiples of 90."""
@@ -398,15 +409,14 @@ def cos_sin(degrees: Decimal) -> tuple[Decimal, Decimal]:
     with localcontext(CONTEXT):
         reduced = degrees % 360
         quarter = int((reduced / 90).to_integral_value())
-        x = (reduced - 90 * quarter) * pi() / 180
-        x2, term, k = x * x, Decimal(1), 0
-        c, s = Decimal(0), Decimal(0)
-        while term and term.adjusted() > -DIGITS - 5:
-            c += term
+        half = (reduced - 90 * quarter) * pi() / 360
+        squared, term, total, k = int(half * half * UNIT), 1 << BITS, 0, 1
+        while term:  # the sine of half the angle over that, in units of which whole numbers suffice
+            total += term
             k += 2
-            s += term / (k - 1)
-            term = -term * x2 / (k * (k - 1))
-        s *= x
+            term = -(term * squared >> BITS) // (k * (k - 1))
+        sine = Decimal(total) / UNIT * half
+        c, s = 1 - 2 * sine * sine, 2 * sine * (1 - sine * sine).sqrt()
         return ((c, s), (-s, c), (-c, -s), (s, -c))[quarter % 4]
 
 
