@@ -5,7 +5,9 @@ Only what leads to the wanted nodes is run. A buffer is free again after the las
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from threading import get_ident
 from typing import Any
@@ -14,6 +16,8 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.numbers.record import Op, Record, live
+from icsolve.numbers.source import PYTHON, straight_line
+from icsolve.tuples import cached_property
 
 Array = npt.NDArray[np.float64]
 BLOCK = 4096
@@ -22,6 +26,8 @@ FEW = 256
 LEAST = 8
 MOST_SIZES = 24
 SCRATCH = 4
+SOON = 64
+"""So many runs of one row take as long as it takes to write them as Python."""
 
 Step = tuple[Callable[..., Any], tuple[Any, ...]]
 
@@ -46,6 +52,11 @@ class Code:
         self.order = [k for k in found if record.nodes[k].op != Op.INPUT]
         self.place, self.buffers = self._allocated()
         self._bound: dict[tuple[int, int], tuple[list[Step], Array]] = {}
+        self.singles = 0
+        """runs of one row so far"""
+        self._columns = [self.place.get(k, 0) for k in self.wanted]
+        self._still = [n for n, k in enumerate(self.wanted) if k not in self.place]
+        self._constants = np.array([[record.nodes[self.wanted[n]].value] for n in self._still]).reshape(-1, 1)
 
     def _allocated(self) -> tuple[dict[int, int], int]:
         """The buffer of every node, and how many there are."""
@@ -145,6 +156,33 @@ class Code:
         buffers = self.fill(given, rows)
         return [self._cut(k, buffers, rows) for k in self.wanted]
 
+    def table(self, given: Mapping[int, Array], rows: int) -> Array:
+        """As `run`, in one array of its own: (wanted, rows). One row is run as Python, once it pays."""
+        if rows == 1:
+            self.singles += 1
+            if self.singles > SOON:
+                with suppress(ArithmeticError, ValueError):  # of what is not finite
+                    return np.array([self._one(*(np.asarray(given[k]).item() for k in self.given))]).T
+        buffers = self.fill(given, rows)
+        found: Array = buffers[self._columns, :rows]
+        found[self._still] = self._constants
+        return found
+
+    @cached_property
+    def _one(self) -> Callable[..., tuple[float, ...]]:
+        """The wanted nodes of one row of floats, by the same operations; it raises what is not finite."""
+        key = ("python", self.wanted)
+        if key not in self.record.kept:
+            names = {k: f"x{n}" for n, k in enumerate(self.given)}
+            text = straight_line(self.record, self.wanted, names, PYTHON)
+            lines = [*text.lines, f"return ({''.join(f'{value},' for value in text.wanted)})"]
+            source = f"def one({', '.join(names.values())}):\n" + "".join(f"    {line}\n" for line in lines)
+            scope: dict[str, Any] = {"turn": _turned, "root": _root, "atan2": np.arctan2, "degrees": _degrees}
+            exec(compile(source, "<record>", "exec"), scope)
+            self.record.kept[key] = scope["one"]
+        found: Callable[..., tuple[float, ...]] = self.record.kept[key]
+        return found
+
     def fill(self, given: Mapping[int, Array], rows: int) -> Array:
         """As `run`, for values that are then asked for one by one: the buffers."""
         steps, buffers = self.bound(rows)
@@ -198,6 +236,26 @@ def turn(
         np.subtract(sine, np.multiply(c, quarters, c), sine)
     if cosine is not None:
         np.add(cosine, np.multiply(s, quarters, s), cosine)
+
+
+def _turned(degrees: float) -> tuple[float, float]:
+    """As `turn`, of one angle: the same operations in the same order."""
+    quarters = math.copysign(round(degrees * (1.0 / 90.0)), degrees)
+    s = float(np.sin((degrees - quarters * 90.0) * (np.pi / 180.0)))
+    c = math.sqrt(1.0 - s * s)
+    quarters -= math.copysign(round(quarters * 0.25), quarters) * 4.0
+    across = abs(quarters) - 2.0
+    quarters *= across
+    along = -1.0 - across
+    return c * along + s * quarters, s * along - c * quarters
+
+
+def _root(value: float) -> float:
+    return 0.0 if value <= 0.0 else math.sqrt(value)
+
+
+def _degrees(radians: np.float64) -> float:
+    return float(np.degrees(radians))
 
 
 def code_of(record: Record, wanted: Sequence[int]) -> Code:

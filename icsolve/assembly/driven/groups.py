@@ -290,16 +290,13 @@ class Solver:
         """
         rows, unknowns = q.shape
         given = {**env, **{k: q[:, n] for n, k in enumerate(self.implicit.guesses)}}
-        found = (self.code if derivatives else self.misses).run(given, rows)
-        f = np.empty((rows, self.equations))
-        for n in range(self.equations):
-            f[:, n] = found[n]
+        found = (self.code if derivatives else self.misses).table(given, rows)
+        f = np.ascontiguousarray(found[: self.equations].T)
         if not derivatives:
             return f, np.empty((0, 0, 0))
         j = np.empty((rows, len(self.still)))
         j[:] = self.still
-        for n, value in zip(self.traced, found[self.equations :], strict=True):
-            j[:, n] = value
+        j[:, self.traced] = found[self.equations :].T
         return f, j.reshape(rows, self.equations, unknowns)
 
     def step(self, f: Array, j: Array) -> Array:
@@ -404,7 +401,7 @@ class Solver:
         with np.errstate(all="ignore"):
             move = move * np.minimum(1.0, 0.5 / size)[:, None]
         move[:, 2::3] /= RADIAN
-        return np.nan_to_num(move), size
+        return (move if np.isfinite(size).all() else np.nan_to_num(move)), size
 
 
 def _rows_of(env: Mapping[int, Array], rows: npt.NDArray[np.intp]) -> dict[int, Array]:
