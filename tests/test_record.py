@@ -1,0 +1,37 @@
+"""A record that is replayed: many rows on arrays, one row that comes again and again as Python."""
+
+from __future__ import annotations
+
+from random import Random
+
+import numpy as np
+import pytest
+
+from icsolve.numbers.record import Record, Traced
+from icsolve.numbers.replay import SOON, Code
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_row_alone_has_the_bits_that_it_has_among_others(seed: int) -> None:
+    """Also when it was run so often that it goes as Python; and what is divided by zero as well."""
+    rng = Random(seed)
+    record = Record()
+    values = [record.input(f"x{n}", rng.uniform(-2.0, 2.0)) for n in range(4)]
+    inputs = [value.index for value in values]
+    for _ in range(40):
+        a, b = rng.choice(values), rng.choice(values)
+        made = rng.choice(
+            [
+                *(a + b, a - b, a * b, a / (b if b is not a else 2.0), -a, record.sqrt(a * a + b * b)),
+                *(record.angle(a, b) if a is not b else a, *record.turned(90.0 * a), record.nearest(a)),
+            ]
+        )
+        values += [made] if isinstance(made, Traced) else []
+    code = Code(record, [value.index for value in values])
+    rows = [[rng.choice((0.0, 1.0, -2.0, rng.uniform(-9.0, 9.0))) for _ in inputs] for _ in range(SOON + 40)]
+    together = Code(record, code.wanted).table(
+        {k: np.array(column) for k, column in zip(inputs, zip(*rows, strict=True), strict=True)}, len(rows)
+    )
+    for n, row in enumerate(rows):
+        alone = code.table({k: np.array([x]) for k, x in zip(inputs, row, strict=True)}, 1)
+        assert np.array_equal(alone[:, 0], together[:, n], equal_nan=True), n
