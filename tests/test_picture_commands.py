@@ -191,6 +191,19 @@ VARIED += "variables: {P: {choices: [40, 80]}}\n"
 NUMBERS = "student_id,email,variant,P\n7,a@b.c,v1,40\n8,d@e.f,v2,80\n"
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+@pytest.mark.parametrize("delimiter", [",", ";", "\t"])
+def test_a_sheet_reads_the_numbers_as_a_spreadsheet_saves_them(
+    tmp_path: Path, encoding: str, delimiter: str
+) -> None:
+    case, values, out = (tmp_path / name for name in ("press.yaml", "values.csv", "exam.tex"))
+    case.write_text(VARIED)
+    values.write_bytes(NUMBERS.replace("7,", '="007",').replace(",", delimiter).encode(encoding))
+    of_one = ("--variants", str(values), "--student", "007")
+    assert exit_status("sheet", str(case), *of_one, "-o", str(out)) == 0
+    assert "Key 007" in out.read_text(encoding="utf-8")
+
+
 def test_a_sheet_has_the_numbers_of_each_student_and_the_key_behind(tmp_path: Path) -> None:
     case, values, out = (tmp_path / name for name in ("press.yaml", "values.csv", "exam.tex"))
     case.write_text(VARIED)

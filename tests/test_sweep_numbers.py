@@ -231,6 +231,27 @@ def test_friction_without_a_motion_gives_ranges() -> None:
     assert sweep.holds["T"][0] == pytest.approx(one, rel=1e-11)
 
 
+def test_each_of_a_family_of_figures_that_friction_holds_keeps_its_range() -> None:
+    """Points that only all data together place; each length of the coupler is a mechanism that is turned."""
+    text = """icsolve: 1
+points: {A: [0, 0], D: [4, 0], G: [2, 5]}
+lengths: {AB: 2, DC: 2, GH: 2, BC: 2.5, CH: 3, BH: 3}
+near: {B: [0.35, 1.97], C: [3.5, 2.2], H: [1.6, 3.2]}
+joints:
+  - {pin: [1, 2], at: A, mu: 0.3, radius: 0.2}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 1], at: D}
+links: {3: [H]}
+loads: {P: {force: 10, link: 3, at: H, angle: 0}, T: {torque: unknown, link: 2}}
+"""
+    turned, coupler = {"2": [0.0, 5.0, 0.0, 5.0]}, {"lengths.BC": [2.4, 2.4, 2.5, 2.5]}
+    sweep = icsolve.sweep(icsolve.load(text), coupler, drive=turned)
+    assert (sweep.status == "holds").all()
+    for row, held in enumerate(sweep.holds["T"]):
+        assert held == pytest.approx(icsolve.solve(sweep.case_of(row)).answers["T"].holds, rel=1e-9)
+
+
 # --- what can't be asked ------------------------------------------------------------------------------
 
 

@@ -201,17 +201,19 @@ def _students(variants: str | None, student: str | None) -> list[tuple[str, Valu
         if student is not None:
             raise ValueError("it needs --variants, the numbers that students have")
         return [("", {})]
-    import csv
+    from icsolve.grade.tables.columns import identifier, read_whole_table, without_apostrophe
 
-    with open(variants, encoding="utf-8-sig", newline="") as file:
-        table = csv.DictReader(file)
-        rows = [{key: (cell or "").lstrip("'") for key, cell in row.items() if key} for row in table]
-    if not rows or "student_id" not in rows[0]:
+    columns, rows = read_whole_table(variants)
+    at = columns.field("student_id")
+    if not rows or at is None:
         raise ValueError("it has no column student_id, or no student; `icsolve variants` writes values.csv")
-    chosen = [row for row in rows if student in (None, row["student_id"])]
-    if not chosen:
+    named = [(identifier(cells[at]), map(without_apostrophe, cells)) for cells in rows]
+    chosen: list[tuple[str, Values]] = [
+        (name, dict(zip(columns.header, own, strict=True))) for name, own in named
+    ]
+    if student is not None and not (chosen := [one for one in chosen if one[0] == student]):
         raise ValueError(f"there is no student {student}")
-    return [(row["student_id"], row) for row in chosen]
+    return chosen
 
 
 def form_of(verb: str, case: str, output: str | None, endings: Mapping[str, str]) -> str | None:

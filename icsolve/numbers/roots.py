@@ -1,4 +1,4 @@
-"""Zeros of a function of one number."""
+"""Zeros of a function of one number, and where what holds ends."""
 
 from __future__ import annotations
 
@@ -35,6 +35,15 @@ def zero_between(f: Function, a: float, b: float, at_a: float, at_b: float) -> f
             c, at_c = a, at_a
             step = before = b - a
     return b
+
+
+def last_that_holds(holds: Callable[[float], bool], inside: float, outside: float) -> tuple[float, float]:
+    """The last double at which something holds, from ``inside`` where it does, and the next toward
+    ``outside``, where it does not: by halving. Of several such places it finds one.
+    """
+    while (middle := 0.5 * (inside + outside)) not in (inside, outside):
+        inside, outside = (middle, outside) if holds(middle) else (inside, middle)
+    return inside, outside
 
 
 Three = tuple[float, float, float]

@@ -11,6 +11,7 @@ from icsolve.answer import Answer
 from icsolve.errors import SceneError
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.replay import Code
+from icsolve.numbers.roots import last_that_holds
 from icsolve.scene import solve_scene
 from icsolve.solve.branches import Branches
 from icsolve.solve.load_function import LoadFunction
@@ -64,12 +65,11 @@ def _reach(function: LoadFunction, value: float, side: float, most: float) -> fl
 def _last(function: LoadFunction, inside: float, outside: float) -> float:
     """The last double at which a mode assembles, between one at which it does and one at which not."""
     code = Code(function.record, function.margins)
-    while True:
-        middle = 0.5 * (inside + outside)
-        if middle in (inside, outside):
-            return inside
-        whole = all(float(np.ravel(m)[0]) > 0.0 for m in code.run(function.given(np.array(middle)), 1))
-        inside, outside = (middle, outside) if whole else (inside, middle)
+
+    def assembles(value: float) -> bool:
+        return all(float(np.ravel(m)[0]) > 0.0 for m in code.run(function.given(np.array(value)), 1))
+
+    return last_that_holds(assembles, inside, outside)[0]
 
 
 def at_limits(

@@ -14,7 +14,7 @@ from icsolve.case import Case
 from icsolve.case.joints import with_friction, without_friction
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
-from icsolve.numbers.roots import zero_between
+from icsolve.numbers.roots import last_that_holds, zero_between
 from icsolve.solve.branches import Branches, nearest
 from icsolve.solve.followed import NOT_ALL, led_mechanisms
 from icsolve.solve.load_function import TogetherError
@@ -143,9 +143,7 @@ def edge_of_rest(spare: Callable[[float], float], inside: float, outside: float)
         for value in (zero, zero - reach, zero + reach):
             if min(inside, outside) < value < max(inside, outside):
                 inside, outside = (value, outside) if spare(value) >= 0.0 else (inside, value)
-    while (middle := 0.5 * (inside + outside)) not in (inside, outside):
-        inside, outside = (middle, outside) if spare(middle) >= 0.0 else (inside, middle)
-    return inside, outside
+    return last_that_holds(lambda value: spare(value) >= 0.0, inside, outside)
 
 
 def _runs(case: Case, mode: RoughMode, turns: bool) -> list[Range]:

@@ -6,7 +6,6 @@ The pressure angles of a cam for `solve --report`: now, and over a turn.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
 
 import numpy as np
 
@@ -27,7 +26,7 @@ from icsolve.sweep.program import RowRequest, setting_of
 from icsolve.sweep.request import Columns, SweepRequest
 from icsolve.sweep.runner import Key, Progress
 from icsolve.sweep.runner import Rows as Which
-from icsolve.sweep.table import CODE, KINDS, Sweep, Table, by_kind
+from icsolve.sweep.table import CODE, KINDS, Sweep, Table
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed
 
@@ -195,10 +194,9 @@ def _together(table: Table, part: CamRows, error: bool, seen: _Seen) -> Mask:
     if part.alike and table.asked.answers:
         _dwell(run, values, done, table.asked)
     rows = part.rows[done]
-    own = by_kind({key: array[done] for key, array in values.items() if key[0] in KINDS})
-    codes = np.zeros(len(rows), dtype=np.int8)
-    arrays: dict[str, Any] = {**own}
-    table.take(rows, Sweep(case, {}, **arrays, codes=codes))
+    own = Table(len(rows), table.asked)
+    own.values = {key: array[done] for key, array in values.items() if key[0] in KINDS}
+    table.take(rows, own)
     for follow, rested in zip(run.course.follows, run.rested, strict=True):
         force = values.get(("contact", follow.seeking.hidden))
         lost = force[done] < 0.0 if force is not None else np.zeros(len(rows), dtype=bool)

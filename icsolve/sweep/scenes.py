@@ -106,7 +106,7 @@ def shared(
             if progress is not None:
                 progress(count)
         for some, part in zip(shares[1:], results(), strict=True):
-            table.merge(some, part)
+            table.take(some, part)
 
 
 # --- families that have no construction for all rows ----------------------------------------------

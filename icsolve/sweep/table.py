@@ -144,7 +144,7 @@ class Sweep:
 
     @property
     def kinds(self) -> dict[str, dict[str, Array]]:
-        """The arrays by kind (``answers``, ``points``, ...) and name; shapes as of the attributes."""
+        """The arrays, (n,) or (n, parts), by kind (``answers``, ``points``, ...) and name."""
         return {kind: getattr(self, kind) for kind in KINDS}
 
 
@@ -159,6 +159,11 @@ def by_kind(arrays: Mapping[tuple[str, str], Array]) -> dict[str, dict[str, Arra
     for (kind, name), array in arrays.items():
         kinds[kind][name] = array
     return kinds
+
+
+def by_key(kinds: Mapping[str, Mapping[str, Array]]) -> dict[Key, Array]:
+    """Arrays by kind and then by name as arrays by (kind, name)."""
+    return {(kind, name): array for kind, arrays in kinds.items() for name, array in arrays.items()}
 
 
 # --- a sweep as it is filled ----------------------------------------------------------------------
@@ -197,16 +202,8 @@ class Table:
         """A row without an answer."""
         self.codes[row] = CODE.get(error.status, OTHER)
 
-    def take(self, rows: Rows, part: Sweep) -> None:
-        """The rows ``rows`` (indices) from a sweep of these rows alone."""
-        self.codes[rows] = part.codes
-        for tables, kinds in ((self.values, part.kinds), (self.errors, part.errors)):
-            for kind, arrays in kinds.items():
-                for name, array in arrays.items():
-                    self._table(tables, (kind, name), (self.rows, *array.shape[1:]))[rows] = array
-
     def some(self, rows: Rows | list[int]) -> Table:
-        """Some rows, by index, as a table of their own (copies)."""
+        """Some rows, by their indices (n,), as a table of their own (copies)."""
         part = Table(len(rows), self.asked)
         part.codes = self.codes[rows]
         part.values = {key: array[rows] for key, array in self.values.items()}
@@ -214,11 +211,16 @@ class Table:
         part.holds = {name: array[rows] for name, array in self.holds.items()}
         return part
 
-    def merge(self, rows: Rows | list[int], part: Table) -> None:
-        """The rows ``rows`` (indices) from a table of these rows alone."""
+    def take(self, rows: Rows | list[int], part: Table | Sweep) -> None:
+        """The rows ``rows``, (n,) indices, from a table or a sweep of these n rows alone."""
         self.codes[rows] = part.codes
-        for mine, theirs in ((self.values, part.values), (self.errors, part.errors)):
-            for key, array in theirs.items():
+        values, errors = (
+            (by_key(part.kinds), by_key(part.errors))
+            if isinstance(part, Sweep)
+            else (part.values, part.errors)
+        )
+        for mine, arrays in ((self.values, values), (self.errors, errors)):
+            for key, array in arrays.items():
                 self._table(mine, key, (self.rows, *array.shape[1:]))[rows] = array
         for name, array in part.holds.items():
             self.holds.setdefault(name, np.full((self.rows, 2), np.nan))[rows] = array

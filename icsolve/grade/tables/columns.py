@@ -239,6 +239,23 @@ def read_table(path: str | os.PathLike[str], report: Report) -> tuple[TableColum
         return TableColumns(table.header, (), lambda text: None), iter([*table.rows()])
 
 
+def read_whole_table(path: str | os.PathLike[str]) -> tuple[TableColumns, list[list[str]]]:
+    """The columns of such a table and the cells of its rows, each of which is whole.
+
+    Raises ValueError, with a sentence, where one is not; OSError.
+    """
+    troubles: list[str] = []
+    columns, rows = read_table(path, lambda line, why: troubles.append(f"line {line}: {why}"))
+    found = []
+    for row in rows:
+        if row.trouble or len(row.cells) != len(columns.header):
+            troubles.append(f"line {row.line}: {row.trouble or 'this row is not whole'}")
+        found.append(row.cells)
+    if troubles:
+        raise ValueError(troubles[0])
+    return columns, found
+
+
 def without_apostrophe(cell: str) -> str:
     """A cell without the apostrophe that keeps a spreadsheet from taking it for a formula."""
     text = cell.strip()

@@ -19,7 +19,7 @@ from icsolve.grade.keys import NumberKey, numbers_of
 from icsolve.grade.platforms.questions import asked
 from icsolve.grade.results import csv_text, safe
 from icsolve.grade.solved import unknowns
-from icsolve.grade.tables.columns import TableColumns, read_table, without_apostrophe
+from icsolve.grade.tables.columns import TableColumns, read_whole_table, without_apostrophe
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import Draw, VariantRecord, Varied
 from icsolve.grade.written.numerals import figures
@@ -62,7 +62,7 @@ def _files(paths: Iterable[str]) -> Iterator[str]:
 
 
 def _read(path: str, store: CaseStore, roster: Roster | None) -> tuple[str, VariantRecord]:
-    columns, rows = _table(path)
+    columns, rows = read_whole_table(path)
     at = columns.field("student_id")
     if at is None:
         raise ValueError(f"it has no column student_id; its columns are {columns.listed()}")
@@ -106,7 +106,7 @@ def _keys(path: str, roster: Roster | None) -> Iterator[tuple[tuple[str, str], t
     """The keys of that time, where they stand beside the values."""
     if not os.path.isfile(path):
         return
-    columns, rows = _table(path)
+    columns, rows = read_whole_table(path)
     if not columns.has("student_id", "case", "value", "unit"):
         raise ValueError(f"{KEYS} beside it is no key of `icsolve variants`")
     student, case, value, unit = (columns.names.index(n) for n in ("student_id", "case", "value", "unit"))
@@ -116,19 +116,6 @@ def _keys(path: str, roster: Roster | None) -> Iterator[tuple[tuple[str, str], t
             yield (cells[case], student_named(cells[student], roster)), key
         except ValueError:
             raise ValueError(f"{KEYS} beside it has a value that is no number: {cells[value]!r}") from None
-
-
-def _table(path: str) -> tuple[TableColumns, list[list[str]]]:
-    troubles: list[str] = []
-    columns, rows = read_table(path, lambda line, why: troubles.append(f"line {line}: {why}"))
-    found = []
-    for row in rows:
-        if row.trouble or len(row.cells) != len(columns.header):
-            troubles.append(f"line {row.line}: {row.trouble or 'this row is not whole'}")
-        found.append(row.cells)
-    if troubles:
-        raise ValueError(troubles[0])
-    return columns, found
 
 
 # --- what has changed since -------------------------------------------------------------------------
