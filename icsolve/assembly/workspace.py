@@ -163,7 +163,7 @@ class Frame(NamedTuple):
     oy: float
     scale: float
 
-    def twist_shown(self, t: tuple[float, float, float], divisor: float = 1.0) -> tuple[float, float, float]:
+    def twist_shown(self, t: tuple[float, float, float], divisor: float) -> tuple[float, float, float]:
         """A twist of the frame about the case's origin [case length/s, case length/s, rad/s], divided; a zero
         is positive.
         """

@@ -61,9 +61,7 @@ def validate_command(cases: tuple[str, ...], settings: dict[str, str]) -> int:
 Shown = Callable[["Case", str, list[Row]], str]
 
 
-def check_cases(
-    cases: tuple[str, ...], shown: Shown, settings: Mapping[str, str], jobs: int | None = 1
-) -> int:
+def check_cases(cases: tuple[str, ...], shown: Shown, settings: Mapping[str, str], jobs: int | None) -> int:
     """Compare the published values of every case; returns the exit status."""
     tally: Counter[str] = Counter()
     if shown is _table_row:

@@ -108,7 +108,7 @@ def _shortest(known: Known) -> float:
     return min((span for span in spans if span > TOGETHER * known.size), default=math.inf)
 
 
-def figure_marks(scene: Scene, steps: Sequence[Step] = (), *, velocities: bool = False) -> list[Mark]:
+def figure_marks(scene: Scene, steps: Sequence[Step], *, velocities: bool) -> list[Mark]:
     """The whole figure: frame, links, centres, joints, loads, and all labels."""
     bodies = [body_of(scene, link) for link in scene.case.links if link != scene.case.ground]
     bodies.sort(key=lambda body: (len(body.blocks), -float(shapely.area(outline(body)))))  # rods first

@@ -340,7 +340,7 @@ def _people(found: Statistics) -> str:
 _ACCEPTED = re.compile(r"^Right: .* is accepted\.")
 
 
-def student_page(student: str, rows: Sequence[ResultRow], title: str = "") -> str:
+def student_page(student: str, rows: Sequence[ResultRow], title: str) -> str:
     """What one student may see: the own answers, marks and feedback, and no right answers."""
     cells = [
         [

@@ -128,7 +128,7 @@ class Code:
                 yield turn, (value(node.a), *outs, *rows[-SCRATCH:])
 
     def held(self, k: int, buffers: Array) -> Array:
-        """The whole buffer of a node among those of `bound`; () where it does not vary."""
+        """The whole buffer of a node, (room,), among those of `bound`; () where it does not vary."""
         found: Array = buffers[self.place[k]] if k in self.place else np.array(self.record.nodes[k].value)
         return found
 
@@ -184,7 +184,7 @@ class Code:
         return found
 
     def fill(self, given: Mapping[int, Array], rows: int) -> Array:
-        """As `run`, for values that are then asked for one by one: the buffers."""
+        """As `run`, for values that are then asked for one by one: the buffers, (buffers + SCRATCH, room)."""
         steps, buffers = self.bound(rows)
         for k in self.given:
             np.copyto(buffers[self.place[k], :rows], given[k])

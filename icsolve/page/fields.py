@@ -54,7 +54,7 @@ class FieldLine(NamedTuple):
     fields: tuple[Field, ...]
 
 
-def lines_of(case: Case, asked: Collection[str] = ()) -> list[tuple[str, list[FieldLine]]]:
+def lines_of(case: Case, asked: Collection[str]) -> list[tuple[str, list[FieldLine]]]:
     """The numbers of a case by section, in lines as one would say them, without those that are ``asked``."""
     held = {path: number for path, number in numbers_of(case).items() if path not in asked}
     sections = (

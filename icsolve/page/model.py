@@ -210,7 +210,7 @@ def model_of(
     return data
 
 
-def motion_data(known: Known, view: View, motion: PageMotion, fine: float = FINE["px"]) -> dict[str, Any]:
+def motion_data(known: Known, view: View, motion: PageMotion, fine: float) -> dict[str, Any]:
     """Degrees, poses of links and places of points (in steps of 1 / ``fine``) in the rows that assemble."""
     rows = slice(motion.first, motion.last + 1)
     degrees = motion.degrees

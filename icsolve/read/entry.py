@@ -86,7 +86,7 @@ class Entry:
         """Note a problem."""
         self.reading.refuse(mark, message)
 
-    def refuse_value(self, node: Node, key: str, wanted: str = "") -> None:
+    def refuse_value(self, node: Node, key: str, wanted: str) -> None:
         """Note that a key's value is not of its form: what it should be, by the table unless it is said."""
         self.refuse(node.mark, f"'{key}' of {self.what} should be {wanted or self.keys[key].says}")
 

@@ -125,7 +125,7 @@ def limits_in_slider_crank(crank: Crank, arithmetic: Arithmetic = FLOATS) -> tup
     return (low, 180.0 - low) if below else ()
 
 
-def stroke_of(crank: Crank, a: Arithmetic = FLOATS) -> tuple[Scalar, ...]:
+def stroke_of(crank: Crank, a: Arithmetic) -> tuple[Scalar, ...]:
     """Where the slider turns back, along its path from the foot of the crank's pivot.
 
     There crank and rod lie in line, folded and stretched out: sqrt((l -+ r)^2 - e^2). Empty if the crank

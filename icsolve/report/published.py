@@ -40,7 +40,7 @@ def found_value(answer: Answer, target: OfBodies) -> float:
             return _part(_reaction(answer, by, on, at), part)
 
 
-def found_in_space(answer: Answer, target: Target, sense: str | None = None) -> float:
+def found_in_space(answer: Answer, target: Target, sense: str | None) -> float:
     """The value of any target of a case in space, in case units; positive in a published ``sense``.
 
     Raises LookupError, with a sentence, where the answer has none.

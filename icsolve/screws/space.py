@@ -44,7 +44,7 @@ def unit(a: Vec, arithmetic: Arithmetic = FLOATS) -> Vec:
     return (a[0] / length, a[1] / length, a[2] / length)
 
 
-def square_to(axis: Vec, arithmetic: Arithmetic = FLOATS) -> tuple[Vec, Vec]:
+def square_to(axis: Vec, arithmetic: Arithmetic) -> tuple[Vec, Vec]:
     """Two unit vectors square to a unit vector and to each other, along coordinate axes where they can be."""
     least = min(AXES, key=lambda e: (abs(float(dot(e, axis))), -e[0], -e[1]))
     first = unit(subtract(least, times(dot(least, axis), axis)), arithmetic)

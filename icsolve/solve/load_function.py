@@ -112,7 +112,7 @@ class LoadFunction(NamedTuple):
         }
 
     def enclosed(self, cells: Interval) -> dict[int, Interval]:
-        """The inputs over whole cells of the free datum."""
+        """The inputs, by node, over whole cells (n,) of the free datum [case units, degrees]."""
         about = self.given(0.5 * (cells.low + cells.high))
         return {k: Interval(at, at) for k, at in about.items()} | {self.input: cells}
 
@@ -308,7 +308,7 @@ def with_other_ways(function: LoadFunction, span: tuple[float, float]) -> list[L
     return [one for one, _ in found]
 
 
-def written_function(case: Case, path: str, span: tuple[float, float] | None = None) -> LoadFunction:
+def written_function(case: Case, path: str, span: tuple[float, float] | None) -> LoadFunction:
     """The function of a case as it is written, each value read anew, in the mode in which it is."""
     figure = solve_figure(case, wanted_points(case)[1])
     order = order_of(case, figure.points)._replace(steps=figure.steps)

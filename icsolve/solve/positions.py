@@ -69,9 +69,7 @@ class Search(NamedTuple):
     nearest: float | None
 
 
-def find_positions(
-    case: Case, path: str, span: tuple[float, float] | None, start: float | None = None
-) -> Search:
+def find_positions(case: Case, path: str, span: tuple[float, float] | None, start: float | None) -> Search:
     """All positions of equilibrium of a case whose datum at ``path`` is free.
 
     Parameters

@@ -177,7 +177,7 @@ def _share(margin: Array, size: Array) -> Array:
 
 
 def may_vanish(radicand: Array) -> bool:
-    """Whether a radicand may vanish at or between places in order."""
+    """Whether a radicand, (places,), may vanish at or between places in order."""
     step = np.abs(radicand[1:] - radicand[:-1])
     return not bool((np.minimum(radicand[1:], radicand[:-1]) > STEEP * step).all())
 

@@ -97,9 +97,7 @@ class _Seen:
             yield lost_rows(links, len(rows), where(rows[0]))
 
 
-def sweep_touching(
-    case: Case, columns: Columns, wanted: SweepRequest, progress: Progress | None = None
-) -> Sweep:
+def sweep_touching(case: Case, columns: Columns, wanted: SweepRequest, progress: Progress | None) -> Sweep:
     """The sweep of a case with profiles; ``progress`` is told each row.
 
     Raises SceneError as `icsolve.sweep`, and where a follower cannot be followed.

@@ -71,7 +71,7 @@ def find(
 
     Returns
     -------
-    Spots
+    FoundPositions
         In order of the number; ``notes`` say so where nothing shows that none is missing.
 
     Raises

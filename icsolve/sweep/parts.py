@@ -61,7 +61,7 @@ class SweepPart(NamedTuple):
     """whether these are all rows in their order"""
 
     def some(self, which: Rows) -> SweepPart:
-        """Some of its rows, by their place among them."""
+        """Some of its rows, by their places among them, (some,)."""
         return self._replace(
             rows=self.rows[which],
             places=self.places[which] if self.followed else self.places,

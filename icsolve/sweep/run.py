@@ -41,7 +41,7 @@ class SweepRun:
 
     @property
     def codes(self) -> Codes:
-        """The statuses of the rows."""
+        """The statuses of the rows, (rows,), as places in `table.WORDS`."""
         return self.table.codes
 
     @property

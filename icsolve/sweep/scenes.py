@@ -113,8 +113,9 @@ def shared(
 
 
 def families(case: Case, columns: Columns, moving: Iterable[str]) -> Iterator[tuple[Case, Rows]]:
-    """For each set of reshaping numbers the case as if written so, and its rows: outward from the case as
-    written, each near to the closest that was placed before, so that branches are kept."""
+    """For each set of reshaping numbers the case as if written so, and the indices of its rows, (some,):
+    outward from the case as written, each near to the closest that was placed before, so that branches are
+    kept; one that does not assemble is given as it is."""
     reshaping = [path for path in columns.paths if path not in set(moving)]
     table = np.stack([columns.paths[path] for path in reshaping], axis=1)
     sets, which = np.unique(table, axis=0, return_inverse=True)

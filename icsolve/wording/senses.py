@@ -62,7 +62,7 @@ def spelt(sense: str, show: Show | None = None) -> str:
     return SPELT.get(sense, sense)
 
 
-def reach_of(holds: tuple[float, float], unit: str, show: Show, error: float | None = None) -> str:
+def reach_of(holds: tuple[float, float], unit: str, show: Show, error: float | None) -> str:
     """A range of values: ``from 3 to 4 N``, ``only at 3 N`` where its ends are one within the error."""
     least, most = holds
     if most - least <= 2.0 * (error or 0.0):

@@ -128,7 +128,7 @@ _REVOLUTIONS = {"revolutions and radians": 6.283185307179586}
 _RPM = 9.549296585513721
 
 
-def plain_wrongs(value: float, rate: bool = False) -> Iterator[Wrong]:
+def plain_wrongs(value: float, rate: bool) -> Iterator[Wrong]:
     """The wrong answers about a right ``value``; of an angular speed (``rate``) with those of revolutions."""
     yield Wrong("sign", -value)
     for power in (*range(-6, 0), *range(1, 7)):

@@ -122,7 +122,7 @@ _IDS = (
 _NAMES = (("lastname", "firstname"), ("last name", "first name"), ("nachname", "vorname"))
 
 
-def canvas_gradebook(students: Students, people: dict[str, Person], total: str = "") -> str:
+def canvas_gradebook(students: Students, people: dict[str, Person], total: str) -> str:
     """A gradebook of the five id columns and one for each question; names come from the roster."""
     found = list(students)
     points = _points([rows for _, rows in found], total)
@@ -137,7 +137,7 @@ def canvas_gradebook(students: Students, people: dict[str, Person], total: str =
     return csv_text([*_CANVAS, *points], lines)
 
 
-def gradebook_filled(template: str, students: Students, people: dict[str, Person], total: str = "") -> Filled:
+def gradebook_filled(template: str, students: Students, people: dict[str, Person], total: str) -> Filled:
     """The teacher's export with a column for each question filled, or the one column of the ``total``.
 
     A column ``press (1234)`` takes the marks of ``press``, scaled to its points; a question without one gets

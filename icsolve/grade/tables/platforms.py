@@ -91,7 +91,7 @@ def _long(columns: TableColumns, kind: str) -> TableLayout:
     return TableLayout(kind, read, cells_of=cells_of)
 
 
-def _submission(line: int, who: tuple[str, ...], texts: Sequence[str], trouble: str = "") -> Submission:
+def _submission(line: int, who: tuple[str, ...], texts: Sequence[str], trouble: str) -> Submission:
     """Of case, answer, unit, direction, attempt, variant and time."""
     case, *rest = texts
     return who, StoredAnswer._make(("", case, line, *rest, trouble))

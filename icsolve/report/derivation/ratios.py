@@ -198,7 +198,7 @@ def _cost(known: Known, ratio: Ratio) -> float:
     return 1.0 + 0.25 * made - 0.05 * math.log10(max(small, 1e-12))
 
 
-def ratio_between(known: Known, of: str, link: str, sign: float = 1.0) -> Ratio | None:
+def ratio_between(known: Known, of: str, link: str, sign: float) -> Ratio | None:
     """The motion of ``link`` from that of ``of``, where their three centres are apart.
 
     ``sign`` is that of the reference's rate in the motion that is meant.

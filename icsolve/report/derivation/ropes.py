@@ -77,7 +77,7 @@ def pulls_on(known: Known, link: str) -> Iterable[Pull]:
                 yield pull
 
 
-def tension_name(case: Case, rope: Rope, part: int = 0) -> tuple[str, str]:
+def tension_name(case: Case, rope: Rope, part: int) -> tuple[str, str]:
     """The symbol of a rope's tension, and what stands low: T, of its second ``part`` T2; with the rope's
     name where there are several, or a load is called so."""
     low = str(part) if part else ""

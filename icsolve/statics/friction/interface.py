@@ -196,7 +196,7 @@ def unknowns_by_power(
     balance: Balance,
     statics: Statics,
     friction: Sequence[float],
-    pulls: Sequence[float] = (),
+    pulls: Sequence[float],
 ) -> dict[str, float]:
     """The unknown loads that leave no power in any motion, friction counted: apart from the equilibrium of
     the links.

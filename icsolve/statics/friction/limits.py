@@ -268,7 +268,7 @@ class StaticRange(NamedTuple):
     parts: tuple[float, ...] = ()
 
 
-def static_range(statics: Statics, senses: Sequence[float], alone: bool = False) -> StaticRange:
+def static_range(statics: Statics, senses: Sequence[float], alone: bool) -> StaticRange:
     """The interval of the one unknown load.
 
     Parameters

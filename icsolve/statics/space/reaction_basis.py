@@ -143,7 +143,7 @@ def direction(axis: Axis, figure: SpatialFigure, what: str) -> Vec:
             return between(a, b, figure, what)
 
 
-def vector_of(parts: tuple[Number, ...], arithmetic: Arithmetic = FLOATS) -> Vec:
+def vector_of(parts: tuple[Number, ...], arithmetic: Arithmetic) -> Vec:
     """Three numbers as a vector."""
     x, y, z = (arithmetic.given(part) for part in parts)
     return (x, y, z)

@@ -54,7 +54,7 @@ from icsolve.tuples import replace
 from icsolve.wording.sentences import EXPLAINED
 
 
-def solve_space(case: Case, bound: bool = True) -> Answer:
+def solve_space(case: Case, bound: bool) -> Answer:
     """The answer of a case in space, in as many digits as its questions need; without ``bound`` in doubles.
 
     Raises SceneError where it has none, and where the highest precision leaves it open.
