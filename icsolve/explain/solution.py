@@ -7,12 +7,12 @@ import math
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer import Answer, Found
-from icsolve.case import Spring, Torque
+from icsolve.case import ForceVector, Like, Load, Spring, Torque
 from icsolve.errors import SceneError
 from icsolve.explain.centres import centre_sections, ratio_section, worked_speeds
-from icsolve.explain.document import Block, Document, Inline, Items, Section, ShownTable, words
+from icsolve.explain.document import Block, Document, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.equilibrium import equilibrium_section
-from icsolve.explain.formula import Name, Num, Quantity, Quotient
+from icsolve.explain.formula import Name, Num, Product, Quantity, Quotient, minus, product
 from icsolve.explain.given import (
     Figures,
     asked_section,
@@ -22,7 +22,6 @@ from icsolve.explain.given import (
     load_name,
     rate_name,
 )
-from icsolve.explain.inertia import inertia_section
 from icsolve.explain.power import friction_section, motions_section, power_section
 from icsolve.explain.ropes import ropes_section, screws_section
 from icsolve.report.derivation.known import Known, acting_loads
@@ -309,3 +308,61 @@ def _by_power(known: Known, figures: Figures) -> Iterable[Section]:
     speeds = ratio_section(known, figures, ratios)
     yield from () if speeds is None else (speeds,)
     yield section
+
+
+# --- inertia forces ---------------------------------------------------------------------------------
+
+
+DALEMBERT = (
+    "With the inertia forces of its motion among the loads a mechanism counts as in equilibrium "
+    "(d'Alembert). They act against the accelerations, which the second derivative of the figure gives:"
+)
+
+
+def inertia_section(known: Known, figures: Figures) -> Section | None:
+    """-m a at the centre of mass and -J alpha of every link that has a mass; None where there are none."""
+    loads = [load for load in known.case.loads if load.name.startswith("inertia ")]
+    blocks = [block for load in loads for block in _inertia(known, figures, load)]
+    return Section("Inertia forces", (words(DALEMBERT), *blocks)) if blocks else None
+
+
+def _inertia(known: Known, figures: Figures, load: Load) -> Iterable[Block]:
+    answer, units, given = known.answer, known.case.units, known.case.inertia.get(load.link)
+    if answer is None or given is None:
+        return
+    symbol = load_name(load.name)
+
+    def against(name: Name, own: Name, rate: Name, numbers: tuple[float, ...], whole: Quantity) -> Block:
+        """Minus inertia times acceleration; the last of the numbers brings it into case units."""
+        shown = numbers[:-1] if numbers[-1] == 1.0 else numbers
+        return formula(
+            name, minus(product(own, rate)), minus(Product(tuple(map(figures.number, shown)))), whole
+        )
+
+    if isinstance(load, ForceVector):
+        place = (answer.accelerations or {}).get((load.at, load.link))
+        if given.mass is None or place is None or isinstance(place, str):
+            return
+        mass, scale = Name("m", load.link), units.force_per_newton / units.length_per_metre
+        x, y = (figures.quantity(size, "").number for size in place)
+        yield words(
+            f"Link {load.link}, ", mass, " = ", figures.quantity(given.mass.value, "kg"),
+            f", moves {load.at} with ", Name("a", load.at), " = (", x, ", ", y, f") {units.length}/s^2:",
+        )  # fmt: skip
+        for axis, size, force in zip("xy", place, (load.x.value, load.y.value), strict=True):
+            if force:
+                own, rate = Name(symbol.base, symbol.low + axis), Name("a", f"{load.at}{axis}")
+                whole = figures.quantity(force, units.force)
+                yield against(own, mass, rate, (given.mass.value, size, scale), whole)
+    if isinstance(load, Torque) and load.value is not None:
+        moment, spin = given.moment, (answer.angular_accelerations or {}).get(load.link)
+        if moment is None or spin is None or isinstance(spin, str) or isinstance(load.value, Like):
+            return
+        rate, own = Name("alpha", load.link), Name("J", load.link)
+        yield words(
+            f"Link {load.link} has ", own, " = ", figures.quantity(moment.value, "kg*m^2"),
+            " and turns with ", rate, " = ", figures.quantity(spin, "rad/s^2"), ":",
+        )  # fmt: skip
+        scale = units.force_per_newton * units.length_per_metre * units.torque_per_force_length
+        whole = figures.quantity(load.value.value, units.torque)
+        yield against(symbol, own, rate, (moment.value, spin, scale), whole)
