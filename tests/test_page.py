@@ -29,6 +29,7 @@ from icsolve.numbers.arithmetic import FLOATS
 from icsolve.page import page_html
 from icsolve.page.figure import figure_of
 from icsolve.page.forces import forces_data
+from icsolve.page.live import live_of
 from icsolve.page.motion import motion_of
 from icsolve.report.derivation.known import known_of
 from icsolve.scene.refusals import rubs
@@ -293,6 +294,25 @@ def test_inertia_forces_are_those_of_each_position(name: str) -> None:
             if load.name.startswith("inertia "):
                 size = math.hypot(load.x.value, load.y.value) if hasattr(load, "x") else load.value.value
                 assert column(model["loads"][load.name]["values"])[row] == pytest.approx(size, abs=1e-9)
+
+
+def test_a_driver_that_all_but_stands_still_is_one_in_the_page_too() -> None:
+    """Its slot is 1e-13 degrees off the line of its slide: what doubles take for a dead centre is none."""
+    known = known_of(icsolve.load("""icsolve: 1
+points: {A: [0, 0], C: [unknown, 0]}
+lengths: {AB: 0.2}
+angles: {AB: 30}
+links: {3: {mass: 5 kg, centre: C}}
+joints:
+  - {pin: [1, 2], at: A}
+  - {slot: [2, 3], at: B, along: 1e-13, through: C}
+  - {slide: [3, 1], at: C, along: 0}
+loads: {T: {torque: unknown, link: 2}}
+motion: {link: 2, speed: 10}
+dynamic: yes
+"""))
+    assert known.refusal is None
+    assert live_of(known) is not None and page_html(known)
 
 
 @pytest.mark.parametrize("name", ["tackle_four_parts", "windlass", "counterweight_door"])

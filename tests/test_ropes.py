@@ -16,6 +16,8 @@ import icsolve
 from icsolve.answer import Answer
 from icsolve.case import Force, Number, Rope
 from icsolve.errors import CaseError, SceneError
+from icsolve.numbers.arithmetic import FLOATS
+from icsolve.screws.ropes import rope_parts
 from sizes import MORE
 
 CASES = Path(__file__).parent.parent / "cases"
@@ -220,6 +222,21 @@ def test_a_rope_round_a_post_pulls_with_the_exponential_of_its_wrap(angle: float
     assert sum(term.power for term in answer.terms) == pytest.approx(0.0, abs=1e-12)
     assert answer.friction is not None
     assert answer.friction.losses == exactly(abs(pull - 100))
+
+
+@pytest.mark.parametrize("power", [-700, -480, 480, 700])
+def test_the_parts_of_a_rope_grow_with_its_figure(power: int) -> None:
+    """By powers of two to the last bit, also where no double holds the square of a length."""
+    case = icsolve.load("icsolve: 1\n" + CAPSTAN)
+    (rope,), points, unit = case.ropes, icsolve.solve(case).points, math.ldexp(1.0, power)
+    (radius,) = (r for r in rope.radii if r is not None)
+    grown = rope._replace(radii=[r and r._replace(value=radius.value * unit) for r in rope.radii])
+    there = {name: (x * unit, y * unit) for name, (x, y) in points.items()}
+    for one, other in zip(
+        rope_parts(rope, points, 1.0, FLOATS), rope_parts(grown, there, 1.0, FLOATS), strict=True
+    ):
+        assert (other.along, other.length) == (one.along, one.length * unit)
+        assert other.at == tuple(part * unit for part in one.at)
 
 
 def test_where_a_post_has_no_mu_nothing_rubs() -> None:

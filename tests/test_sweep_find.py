@@ -15,6 +15,8 @@ from mpmath import mp, mpf
 
 import icsolve
 from icsolve.assembly import newton
+from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.record import Record
 from icsolve.sweep import find_by_scenes, scenes
 from icsolve.sweep.continuation import PathSegment
 from icsolve.sweep.exact import CONTEXT
@@ -351,6 +353,26 @@ def test_a_pole_is_no_zero_and_costs_few_values(
         found = list(search._closed(counted, Decimal(0), Decimal(1)))
     assert [round(float(s), 12) for s in found] == [float(s) for s in zeros]
     assert zeros or len(asked) < 100
+
+
+@pytest.mark.parametrize("bent", [False, True])
+@pytest.mark.parametrize("zeros", [0, 1])
+def test_what_vanishes_over_a_whole_cell_has_no_zeros_there(bent: bool, zeros: int) -> None:
+    """Its signs are those of rounding: the unknown does no work over a stretch of a range (a branch on which
+    links have folded up), which is no row of dead centres. What has a zero at an end of the cell has it."""
+    record, noise, asked = Record(), Random(7), []
+    s = record.input("s", 0.5)
+
+    def value(_: Scalar, at: Decimal) -> Decimal:
+        asked.append(at)
+        return at**3 if zeros else Decimal(noise.uniform(-1.0, 1.0)) * Decimal("1e-60")
+
+    search = RangeSearch.__new__(RangeSearch)
+    search.record, search._value = record, value  # type: ignore[method-assign]
+    with localcontext(CONTEXT):
+        found = list(search._of_cell(s, Decimal(0), Decimal(1), bent))
+    assert len(found) == zeros
+    assert zeros or len(asked) == 3
 
 
 @pytest.mark.parametrize("name", sample([name for name in FILES if name.startswith("cams/")], 2, "find"))

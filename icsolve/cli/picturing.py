@@ -371,6 +371,10 @@ def _shown(item: Item, exercises: bool) -> tuple[Exhibit | None, int]:
         complain(told)
         shown = told if code != BUG else told.removeprefix(f"{path}: ").partition("\n")[0]
         return unreadable(item.name, path, shown), code
+    if kind == "refused":
+        _, _, error = what
+        complain(f"{path}: {error.status}: {error.message}")
+        return unreadable(item.name, path, error.message), NO_ANSWER
     if what.reason:
         complain(f"{path}: {what.status}: {what.reason}")
     return what, NO_ANSWER if what.reason else DONE

@@ -31,16 +31,17 @@ from icsolve.case.figure import Unknown
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.draw.words import unit_word
 from icsolve.kinematics.accelerations import Moving, drives_of, moving, rate_rows
-from icsolve.kinematics.motion import TURN, Motions
+from icsolve.kinematics.motion import TURN
 from icsolve.kinematics.speeds import joint_order
 from icsolve.kinematics.twists import ORIGIN, Bases, Tree, loop_rows, rope_row, span
-from icsolve.numbers.arithmetic import FLOATS, Scalar
+from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
 from icsolve.numbers.source import JAVASCRIPT, JAVASCRIPT_FUNCTIONS, straight_line
 from icsolve.page.fields import handles_of, text_data, units_to_write
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ratios import independent_motions
-from icsolve.scene.program import Program, Want, prepare
+from icsolve.scene.parts import AnswerBuilder
+from icsolve.scene.program import Evaluation, Program, Want, prepare
 from icsolve.scene.refusals import HANGS, rubs
 from icsolve.screws.joints import OFF_RADIUS, at_radius, freedoms, guide_direction
 from icsolve.screws.plane import Triple, force_wrench
@@ -96,7 +97,7 @@ def live_of(known: Known) -> Live | None:
         return None
     scene = known.scene
     program = prepare(known.case, Want(bodies=True)) if scene is None else scene.program
-    live = _ProgramWriter(program, None if scene is None else scene.outcome.motions).live()
+    live = _ProgramWriter(program, scene).live()
     live.data["still"] = scene is None
     live.data["posed"] = [_posed(live.data, unknown) for unknown in known.posed]
     motions = () if known.structure else independent_motions(known)
@@ -117,12 +118,18 @@ def _posed(data: dict[str, Any], unknown: Unknown) -> dict[str, Any]:
     return {"name": unknown.path, "number": number, "range": ends, "turns": turns}
 
 
+def _moves(found: Evaluation) -> Moving:
+    """The motion that is given, with as many digits as settle it."""
+    place, motions, *_ = found.outcome
+    return moving(place, motions.twists, motions.slack)
+
+
 class _ProgramWriter:
     """A case on a record whose inputs are its numbers."""
 
-    def __init__(self, program: Program, motions: Motions | None) -> None:
+    def __init__(self, program: Program, scene: AnswerBuilder | None) -> None:
         case = program.case
-        self.motions = motions
+        self.scene = scene
         self.case, self.record = case, Record()
         self.figure, self.top = program.figure, program.top
         self.names: dict[int, str] = {}
@@ -254,10 +261,9 @@ class _ProgramWriter:
     def _dynamics(self) -> Iterable[tuple[str, list[Any]]]:
         """What the rates of the twists fulfil, as places and values of each row; then the wrenches of the
         inertia forces. Twists and rates of the bodies are inputs."""
-        assert self.motions is not None
+        assert self.scene is not None
         case, place = self.case, self._place()
-        still = place._replace(points=self.figure.points, arithmetic=FLOATS)
-        now = moving(still, self.motions.twists, self.motions.slack)
+        now = self.scene.scene.ask(_moves)
         twists = self._inputs("t", now.twists)
         rows, _ = rate_rows(place, twists, drives_of(place, {link: [t] for link, t in twists.items()}))
         yield "rates", [[[float(column), value] for column, value in row.items()] for row in rows]

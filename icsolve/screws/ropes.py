@@ -74,6 +74,10 @@ Circle = tuple[Point, Scalar]
 """Its centre; its radius, positive where a rope goes round it ccw (normalised)."""
 
 
+HAS_SQUARE = (1e-145, 1e145)
+"""Lengths whose squares are doubles of full precision."""
+
+
 def part_between(
     rope: Rope, k: int, one: Circle, two: Circle, scale: float, arithmetic: Arithmetic
 ) -> RopePart:
@@ -81,15 +85,20 @@ def part_between(
     ((ax, ay), offset), ((bx, by), next_offset) = one, two
     d = (bx - ax, by - ay)
     between = next_offset - offset
-    square = d[0] * d[0] + d[1] * d[1]
     apart = math.hypot(float(d[0]), float(d[1]))
-    if apart <= abs(float(between)) or not 0.0 < apart * apart < math.inf:
+    if apart <= abs(float(between)) or math.isinf(apart):
         raise SceneError(Status.INCONSISTENT, _no_part(rope, k, apart, scale))
+    unit = 1.0 if HAS_SQUARE[0] < apart < HAS_SQUARE[1] else math.ldexp(1.0, math.frexp(apart)[1])
+    if unit != 1.0:  # a power of two: this rounds nothing
+        d, between = (d[0] / unit, d[1] / unit), between / unit
+    square = d[0] * d[0] + d[1] * d[1]
     length = arithmetic.sqrt(square - between * between)
     u = (
         (length * d[0] + between * d[1]) / square,
         (length * d[1] - between * d[0]) / square,
     )
+    if unit != 1.0:
+        length = length * unit
     at = (ax + offset * u[1], ay - offset * u[0])
     x, y, moment = force_wrench(u, (ax, ay))
     links = (*rope.links, "")

@@ -124,10 +124,19 @@ class ExactRecord:
         Unreached
             Where a group of links has no solution.
         """
+        return self.values_at(wanted, self.solved(given))
+
+    def solved(self, given: Mapping[int, Decimal]) -> Values:
+        """The inputs with the unknowns of all groups. Raises Unreached where these have no solution."""
+        with localcontext(CONTEXT):
+            return self._solved(given)
+
+    def values_at(self, wanted: Iterable[Scalar], solved: Values) -> list[Decimal]:
+        """Expressions as of `values`, where the groups are solved."""
         wanted = list(wanted)
         with localcontext(CONTEXT):
             indices = [v.index if isinstance(v, Traced) else None for v in wanted]
-            found = self._found([k for k in indices if k is not None], self._solved(given))
+            found = self._found([k for k in indices if k is not None], solved)
             return [
                 Decimal(float(v)) if k is None else found[k] for v, k in zip(wanted, indices, strict=True)
             ]
@@ -143,8 +152,7 @@ class ExactRecord:
 
     def states(self, given: Mapping[int, Decimal], nodes: Sequence[int]) -> list[Decimal]:
         """Unknowns of the groups, solved. Raises Unreached where they have no solution."""
-        with localcontext(CONTEXT):
-            solved = self._solved(given)
+        solved = self.solved(given)
         return [solved[k] for k in nodes]
 
     # --- straight on ------------------------------------------------------------------------------

@@ -29,7 +29,7 @@ from icsolve.numbers.tape import UNIT
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
-from icsolve.sweep.exact import APART, CONTEXT, STEP, Unreached, as_written
+from icsolve.sweep.exact import APART, CONTEXT, STEP, Unreached, Values, as_written
 from icsolve.sweep.find_by_scenes import FoundPosition, FoundPositions, Mask, Query, Scenes
 from icsolve.sweep.parts import SweepPart, SweepParts
 from icsolve.sweep.program import RowRequest
@@ -116,6 +116,8 @@ class RangeSearch:
         self.ends = (float(values.min()), float(values.max()))
         self.paths = {path: as_written(a[part.rows[0]]) for path, a in parts.columns.paths.items()}
         self.notes: dict[str, None] = {}
+        self.places: dict[Decimal, Values | None] = {}
+        """the inputs at every place that was looked at, groups solved; None where these have no solution"""
         self.touches = sorted({s for s in self.along.touching(name) if self._inside(s)})
 
     def found(self) -> list[FoundPosition]:
@@ -221,10 +223,13 @@ class RangeSearch:
 
     def _value(self, value: Scalar, s: Decimal) -> Decimal:
         """A value at a position, in decimals; not a number where the links do not assemble."""
-        try:
-            return self.exact.values([value], self.along.at(self.name, s))[0]
-        except Unreached:
-            return Decimal("NaN")
+        if s not in self.places:
+            try:
+                self.places[s] = self.exact.solved(self.along.at(self.name, s))
+            except Unreached:
+                self.places[s] = None
+        solved = self.places[s]
+        return Decimal("NaN") if solved is None else self.exact.values_at([value], solved)[0]
 
     def _is_nothing(self, value: Scalar, s: Decimal) -> bool:
         """Whether a value is zero there, beside its terms where the record was made."""
@@ -277,6 +282,8 @@ class RangeSearch:
         def slope(s: Decimal) -> Decimal:
             return function(s + STEP) - function(s - STEP)
 
+        if all(self._is_nothing(value, s) for s in (low, (low + high) / 2, high)):
+            return  # three zeros are more than it has: it vanishes all over the cell, and has no sign there
         for turn in self._closed(slope, low, high) if bent else ():
             size = max(abs(function(low)), abs(function(high)))
             if abs(function(turn)) <= NOTHING * size:
