@@ -617,3 +617,23 @@ motion: {{point: B, link: 2, speed: 1, angle: {angle}}}
         )
     assert refused.value.status == "inconsistent"
     assert f"only move at 126.9 or 306.9 deg in this position, not at {angle} deg" in refused.value.message
+
+
+@pytest.mark.parametrize("dynamic", [False, True])
+def test_a_refusal_is_the_same_with_inertia_forces_and_without(dynamic: bool) -> None:
+    """The cause in the words of the file: the arm that a torsion spring follows has no length."""
+    case = icsolve.load("""icsolve: 1
+units: {length: m, force: N}
+points: {A: [0, 2]}
+lengths: {AG: 0}
+angles: {AG: 0}
+links: {2: {mass: 3 kg, centre: G}}
+joints: [{pin: [1, 2], at: A}]
+loads: {S: {spring: unknown, corner: AG, free: 2, link: 2}}
+motion: {link: 2, speed: 1}
+""")
+    with pytest.raises(icsolve.SceneError) as refusal:
+        icsolve.solve(case, dynamic=dynamic)
+    assert refusal.value.status == "inconsistent"
+    assert "the corner of load S: A and G lie at one place" in refusal.value.message
+    assert refusal.value.message.count("Noticed: the length AG is 0") == 1

@@ -298,7 +298,8 @@ def test_inertia_forces_are_those_of_each_position(name: str) -> None:
 
 def test_a_driver_that_all_but_stands_still_is_one_in_the_page_too() -> None:
     """Its slot is 1e-13 degrees off the line of its slide: what doubles take for a dead centre is none."""
-    known = known_of(icsolve.load("""icsolve: 1
+    known = known_of(
+        icsolve.load("""icsolve: 1
 points: {A: [0, 0], C: [unknown, 0]}
 lengths: {AB: 0.2}
 angles: {AB: 30}
@@ -310,7 +311,8 @@ joints:
 loads: {T: {torque: unknown, link: 2}}
 motion: {link: 2, speed: 10}
 dynamic: yes
-"""))
+""")
+    )
     assert known.refusal is None
     assert live_of(known) is not None and page_html(known)
 

@@ -44,24 +44,25 @@ def solve_scene(
         from icsolve.statics.space.solve import solve_space
 
         return solve_space(case, bound)
-    if case.profiles is not None and case.profiles.touches:
-        from icsolve.cams.solving import solve_touching
-
-        return solve_touching(case, solve_scene, **asked, reactions=reactions, dynamic=dynamic)
-    if without_inertia(case, dynamic):
-        from icsolve.scene.dynamics import solve_dynamic
-
-        return solve_dynamic(case, solve_scene, **{**asked, "rates": True}, reactions=reactions)
     try:
+        if case.profiles is not None and case.profiles.touches:
+            from icsolve.cams.solving import solve_touching
+
+            return solve_touching(case, solve_scene, **asked, reactions=reactions, dynamic=dynamic)
+        if without_inertia(case, dynamic):
+            from icsolve.scene.dynamics import solve_dynamic
+
+            return solve_dynamic(case, solve_scene, **{**asked, "rates": True}, reactions=reactions)
         want = Want(all_centres, rates, examine, reactions, alone)
         return _solved(case, wanted(case, want), bound, reactions)
     except SceneError as refusal:
-        if not case.noticed or refusal.status not in MISTAKEN:
+        if not case.noticed or refusal.status not in MISTAKEN or NOTICED in refusal.message:
             raise
-        said = f"{refusal.message} Noticed: {' '.join(case.noticed)}"
+        said = f"{refusal.message}{NOTICED}{' '.join(case.noticed)}"
         raise SceneError(refusal.status, said, refusal.more) from None
 
 
+NOTICED = " Noticed: "
 MISTAKEN = (
     *(Status.STRUCTURE, Status.MOBILITY, Status.NO_VALUE, Status.ANY_VALUE, Status.DEAD_CENTRE),
     *(Status.INCONSISTENT, Status.CANNOT_ASSEMBLE, Status.UNDERDETERMINED),

@@ -1,15 +1,15 @@
 """Inertia forces of the given motion among the loads: d'Alembert's way.
 
-The accelerations come from the second derivative of the closure, in fifty digits; the forces -m a at the
-centres of mass and the couples -I alpha are then loads of a case like any other, so power, free bodies,
-friction and pictures treat them as they treat all loads.
+The accelerations come from the second derivative of the closure, in as many digits as settle them; the
+forces -m a at the centres of mass and the couples -I alpha are then loads of a case like any other, so power,
+free bodies, friction and pictures treat them as they treat all loads.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING
+from functools import partial
 
 from icsolve.answer import Answer, Deferred, Later
 from icsolve.assembly.workspace import PlacedCase
@@ -17,23 +17,12 @@ from icsolve.case import Case, ForceVector, Load, Torque
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.accelerations import Moving, moving
 from icsolve.kinematics.speeds import OPEN, moving_points
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.arithmetic import Scalar, Showing
 from icsolve.numbers.units import Number
-from icsolve.scene.program import Program, Want, evaluate, prepare
+from icsolve.scene.program import EvaluatedScene, Evaluation, Want, prepare
 from icsolve.statics.inertia import COUPLE, FORCE, inertia_forces
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed
-
-if TYPE_CHECKING:
-    from icsolve.numbers.balls import Balls
-
-
-DIGITS = (60, 120)
-"""More where the first leave something open; what a load keeps of them is exact enough for any answer."""
-TOO_CLOSE = (
-    "the accelerations are open: this position is too near to a singular one for all the digits that are "
-    "worked with. Take another position."
-)
 
 TOO_FAST = (
     "a force of inertia in this motion is beyond any number: give the motion a smaller speed, or the figure "
@@ -70,23 +59,16 @@ def with_inertia(case: Case) -> tuple[Case, Accelerations, tuple[str, ...]]:
 
     Raises SceneError where the motion is not given with its speed, or leaves a link with a mass open.
     """
-    from icsolve.numbers.balls import Balls, MoreDigits
-
     case = replace(case, dynamic=True)
-    program = prepare(case, Want(bodies=True))
-    for digits in DIGITS:
-        try:
-            return _found(case, program, Balls(digits, highest=digits == DIGITS[-1]))
-        except MoreDigits:
-            continue
-        except OverflowError:
-            raise SceneError(Status.UNSUPPORTED, TOO_FAST) from None
-    raise SceneError(Status.NEAR_SINGULAR, TOO_CLOSE)
+    try:
+        return EvaluatedScene(prepare(case, Want(bodies=True)), True).ask(partial(_found, case))
+    except OverflowError:
+        raise SceneError(Status.UNSUPPORTED, TOO_FAST) from None
 
 
-def _found(case: Case, program: Program, arithmetic: Balls) -> tuple[Case, Accelerations, tuple[str, ...]]:
-    """The same with so many digits; raises MoreDigits where they leave something open."""
-    program, outcome = evaluate(program, arithmetic)
+def _found(case: Case, found: Evaluation) -> tuple[Case, Accelerations, tuple[str, ...]]:
+    """The same from an evaluated scene; raises MoreDigits where its digits leave something open."""
+    _, outcome, arithmetic = found
     place = outcome.place
     moves = moving(place, outcome.motions.twists, outcome.motions.slack)
     _refuse_open(case, moves)
@@ -137,7 +119,7 @@ def _refuse_open(case: Case, moves: Moving) -> None:
         )
 
 
-def _shown(place: PlacedCase, moves: Moving, arithmetic: Balls) -> Accelerations:
+def _shown(place: PlacedCase, moves: Moving, arithmetic: Showing) -> Accelerations:
     """Accelerations of every link and of every point on the links that carry it."""
     (case, (_, _, scale), points, _), size = place, moves.size
     links: dict[str, float | str] = {}
@@ -158,12 +140,12 @@ def _shown(place: PlacedCase, moves: Moving, arithmetic: Balls) -> Accelerations
     return Accelerations(links, places)
 
 
-def _rounded(value: Scalar, arithmetic: Balls, size: float) -> float:
+def _rounded(value: Scalar, arithmetic: Showing, size: float) -> float:
     """The nearest double; ``size`` is that of what it is summed from."""
     return arithmetic.rounded(value, size)[0]
 
 
-def _notes(case: Case, moves: Moving, arithmetic: Balls) -> tuple[str, ...]:
+def _notes(case: Case, moves: Moving, arithmetic: Showing) -> tuple[str, ...]:
     """What a reader should know of the masses."""
     if not case.inertia:
         return ("no link has a mass, so there are no inertia forces: give masses under `links`.",)

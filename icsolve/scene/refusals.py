@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from icsolve.case import Case, Weight
+from icsolve.case import Case, TorsionSpring, Weight
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import Motions
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, all_vanish
@@ -40,8 +40,11 @@ Directions = tuple[tuple[str, tuple[str, str]], ...]
 
 
 def directions(case: Case) -> Directions:
-    """Those of loads, guides and wheels."""
+    """Those of loads, the arms of torsion springs, guides and wheels."""
     lines = [(f"load {load.name}", power.line_of(load)) for load in case.loads if not power.may_vanish(load)]
+    for load in case.loads:
+        if isinstance(load, TorsionSpring):
+            lines += [(f"the corner of load {load.name}", (load.at, p)) for p in load.corner if p != load.at]
     return (*((what, ends) for what, ends in lines if ends is not None), *directions_of_joints(case))
 
 
