@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from urllib.parse import unquote
 from xml.etree import ElementTree
@@ -13,8 +14,11 @@ from xml.etree import ElementTree
 import pytest
 
 import icsolve
+from icsolve.case import Case
+from icsolve.draw.tikz import standalone
 from icsolve.draw.words import answer_sentences
 from icsolve.explain.sheet import exercise, sheet_tex
+from icsolve.grade.platforms.questions import figure
 from icsolve.page.gallery import ENDINGS, KINDS, exhibit, index_html
 from icsolve.report.derivation.known import known_of
 from pictures import parsed
@@ -246,6 +250,31 @@ def test_exercises_give_no_answer_away(tmp_path: Path) -> None:
         assert all(text.endswith("= ?") for text in asked)
         for sentence in answer_sentences(known_of(icsolve.load(path))):
             assert asked and sentence not in (out / "index.html").read_text(encoding="utf-8")
+
+
+ASK = [
+    lambda case: exhibit(case, "a", "a.yaml", exercise=True).files[".svg"],
+    lambda case: standalone(list(exercise(known_of(case)).figure), "a"),
+    figure,
+]
+
+
+@pytest.mark.parametrize("ask", ASK, ids=["gallery", "sheet", "variants and quizzes"])
+def test_where_a_position_is_asked_no_figure_has_it(ask: Callable[[Case], str]) -> None:
+    """Who measures an angle in the figure of an exercise does not find the answer there: it is the same
+    figure for doors that rest elsewhere."""
+    doors = [DOOR.format(weight=weight) for weight in (300, 320)]
+    first, other = (re.sub("3[02]0", "", ask(icsolve.load(door))) for door in doors)
+    assert first == other
+
+
+DOOR = """icsolve: 1
+points: {{A: [0, 0], G: {{centroid: [A, B]}}, D: [0, 2]}}
+lengths: {{AB: 1.2}}
+angles: {{AB: {{unknown: [-80, 80]}}}}
+joints: [{{pin: [1, 2], at: A}}]
+loads: {{W: {{weight: {weight}, link: 2, at: G}}, S: {{spring: 250, free: 0.9, link: 2, at: B, to: D}}}}
+"""
 
 
 # --- the README's pictures ---------------------------------------------------------------------------

@@ -14,6 +14,7 @@ from html import unescape
 from pathlib import Path
 from random import Random
 from typing import Any
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
@@ -497,3 +498,25 @@ def test_a_case_without_an_answer_has_none_in_every_command(
         needs = name not in ("ways", "sweep", "export") or (status == Status.MOBILITY and name == "sweep")
         assert code == 1 if needs else code in (0, 1), (verb, told)
         assert code == 0 or status in told.err + told.out, verb
+
+
+REBUILT = UNUSED.replace("units:", "reconstructed: the lengths are of another print\nunits:", 1)
+
+
+@pytest.mark.parametrize(
+    "kind", ["moodle-xml", "gift", "qti", "prairielearn", "gallery", "exercises", "sheet"]
+)
+def test_what_is_reconstructed_is_said_wherever_a_case_is_handed_on(kind: str, tmp_path: Path) -> None:
+    """As text beside the figure (`solve`, `draw`, `explain` and `page` say it themselves)."""
+    case, out = tmp_path / "case.yaml", tmp_path / "out"
+    case.write_text(REBUILT, encoding="utf-8")
+    verb = {"gallery": ("gallery",), "exercises": ("gallery", "--exercises"), "sheet": ("sheet",)}
+    ending = {"sheet": ".tex", "moodle-xml": ".xml", "gift": ".gift", "qti": ".zip"}.get(kind, "")
+    out = out.with_suffix(ending)
+    assert exit_status(*verb.get(kind, ("export", kind)), str(case), "-o", str(out)) == 0
+    files = [out] if out.is_file() else [path for path in out.rglob("*") if path.is_file()]
+    texts = [path.read_bytes() for path in files if path.suffix != ".svg"]
+    if kind == "qti":
+        with ZipFile(out) as archive:
+            texts = [archive.read(name) for name in archive.namelist() if name.endswith(".xml")]
+    assert any(b"the lengths are of another print" in text for text in texts)

@@ -182,6 +182,8 @@ class Drawing(NamedTuple):
 
 
 PLAIN = Drawing()
+ASKED = Drawing(centres="none", captions=False)
+"""An exercise shows neither answer nor centres; to draw with `Known.as_asked`."""
 
 
 def draw(case: Case, drawing: Drawing = PLAIN, known: Known | None = None, form: str = "svg") -> str:

@@ -14,7 +14,7 @@ from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ratios import Step
 from icsolve.report.text import positions_text
 from icsolve.wording.senses import holding, spelt
-from icsolve.wording.sentences import plural
+from icsolve.wording.sentences import plural, provenance
 
 DIGITS = 4
 
@@ -143,8 +143,8 @@ def _below(known: Known, steps: Sequence[Step], step: int | None) -> Iterable[tu
         yield "t-unknown", sentence
     if known.refusal is not None:
         yield "t-reason", f"No answer ({known.refusal.status}): {known.refusal.message}"
-    if known.case.reconstructed:
-        yield "t-note", f"Reconstructed: {known.case.reconstructed}"
+    for told in provenance(known.case):
+        yield "t-note", told
 
 
 def answer_sentences(known: Known) -> list[str]:

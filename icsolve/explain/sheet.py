@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from icsolve.draw import tikz
-from icsolve.draw.figure import Drawing, drawn
+from icsolve.draw.figure import ASKED, drawn
 from icsolve.draw.marks import Mark, kinds_of
 from icsolve.draw.words import answer_sentences, position_sentences, reaction_sentences
-from icsolve.explain.document import Block, Inline
+from icsolve.explain.document import Block, Inline, words
 from icsolve.explain.given import asked_section, figures_of, given_section, load_name
 from icsolve.explain.typeset import AsTex, picture_tex
 from icsolve.report.derivation.known import Known
 from icsolve.tuples import NamedTuple
+from icsolve.wording.sentences import provenance
 
-ASKED = Drawing(centres="none", captions=False)
 DIGITS = 6
 
 
@@ -50,7 +50,9 @@ def exercise(known: Known) -> Exercise:
     if known.refusal is not None:
         key = (f"No answer ({known.refusal.status}): {known.refusal.message}",)
     blocks = tuple(block for section in sections for block in section.blocks)
-    return Exercise(known.title, tuple(drawn(asked, ASKED)), blocks, key or ("See the worked solution.",))
+    lead = tuple(words(told) for told in provenance(known.case))
+    key = key or ("See the worked solution.",)
+    return Exercise(known.title, tuple(drawn(asked, ASKED)), (*lead, *blocks), key)
 
 
 def sheet_tex(title: str, sheets: Sequence[tuple[str, Sequence[Exercise]]]) -> str:

@@ -29,6 +29,7 @@ from icsolve.report.derivation.ratios import Step, all_steps, answer_ratios, nee
 from icsolve.report.text import positions_text
 from icsolve.statics.power import is_unknown
 from icsolve.wording.senses import holding, plain_vector, spelt
+from icsolve.wording.sentences import provenance
 
 SEARCHED = (
     "The loads balance where the power of all of them vanishes for the motion that the mechanism has. The "
@@ -226,8 +227,7 @@ def solution(known: Known, digits: int = 6, *, bodies: bool = False) -> Document
     figures = figures_of(known, digits)
     case = known.case
     lead = [f"Source: {case.source}"] if case.source else []
-    lead += [f"Reconstructed: {case.reconstructed}"] if case.reconstructed else []
-    return Document(known.title, tuple(lead), tuple(_sections(known, figures, bodies)))
+    return Document(known.title, (*lead, *provenance(case)), tuple(_sections(known, figures, bodies)))
 
 
 def _sections(known: Known, figures: Figures, bodies: bool) -> Iterable[Section]:

@@ -10,7 +10,7 @@ from urllib.parse import quote
 
 from icsolve.case import Case, Spring
 from icsolve.case.joints import Guided, Mesh, Rolling
-from icsolve.draw import Drawing, draw
+from icsolve.draw.figure import ASKED, Drawing, draw
 from icsolve.draw.svg import escaped
 from icsolve.draw.words import answer_sentences, description
 from icsolve.explain.given import position_asked
@@ -18,15 +18,13 @@ from icsolve.page import page_html
 from icsolve.report.derivation.known import Known, known_of
 from icsolve.statics.power import is_unknown
 from icsolve.tuples import NamedTuple
-from icsolve.wording.sentences import listed
+from icsolve.wording.sentences import listed, provenance
 
 FIGURE, PAGE = ".svg", ".html"
 ENDINGS = (FIGURE, PAGE)
 """What the files of one case end in."""
 BARE = Drawing(captions=False)
 """Title and answer stand on the card around a figure."""
-ASKED = Drawing(centres="none", captions=False)
-"""An exercise shows neither answer nor centres."""
 KINDS = (
     "Four-bar linkages",
     "Linkages of more bars",
@@ -64,6 +62,8 @@ class Exhibit(NamedTuple):
     files: Mapping[str, str] = MappingProxyType({})
     """content by ending"""
     kind: str = KINDS[-1]
+    provenance: tuple[str, ...] = ()
+    """what of the figure is reconstructed, as a sentence"""
     moves: bool = False
     paged: bool = True
     """whether there is a page with the answer"""
@@ -91,13 +91,15 @@ def exhibit(case: Case, name: str, source: str, *, exercise: bool = False) -> Ex
             description(bare),
             files,
             kind,
+            provenance(case),
             paged=False,
         )
     page = page_html(known)
     files = {FIGURE: draw(case, BARE, known), PAGE: page}
     moves = 'id="turn"' in page
     told = _answers(known)
-    return Exhibit(name, source, known.title, status, told, reason, description(known), files, kind, moves)
+    alt, lead = description(known), provenance(case)
+    return Exhibit(name, source, known.title, status, told, reason, alt, files, kind, lead, moves)
 
 
 def kind_of(known: Known) -> str:
@@ -241,10 +243,11 @@ def _card(one: Exhibit) -> str:
     links = f'<a href="{page}">Page and solution</a> · ' if one.paged else ""
     answers = "".join(f'<p class="answer">{escaped(sentence)}</p>\n' for sentence in one.answers)
     reason = f'<p class="bad">No answer ({one.status}): {escaped(one.reason)}</p>\n' if one.reason else ""
+    lead = "".join(f'<p class="soft">{escaped(told)}</p>\n' for told in one.provenance)
     return (
         f'<article class="card" id="{_anchor(one)}"><h3>{escaped(one.title)}</h3>\n'
         f'<a href="{page}"><img src="{figure}" alt="{escaped(one.alt)}" loading="lazy"/></a>\n'
-        f"{answers}{reason}"
+        f"{answers}{reason}{lead}"
         f'<p class="links">{links}<a href="{figure}">figure</a></p>\n'
         f'<p class="soft">{escaped(one.source)}</p></article>\n'
     )

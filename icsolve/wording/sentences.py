@@ -26,6 +26,14 @@ def link_words(link: str) -> str:
     return f"the end of the rope {link[1:]}" if link.startswith("@") else f"link {link}"
 
 
+RECONSTRUCTED = "Reconstructed"
+
+
+def provenance(case: Case) -> tuple[str, ...]:
+    """What of a figure is not its source's own, as a sentence; nothing where all is."""
+    return (f"{RECONSTRUCTED}: {case.reconstructed}",) if case.reconstructed else ()
+
+
 def structure(top: Topology) -> str:
     """No joint lets anything move: moving links, the freedoms that the joints take, and the slides that keep
     a link of several joints from turning, where a roller may be meant."""

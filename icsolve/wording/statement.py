@@ -33,7 +33,7 @@ from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Knife, Poly
 from icsolve.tuples import NamedTuple
 from icsolve.wording.joints import joint_data, joint_words
 from icsolve.wording.senses import SPELT, unit_of
-from icsolve.wording.sentences import link_words, listed
+from icsolve.wording.sentences import RECONSTRUCTED, link_words, listed
 
 Row = tuple[str, str]
 """What something is called, and what is given of it."""
@@ -66,6 +66,8 @@ class Statement(NamedTuple):
         rows += [(self.moving(motion), self.motion(motion)) for motion in case.motion]
         if any(isinstance(load, Weight) and load.mass for load in case.loads):
             rows.append(("gravity", f"{self.show(case.gravity)} m/s^2"))
+        if case.reconstructed:
+            rows.append((RECONSTRUCTED, case.reconstructed))
         return rows
 
     # --- the figure -------------------------------------------------------------------------------

@@ -29,11 +29,11 @@ from icsolve.tuples import NamedTuple
 
 
 def figure(case: Case) -> str:
-    """The case drawn without its answer, as SVG."""
-    from icsolve.draw import Drawing, draw
+    """The case drawn as an exercise, as SVG."""
+    from icsolve.draw.figure import ASKED, draw
     from icsolve.report.derivation.known import known_of
 
-    return draw(case, Drawing(centres="none"), known_of(case, centres=False)._replace(answer=None))
+    return draw(case, ASKED._replace(captions=True), known_of(case, centres=False).as_asked)
 
 
 def asked(key: AnyKey, target: Target) -> str:
