@@ -157,7 +157,7 @@ def test_a_step_after_a_group_is_judged_by_the_decimals(gap: str) -> None:
     rod = reach() - many.mpf("1.3")
     longer, shorter = (PLATFORM.format(rod=many.nstr(rod + s * many.mpf(gap), 50)) for s in (1, -1))
     figure = solve_figure(icsolve.load(longer))
-    assert [type(step).__name__ for step in figure.steps] == ["Given", "Group", "Meet"]
+    assert [type(step).__name__ for step in figure.steps] == ["Given", "PointGroup", "Meet"]
     with pytest.raises(SceneError, match="too far") as refused:
         solve_figure(icsolve.load(shorter))
     assert refused.value.status == Status.CANNOT_ASSEMBLE

@@ -10,7 +10,7 @@ import yaml
 
 from figure_drafts import Draft, Place, framework
 from icsolve.assembly import case_point, modes, newton, solve_figure
-from icsolve.assembly.steps import Group
+from icsolve.assembly.steps import PointGroup
 from icsolve.assembly.workspace import Workspace
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
@@ -113,7 +113,7 @@ def test_rings_of_forty_beside_others(seed: int, monkeypatch: pytest.MonkeyPatch
     """
     twin, shares = newton._twin, []
 
-    def kept(group: Group, workspace: Workspace, end: newton.Start) -> newton.Start:
+    def kept(group: PointGroup, workspace: Workspace, end: newton.Start) -> newton.Start:
         start = twin(group, workspace, end)
         there = newton._descend(group, workspace, start, 1.0, 60).end
         shares.append(apart(start, there) / apart(end, there))
@@ -136,7 +136,7 @@ def test_data_that_no_place_meets_are_violated_least_where_the_descent_from_near
     """A plate on three legs that are too short: there the gradient of the squares' sum vanishes."""
     descent, ends = newton._least_residual, []
 
-    def kept(group: Group, workspace: Workspace, start: newton.Start, reach: float) -> newton.Start:
+    def kept(group: PointGroup, workspace: Workspace, start: newton.Start, reach: float) -> newton.Start:
         end = descent(group, workspace, start, reach)
         for at in (start, end):
             workspace.points.update(at)

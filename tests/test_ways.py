@@ -16,7 +16,7 @@ from icsolve import solve
 from icsolve.assembly import case_point, exclusion, solve_figure
 from icsolve.assembly.conditions import residual
 from icsolve.assembly.modes import Ways, ways_of
-from icsolve.assembly.steps import Group
+from icsolve.assembly.steps import PointGroup
 from icsolve.assembly.workspace import Workspace, data_in
 from icsolve.case import Case
 from icsolve.cli.commands import icsolve
@@ -188,7 +188,7 @@ def test_a_platform_on_three_legs_has_as_many_ways_as_its_plates_turned_over(
     rng = Random(3)
     search, searched = exclusion.every_solution, []
 
-    def kept(group: Group, workspace: Workspace) -> exclusion.FigureSolutions:
+    def kept(group: PointGroup, workspace: Workspace) -> exclusion.FigureSolutions:
         found = search(group, workspace)
         for places in found.places:
             workspace.points.update(places)

@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 
 from icsolve.assembly.loci import Axis, PlacedLine, intersection, sine_between
-from icsolve.assembly.steps import Group
+from icsolve.assembly.steps import PointGroup
 from icsolve.assembly.workspace import GUIDE, LENGTH, RAY, Workspace, X, Y, data_in
 from icsolve.numbers.quadratics import SLACK, Array, Mask, Quadratics, every_zero
 from icsolve.screws.plane import Point
@@ -53,7 +53,7 @@ class _Link(NamedTuple):
     square: float
 
 
-def every_solution(group: Group, workspace: Workspace) -> FigureSolutions:
+def every_solution(group: PointGroup, workspace: Workspace) -> FigureSolutions:
     """All solutions of a group, each once, by exclusion of boxes in which an equation has no zero.
 
     Parameters
@@ -72,7 +72,7 @@ def every_solution(group: Group, workspace: Workspace) -> FigureSolutions:
     return FigureSolutions(places, bounded and zeros.complete, zeros.boxes, zeros.movable)
 
 
-def quadratics_of(group: Group, workspace: Workspace) -> Quadratics:
+def quadratics_of(group: PointGroup, workspace: Workspace) -> Quadratics:
     """The equations' coefficients, from their values and derivatives at the corners of the unit box.
 
     Not of a rope, whose length is no polynomial; the points of the group are moved about.
@@ -94,7 +94,7 @@ def quadratics_of(group: Group, workspace: Workspace) -> Quadratics:
     return Quadratics(np.array(constant), gradient, hessian)
 
 
-def _links(group: Group, workspace: Workspace) -> list[_Link]:
+def _links(group: PointGroup, workspace: Workspace) -> list[_Link]:
     column = {t: 2 * k for k, t in enumerate(group.targets)}
     out = []
     for datum in data_in(group):
@@ -106,7 +106,7 @@ def _links(group: Group, workspace: Workspace) -> list[_Link]:
     return out
 
 
-def _bounds(group: Group, workspace: Workspace) -> tuple[Array, Array, bool]:
+def _bounds(group: PointGroup, workspace: Workspace) -> tuple[Array, Array, bool]:
     """A box that holds every solution, by the lengths that lead from points in place; whether they do."""
     reach = {d.points: float(workspace.length(d)) for d in data_in(group) if d.kind == LENGTH}
     size = max(reach.values(), default=1.0)
@@ -125,7 +125,7 @@ def _bounds(group: Group, workspace: Workspace) -> tuple[Array, Array, bool]:
 
 
 def _anchors(
-    group: Group, workspace: Workspace, reach: Mapping[tuple[str, ...], float]
+    group: PointGroup, workspace: Workspace, reach: Mapping[tuple[str, ...], float]
 ) -> Iterator[tuple[str, Point, float]]:
     """Points of which it is known where they are, to within a radius.
 
@@ -144,7 +144,7 @@ def _anchors(
                 yield a, intersection(one, two).middle, apart[b] / abs(sine) * (1.0 + SLACK)
 
 
-def _lines(group: Group, workspace: Workspace) -> Iterator[tuple[str, PlacedLine]]:
+def _lines(group: PointGroup, workspace: Workspace) -> Iterator[tuple[str, PlacedLine]]:
     """The points of a group on lines of known place and direction: a point of the line and its direction."""
     own = set(group.targets)
     for datum in data_in(group):

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from icsolve.assembly.clusters import LooseFigure
 from icsolve.assembly.order import grow
 from icsolve.assembly.refusals import datum_words, measure, plain
-from icsolve.assembly.steps import Given, Group, Meet, Miss, Step, needs, newton_step
+from icsolve.assembly.steps import Given, Meet, Miss, PointGroup, Step, needs, newton_step
 from icsolve.assembly.workspace import CORNER, LENGTH, LINE, ROPE, Frame, Key, Workspace, data_in, facts_of
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
@@ -51,7 +51,7 @@ CLOSE_WORK = 60_000
 """The same once a solution was found from `near` itself, and the starts about it were tried."""
 
 
-def every(group: Group, workspace: Workspace) -> Converged:
+def every(group: PointGroup, workspace: Workspace) -> Converged:
     """Every solution of a group, by exclusion; ``complete`` where they are shown to be all."""
     if any(equation.datum.kind == ROPE for equation in group.equations):
         raise SceneError(Status.UNSUPPORTED, ROPED)
@@ -82,7 +82,7 @@ class Converged(NamedTuple):
     ``complete`` where it is shown that no other solution is nearer to `near`.
     """
 
-    groups: list[Group]
+    groups: list[PointGroup]
     miss: Miss | None
     closest: Start
     complete: bool
@@ -96,7 +96,7 @@ class Descent(NamedTuple):
     steps: int
 
 
-def solutions(group: Group, workspace: Workspace, near: Mapping[str, Spot]) -> Converged:
+def solutions(group: PointGroup, workspace: Workspace, near: Mapping[str, Spot]) -> Converged:
     """The solutions found of a group: from `near` itself first, then from other starts."""
     known = ((key, place) for key, place in workspace.points.items() if key not in group.targets)
     return _searched(group, workspace.case, workspace.frame, tuple(known), tuple(near.items()))
@@ -104,7 +104,7 @@ def solutions(group: Group, workspace: Workspace, near: Mapping[str, Spot]) -> C
 
 @lru_cache(maxsize=512)
 def _searched(
-    group: Group,
+    group: PointGroup,
     case: Case,
     frame: Frame,
     known: tuple[tuple[Key, Spot], ...],
@@ -136,7 +136,7 @@ def _searched(
 class _NewtonSearch:
     """Starts one after another, until it is shown that nothing nearer is left, or the work is spent."""
 
-    def __init__(self, group: Group, workspace: Workspace, near: Mapping[str, Spot]) -> None:
+    def __init__(self, group: PointGroup, workspace: Workspace, near: Mapping[str, Spot]) -> None:
         self.group, self.workspace, self.near = group, workspace, near
         lengths = (workspace.length(d) for d in data_in(group) if d.kind == LENGTH)
         self.reach: float = max(lengths, default=0.0) or 1.0
@@ -231,7 +231,7 @@ def _about(near: Mapping[str, Spot], end: Start) -> Iterator[Start]:
         yield {t: even(k, j, near.get(t, end[t]), radius) for j, t in enumerate(end)}
 
 
-def _twin(group: Group, workspace: Workspace, end: Start) -> Start:
+def _twin(group: PointGroup, workspace: Workspace, end: Start) -> Start:
     """Where the solution beside one that is nearly double is to be expected.
 
     In the direction v in which the equations F change least (their derivatives J have the smallest singular
@@ -276,7 +276,7 @@ MOST_SHOWN = 100
 """Equations of the largest group for which an inverse is taken."""
 
 
-def _alone(group: Group, workspace: Workspace, near: Start, end: Start) -> bool:
+def _alone(group: PointGroup, workspace: Workspace, near: Start, end: Start) -> bool:
     """Whether it is shown that no other solution is as near to `near` as one that was found.
 
     All points have a `near`. With Y the inverse of the derivatives J at `near`, there is at most one solution
@@ -299,7 +299,7 @@ def _alone(group: Group, workspace: Workspace, near: Start, end: Start) -> bool:
     return math.sqrt(sum(v * v for row in inverted for v in row)) * change < 1.0
 
 
-def _least_residual(group: Group, workspace: Workspace, start: Start, reach: float) -> Start:
+def _least_residual(group: PointGroup, workspace: Workspace, start: Start, reach: float) -> Start:
     """Where the data of a group are violated least, downhill from a start (Levenberg and Marquardt)."""
     if len(group.unknowns()) > MOST_SHOWN:
         return {}
@@ -340,7 +340,7 @@ def _same(one: Start, two: Start, reach: float) -> bool:
     return all(math.dist(one[t], two[t]) <= 1e-6 * (reach + math.hypot(*one[t])) for t in one)
 
 
-def _descend(group: Group, workspace: Workspace, start: Start, reach: float, most: int) -> Descent:
+def _descend(group: PointGroup, workspace: Workspace, start: Start, reach: float, most: int) -> Descent:
     """Newton steps of limited length from a start: the residual reached, where, and after how many.
 
     Without a line search: measured on random groups, a search triples the time and ends in
@@ -389,7 +389,7 @@ def _descend_together(system: Quadratics, starts: Sequence[Start], reach: float)
         yield Descent(residual, end, steps)
 
 
-def _places(group: Group, workspace: Workspace) -> Start:
+def _places(group: PointGroup, workspace: Workspace) -> Start:
     return {t: workspace.points[t] for t in group.targets}
 
 
@@ -401,7 +401,7 @@ def _moved(at: Start, move: Sequence[float], fraction: float) -> Start:
     }
 
 
-def _polished(group: Group, workspace: Workspace, end: Start) -> Group | None:
+def _polished(group: PointGroup, workspace: Workspace, end: Start) -> PointGroup | None:
     """The group settled on a solution in full precision; None where it does not stand alone."""
     workspace.points.update(end)
     best = math.inf
@@ -421,7 +421,7 @@ def _polished(group: Group, workspace: Workspace, end: Start) -> Group | None:
 
 
 def _constructed(
-    group: Group, workspace: Workspace, near: Mapping[str, Spot], held: list[str], reach: float
+    group: PointGroup, workspace: Workspace, near: Mapping[str, Spot], held: list[str], reach: float
 ) -> Iterator[Start]:
     """Starts by closed forms, with points held where `near` puts them, one of them also about there."""
     drawing = LooseFigure(facts_of(workspace.case, data_in(group)), frozenset())
@@ -460,7 +460,7 @@ def _run(steps: list[Step], signs: dict[int, int], workspace: Workspace, held: S
     return placed
 
 
-def _unreached(group: Group, workspace: Workspace, closest: Start) -> Miss:
+def _unreached(group: PointGroup, workspace: Workspace, closest: Start) -> Miss:
     """No solution: the datum that is farthest off where the rest comes closest."""
     from icsolve.assembly.conditions import residual
 
@@ -495,7 +495,7 @@ MOVABLE = (
 )
 
 
-def _of(group: Group, sentence: str) -> str:
+def _of(group: PointGroup, sentence: str) -> str:
     """A sentence about the points of a group."""
     names = [plain(t) for t in group.targets]
     return sentence.format(names=listed(names), first=names[0])

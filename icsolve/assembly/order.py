@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from icsolve.assembly.clusters import ALL_CLUSTERS, LOOSE_CLUSTERS, NOBODY, Cluster, LooseFigure
 from icsolve.assembly.conditions import FigureEquation, Unknown, parts_of
-from icsolve.assembly.steps import Base, Group, Step, leading_to, points_of, sensed
+from icsolve.assembly.steps import Base, PointGroup, Step, leading_to, points_of, sensed
 from icsolve.assembly.workspace import (
     CORNER,
     GUIDE,
@@ -299,7 +299,7 @@ def _directing_once(data: Iterable[Datum], placed: Collection[str]) -> Iterator[
         yield datum
 
 
-def next_group(drawing: LooseFigure, wanted: Iterable[str]) -> Group:
+def next_group(drawing: LooseFigure, wanted: Iterable[str]) -> PointGroup:
     """The smallest group that leads to the wanted points.
 
     Raises
@@ -316,4 +316,4 @@ def next_group(drawing: LooseFigure, wanted: Iterable[str]) -> Group:
     points = min(groups_of(system, goal), key=len)
     own = {(p, part) for p in points for part in (0, 1)}
     equations = tuple(system.equations[i] for i in sorted(system.matched[u] for u in own))
-    return Group(points, equations)
+    return PointGroup(points, equations)

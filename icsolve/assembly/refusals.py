@@ -18,7 +18,7 @@ from icsolve.assembly.loci import (
     Tether,
     is_round,
 )
-from icsolve.assembly.steps import Base, Given, Group, Mean, Meet, Miss, Polar, Step, Turned, leading_to
+from icsolve.assembly.steps import Base, Given, Mean, Meet, Miss, PointGroup, Polar, Step, Turned, leading_to
 from icsolve.assembly.workspace import (
     CORNER,
     GUIDE,
@@ -135,7 +135,7 @@ def _how(step: Step) -> str:
             if isinstance(root, Apart) and root.a == base and not direction.turns:
                 held = plain(root.b)
             return f"carried by the shape that {plain(base)} and {held} hold"
-        case Group(_, equations):
+        case PointGroup(_, equations):
             return f"together, by Newton's method on their {len(equations)} data"
 
 

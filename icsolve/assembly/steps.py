@@ -233,7 +233,7 @@ def newton_step(values: Sequence[Scalar], rows: Sequence[linear.Row]) -> NewtonS
     return NewtonStep([found.of(k).get(n, 0.0) for k in range(n)], flatness)
 
 
-class Group(NamedTuple):
+class PointGroup(NamedTuple):
     """Points placed by Newton's method, as many equations as coordinates.
 
     ``start`` has the places (x, y) of the targets [frame] in the solution that was settled on. ``place``
@@ -292,7 +292,7 @@ class Group(NamedTuple):
 # --- every kind of step of a construction ---
 
 
-Step = Given | Mean | Polar | Meet | Base | Turned | Group
+Step = Given | Mean | Polar | Meet | Base | Turned | PointGroup
 CLOSED_FORMS = (Given, Mean, Polar, Base, Turned)
 """Steps that have one way only."""
 

@@ -76,7 +76,7 @@ def _lines(scene: Scene, spots: dict[Pair, CentreSpot], step: Step) -> Iterable[
     for number, ends in enumerate(lines, 1):
         places = [spots[end] for end in ends if end in spots]
         if len(ends) == 2:
-            chain = _chain([*places, target], scene)
+            chain = _chain([*places, target])
         else:
             chain = _normal(scene, joint_of_normal(joints, lines, number - 1), target)
         pieces = clipped(chain, scene.view.window) if chain else ()
@@ -91,7 +91,7 @@ def _lines(scene: Scene, spots: dict[Pair, CentreSpot], step: Step) -> Iterable[
         yield Part((MarkGroup(name, "", marks, title, data),), soft)
 
 
-def _chain(places: Sequence[CentreSpot], scene: Scene) -> tuple[Point, ...]:
+def _chain(places: Sequence[CentreSpot]) -> tuple[Point, ...]:
     """The line from the first to the last of the places on it, a little longer; to the edge if one is far."""
     finite = [spot.at for spot in places if spot.at is not None]
     infinite = [spot.toward for spot in places if spot.toward is not None]

@@ -77,7 +77,7 @@ def space_marks(known: Known) -> tuple[Sketch, list[Mark]]:
     solid = joined([outline_of(sketch, link) for link in moving_links(scene)] or [shapely.Polygon()])
     parts = [*(body_part(sketch, link) for link in moving_links(scene))]
     parts += [part for tie in scene.ties for part in _joint(sketch, tie)]
-    parts += [_load(sketch, push, solid, n) for n, push in enumerate(scene.loads)]
+    parts += [_load(sketch, push, solid) for push in scene.loads]
     parts += _letters(sketch)
     marks = with_labels(together(parts), sketch.view.window)
     return sketch, [*marks, _triad(bounds(marks))]
@@ -186,7 +186,7 @@ def _seen(direction: Vec) -> Point:
     return (x, -y)
 
 
-def _load(sketch: Sketch, push: Push, solid: shapely.Geometry, n: int) -> Part:
+def _load(sketch: Sketch, push: Push, solid: shapely.Geometry) -> Part:
     kind = "unknown" if push.unknown else "known"
     sign = -1.0 if (push.value or 0.0) < 0.0 else 1.0
     at = _acts_at(sketch, push)

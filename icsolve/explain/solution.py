@@ -172,7 +172,7 @@ def remarks_section(known: Known, figures: Figures) -> Iterable[Section]:
     if known.answer is None:
         return
     entries: list[tuple[Inline, ...]] = [(sentence(note),) for note in known.answer.notes]
-    entries += _rounding(figures, known.answer)
+    entries += _rounding(known.answer)
     if entries:
         yield Section("Remarks", (Items(tuple(entries)),))
 
@@ -195,7 +195,7 @@ def _skipped(
         yield (f"Not examined, as the answer does not need it: {'; '.join(answer.skipped)}.",)
 
 
-def _rounding(figures: Figures, answer: Answer) -> Iterable[tuple[Inline, ...]]:
+def _rounding(answer: Answer) -> Iterable[tuple[Inline, ...]]:
     """How far rounding can have moved each answer."""
     for name, found in answer.answers.items():
         if found.error is not None and found.error > 0.0:

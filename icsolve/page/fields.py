@@ -61,7 +61,7 @@ def lines_of(case: Case, asked: Collection[str]) -> list[tuple[str, list[FieldLi
         ("Points", _points(case, held)),
         ("Lengths", _plain(case, held, "lengths", unit_word(case.units.length))),
         ("Angles", _plain(case, held, "angles", DEGREES)),
-        ("Links", _masses(case, held)),
+        ("Links", _masses(case)),
         ("Joints", _joints(case, held)),
         ("Loads", _loads(case, held)),
         ("Motion", _motion(case, held)),
@@ -91,7 +91,7 @@ def _plain(case: Case, held: Mapping[str, Number], section: str, unit: str) -> I
             yield FieldLine("", (_field(number, f"{name} =", unit, name, bound),))
 
 
-def _masses(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
+def _masses(case: Case) -> Iterable[FieldLine]:
     for link, inertia in case.inertia.items() if is_loaded(case) else ():
         units = {"mass": "kg", "inertia": "kg·m²"}
         own = [(n, n.path.rpartition(".")[2]) for n in numbers_in(inertia)]

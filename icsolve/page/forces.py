@@ -57,7 +57,7 @@ def forces_data(scene: Scene, motion: PageMotion | None) -> dict[str, Any]:
             "spots": [[round(x, 5), round(y, 5)] for x, y in spots],
             "names": [p for p in known.case.carries.get(link, ()) if p in scene.at],
             "twist": [exact(column, SIZES) for column in zip(*twists, strict=True)],
-            "pushes": [_through(name, [one.get(name) for one in some], most, reach) for name in every],
+            "pushes": [_through([one.get(name) for one in some], most, reach) for name in every],
         }
     units = known.case.units
     words = [unit_word(unit) for unit in (units.force, units.torque, units.length)]
@@ -102,7 +102,7 @@ def _named(scene: Scene, here: Known | None, link: str) -> Iterable[tuple[str, D
             yield push.name, push
 
 
-def _through(name: str, pushes: list[DrawnPush | None], most: float, reach: float) -> dict[str, Any]:
+def _through(pushes: list[DrawnPush | None], most: float, reach: float) -> dict[str, Any]:
     """One force or couple in all positions; what is rounding beside the largest force, and the figure's size
     [case length], is nothing."""
     one = next(push for push in pushes if push is not None)

@@ -12,7 +12,7 @@ from itertools import pairwise
 from typing import Any
 
 from icsolve.assembly.loci import gaps_of, intersection, is_round
-from icsolve.assembly.steps import Given, Group, Mean, Meet, Step, aims, leading_to
+from icsolve.assembly.steps import Given, Mean, Meet, PointGroup, Step, aims, leading_to
 from icsolve.assembly.workspace import (
     CORNER,
     LENGTH,
@@ -174,7 +174,7 @@ class _ProgramWriter:
         apart = self._squared_distances(step)
         if isinstance(step, Meet):
             more = self._meet(step, told)
-        elif isinstance(step, Group):
+        elif isinstance(step, PointGroup):
             more = self._group(step, told)
         else:
             step.place(ws)
@@ -216,7 +216,7 @@ class _ProgramWriter:
         told["gaps"], told["loci"] = len(gaps), [len(locus) for locus in loci]
         return [*gaps, *loci[0], *loci[1], *step.ahead(ws)]
 
-    def _group(self, step: Group, told: dict[str, Any]) -> list[Scalar]:
+    def _group(self, step: PointGroup, told: dict[str, Any]) -> list[Scalar]:
         """One step of Newton's method from where the page stands, and the residuals there."""
         ws = self.workspace
         for target, at in zip(step.targets, step.start, strict=True):

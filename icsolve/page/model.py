@@ -183,7 +183,7 @@ def model_of(
     steps: Sequence[Step],
     figure: PageFigure,
     motion: PageMotion | None,
-    live: Live | None = None,
+    live: Live | None,
 ) -> dict[str, Any]:
     """The data of a page, ready to be written as JSON."""
     view = figure.scene.view

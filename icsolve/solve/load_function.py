@@ -21,7 +21,7 @@ from icsolve.assembly.loci import is_round
 from icsolve.assembly.modes import order_that_assembles
 from icsolve.assembly.order import Order, order_of
 from icsolve.assembly.refusals import compare
-from icsolve.assembly.steps import Group, Meet, Step
+from icsolve.assembly.steps import Meet, PointGroup, Step
 from icsolve.assembly.workspace import Workspace, frame_of
 from icsolve.case import Case, Coordinates, Number, TorsionSpring
 from icsolve.errors import SceneError, Status
@@ -205,7 +205,7 @@ def given_at(case: Case, path: str, value: float) -> Case:
 
 def refuse_together(order: Order) -> None:
     """Refuse points that have places only all together."""
-    if any(isinstance(step, Group) for step in order.steps):
+    if any(isinstance(step, PointGroup) for step in order.steps):
         raise TogetherError(Status.UNSUPPORTED, TOGETHER)
 
 

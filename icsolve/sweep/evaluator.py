@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.answer import by_load
-from icsolve.assembly.steps import Group
+from icsolve.assembly.steps import PointGroup
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import gradient
@@ -427,7 +427,7 @@ def _root(value: float) -> float:
 def _compiled(case: Case, names: Mapping[str, str], asked: RowRequest, gradients: bool) -> _Compiled | None:
     """The record of the case with all inputs; None where its figure or its loads need a scene a row."""
     setting: Setting = setting_of(case, (), ())
-    if any(isinstance(step, Group) for step in setting.figure.steps):
+    if any(isinstance(step, PointGroup) for step in setting.figure.steps):
         return None
     setting = setting._replace(paths=tuple(names.values()), drive=Drive((), (), ()))
     try:

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from decimal import Context, Decimal, DivisionByZero, localcontext
 from functools import lru_cache
 
-from icsolve.assembly.steps import Group, place
+from icsolve.assembly.steps import PointGroup, place
 from icsolve.case import Case, Centroid, Coordinates, Number, TorsionSpring
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
@@ -88,7 +88,8 @@ class ExactRecord:
         """The points as written that Newton's method places, in all digits: the record has its last step from
         where doubles settled, and beside a fold the root of what that leaves would count."""
         motion, setting = self.compiled.motion, self.compiled.setting
-        targets = [name for step in setting.figure.steps if isinstance(step, Group) for name in step.targets]
+        groups = (step for step in setting.figure.steps if isinstance(step, PointGroup))
+        targets = [name for group in groups for name in group.targets]
         if motion is None or not targets:
             return {}
         try:

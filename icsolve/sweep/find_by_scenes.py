@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.assembly.order import order_of
-from icsolve.assembly.steps import Group
+from icsolve.assembly.steps import PointGroup
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
@@ -113,7 +113,7 @@ Search = Generator[Array, Seen, FoundPosition | None]
 def _is_searched(case: Case) -> bool:
     """Whether points of a figure are searched for; not those that a contact alone places."""
     try:
-        return any(isinstance(step, Group) for step in order_of(case, wanted_points(case)[1]).steps)
+        return any(isinstance(step, PointGroup) for step in order_of(case, wanted_points(case)[1]).steps)
     except SceneError:
         return False
 

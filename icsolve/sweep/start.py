@@ -10,7 +10,7 @@ import numpy as np
 from icsolve.assembly import place
 from icsolve.assembly.conditions import residual
 from icsolve.assembly.loci import is_round
-from icsolve.assembly.steps import Group, Meet
+from icsolve.assembly.steps import Meet, PointGroup
 from icsolve.assembly.workspace import Workspace, data_in, data_of
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
@@ -54,7 +54,7 @@ def is_hard(setting: Setting) -> bool:
     if any(given.angle is not None for given in setting.case.motion):
         return True
     return any(
-        isinstance(step, Group) or (isinstance(step, Meet) and step.sign == 0 and is_round(step.second))
+        isinstance(step, PointGroup) or (isinstance(step, Meet) and step.sign == 0 and is_round(step.second))
         for step in setting.figure.steps
     ) or any(_contradicts(setting, path) for path in shapes)
 
