@@ -7,12 +7,7 @@ from typing import TYPE_CHECKING, Any
 from icsolve.case import Case, Centroid, Joint, Number, Rope, Units
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.figure import (
-    FRAMES,
-    FigureData,
-    carried,
-    check_frame,
     check_given,
-    check_loads,
     check_unknowns,
     read_angles,
     read_dynamic,
@@ -26,6 +21,7 @@ from icsolve.read.joints import JOINTS, mention_links, read_joints
 from icsolve.read.keys import SECTIONS, SPACE_JOINTS
 from icsolve.read.loads import PLANE, driven, read_motion, read_section
 from icsolve.read.names import Problems, shown
+from icsolve.read.owners import FRAMES, FigureData, carried, check_frame, check_loads
 from icsolve.read.reading import Reading, number
 
 if TYPE_CHECKING:

@@ -1,43 +1,25 @@
-"""Friction at its limits: in a given motion, and where motion is about to begin.
+"""Friction in a given motion, where every rub is at its limit, against the motion.
 
-In a given motion every rub is at its limit, against the motion. The senses come from the rates that the
-twists (the centres) give; they are checked after solving, and no rub may give power.
-
-Without one there is a range of the unknown load at which the mechanism holds still. Its ends are the
-equilibria in which the mechanism is about to move one way and the other, as textbooks have them. Friction
-that is not at its limit everywhere, or that a history has left the other way round, can hold more: the set
-of values for which any equilibrium exists with every friction within its limit. Where the rubs have little
-influence on each other the two are proven to be one, else it is looked for.
-
-Where the unknown load does no work it presses links together until friction holds: the mechanism holds
-where the most that friction can do against the motion that the known loads drive is at least what they do.
-The ends of the range are the loads at which it is just that.
+The senses come from the rates that the twists (the centres) give; they are checked after solving, and no rub
+may give power.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from itertools import pairwise, product
 from typing import TYPE_CHECKING
 
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.roots import zero_between
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.friction.equations import (
     Lengths,
     Reduced,
     Y,
-    at,
     contracted,
     contraction,
     error_of,
-    fixed_point,
-    forces_of,
-    is_sound,
     reduced,
     reduced_workless,
-    without_friction,
 )
 from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording.sentences import listed
@@ -118,7 +100,7 @@ def slid(statics: Statics, senses: Sequence[float], workless: bool, alone: bool 
     found = solutions(equations.equations)
     if found.main is not None and (found.unique or alone):
         return _of(statics, equations, found.main, (), found.unique)
-    by, roots = _counted(statics, senses, equations)
+    by, roots = counted(statics, senses, equations)
     unique = "" if roots is None else COUNTED
     others = [y for y in roots or () if found.main is None or not every.near(by.sizes(y), found.main)]
     if found.main is not None:
@@ -131,7 +113,7 @@ def slid(statics: Statics, senses: Sequence[float], workless: bool, alone: bool 
     raise SceneError(Status.JAM, _jam(statics, found, unique))
 
 
-def _counted(statics: Statics, senses: Sequence[float], equations: Reduced) -> tuple[Reduced, list[Y] | None]:
+def counted(statics: Statics, senses: Sequence[float], equations: Reduced) -> tuple[Reduced, list[Y] | None]:
     """All solutions, and the equations of which they are some; None where they are too many.
 
     Where the load does next to no work beside some friction, that is eliminated in its place: rounding over a
@@ -181,7 +163,7 @@ def _workless(statics: Statics, senses: Sequence[float]) -> Slid:
         raise SceneError(Status.NO_VALUE, nothing_rubs(statics))
     found = every.all_roots(equations.equations)
     if found is None:
-        raise SceneError(Status.UNSUPPORTED, _too_many(statics))
+        raise SceneError(Status.UNSUPPORTED, too_many(statics))
     if not found:
         raise SceneError(Status.NO_VALUE, _nothing_balances(statics))
     if len(found) > 1:
@@ -212,331 +194,8 @@ def _nothing_balances(statics: Statics) -> str:
     )
 
 
-def _too_many(statics: Statics) -> str:
+def too_many(statics: Statics) -> str:
     return (
         f"{statics.roots[0]} does no work, and {len(statics.rubs)} places rub: more than can be solved where "
         "only friction balances the loads. Take out `mu` where it matters least."
     )
-
-
-PROVEN = "proven: no friction within its limits holds more"
-SEARCHED = "every combination of full friction was tried"
-IMPENDING = "only impending motion was looked at"
-MOST_TRIED = 6
-"""More rubs have too many combinations of senses."""
-
-
-class End(NamedTuple):
-    """An end of the interval.
-
-    Attributes
-    ----------
-    value : the unknown load [case units], perhaps infinite
-    senses : (rubs,), those of the motion that is about to begin
-    friction : (rubs,) [scaled]; empty where the value is infinite, or not that of an equilibrium about to
-        move
-    pushes : whether every contact pushes there
-    """
-
-    value: float
-    senses: tuple[float, ...]
-    friction: tuple[float, ...] = ()
-    pushes: bool = True
-
-
-class StaticRange(NamedTuple):
-    """The interval in which a mechanism holds still.
-
-    Attributes
-    ----------
-    least, most : [case units]; infinite where no value moves the mechanism that way
-    possible : the range in which friction within its limits can hold
-    how : how that was found: only `PROVEN` is a proof
-    self_locking : it holds with the unknown at zero, or no value moves it one way
-    ends : those ends at which it is about to move
-    again : values outside of the interval at which it is so too
-    parts : at which ends a contact would have to pull: there it parts, before the end
-    """
-
-    least: float
-    most: float
-    possible: tuple[float, float]
-    how: str
-    self_locking: bool = False
-    ends: tuple[End, ...] = ()
-    again: tuple[float, ...] = ()
-    parts: tuple[float, ...] = ()
-
-
-def static_range(statics: Statics, senses: Sequence[float], alone: bool) -> StaticRange:
-    """The interval of the one unknown load.
-
-    Parameters
-    ----------
-    statics : of one motion and one unknown load, with friction as parameters
-    senses : (rubs,), those of the rubs in the motion, 1, -1 or 0
-    alone : whether what friction that is not about to slip can hold is not looked for
-
-    Returns
-    -------
-    StaticRange
-        Self-locking: it holds with the unknown at zero (against loads), or no value moves it one way.
-    """
-    ends = [end for d in (1.0, -1.0) if (end := _end(statics, [d * s for s in senses])) is not None]
-    found = range_of(ends)
-    if alone:
-        return found
-    possible, how = _possible(statics, senses, (found.least, found.most))
-    unbounded = math.isinf(found.least) or math.isinf(found.most)
-    again = _again(statics, senses, found.least, found.most) if unbounded else ()
-    return found._replace(possible=possible, how=how, again=again)
-
-
-def range_of(ends: Sequence[End]) -> StaticRange:
-    """The interval between equilibria that are about to move one way and the other."""
-    least, most = min(end.value for end in ends), max(end.value for end in ends)
-    locks = math.isinf(least) or math.isinf(most) or (least <= 0.0 <= most and least < most)
-    about_to_move = tuple(end for end in ends if math.isfinite(end.value))
-    parts = tuple(sorted(end.value for end in ends if not end.pushes))
-    return StaticRange(least, most, (least, most), IMPENDING, locks, about_to_move, parts=parts)
-
-
-def _again(statics: Statics, senses: Sequence[float], least: float, most: float) -> tuple[float, ...]:
-    """Values outside of a range without end at which the mechanism is about to move too.
-
-    A load that locks one way can lock the other way as well, from some value on: the range goes on there.
-    """
-    found = set()
-    for direction in (1.0, -1.0):
-        equations = reduced(statics, [direction * s for s in senses])
-        if equations is not None:
-            by, roots = _counted(statics, [direction * s for s in senses], equations)
-            found |= {by.load(y)[0] / statics.scale for y in roots or ()}
-    room = 1e-9 * max((abs(end) for end in (least, most) if math.isfinite(end)), default=0.0)
-    return tuple(sorted(value for value in found if value < least - room or value > most + room))
-
-
-def _possible(
-    statics: Statics, senses: Sequence[float], ends: tuple[float, float]
-) -> tuple[tuple[float, float], str]:
-    """The range in which friction within its limits can hold, and how that is known."""
-    if _is_proven(statics, senses):
-        return ends, PROVEN
-    if len(senses) > MOST_TRIED:
-        return ends, IMPENDING
-    tried = [_end(statics, signs, True) for signs in product((1.0, -1.0), repeat=len(senses))]
-    sound = [*ends, *(end.value for end in tried if end is not None)]
-    return (min(sound), max(sound)), SEARCHED
-
-
-def end_of(statics: Statics, senses: Sequence[float]) -> End | None:
-    """The unknown load at full friction of these senses; None where power does not give it."""
-    return None if reduced(statics, senses) is None else _end(statics, senses)
-
-
-def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> End | None:
-    """The unknown load at full friction of these senses; infinite where the forces grow without bound.
-
-    With ``pushing``, None where a contact would have to pull.
-    """
-    equations = reduced(statics, senses)
-    assert equations is not None
-    if contraction(equations.equations) is not None:
-        return _moving(statics, equations, senses, contracted(equations.equations), pushing)
-    y, share, grows = every.followed(equations.equations)
-    if y is not None:
-        return _moving(statics, equations, senses, y, pushing)
-    far = 0.999 * share
-    short = equations.equations.scaled(far)
-    last = every.followed(short)[0] or without_friction(equations.equations)
-    change = sum(a * x for a, x in zip(equations.loads[0][1:], last, strict=True))
-    pushes = is_sound(short, last) and equations.scaled(far).least_push(last) >= -ROUNDED
-    if pushing and not pushes:
-        return None
-    if not pushes and (part := _where_one_parts(equations, last, far)) is not None:
-        return End(part / statics.scale, tuple(senses), pushes=False)
-    parting = None if grows else _parting(short, last)
-    if parting is not None:
-        return End(_where_it_parts(equations, parting, share) / statics.scale, tuple(senses), pushes=False)
-    value = (equations.loads[0][0] + 0.999 * share * change) / statics.scale
-    if grows or _locks(equations):
-        value = math.copysign(math.inf, change)
-    return End(value, tuple(senses), pushes=pushes)
-
-
-def _parting(equations: Lengths, last: Y) -> int | None:
-    """The contact that ceases to push, with which the equilibrium ends: next to nothing is left of what it
-    pushes with without friction."""
-    threes = zip(last, without_friction(equations), equations.touching, strict=True)
-    return next((k for k, (left, smooth, only) in enumerate(threes) if only and left < 0.01 * smooth), None)
-
-
-def _where_it_parts(equations: Reduced, contact: int, share: float) -> float:
-    """The load [scaled] at which a contact pushes with nothing, from three equilibria with less friction
-    (Lagrange): it is nearly linear in that force."""
-    found = []
-    for part in (0.999 * share, 0.998 * share, 0.997 * share):
-        y = every.followed(equations.equations.scaled(part))[0] or without_friction(equations.equations)
-        load = equations.loads[0][0] + part * sum(
-            a * x for a, x in zip(equations.loads[0][1:], y, strict=True)
-        )
-        found.append((y[contact], load))
-    (a, at_a), (b, at_b), (c, at_c) = found
-    return (
-        at_a * b * c / ((a - b) * (a - c))
-        + at_b * a * c / ((b - a) * (b - c))
-        + at_c * a * b / ((c - a) * (c - b))
-    )
-
-
-def _moving(
-    statics: Statics, equations: Reduced, senses: Sequence[float], y: Sequence[float], pushing: bool
-) -> End | None:
-    """The end at an equilibrium about to move, or where a contact parts before; None there if all are to be
-    ``pushing``."""
-    pushes = is_sound(equations.equations, y) and equations.least_push(y) >= -ROUNDED
-    if pushing and not pushes:
-        return None
-    if not pushes and (part := _where_one_parts(equations, y, 1.0)) is not None:
-        return End(part / statics.scale, tuple(senses), pushes=False)
-    return End(equations.load(y)[0] / statics.scale, tuple(senses), equations.friction(y), pushes)
-
-
-ROUNDED = 1e-13
-"""A normal force is zero below this fraction of its terms."""
-
-
-def _where_one_parts(equations: Reduced, last: Sequence[float], far: float) -> float | None:
-    """The load [scaled] at which the first contact pushes with nothing, with less friction than the share
-    ``far`` of it: there friction holds the rest. None where one would have to pull without friction too."""
-
-    def held(share: float) -> tuple[Reduced, Sequence[float]]:
-        part = equations.scaled(share)
-        if contraction(part.equations) is not None:
-            return part, contracted(part.equations)
-        return part, every.followed(part.equations)[0] or last
-
-    def push(share: float) -> float:
-        part, y = held(share)
-        return part.least_push(y)
-
-    if push(0.0) <= 0.0 or push(far) >= 0.0:
-        return None
-    part, y = held(zero_between(push, 0.0, far, push(0.0), push(far)))
-    return part.load(y)[0]
-
-
-def _locks(equations: Reduced) -> bool:
-    """Whether friction of these senses can carry itself, however large: y_k <= |B_k y| for some y > 0.
-
-    By power iteration of the homogeneous part, whose growth is then 1 or more.
-    """
-    forms = equations.equations.vectors
-    y = [1.0] * len(forms)
-    growth = 0.0
-    for _ in range(200):
-        grown = [math.hypot(*(at((0.0, *form[1:]), y) for form in three)) for three in forms]
-        growth = min((a / b for a, b in zip(grown, y, strict=True) if b > 1e-6), default=0.0)
-        size = max(grown, default=0.0)
-        if not size:
-            return False
-        y = [a / size for a in grown]
-    return growth >= 1.0
-
-
-def _is_proven(statics: Statics, senses: Sequence[float]) -> bool:
-    """Whether the load changes one way with each friction, whatever the others are.
-
-    With f_k = e_k limit_k |v_k| and e in the cube [-1, 1]^K, the load changes with e_k in proportion to
-    s_k + (J^T diag(e limit) lambda)_k, where s is its rate of change with the frictions and J that of the
-    sizes. Bounds on J bound the second term; where it is less than s_k the extremes are at corners.
-    """
-    equations = reduced(statics, [1.0] * len(senses))
-    if equations is None or not all(senses):
-        return False
-    spread = contraction(equations.equations)
-    gains = [rub.limit for rub in statics.rubs]
-    if spread is None:
-        return False
-    n = len(gains)
-    own = [abs(a) for a in equations.loads[0][1:]]
-    factors = [
-        [math.hypot(*(f[j + 1] for f in forms)) for j in range(n)] for forms in equations.equations.vectors
-    ]
-    reach = [sum(spread[k][j] * own[k] for k in range(n)) for j in range(n)]
-    return all(sum(factors[k][j] * reach[k] for k in range(n)) < own[j] for j in range(n) if gains[j])
-
-
-SAID = "the unknown load does no work; between the ends friction was compared with the known loads"
-
-
-def pressed(statics: Statics, senses: Sequence[float]) -> StaticRange:
-    """The range of an unknown load that does no work; ``senses`` are those of the rubs in the motion.
-
-    Raises SceneError where nothing drives the mechanism (any value holds) and where none holds it.
-    """
-    name = statics.roots[0]
-    (left,) = statics.general.left
-    powers = [left.get(statics.rub(k), 0.0) for k in range(len(senses))]
-    drive = left.get(statics.known, 0.0)
-    if abs(drive) <= 1e-12 * max(map(abs, (*left.values(), drive)), default=0.0):
-        raise SceneError(
-            Status.ANY_VALUE, f"any value of {name} holds: it does no work, and nothing drives the mechanism."
-        )
-    against = [-math.copysign(1.0, drive * p) if p else 0.0 for p in powers]
-    senses = tuple([-a for a in against])
-    equations = reduced_workless(statics, senses)
-    if equations is None:
-        raise SceneError(Status.NO_VALUE, f"no value of {name} holds: it does no work, and no friction does.")
-    roots = every.all_roots(equations.equations)
-    if roots is None:
-        raise SceneError(Status.UNSUPPORTED, _too_many(statics))
-    moving = {load: equations.friction(y) for load, y in sorted((equations.load(y)[0], y) for y in roots)}
-    ends = list(moving)
-    marks = [-math.inf, *ends, math.inf]
-    holding = [
-        (a, b)
-        for a, b in pairwise(marks)
-        if a < b and _capacity(statics, against, powers, _value_inside(a, b)) >= abs(drive)
-    ]
-    if not holding:
-        raise SceneError(
-            Status.NO_VALUE, f"no value of {name} holds: the friction that it makes is never enough."
-        )
-    least, most = max(holding, key=lambda pair: (pair[1] == math.inf, pair[1]))
-    both = (least / statics.scale, most / statics.scale)
-    others = {end / statics.scale for pair in holding if pair != (least, most) for end in pair}
-    again = sorted(end for end in others if math.isfinite(end) and end not in both)
-    own = [end for end in (least, most) if math.isfinite(end)]
-    about_to_move = tuple(End(end / statics.scale, senses, moving[end]) for end in own)
-    return StaticRange(*both, both, SAID, ends=about_to_move, again=tuple(again))
-
-
-def _value_inside(a: float, b: float) -> float:
-    if a == -math.inf:
-        return b - max(1.0, abs(b)) if b < math.inf else 0.0
-    return a + max(1.0, abs(a)) if b == math.inf else (a + b) / 2.0
-
-
-def _capacity(statics: Statics, against: Sequence[float], powers: Sequence[float], load: float) -> float:
-    """The most power that friction can take at this value of the load (scaled); -1 where a contact parts."""
-    limits = [rub.limit * a for rub, a in zip(statics.rubs, against, strict=True)]
-    vectors = [
-        tuple(
-            (
-                row.get(statics.known, 0.0) + row.get(statics.root(0), 0.0) * load,
-                *(row.get(statics.rub(k), 0.0) * limit for k, limit in enumerate(limits)),
-            )
-            for row in rows
-        )
-        for rows in forces_of(statics)
-    ]
-    touching = [statics.ties[rub.tie].joint.only_pushes for rub in statics.rubs]
-    equations = fixed_point(vectors, touching)
-    y, _, _ = every.followed(equations)
-    if y is None:
-        return math.inf
-    for forms, only in zip(equations.vectors, touching, strict=True):
-        if only and forms[0][0] + sum(a * b for a, b in zip(forms[0][1:], y, strict=True)) < 0.0:
-            return -1.0
-    return sum(abs(p) * rub.limit * size for p, rub, size in zip(powers, statics.rubs, y, strict=True))

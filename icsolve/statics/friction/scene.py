@@ -36,17 +36,8 @@ from icsolve.statics.friction.interface import (
     rubs_of,
     unknowns_by_power,
 )
-from icsolve.statics.friction.limits import (
-    End,
-    Slid,
-    StaticRange,
-    end_of,
-    nothing_rubs,
-    pressed,
-    range_of,
-    slid,
-    static_range,
-)
+from icsolve.statics.friction.limits import Slid, nothing_rubs, slid
+from icsolve.statics.friction.static_range import End, StaticRange, end_of, pressed, range_of, static_range
 from icsolve.statics.power import Balance, Bounded, Solution, Value, is_unknown
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import names_by_tie, reactions_of, tensions_of

@@ -1,0 +1,235 @@
+"""To which links points belong: what links carry; and slips in good YAML that this gives away.
+
+What a case says may be read as the format has it and still not be what its figure shows. Where the case
+itself holds the evidence (joints or dimensions fix a point to another link, a link is called `ground`), the
+slip is refused with both ways to say what is meant; without evidence nothing is suspected.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+from icsolve.case import (
+    Centroid,
+    Coordinates,
+    Corner,
+    Direction,
+    Force,
+    Joint,
+    Length,
+    Load,
+    Mark,
+    Motion,
+    Spring,
+    Stretch,
+    Torque,
+    TorsionSpring,
+    Weight,
+)
+from icsolve.read.document import Mapping, Node, Sequence
+from icsolve.read.reading import Reading
+from icsolve.tuples import NamedTuple
+
+if TYPE_CHECKING:
+    pass
+
+
+def carried(
+    links: tuple[str, ...],
+    ground: str,
+    joints: tuple[Joint, ...],
+    loads: tuple[Load, ...],
+    further: dict[str, tuple[str, ...]],
+    motion: tuple[Motion, ...],
+) -> dict[str, tuple[str, ...]]:
+    """The points that each link carries, in order of mention: of joints, loads, ``links:``, motion."""
+    found: dict[str, dict[str, None]] = {link: {} for link in links}
+    placed = [pair for joint in joints for pair in joint.carried]
+    placed += [pair for load in loads for pair in _on_load(load, ground)]
+    placed += [(link, point) for link, points in further.items() for point in points]
+    placed += [(given.link, given.point) for given in motion if given.point]
+    for link, point in placed:
+        found.setdefault(link, {})[point] = None
+    return {link: tuple(points) for link, points in found.items()}
+
+
+def _on_load(load: Load, ground: str) -> list[tuple[str, str]]:
+    """The points of a load, each with the link that it is put on; the other end of a spring last."""
+    if isinstance(load, Torque):
+        return []
+    other = load.against or ground if not isinstance(load, Weight) else ground
+    if isinstance(load, TorsionSpring):
+        own, arm = load.corner[-2:], load.corner[:-1] if len(load.corner) > 2 else ()
+        return [*((load.link, point) for point in own), *((other, point) for point in arm)]
+    over = load.over if isinstance(load, Force) else None
+    ends = [load.at, *(over[:2] if isinstance(over, Stretch) else ())]
+    placed = [(load.link, point) for point in ends]
+    return [*placed, (other, load.to)] if isinstance(load, Spring) else placed
+
+
+FRAMES = ("0", "frame", "ground", "base", "fixed", "gnd", "earth")
+"""What books call the frame."""
+
+
+class FigureData(NamedTuple):
+    """What tells to which link a point belongs."""
+
+    joints: tuple[Joint, ...]
+    lengths: tuple[Length, ...]
+    angles: tuple[Direction | Corner, ...]
+    points: dict[str, Coordinates | Centroid]
+    further: dict[str, tuple[str, ...]]
+    """points of links by `links:` and by profiles"""
+
+
+def check_frame(reading: Reading, given: bool, ground: str, welds: Iterable[tuple[str, ...]]) -> None:
+    """Refuse a link that is called as frames are where the case leaves it open which link is the frame."""
+    if given or not reading.links or ground not in reading.links:
+        return
+    still = _welded(ground, welds)
+    for link, mark in reading.links.items():
+        if link.lower() in FRAMES and link not in still:
+            said = f"link {link} has the name of a frame, but without 'ground:' link {ground} is the frame"
+            reading.refuse(mark, f"{said}; write 'ground: {link}', or 'ground: {ground}' if that is meant")
+            return
+
+
+def _welded(link: str, welds: Iterable[tuple[str, ...]]) -> set[str]:
+    """The links that move as one with a link."""
+    pairs = list(welds)
+    found = {link}
+    while more := {b for pair in pairs for a, *_, b in (pair, pair[::-1]) if a in found} - found:
+        found |= more
+    return found
+
+
+def check_loads(
+    reading: Reading,
+    root: Mapping,
+    figure: FigureData,
+    loads: tuple[Load, ...],
+    motion: tuple[Motion, ...],
+    ground: str,
+) -> tuple[str, ...]:
+    """Refuse loads and motions at a point that is fixed to another link; sentences on what may be meant.
+
+    A joint's point is at one place with the links that it does not join, and a load may act on these there:
+    that is said, not refused. A point that dimensions fix to one link belongs to it and to no other.
+    """
+    owners, said = _Owners(figure, ground), []
+    for what, link, point, key, way in _places(loads, motion, ground):
+        others, fixed = owners.instead(link, point)
+        if not others:
+            continue
+        whose = " and ".join(f"link {other}" for other in others[:2])
+        remedy = " or ".join(f"'{key}: {other}'" for other in others[:2])
+        if fixed:
+            mark = _mark(root, *way)
+            message = f"{what} link {link} at {point}, which is a point of {whose}: write {remedy}"
+            reading.refuse(mark, f"{message}, or 'links: {{{link}: [{point}]}}' if link {link} has it too")
+        else:
+            there = f"{what} link {link} at {point}, a joint of {whose}"
+            said.append(f"{there}; if one of these is meant, write {remedy}.")
+    for load in loads:
+        known = getattr(load, "value", 0) is not None
+        alone = getattr(load, "against", None) is None and not isinstance(load, Spring)
+        if load.link == ground and alone and known:
+            idle = f"load {load.name} acts on link {ground}, the frame, which never moves: it does no work."
+            said.append(idle)
+    return tuple(said)
+
+
+def _places(
+    loads: tuple[Load, ...], motion: tuple[Motion, ...], ground: str
+) -> Iterator[tuple[str, str, str, str, tuple[str | int, ...]]]:
+    """What is put on which link at which point, the key that says the link, and where that stands."""
+    for load in loads:
+        if isinstance(load, Torque) or load.link.startswith("@"):
+            continue
+        placed, way = _on_load(load, ground), ("loads", load.name)
+        own = 2 if isinstance(load, TorsionSpring) else len(placed) - isinstance(load, Spring)
+        for link, point in placed[:own]:
+            yield f"load {load.name} acts on", link, point, "link", (*way, "link")
+        end = "against" if getattr(load, "against", None) else "to" if isinstance(load, Spring) else "corner"
+        for link, point in placed[own:]:
+            yield f"the other end of load {load.name} is fixed to", link, point, "against", (*way, end)
+    for index, given in enumerate(motion):
+        if given.point:
+            yield "the motion is given on", given.link, given.point, "link", ("motion", index, "link")
+
+
+def _mark(root: Mapping, *way: str | int) -> Mark:
+    """Where a key's value stands; of what is missing, the nearest that is there."""
+    node: Node = root
+    for step in way:
+        if type(node) is Mapping and step in node.items:
+            node = node.items[str(step)]
+        elif type(node) is Sequence and isinstance(step, int):
+            node = node.items[step]
+    return node.mark
+
+
+class _Owners:
+    """To which links points belong, as joints, `links:` and dimensions tell."""
+
+    def __init__(self, figure: FigureData, ground: str) -> None:
+        self.figure, self.ground = figure, ground
+        welds = [joint.links for joint in figure.joints if not joint.freedom]
+        self.own: dict[str, set[str]] = {}
+        for link, point in _on_joints(figure.joints):
+            self.own.setdefault(link, set()).add(point)
+        for link, points in figure.further.items():
+            self.own.setdefault(link, set()).update(points)
+        for links in welds:
+            together = _welded(links[0], welds)
+            points_of_all = set().union(*(self.own.get(link, ()) for link in together))
+            self.own.update(dict.fromkeys(together, points_of_all))
+        self.dimensioned = {end for length in figure.lengths for end in (length.a, length.b)}
+        self.centres = {joint.at for joint in figure.joints if joint.stands_in}
+        self.fixed: dict[str, set[str]] = {}
+
+    def instead(self, link: str, point: str) -> tuple[list[str], bool]:
+        """The links that have a point, where a link has it not, and whether dimensions say so."""
+        own = self.own.get(link, set())
+        if point in own or point in self.centres or point.startswith("@"):
+            return [], False
+        if point in self._fixed_to(link):
+            return [], False
+        by_joints = [other for other, points in self.own.items() if point in points]
+        if by_joints or point not in self.dimensioned:
+            return by_joints, False
+        arms = (length for length in self.figure.lengths if {length.a, length.b} - own == {point})
+        if link != self.ground and any(arms):
+            return [], True  # an arm's end: its length says whose it is, its angle may be to another link
+        return [other for other in self.own if point in self._fixed_to(other)], True
+
+    def _fixed_to(self, link: str) -> set[str]:
+        """The points of a link, and those that two dimensions each fix to these."""
+        if link not in self.fixed:
+            found = set(self.own.get(link, ()))
+            while more := set(_tied(self.figure, found)) - found:
+                found |= more
+            self.fixed[link] = found
+        return self.fixed[link]
+
+
+def _on_joints(joints: Iterable[Joint]) -> Iterator[tuple[str, str]]:
+    for joint in joints:
+        if not joint.stands_in:  # a known centre is no point of its links
+            yield from ((link, point) for link in joint.links for point in joint.named)
+
+
+def _tied(figure: FigureData, known: set[str]) -> Iterator[str]:
+    """Points that two lengths or corners, or the mean of known points, fix to points that are known."""
+    ties: dict[str, int] = {}
+    sets = [{length.a, length.b} for length in figure.lengths]
+    sets += [{angle.a, angle.at, angle.b} for angle in figure.angles if isinstance(angle, Corner)]
+    for points in sets:
+        if len(free := points - known) == 1:
+            (point,) = free
+            ties[point] = ties.get(point, 0) + 1
+    yield from (point for point, count in ties.items() if count > 1)
+    for point, value in figure.points.items():
+        if isinstance(value, Centroid) and {*value.of} <= known:
+            yield point
