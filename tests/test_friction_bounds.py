@@ -528,3 +528,26 @@ loads: {M: {torque: 10, link: 4}, T: {torque: unknown, link: 2}}
     holds = answer.answers["T"].holds
     assert holds is not None
     assert len([note for note in answer.notes if "it may still hold" in note]) == len(holds)
+
+
+def test_forces_beyond_the_largest_double_are_refused_in_words() -> None:
+    """A pin of 1e13 inches with friction needs forces that no number holds: none is told as one."""
+    with pytest.raises(
+        icsolve.SceneError, match="F is larger than the largest double in these units"
+    ) as refusal:
+        icsolve.solve(
+            icsolve.load("""icsolve: 1
+points: {A: [0, 0], H: [-1.10417, 1.10417]}
+lengths: {AB: 1, BC: 6}
+angles: {AB: -54.09689}
+near: {C: [7.25, 0]}
+joints:
+  - {pin: [1, 2], at: A, mu: 0.4, radius: 1e13}
+  - {pin: [2, 3], at: B, mu: 0.4, radius: 1}
+  - {pin: [3, 4], at: C, mu: 0.4, radius: 1}
+  - {slide: [4, 2], at: C, along: 0, through: A}
+loads: {P: {force: 1e-300, link: 4, at: C, angle: 180}, F: {force: unknown, link: 2, at: H, angle: 225}}
+motion: {link: 2, turns: ccw}
+""")
+        )
+    assert refusal.value.status == "unsupported"

@@ -308,3 +308,13 @@ def test_a_point_before_three_digits_may_divide_thousands(a_class: Class) -> Non
 
 def test_a_joule_is_no_unit_of_torque(a_class: Class) -> None:
     assert [(r["verdict"], r["code"]) for r in a_class.judge("200 J", "0.2 kJ")] == [("wrong", "unit")] * 2
+
+
+@pytest.mark.parametrize("area", ["bore: 1e-200 m", "area: 1e-200 m^2"])
+def test_a_pressure_on_next_to_nothing_is_next_to_no_force(a_class: Class, area: str) -> None:
+    """What a zero is judged against: the square of the bore is no double, and 100 N is the largest load."""
+    load = f"loads:\n  S: {{pressure: 1 MPa, {area}, link: 2, at: B, angle: 180}}"
+    a_class.case(
+        "zero", ZERO.replace("icsolve: 1", "icsolve: 1\nunits: {length: m, force: N}").replace("loads:", load)
+    )
+    assert a_class.verdicts("0", "0.19", "0.21", case="zero") == ["right", "right", "wrong"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from decimal import Decimal
 from random import Random
 from typing import Any
@@ -33,6 +34,13 @@ def circles(offset: str) -> Any:
         return [x * x + y * y - 1.0, y - level], [{0: x * 2.0, 1: y * 2.0}, {1: balls.ball(1.0)}]
 
     return system
+
+
+@pytest.mark.parametrize("start", [math.nan, math.inf, "1e600000"])
+def test_a_start_beyond_all_numbers_shows_no_root(start: float | str) -> None:
+    """Forces of a scene whose data are 1e300 apart: what it solves for is refused in words."""
+    with pytest.raises(MoreDigits):
+        enclosed_root(circles("0.3"), [Decimal(start), Decimal("0.3")], Balls(60))
 
 
 @pytest.mark.parametrize("digits", [30, 60, 120])

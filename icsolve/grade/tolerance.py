@@ -127,7 +127,7 @@ def zero_width(target: Target, answer: Answer) -> float:
     match target:
         case LoadIs(name):
             load = next((load for load in answer.case.loads if load.name == name), None)
-            return OF_LOADS * largest_load(answer) * (_per_force(load, answer) if load is not None else 1.0)
+            return OF_LOADS * largest_load(answer) / ((load and _forces_per(load, answer)) or 1.0)
         case PositionIs(path) if path.startswith("angles."):
             return OF_LOADS * 180.0
         case ReactionIs() | TensionIs():
@@ -153,22 +153,22 @@ def largest_load(answer: Answer) -> float:
 def _as_force(load: Load, answer: Answer) -> float:
     if isinstance(load, ForceVector):
         return math.hypot(load.x.value, load.y.value)
-    return load.value.value / _per_force(load, answer) if isinstance(load.value, Number) else 0.0
+    return load.value.value * _forces_per(load, answer) if isinstance(load.value, Number) else 0.0
 
 
-def _per_force(load: Load, answer: Answer) -> float:
-    """How many of a load's own unit stand for a unit of force, at the mechanism's size."""
+def _forces_per(load: Load, answer: Answer) -> float:
+    """The force that one of a load's own unit is, at the mechanism's size."""
     match load:
         case Torque() | TorsionSpring():
-            return _torque_scale(answer)
+            return 1.0 / _torque_scale(answer)
         case Spring() | Force(over=Stretch()):
-            return 1.0 / size_of(answer)
+            return size_of(answer)
         case Weight(mass=True):
-            return 1.0 / (answer.case.gravity.value * answer.case.units.force_per_newton)
+            return answer.case.gravity.value * answer.case.units.force_per_newton
         case Force(over=Area() as area):
             widths = [0.0 if number is None else number.value for number in (area.bore, area.rod)]
             size = area.area.value if area.area is not None else widths[0] ** 2 - widths[1] ** 2
-            return 1.0 / (nearest(area.per) * size)
+            return nearest(area.per) * size
     return 1.0
 
 

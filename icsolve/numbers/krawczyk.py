@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Callable, Mapping, Sequence
-from decimal import Decimal
+from decimal import Decimal, Overflow
 from typing import TypeVar
 
 from icsolve.numbers.arithmetic import Scalar
@@ -53,7 +53,19 @@ def enclosed_root(system: System, start: Sequence[float | Decimal], balls: Balls
         Where that is not shown: the Jacobian is singular or near it, the start is far from any root, or the
         data are too wide. It does not say that there is no root.
     """
-    middle = [Decimal(x) for x in start]
+    if not all(math.isfinite(x) for x in start):
+        raise MoreDigits
+    try:
+        found = _closed_in(system, [Decimal(x) for x in start], balls)
+    except Overflow:  # so far from a root that no number holds the equations' values
+        found = None
+    if found is None:
+        raise MoreDigits
+    return found
+
+
+def _closed_in(system: System, middle: list[Decimal], balls: Balls) -> list[Ball] | None:
+    """The same; None where no root is shown."""
     longest = math.inf
     for n in range(MOST_STEPS):
         values, rows = system([balls.exactly(x) for x in middle])
@@ -70,7 +82,7 @@ def enclosed_root(system: System, start: Sequence[float | Decimal], balls: Balls
         if not longest < 0.5 * before:
             break
         middle = [balls.subtract(x, d) for x, d in zip(middle, step, strict=True)]
-    raise MoreDigits
+    return None
 
 
 def _enclosed(

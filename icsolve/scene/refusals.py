@@ -162,8 +162,7 @@ def not_as_written() -> SceneError:
 
 def overflow(load: str) -> SceneError:
     """The refusal of a load beyond the range of doubles."""
-    message = f"{load} is larger than the largest double in these units: give the case in other `units`."
-    return SceneError(Status.UNSUPPORTED, message)
+    return SceneError(Status.UNSUPPORTED, sentences.overflow(load))
 
 
 FLAT = 1e-6

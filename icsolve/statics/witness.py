@@ -16,7 +16,7 @@ from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Components, Equilibrium, T
 from icsolve.statics.power import L, PowerFactors
 from icsolve.tuples import LateModule
-from icsolve.wording.sentences import plural
+from icsolve.wording.sentences import overflow, plural
 
 if TYPE_CHECKING:
     from icsolve.screws import space
@@ -173,11 +173,14 @@ def witnesses(
 
 
 def refuse_apart(found: Sequence[Witness], slack: float) -> None:
-    """Raise SceneError (``near-singular``) where power and free bodies disagree by more than their bounds.
+    """Raise SceneError (``near-singular``) where power and free bodies disagree by more than their bounds,
+    ``unsupported`` where the forces on the way are beyond the range of doubles.
 
     ``slack`` is how far given centres contradict each other [fraction of the figure's size].
     """
     for w in found:
+        if not math.isfinite(w.power + w.bodies):
+            raise SceneError(Status.UNSUPPORTED, overflow(w.load))
         room = max(w.bound, max(AGREE, slack) * max(abs(w.power), abs(w.bodies)))
         if not abs(w.difference) <= room:
             raise SceneError(Status.NEAR_SINGULAR, _routes_disagree(w))

@@ -429,6 +429,10 @@ def cos_sin(degrees: Decimal) -> tuple[Decimal, Decimal]:
         return ((c, s), (-s, c), (-c, -s), (s, -c))[quarter % 4]
 
 
+FIFTH = Decimal("1e-50")
+"""The fifth power of a smaller angle is nothing to all digits: two terms of its arc tangent suffice."""
+
+
 def angle(x: Decimal, y: Decimal) -> Decimal:
     """Direction of a vector [degrees], within half a turn."""
     with localcontext(CONTEXT):
@@ -436,12 +440,12 @@ def angle(x: Decimal, y: Decimal) -> Decimal:
         if not size or not size.is_finite():
             return Decimal("NaN") if size else Decimal(0)
         x, y = x / size, y / size
-        found = Decimal(math.degrees(math.atan2(float(y), float(x))))
-        for quarter in (-180, -90, 0, 90, 180):
-            c, s = cos_sin(Decimal(quarter))
-            if y * c == x * s and x * c + y * s > 0:
-                return Decimal(quarter)
-        for _ in range(4):
+        if not y:
+            return Decimal(0 if x > 0 else -180)
+        if not x:
+            return Decimal(90 if y > 0 else -90)
+        found, tangent = Decimal(math.degrees(math.atan2(float(y), float(x)))), Decimal(1)
+        while abs(tangent) > FIFTH:
             c, s = cos_sin(found)
             across, along = y * c - x * s, x * c + y * s
             tangent = across / along

@@ -26,6 +26,11 @@ def link_words(link: str) -> str:
     return f"the end of the rope {link[1:]}" if link.startswith("@") else f"link {link}"
 
 
+def overflow(load: str) -> str:
+    """A load beyond the range of doubles."""
+    return f"{load} is larger than the largest double in these units: give the case in other `units`."
+
+
 RECONSTRUCTED = "Reconstructed"
 
 
