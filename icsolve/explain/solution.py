@@ -13,6 +13,7 @@ from icsolve.explain.centres import centre_sections, ratio_section, worked_speed
 from icsolve.explain.document import Block, Document, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.equilibrium import equilibrium_section
 from icsolve.explain.formula import Name, Num, Product, Quantity, Quotient, minus, product
+from icsolve.explain.friction import friction_section
 from icsolve.explain.given import (
     Figures,
     asked_section,
@@ -22,7 +23,7 @@ from icsolve.explain.given import (
     load_name,
     rate_name,
 )
-from icsolve.explain.power import friction_section, motions_section, power_section
+from icsolve.explain.power import motions_section, power_section
 from icsolve.explain.ropes import ropes_section, screws_section
 from icsolve.report.derivation.known import Known, acting_loads
 from icsolve.report.derivation.ratios import Step, all_steps, answer_ratios, needed_steps

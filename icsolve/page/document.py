@@ -29,10 +29,11 @@ from icsolve.explain.document import Document, Formula, formula
 from icsolve.explain.formula import MATHML, OMEGA, Expr, Name, Num, Quotient, Sum, product
 from icsolve.explain.given import load_name
 from icsolve.explain.typeset import AsHtml
+from icsolve.page.columns import Array, exact, script_json
 from icsolve.page.fields import section
 from icsolve.page.live import Live, why_presolved
 from icsolve.page.model import forces_in_joints, gain_rows
-from icsolve.page.motion import Array, PageMotion, exact, script_json
+from icsolve.page.motion import PageMotion
 from icsolve.page.pictures import track_svg
 from icsolve.report.derivation.known import Acting, Known, acting_loads, resting
 from icsolve.report.derivation.ratios import Step

@@ -21,7 +21,9 @@ from icsolve.draw.marks import Box, Mark, MarkGroup, Point, Stroke, TextMark, bo
 from icsolve.draw.place import Label, Placer, joined
 from icsolve.draw.ropes import RopeCourse, belts, courses, filled, pulley_marks, rope_marks
 from icsolve.draw.scene import ORDER, Part, Scene, Wheel, around, together
-from icsolve.page.motion import Array, PageMotion, moved
+from icsolve.page.columns import Array
+from icsolve.page.motion import PageMotion
+from icsolve.page.poses import moved
 from icsolve.report.derivation.known import Acting, Known, acting_loads
 from icsolve.report.derivation.ratios import Step
 from icsolve.tuples import NamedTuple

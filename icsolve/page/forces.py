@@ -14,7 +14,8 @@ from icsolve.draw.marks import plain_text
 from icsolve.draw.scene import Scene
 from icsolve.draw.words import unit_word
 from icsolve.errors import SceneError
-from icsolve.page.motion import PageMotion, exact
+from icsolve.page.columns import exact
+from icsolve.page.motion import PageMotion
 from icsolve.report.derivation.known import Known, known_at
 from icsolve.scene import solve_scene
 from icsolve.screws.plane import Triple

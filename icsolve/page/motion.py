@@ -1,153 +1,28 @@
-"""The positions of a mechanism over the whole range of its input, solved beforehand by the sweep: what
-moves it, and where every link then is."""
+"""The positions of a mechanism over the whole range of its input, solved beforehand by the sweep."""
 
 from __future__ import annotations
 
-import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from contextlib import suppress
-from typing import Any
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from icsolve.case import Case, Centroid, Coordinates, Like, Load, Number, Pair, Rope, Torque, pair_name
+from icsolve.case import Case, Centroid, Coordinates, Like, Load, Number, Pair, Torque, pair_name
 from icsolve.case.joints import Guided, Mesh, without_friction
 from icsolve.draw.figure import genevas
 from icsolve.draw.plot import asymptotes, dead_centres
 from icsolve.draw.words import figure_number, unit_word
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.page.columns import Array
+from icsolve.page.poses import PagePose, poses_of
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ratios import loaded_links
 from icsolve.scene.refusals import rubs
 from icsolve.screws.plane import Point
-from icsolve.screws.ropes import rope_length, rope_parts
 from icsolve.statics.inertia import as_given
 from icsolve.statics.power import is_unknown
 from icsolve.sweep import Sweep, sweep
 from icsolve.tuples import NamedTuple, replace
-
-Array = np.ndarray
-
-
-class PagePose(NamedTuple):
-    """Where a link is in every row: the place of one of its points, and its angle from the position as
-    written, degrees counterclockwise."""
-
-    point: str
-    x: Array
-    y: Array
-    angle: Array
-
-
-class PageRows(NamedTuple):
-    """What a link's pose is found from: the input, its degrees, the row as written, the sweep, and the poses
-    so far."""
-
-    known: Known
-    driver: str
-    degrees: Array
-    zero: int
-    found: Sweep
-    poses: dict[str, PagePose]
-
-    def carried(self, link: str) -> list[str]:
-        """The points of a link that the sweep has."""
-        return [p for p in self.known.case.carries.get(link, ()) if p in self.found.points]
-
-
-def poses_of(known: Known, driver: str, degrees: Array, zero: int, found: Sweep) -> dict[str, PagePose]:
-    """The pose of every link that carries a point, and of the free ends of ropes."""
-    case = known.case
-    rows = PageRows(known, driver, degrees, zero, found, {})
-    waiting = [link for link in case.links if link != case.ground and rows.carried(link)]
-    for attempt in (_by_points, _by_guide, _by_rate):
-        for link in list(waiting):
-            pose = attempt(rows, link)
-            if pose is not None:
-                rows.poses[link] = pose
-                waiting.remove(link)
-    for rope in case.ropes:
-        if rope.is_free and {*rope.points} <= found.points.keys():
-            rows.poses[rope.end] = _free_end(rows, rope)
-    return rows.poses
-
-
-def _by_points(rows: PageRows, link: str) -> PagePose | None:
-    """By two points of the link that lie apart."""
-    names, at = rows.carried(link), rows.known.points
-    a, b = max(((p, q) for p in names for q in names), key=lambda two: math.dist(at[two[0]], at[two[1]]))
-    if math.dist(at[a], at[b]) <= 1e-9 * rows.known.size:
-        return None
-    p, q = rows.found.points[a], rows.found.points[b]
-    angle = np.degrees(np.arctan2(q[:, 1] - p[:, 1], q[:, 0] - p[:, 0]))
-    turned = angle - angle[rows.zero]
-    return PagePose(a, p[:, 0], p[:, 1], np.asarray((turned + 180.0) % 360.0 - 180.0))
-
-
-def _by_guide(rows: PageRows, link: str) -> PagePose | None:
-    """As the link turns on which it slides."""
-    name = rows.carried(link)[0]
-    for joint in rows.known.case.joints:
-        if isinstance(joint, Guided) and joint.keeps_direction and link in joint.links:
-            other = joint.links[1 - joint.links.index(link)]
-            x, y = rows.found.points[name].T
-            if other == rows.known.case.ground:
-                return PagePose(name, x, y, np.zeros(len(rows.degrees)))
-            if other in rows.poses:
-                return PagePose(name, x, y, rows.poses[other].angle)
-    return None
-
-
-def _by_rate(rows: PageRows, link: str) -> PagePose:
-    """By its rate beside the driver's, summed from row to row (a gear of which nothing else shows)."""
-    name, rates = rows.carried(link)[0], rows.found.rates
-    ratio = np.zeros(len(rows.degrees))
-    if link in rates and rows.driver in rates:
-        with np.errstate(all="ignore"):
-            ratio = np.nan_to_num(rates[link] / rates[rows.driver], posinf=0.0, neginf=0.0)
-    steps = 0.5 * (ratio[1:] + ratio[:-1]) * np.diff(rows.degrees)
-    total = np.concatenate(([0.0], np.cumsum(steps)))
-    x, y = rows.found.points[name].T
-    return PagePose(name, x, y, total - total[rows.zero])
-
-
-def _free_end(rows: PageRows, rope: Rope) -> PagePose:
-    """A free end goes along the direction of its last part, by what the rest of the rope has become longer or
-    shorter, and by what the drum at its beginning has let go; it has no place beyond its last pulley."""
-    *_, last, end = rope.points
-    at, places, count = rows.known.points, rows.found.points, len(rows.degrees)
-    parts = rope_parts(rope, at, 1.0, FLOATS)
-    carried = places[last] + np.subtract(at[end], at[last])
-    lengths, turns = np.full(count, np.nan), np.full(count, np.nan)
-    for n in range(count):
-        here: dict[str, Point] = {p: tuple(places[p][n].tolist()) for p in rope.points}
-        here[end] = tuple(carried[n].tolist())
-        if np.isfinite(list(here.values())).all():
-            with suppress(SceneError):
-                x, y = rope_parts(rope, here, 1.0, FLOATS)[0].along
-                turns[n] = math.atan2(y, x)
-                lengths[n] = float(rope_length(rope, here, 1.0, FLOATS))
-    drum = rows.poses.get(rope.links[0])
-    turned = np.zeros(count) if drum is None else np.unwrap(np.radians(drum.angle))
-    lengths -= float(parts[0].offset) * (turned - np.unwrap(turns))
-    gone = lengths[rows.zero] - lengths
-    gone[gone <= -float(parts[-1].length)] = np.nan  # the end would run through its pulley
-    x, y = (carried + np.outer(gone, parts[-1].along)).T
-    return PagePose(end, x, y, np.zeros(count))
-
-
-def moved(pose: PagePose, start: tuple[float, float], p: tuple[float, float]) -> tuple[Array, Array]:
-    """Where a point of a link is in every row; ``start`` is the place of the pose's point as written."""
-    turn = np.radians(pose.angle)
-    dx, dy = p[0] - start[0], p[1] - start[1]
-    co, si = np.cos(turn), np.sin(turn)
-    return pose.x + co * dx - si * dy, pose.y + si * dx + co * dy
-
-
-# --- the input -------------------------------------------------------------------------------------------
-
 
 STILL = 1e-12
 """A part of the figure's size: a link that turns by less, for a way as long as the figure, only slides."""
@@ -276,9 +151,6 @@ def ways(known: Known) -> Array:
     power = 10.0 ** math.floor(math.log10(0.5 * size))
     half = max(m for m in (1.0, 2.0, 5.0) if m * power <= 0.5 * size * (1.0 + 1e-9)) * power
     return np.arange(-ROWS, ROWS + 1) * (half / ROWS)
-
-
-# --- the sweep of the page -------------------------------------------------------------------------------
 
 
 STEP, MIDDLE, COARSE = 1.0, 2.0, 5.0
@@ -544,54 +416,3 @@ def _shares(case: Case, found: Sweep) -> dict[str, Array]:
 
 def _like(load: Load) -> bool:
     return isinstance(getattr(load, "value", None), Like)
-
-
-# --- columns of numbers -----------------------------------------------------------------------------------
-
-FINE = {"px": 10, "deg": 100, "told": 100_000, "far": 1e-5}
-"""Steps a picture unit, or a degree: a tenth of a unit, a hundredth of a degree; of a point whose place is
-read as a number, far finer; of a direction to infinity, whose numbers are large."""
-FAR = 1e5
-"""Numbers beyond this are written plainly, to five significant digits."""
-DIGITS = 12
-"""Significant digits of an answer: those that anyone is shown, and more."""
-
-
-def compact(values: Array, fine: float) -> dict[str, Any]:
-    """A column in steps of 1 / ``fine``, as differences of differences, which are small where a motion is
-    smooth; ``n`` are the rows in which it is not a number."""
-    known = np.isfinite(values)
-    if known.any() and float(np.abs(values[known]).max()) * min(fine, 1.0) < FAR:
-        rows = np.arange(len(values))
-        whole = np.rint(np.interp(rows, rows[known], values[known]) * fine).astype(np.int64)
-        none = {} if known.all() else {"n": np.flatnonzero(~known).tolist()}
-        return {"s": fine, "d": np.diff(whole, 2, prepend=(0, 0)).tolist(), **none}
-    return {"v": [_rounded(v, 5) for v in values.tolist()]}
-
-
-def exact(values: Iterable[float], digits: int = DIGITS) -> dict[str, Any]:
-    """A column of numbers that are read: all digits that are shown."""
-    return {"v": [_rounded(v, digits) for v in values]}
-
-
-def _rounded(value: float, digits: int) -> float | int | None:
-    if not math.isfinite(value):
-        return None
-    value = float(format(value, f".{digits}g")) + 0.0
-    return int(value) if value == int(value) and abs(value) < 1e15 else value
-
-
-def moves(values: Array, fine: float) -> bool:
-    """Whether a column changes as the picture shows it."""
-    return bool(np.ptp(values) * fine > 0.5) if np.isfinite(values).all() else True
-
-
-_UNSAFE = str.maketrans(
-    {"<": "\\u003c", ">": "\\u003e", "&": "\\u0026", "\u2028": "\\u2028", "\u2029": "\\u2029"}
-)
-
-
-def script_json(value: object) -> str:
-    """JSON that can stand in a script element whatever its texts say."""
-    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-    return text.translate(_UNSAFE).encode("utf-8", "replace").decode("utf-8")

@@ -15,8 +15,9 @@ from icsolve.draw.plot import PlotFrame, PlottedCurve, plot_marks
 from icsolve.draw.svg import element, escaped, number
 from icsolve.draw.words import description, figure_number
 from icsolve.errors import Status
+from icsolve.page.columns import FINE, Array, compact
 from icsolve.page.figure import PageFigure
-from icsolve.page.motion import FINE, Array, PageMotion, compact
+from icsolve.page.motion import PageMotion
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ratios import Step
 from icsolve.tuples import NamedTuple
