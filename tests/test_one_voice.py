@@ -37,7 +37,7 @@ from icsolve.report.derivation.ratios import answer_ratios
 from icsolve.report.text import answer_text
 from icsolve.statics.power import reacting
 from icsolve.sweep.find_on_record import Query, find
-from icsolve.wording.senses import holding, spelt
+from icsolve.wording.senses import direction_words, holding, spelt
 from library import FILES, PAGED, page_of, sample
 from loading import drawn
 from shell import exit_status
@@ -520,3 +520,26 @@ def test_what_is_reconstructed_is_said_wherever_a_case_is_handed_on(kind: str, t
         with ZipFile(out) as archive:
             texts = [archive.read(name) for name in archive.namelist() if name.endswith(".xml")]
     assert any(b"the lengths are of another print" in text for text in texts)
+
+
+@pytest.mark.parametrize("degrees", [0.0, -1e-13, 1e-12, 359.9999999, 359.9996, 720.0, -0.0002])
+def test_a_direction_that_rounds_to_a_whole_turn_is_zero(degrees: float) -> None:
+    assert direction_words(degrees) == "0 deg"
+
+
+@pytest.mark.parametrize(
+    ("degrees", "words"), [(339.7781, "339.778 deg"), (-90.0, "270 deg"), (0.5, "0.5 deg")]
+)
+def test_a_direction_is_told_between_zero_and_a_whole_turn(degrees: float, words: str) -> None:
+    assert direction_words(degrees) == words
+
+
+def test_directions_are_put_into_words_in_one_place() -> None:
+    """A number taken modulo a whole turn, and written with its unit, on its own can say 360 deg."""
+    own = re.compile(r"% 360\.0\)?:\.6g\} deg")
+    told = {
+        file.name
+        for file in Path(icsolve.__file__).parent.rglob("*.py")
+        if own.search(file.read_text(encoding="utf-8"))
+    }
+    assert told == {"senses.py"}

@@ -10,6 +10,7 @@ from icsolve.cams.curve import Curve, Foot, table_spline
 from icsolve.cams.pieces import CircularArc, Point, PolarPiece
 from icsolve.case import Number
 from icsolve.case.profiles import Arcs, Circle, Polygon, Radii, Shape
+from icsolve.wording.senses import direction_words
 from icsolve.wording.sentences import listed, plural
 
 if TYPE_CHECKING:
@@ -119,7 +120,7 @@ def contact_said(one: Touching) -> str:
     least = 1e-14 * math.hypot(*one.at)
     x, y = (0.0 if abs(v) <= least else v for v in one.at)
     pressure = "" if one.pressure_angle is None else f", pressure angle {one.pressure_angle:.6g} deg"
-    place = f"({x:.6g}, {y:.6g}), {_article(one.on)}, normal {one.normal:.6g} deg"
+    place = f"({x:.6g}, {y:.6g}), {_article(one.on)}, normal {direction_words(one.normal)}"
     return f"links {listed(one.links)} touch at {place}{pressure}."
 
 

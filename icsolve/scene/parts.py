@@ -33,7 +33,7 @@ from icsolve.statics import power
 from icsolve.statics.power import Bounded, Outcome, Value, Wrench, known_value, load_value
 from icsolve.tuples import LateModule, NamedTuple, cached_property, replace
 from icsolve.wording import sentences
-from icsolve.wording.senses import sense_of, unit_of
+from icsolve.wording.senses import direction_words, sense_of, unit_of
 from icsolve.wording.sentences import link_words
 
 if TYPE_CHECKING:
@@ -378,8 +378,7 @@ def _directed(case: Case, found: dict[str, Found]) -> dict[str, Found]:
     for name in case.directed:
         x, y = (found.pop(f"{name}.{axis}") for axis in "xy")
         size = math.hypot(x.value, y.value)
-        direction = math.degrees(math.atan2(y.value, x.value)) % 360.0
-        sense = f"at {round(direction, 6) % 360.0:.6g} deg" if size else ""
+        sense = f"at {direction_words(math.degrees(math.atan2(y.value, x.value)))}" if size else ""
         error = None if x.error is None or y.error is None else math.hypot(x.error, y.error) + 2e-16 * size
         found[name] = Found(size, x.unit, sense, error, x.why or y.why, components=(x.value, y.value))
     order = [load.name.removesuffix(".x") for load in case.loads]

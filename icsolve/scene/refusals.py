@@ -14,6 +14,7 @@ from icsolve.statics import power
 from icsolve.structure.topology import Topology, reached, topology
 from icsolve.tuples import LateModule
 from icsolve.wording import sentences
+from icsolve.wording.senses import direction_words
 
 if TYPE_CHECKING:
     from icsolve.screws import ropes as rope_screws
@@ -81,11 +82,11 @@ def refuse_no_hanging(case: Case, points: Points, scale: float) -> None:
         if isinstance(load, Weight) and load.link in ropes:
             x, y = ropes[load.link][-1].along
             if abs(x) > HANGS or y > 0.0:
-                toward = math.degrees(math.atan2(y, x)) % 360.0
+                toward = direction_words(math.degrees(math.atan2(y, x)))
                 raise SceneError(
                     Status.INCONSISTENT,
                     f"the weight {load.name} hangs at {load.at}, and the last part of the rope "
-                    f"{load.link[1:]} does not hang, but runs at {toward:.6g} deg. Put {load.at} under the "
+                    f"{load.link[1:]} does not hang, but runs at {toward}. Put {load.at} under the "
                     "last pulley, or give the pull as a `force`.",
                 )
 

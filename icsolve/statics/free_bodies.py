@@ -42,6 +42,7 @@ from icsolve.statics.witness import (
     witnesses,
 )
 from icsolve.tuples import NamedTuple, Protocol, replace
+from icsolve.wording.senses import direction_words
 from icsolve.wording.sentences import listed
 
 
@@ -296,8 +297,8 @@ def _left(position: Position, motion: int, drive: float) -> str:
         return f"{abs(torque):.6g} {units.torque} {'ccw' if torque > 0.0 else 'cw'} on link {link}"
     x, y = velocity(position.twists[link][motion], FRAME)
     force = drive / math.hypot(x, y)
-    toward = math.degrees(math.atan2(y * force, x * force)) % 360.0
-    return f"{abs(force):.6g} {units.force} at {toward:.6g} deg on link {link}"
+    toward = direction_words(math.degrees(math.atan2(y * force, x * force)))
+    return f"{abs(force):.6g} {units.force} at {toward} on link {link}"
 
 
 def _first_turning(position: Position, motion: int) -> tuple[str, float]:

@@ -48,7 +48,13 @@ def sense_of(load: Load, value: float, gain: float, degrees: float) -> str:
                 return "pull" if (value > 0) != heading.away else "push"
             if (value > 0) != heading.away:
                 return f"toward {heading.point}"
-    return f"at {round(degrees % 360.0 + (0.0 if value > 0 else 180.0), 6) % 360.0:.6g} deg"
+    return f"at {direction_words(degrees if value > 0 else degrees + 180.0)}"
+
+
+def direction_words(degrees: float) -> str:
+    """A direction counterclockwise from +x, to six digits, in [0, 360): what rounds to a whole turn is 0."""
+    rounded = float(f"{round(degrees % 360.0, 6):.6g}")
+    return f"{rounded % 360.0:.6g} deg"
 
 
 Show = Callable[[float], str]

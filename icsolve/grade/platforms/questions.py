@@ -26,6 +26,7 @@ from icsolve.grade.mistakes.lookup import ORDER
 from icsolve.grade.written.words import factors_between
 from icsolve.numbers.units import parse_unit
 from icsolve.tuples import NamedTuple
+from icsolve.wording.senses import direction_words
 
 
 def figure(case: Case) -> str:
@@ -57,7 +58,7 @@ def asked(key: AnyKey, target: Target) -> str:
     elif key.expected.asked:
         sign = ", and its direction in degrees counterclockwise from +x"
     elif key.expected.heading is not None:
-        sign = f" (positive at {key.expected.heading % 360.0:.6g} deg from +x)"
+        sign = f" (positive at {direction_words(key.expected.heading)} from +x)"
     return f"Find {name}{unit}{sign}."
 
 

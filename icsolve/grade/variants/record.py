@@ -24,6 +24,7 @@ from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import Draw, VariantRecord, Varied
 from icsolve.grade.written.numerals import figures
 from icsolve.tuples import NamedTuple
+from icsolve.wording.senses import direction_words
 from icsolve.wording.statement import Statement
 
 VALUES, KEYS = "values.csv", "key.csv"
@@ -314,7 +315,7 @@ def sense(varied: Varied, draw: Draw, key: NumberKey) -> str:
         return "ccw" if key.value * key.expected.turn > 0.0 else "cw"
     if key.expected.heading is not None and not key.expected.axial:
         degrees = key.expected.heading + (0.0 if key.value > 0.0 else 180.0)
-        return f"at {round(degrees, 6) % 360.0:.6g} deg"
+        return f"at {direction_words(degrees)}"
     solved = varied.task(draw)
     name = getattr(solved.target(key.question), "load", "")
     found = solved.answer.answers.get(name)
