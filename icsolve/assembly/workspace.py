@@ -370,22 +370,25 @@ Span = Datum | Apart
 
 def data_in(made: object) -> tuple[Datum, ...]:
     """The data that a direction, a locus or a step is made of, each once: those among its fields."""
-    return tuple(dict.fromkeys(part for part in _parts(made) if isinstance(part, Datum)))
+    return tuple(dict.fromkeys(part for part in _parts(made, []) if type(part) is Datum))
 
 
 def keys_in(made: object) -> tuple[Key, ...]:
     """The points that a direction or a locus is made of, and those that a step puts: each once."""
-    return tuple(dict.fromkeys(part for part in _parts(made) if not isinstance(part, Datum)))
+    return tuple(dict.fromkeys(part for part in _parts(made, []) if type(part) is not Datum))
 
 
-def _parts(made: object) -> Iterator[Datum | Key]:
-    """The data and the points among the fields of a value, and among theirs."""
-    match made:
-        case Datum() | str() | (int(), str()):
-            yield made  # type: ignore[misc]
-        case tuple():
+def _parts(made: object, found: list[Datum | Key]) -> list[Datum | Key]:
+    """The data and the points among the fields of a value, and among theirs, behind those found before."""
+    if isinstance(made, tuple) and type(made) is not Datum:
+        if len(made) == 2 and type(made[0]) is int and type(made[1]) is str:
+            found.append(made)
+        else:
             for part in made:
-                yield from _parts(part)
+                _parts(part, found)
+    elif isinstance(made, Datum | str):
+        found.append(made)
+    return found
 
 
 # --- the drawing workspace on which a construction runs: its case, its arithmetic, and the points so far ---

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from functools import partial
+from functools import cache, partial
 from itertools import groupby
 
 import numpy as np
@@ -150,6 +150,7 @@ def _runs(case: Case, mode: RoughMode, turns: bool) -> list[Range]:
     """Ranges of one mode: runs of values at which it holds, with their ends."""
     values = mode.values
 
+    @cache  # what was sampled is asked again where a run ends
     def spare(value: float) -> float:
         try:
             return spare_friction(_rough(case, mode.scene(value)))
