@@ -9,6 +9,7 @@ import sys
 from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
+from random import Random
 from types import CodeType, FrameType
 from typing import Any
 
@@ -16,6 +17,8 @@ import pytest
 
 import icsolve
 from icsolve.assembly import solve_figure
+from icsolve.assembly.newton import _searched
+from icsolve.bench.families import BUTTERFLY, by_sides, linkage
 from icsolve.case import Case
 from icsolve.draw import Drawing, draw
 from icsolve.explain import explain
@@ -86,3 +89,12 @@ def test_a_page_adds_the_setting_of_its_sweep(name: str) -> None:
     found = counted(case, page_html)
     assert (found["topology"], found["solve_figure"]) == (1, 2)
     assert all(count == 1 for work, count in found.items() if work.startswith("evaluate"))
+
+
+def test_a_figure_is_searched_for_once_whatever_its_loads_are() -> None:
+    """Points that only all their data place: with another load, or read again, they are the same."""
+    text = by_sides(linkage(BUTTERFLY), (1, 4))(Random(3))
+    _searched.cache_clear()
+    answers = [icsolve.solve(icsolve.load(text, {"loads.K": size})) for size in (3.0, 5.0, 5.0)]
+    assert _searched.cache_info().misses == 1
+    assert len({tuple(one.value for one in answer.answers.values()) for answer in answers}) == 2

@@ -19,7 +19,7 @@ from icsolve.assembly.order import grow
 from icsolve.assembly.refusals import datum_words, measure, plain
 from icsolve.assembly.steps import Given, Meet, Miss, PointGroup, Step, needs, newton_step
 from icsolve.assembly.workspace import CORNER, LENGTH, LINE, ROPE, Frame, Key, Workspace, data_in, facts_of
-from icsolve.case import Case
+from icsolve.case import Case, Centroid, Coordinates, Corner, Direction, Joint, Length, Rope, Units
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.numbers.linear import Row, inverse, solve_square
@@ -99,18 +99,34 @@ class Descent(NamedTuple):
 def solutions(group: PointGroup, workspace: Workspace, near: Mapping[str, Spot]) -> Converged:
     """The solutions found of a group: from `near` itself first, then from other starts."""
     known = ((key, place) for key, place in workspace.points.items() if key not in group.targets)
-    return _searched(group, workspace.case, workspace.frame, tuple(known), tuple(near.items()))
+    case = workspace.case
+    figure = (tuple(case.points.items()), case.lengths, case.angles, case.joints, case.ropes, case.units)
+    return _searched(group, figure, workspace.frame, tuple(known), tuple(near.items()))
+
+
+FigureData = tuple[
+    tuple[tuple[str, Coordinates | Centroid], ...],
+    tuple[Length, ...],
+    tuple[Direction | Corner, ...],
+    tuple[Joint, ...],
+    tuple[Rope, ...],
+    Units,
+]
+"""Points, lengths, angles, joints, ropes and units of a case: all that a search may look at."""
 
 
 @lru_cache(maxsize=512)
 def _searched(
     group: PointGroup,
-    case: Case,
+    figure: FigureData,
     frame: Frame,
     known: tuple[tuple[Key, Spot], ...],
     about: tuple[tuple[str, Spot], ...],
 ) -> Converged:
-    """The same, kept: a figure is placed for its loads, its points and its pictures, also where it fails."""
+    """The same, kept: a figure is placed for its loads, its points and its pictures, also where it fails, and
+    is the same figure whatever its loads are."""
+    points, lengths, angles, joints, ropes, units = figure
+    case = Case(points=dict(points), lengths=lengths, angles=angles, joints=joints, ropes=ropes, units=units)
     workspace, near = Workspace(case, frame, FLOATS), dict(about)
     workspace.points.update(known)
     if not any(p in near for p in group.targets):

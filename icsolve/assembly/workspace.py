@@ -370,12 +370,12 @@ Span = Datum | Apart
 
 def data_in(made: object) -> tuple[Datum, ...]:
     """The data that a direction, a locus or a step is made of, each once: those among its fields."""
-    return tuple(dict.fromkeys(part for part in _parts(made, []) if type(part) is Datum))
+    return tuple(dict.fromkeys(part for part in _parts(made, []) if isinstance(part, Datum)))
 
 
 def keys_in(made: object) -> tuple[Key, ...]:
     """The points that a direction or a locus is made of, and those that a step puts: each once."""
-    return tuple(dict.fromkeys(part for part in _parts(made, []) if type(part) is not Datum))
+    return tuple(dict.fromkeys(part for part in _parts(made, []) if not isinstance(part, Datum)))
 
 
 def _parts(made: object, found: list[Datum | Key]) -> list[Datum | Key]:
