@@ -33,7 +33,7 @@ from icsolve.statics.friction import solutions as homotopy
 from icsolve.statics.friction.enclosure import SceneOnBalls, enclosed
 from icsolve.statics.friction.equations import Lengths, error_of, fixed_point, newton, scale_at
 from icsolve.statics.friction.interface import rubs_of
-from icsolve.statics.power import Wrench
+from icsolve.statics.load_wrenches import Wrench
 from icsolve.statics.reaction_basis import Position, ties_of
 from icsolve.statics.reactions import names_by_tie
 from icsolve.statics.witness import refuse_apart

@@ -35,7 +35,7 @@ from icsolve.report.check import value_of
 from icsolve.report.derivation.known import Known, known_of
 from icsolve.report.derivation.ratios import answer_ratios
 from icsolve.report.text import answer_text
-from icsolve.statics.power import reacting
+from icsolve.statics.load_wrenches import reacting
 from icsolve.sweep.find_on_record import Query, find
 from icsolve.wording.senses import direction_words, holding, spelt
 from library import FILES, PAGED, page_of, sample

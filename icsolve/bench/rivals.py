@@ -18,7 +18,7 @@ from icsolve.scene.program import Program, Want, prepare
 from icsolve.screws.joints import freedoms, transmitted
 from icsolve.screws.plane import Point, Triple, cross, pairing, times
 from icsolve.solve import solve
-from icsolve.statics import power
+from icsolve.statics import load_wrenches, power
 from icsolve.structure.topology import Topology
 from icsolve.tuples import NamedTuple
 
@@ -56,7 +56,7 @@ class Posed(NamedTuple):
 
     top: Topology
     bases: Bases
-    wrenches: tuple[power.Wrench, ...]
+    wrenches: tuple[load_wrenches.Wrench, ...]
 
 
 def drawn(case: Case) -> RivalFigure:
@@ -76,7 +76,7 @@ def posed(scene: RivalFigure, normalised: bool = False) -> Posed:
     points = {name: ((x - ox) * scale, (y - oy) * scale) for name, (x, y) in raw.items()}
     bases = {k: freedoms(bond, points, FLOATS) for k, bond in enumerate(scene.top.bonds)}
     place = PlacedCase(scene.case, Frame(0.0, 0.0, scale), points, FLOATS)
-    return Posed(scene.top, bases, power.wrenches(place))
+    return Posed(scene.top, bases, load_wrenches.wrenches(place))
 
 
 def _sides(case: Case) -> tuple[float, float, float, float, float]:

@@ -46,7 +46,7 @@ from icsolve.scene.refusals import HANGS, rubs
 from icsolve.screws.joints import OFF_RADIUS, at_radius, freedoms, guide_direction
 from icsolve.screws.plane import Triple, force_wrench
 from icsolve.screws.ropes import RopePart, rope_parts
-from icsolve.statics import power
+from icsolve.statics import load_wrenches, power
 from icsolve.statics.inertia import COUPLE, FORCE, inertia_forces, is_loaded
 from icsolve.structure.topology import Bond
 from icsolve.sweep.numbers import numbers_of
@@ -244,7 +244,7 @@ class _ProgramWriter:
             for body in range(len(self.top.members))
         ]
         loads = []
-        for w in power.wrenches(self._place()):
+        for w in load_wrenches.wrenches(self._place()):
             loads.append([*w.unit, w.gain, w.ratio, power.number_of(w, self.record)])
         freed = [[list(twist) for twist in basis] for _, basis in sorted(bases.items())]
         courses = [[[p.length, *p.wrench, *p.along] for p in parts] for parts in ropes.values()]
@@ -360,7 +360,7 @@ class _ProgramWriter:
             "heavy": [link for link in case.inertia if is_loaded(case)],
             "inexact": any(joint.has_written_centre for joint in case.joints),
             "given": any(joint.stands_in for joint in case.joints),
-            "loads": [self._load(w) for w in power.wrenches(self._place())],
+            "loads": [self._load(w) for w in load_wrenches.wrenches(self._place())],
             "moves": self._by_points(),
             "kinds": [type(bond.joint).__name__ for bond in top.bonds],
             "pivots": [list(bond.pivots) if bond.pivots[0] else None for bond in top.bonds],
@@ -482,7 +482,7 @@ class _ProgramWriter:
     def _ends(self) -> Iterable[tuple[str, str]]:
         """Pairs of points that give a direction to a load, a guide, a wheel."""
         guides = [getattr(bond.joint, "guide", None) for bond in self.top.bonds]
-        found = [power.line_of(load) for load in self.case.loads]
+        found = [load_wrenches.line_of(load) for load in self.case.loads]
         found += [guide.ends for guide in guides if guide is not None]
         found += [bond.pivots for bond in self.top.bonds if bond.pivots[0]]
         return (ends for ends in found if ends is not None)
@@ -503,7 +503,7 @@ class _ProgramWriter:
         point = {} if given.point is None else {"point": place[given.point]}
         return {"link": given.link, "cw": given.turns == "cw", **point, **found}
 
-    def _load(self, w: power.Wrench) -> dict[str, Any]:
+    def _load(self, w: load_wrenches.Wrench) -> dict[str, Any]:
         load = w.load
         heading = getattr(load, "heading", None)
         return {

@@ -21,7 +21,7 @@ from icsolve.case.expected import (
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.plane import add, cross, subtract
 from icsolve.screws.space import Vec, size, times
-from icsolve.statics.power import number_taken, vector_size
+from icsolve.statics.load_wrenches import number_taken, vector_size
 
 
 def found_value(answer: Answer, target: OfBodies) -> float:

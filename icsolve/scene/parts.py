@@ -29,8 +29,9 @@ from icsolve.scene.program import (
     unknown_values,
 )
 from icsolve.screws.plane import Triple
-from icsolve.statics import power
-from icsolve.statics.power import Bounded, Outcome, Value, Wrench, known_value, load_value
+from icsolve.statics import load_wrenches, power
+from icsolve.statics.load_wrenches import Wrench
+from icsolve.statics.power import Bounded, Outcome, Value, known_value, load_value
 from icsolve.tuples import LateModule, NamedTuple, cached_property, replace
 from icsolve.wording import sentences
 from icsolve.wording.senses import direction_words, sense_of, unit_of
@@ -388,7 +389,7 @@ def _directed(case: Case, found: dict[str, Found]) -> dict[str, Found]:
 def wanted_pairs(case: Case, want: Want) -> list[Pair]:
     """Pairs of links whose centres are asked for, in order."""
     links = list(case.links)
-    against = {frozenset((load.link, power.reacting(case, load))) for load in case.loads}
+    against = {frozenset((load.link, load_wrenches.reacting(case, load))) for load in case.loads}
     if not (want.centres or want.examine):
         loaded = {load.link for load in case.loads} | {case.ground}
         links = [link for link in links if link in loaded or any(link in pair for pair in against)]

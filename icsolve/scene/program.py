@@ -25,7 +25,7 @@ from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, HalfUnits, MoreD
 from icsolve.scene import refusals
 from icsolve.screws.joints import points_of
 from icsolve.screws.plane import Triple
-from icsolve.statics import power
+from icsolve.statics import load_wrenches, power
 from icsolve.statics.power import Bounded, Outcome, Value
 from icsolve.structure.plan import Plan, make_plan
 from icsolve.structure.topology import Topology, topology
@@ -114,7 +114,7 @@ def _wanted_bodies(case: Case, top: Topology, want: Want) -> frozenset[int]:
         return frozenset(range(len(top.members)))
     if case.ropes or case.screws:
         return frozenset(range(len(top.members)))
-    links = {link for load in case.loads for link in (load.link, power.reacting(case, load))}
+    links = {link for load in case.loads for link in (load.link, load_wrenches.reacting(case, load))}
     links |= {given.link for given in case.motion}
     return frozenset(top.body_of[link] for link in links)
 
@@ -122,7 +122,7 @@ def _wanted_bodies(case: Case, top: Topology, want: Want) -> frozenset[int]:
 def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want) -> list[str]:
     """The points whose places the plan, the loads and the given motions need."""
     points = [p for k in bonds for p in points_of(top.bonds[k])]
-    points += [p for load in case.loads for p in power.points_of(load)]
+    points += [p for load in case.loads for p in load_wrenches.points_of(load)]
     points += [given.point for given in case.motion if given.point is not None]
     points += [p for rope in case.ropes for p in rope.points]
     points += [p for screw in case.screws for p in (screw.slide.at, *(screw.slide.guide.ends or ()))]
@@ -159,7 +159,7 @@ def evaluate(program: Program, arithmetic: Arithmetic = FLOATS) -> tuple[Program
         motions = motion.by_loops(place)
     motions = motion.with_ends(motions, place)
     # power
-    case, wrenches = program.case, power.wrenches(place)
+    case, wrenches = program.case, load_wrenches.wrenches(place)
     if case.dynamic and case.inertia:
         from icsolve.statics.inertia import exactly, is_loaded
 
@@ -173,7 +173,7 @@ def evaluate_still(program: Program, arithmetic: Arithmetic = FLOATS) -> tuple[P
     """The same of a structure: its places, and the loads on it; nothing moves."""
     case, place = program.case, _placed(program, arithmetic)
     still = motion.Motions(dict.fromkeys((*case.links, case.ground), ()), {}, 0, 0, (), ())
-    nothing = power.Balance(power.wrenches(place), (), ())
+    nothing = power.Balance(load_wrenches.wrenches(place), (), ())
     return program, Outcome(place, still, nothing, power.Solution("balanced", {}))
 
 

@@ -10,7 +10,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import Motions
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, all_vanish
 from icsolve.screws.joints import Points
-from icsolve.statics import power
+from icsolve.statics import load_wrenches, power
 from icsolve.structure.topology import Topology, reached, topology
 from icsolve.tuples import LateModule
 from icsolve.wording import sentences
@@ -42,7 +42,11 @@ Directions = tuple[tuple[str, tuple[str, str]], ...]
 
 def directions(case: Case) -> Directions:
     """Those of loads, the arms of torsion springs, guides and wheels."""
-    lines = [(f"load {load.name}", power.line_of(load)) for load in case.loads if not power.may_vanish(load)]
+    lines = [
+        (f"load {load.name}", load_wrenches.line_of(load))
+        for load in case.loads
+        if not load_wrenches.may_vanish(load)
+    ]
     for load in case.loads:
         if isinstance(load, TorsionSpring):
             lines += [(f"the corner of load {load.name}", (load.at, p)) for p in load.corner if p != load.at]
@@ -63,7 +67,7 @@ def directions_of_joints(case: Case) -> Directions:
 def refuse_no_direction(lines: Directions, points: Points, arithmetic: Arithmetic) -> None:
     """Refuse directions that two points give that lie at one place [frame]."""
     for what, (a, b) in lines:
-        if a in points and b in points and power.at_one_place(points[a], points[b], arithmetic):
+        if a in points and b in points and load_wrenches.at_one_place(points[a], points[b], arithmetic):
             raise SceneError(
                 Status.INCONSISTENT,
                 f"there is no direction for {what}: {sentences.listed((a, b))} lie at one place. Give it "

@@ -32,7 +32,7 @@ from icsolve.numbers.record import Record, varies
 from icsolve.numbers.replay import Array, Code
 from icsolve.scene import refusals
 from icsolve.screws.plane import velocity
-from icsolve.statics import power
+from icsolve.statics import load_wrenches, power
 from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.branches import may_vanish
 from icsolve.sweep.drivers import Drive
@@ -339,7 +339,7 @@ def _on_sheet(
             f"the mechanism has {motions.mobility} degrees of freedom: as many data of its figure have to be "
             "unknown as it has.",
         )
-    wrenches = power.wrenches(scene.place, vectors=True)
+    wrenches = load_wrenches.wrenches(scene.place, vectors=True)
     balance = power.balance(wrenches, motions.twists, 1)
     total = power.known_power(balance, 0, record)
     rate, poses = _rate(scene, motions.twists, given)

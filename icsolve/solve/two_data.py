@@ -43,7 +43,7 @@ from icsolve.solve.load_function import (
 from icsolve.solve.positions import refuse_ropes, refuse_unwritten, whole_range
 from icsolve.solve.rest import held, with_scene
 from icsolve.solve.settled import DEGREES, within_a_turn
-from icsolve.statics import power
+from icsolve.statics import load_wrenches, power
 from icsolve.structure.topology import topology
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.exact import RowScenes
@@ -206,7 +206,7 @@ def _surface(compiled: CompiledSweep, paths: Sequence[str], margins: Sequence[Sc
             "many have to be.",
         )
     inputs = (compiled.inputs[paths[0]], compiled.inputs[paths[1]])
-    balance = power.balance(power.wrenches(scene.place, vectors=True), motions.twists, 2)
+    balance = power.balance(load_wrenches.wrenches(scene.place, vectors=True), motions.twists, 2)
     totals = [power.known_power(balance, m, record) for m in (0, 1)]
     slopes = [v for total in totals for v in gradient(record, total, inputs).values()]
     velocities = []

@@ -21,15 +21,8 @@ from icsolve.screws.plane import velocity
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import Equilibrium, Statics, T, equilibrium
 from icsolve.statics.friction.interface import efficiency, friction_terms
-from icsolve.statics.power import (
-    Balance,
-    Wrench,
-    force_scale,
-    has_friction,
-    is_unknown,
-    known_power,
-    known_value,
-)
+from icsolve.statics.load_wrenches import Wrench
+from icsolve.statics.power import Balance, force_scale, has_friction, is_unknown, known_power, known_value
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import names_by_tie, notes_of, reactions_of, tensions_of
 from icsolve.statics.witness import (

@@ -11,7 +11,8 @@ from icsolve.kinematics.motion import Motions
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.units import exact_ratio, parse_unit
 from icsolve.screws.plane import Point, force_wrench
-from icsolve.statics.power import Wrench, known_value, vector_size
+from icsolve.statics.load_wrenches import Wrench, vector_size
+from icsolve.statics.power import known_value
 from icsolve.tuples import replace
 
 FORCE = "inertia force {}"

@@ -14,7 +14,8 @@ from icsolve.numbers.arithmetic import Scalar, decider
 from icsolve.numbers.linear import Row, inverse, solve_square
 from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Components, Equilibrium, T
-from icsolve.statics.power import L, PowerFactors
+from icsolve.statics.load_wrenches import L
+from icsolve.statics.power import PowerFactors
 from icsolve.tuples import LateModule
 from icsolve.wording.sentences import overflow, plural
 

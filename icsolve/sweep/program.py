@@ -21,7 +21,7 @@ from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.numbers.record import Record, varies
 from icsolve.scene import refusals
 from icsolve.screws.plane import Point
-from icsolve.statics.power import points_of, spring_angle
+from icsolve.statics.load_wrenches import points_of, spring_angle
 from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import Drive, condition, drive_of, pose_of, turning, turns_links
 from icsolve.sweep.friction_rows import FrictionRows, rubbing

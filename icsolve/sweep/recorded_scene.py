@@ -34,7 +34,7 @@ from icsolve.numbers.record import Record, varies
 from icsolve.scene import refusals
 from icsolve.screws.joints import freedoms, pitch_point
 from icsolve.screws.plane import Point, Triple, subtract, velocity
-from icsolve.statics import power
+from icsolve.statics import load_wrenches, power
 from icsolve.statics.equilibrium import equilibrium
 from icsolve.statics.reaction_basis import Position, ties_of
 from icsolve.structure.plan import make_plan
@@ -266,12 +266,12 @@ def rested(scene: RecordedScene, contacts: Sequence[RestingContact], inputs: dic
 def statics(scene: RecordedScene, everything: bool) -> RecordedStatics:
     """Unknown loads and twists of the scene on the record; with ``everything`` the twist of every link."""
     case, top, place = scene.case, scene.top, scene.place
-    links = {link for load in case.loads for link in (load.link, power.reacting(case, load))}
+    links = {link for load in case.loads for link in (load.link, load_wrenches.reacting(case, load))}
     unknown = any(power.is_unknown(load) for load in case.loads)
     some = unknown and not (everything or case.ropes or case.screws)
     wanted = frozenset(top.body_of[link] for link in links) if some else None
     motions = motions_of(scene, wanted)
-    wrenches = power.wrenches(place)
+    wrenches = load_wrenches.wrenches(place)
     balance = power.balance(wrenches, motions.twists, motions.mobility)
     solution = power.solve_balance(balance, scene.record)
     try:

@@ -35,7 +35,7 @@ from icsolve.grade.mistakes.changed import (
 )
 from icsolve.grade.mistakes.lookup import FACTORS, Wrong, plain_wrongs
 from icsolve.report.check import value_of
-from icsolve.statics.power import reacting
+from icsolve.statics.load_wrenches import reacting
 from icsolve.tuples import NamedTuple, cached_property, replace
 
 _NOTHING = 1e-9

@@ -20,7 +20,8 @@ from icsolve.report.derivation.ropes import moving_names
 from icsolve.scene.parts import wanted_pairs
 from icsolve.scene.program import Want
 from icsolve.screws.plane import Triple
-from icsolve.statics.power import is_unknown, reacting
+from icsolve.statics.load_wrenches import reacting
+from icsolve.statics.power import is_unknown
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import link_words
 

@@ -25,15 +25,8 @@ from icsolve.statics.equilibrium import (
     tie_actions,
 )
 from icsolve.statics.free_bodies import carrying
-from icsolve.statics.power import (
-    PowerFactors,
-    PowerRow,
-    UnitWrench,
-    acting,
-    balance,
-    power_rows,
-    vector_size,
-)
+from icsolve.statics.load_wrenches import UnitWrench, acting, vector_size
+from icsolve.statics.power import PowerFactors, PowerRow, balance, power_rows
 from icsolve.statics.space.reaction_basis import (
     SpatialFigure,
     SpatialTie,
