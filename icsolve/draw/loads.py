@@ -354,7 +354,7 @@ def legend(scene: Scene, at: Point) -> MarkGroup | None:
     fastest = max((math.hypot(*v) for v in found.values()), default=0.0)
     if fastest == 0.0:
         return None
-    speed = _round(fastest)
+    speed = round_at_most(fastest)
     end = along(at, (1.0, 0.0), LONGEST * speed / fastest)
     unit_name = f"{scene.case.units.length}/s"
     text = f"{quantity(speed, unit_name)} ({_reference(scene)})"
@@ -362,7 +362,7 @@ def legend(scene: Scene, at: Point) -> MarkGroup | None:
     return MarkGroup("velocity-scale", "", (*arrow(at, end, "velocity", 8.0), words), text)
 
 
-def _round(value: float) -> float:
+def round_at_most(value: float) -> float:
     """1, 2 or 5 times a power of ten, at most the value (but for rounding: 99.99999999999999 is 100)."""
     value *= 1.0 + 1e-9
     power = 10.0 ** math.floor(math.log10(value))

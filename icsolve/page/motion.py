@@ -10,6 +10,7 @@ import numpy as np
 from icsolve.case import Case, Centroid, Coordinates, Like, Load, Number, Pair, Torque, pair_name
 from icsolve.case.joints import Guided, Mesh, without_friction
 from icsolve.draw.figure import genevas
+from icsolve.draw.loads import round_at_most
 from icsolve.draw.plot import asymptotes, dead_centres
 from icsolve.draw.words import figure_number, unit_word
 from icsolve.errors import SceneError, Status
@@ -148,9 +149,7 @@ def ways(known: Known) -> Array:
     """
     size = max((math.dist(p, q) for p in known.points.values() for q in known.points.values()), default=0.0)
     size = size or known.size or 1.0
-    power = 10.0 ** math.floor(math.log10(0.5 * size))
-    half = max(m for m in (1.0, 2.0, 5.0) if m * power <= 0.5 * size * (1.0 + 1e-9)) * power
-    return np.arange(-ROWS, ROWS + 1) * (half / ROWS)
+    return np.arange(-ROWS, ROWS + 1) * (round_at_most(0.5 * size) / ROWS)
 
 
 STEP, MIDDLE, COARSE = 1.0, 2.0, 5.0
