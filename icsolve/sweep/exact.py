@@ -145,6 +145,8 @@ class ExactRecord:
     def margins(self, roots: Sequence[Root], given: Mapping[int, Decimal]) -> list[Decimal]:
         """The smaller margin of each branch over the size of its terms; what is zero is 0, and not a number
         where nothing says where its place is."""
+        if not roots:
+            return []
         nodes = [self.record.nodes[n] for root in roots for margin in root.margins for n in margin]
         flat = iter(self.values(nodes, given))
         with localcontext(CONTEXT):
@@ -315,12 +317,13 @@ class RowScenes:
         try:
             margins = exact.margins(self.roots, given)
             margins += exact.values([compiled.record.nodes[k] for k in compiled.margins], given)
+            if any(m < -ZERO for m in margins if not m.is_nan()):
+                raise SceneError(Status.CANNOT_ASSEMBLE, APART)
             checks = [compiled.record.nodes[k] for k in compiled.motion.checks] if compiled.motion else []
             off = exact.values(checks, given)
         except Unreached:
             raise SceneError(Status.CANNOT_ASSEMBLE, APART) from None
-        apart = any(m < -ZERO for m in margins if not m.is_nan())
-        if apart or any(abs(v) > AGREED for v in off if not v.is_nan()):
+        if any(abs(v) > AGREED for v in off if not v.is_nan()):
             raise SceneError(Status.CANNOT_ASSEMBLE, APART)
         if any(v.is_nan() for v in (*margins, *off, *exact.values(self._flat(), given))):
             raise SceneError(Status.CHANGE_POINT, ANYWHERE)
