@@ -1402,7 +1402,8 @@ def test_a_rope_with_a_free_end_rests_where_its_counterweight_says(
         ("sweep CASE --vary loads.W=1:2:1 --find rest", "does not pose the figure"),
         ("sweep CASE --drive 2=0:1:1 --dynamic --find rest", "does not rest"),
         ("solve CASE --dynamic --stability 2", "speed"),
-        ("solve CASE --stability 3", "cannot vary"),
+        ("solve CASE --stability 3", "no stability by '3': name a link that moves (2), or a datum"),
+        ("solve CASE --stability points.B.x", "no stability by 'points.B.x': the case has no number there"),
     ],
 )
 def test_what_is_asked_amiss_is_told(

@@ -106,6 +106,28 @@ expect: {TC: 17.5 toward C, TD: 17.50 toward D, F12y: 30.00, A-B: 6.0, h F12 B: 
 """
 
 
+@pytest.mark.parametrize("way", ["toward", "away"])
+def test_the_worked_solution_says_which_way_a_load_acts_as_it_was_written(way: str) -> None:
+    """Toward a point, along or about an axis: not the components of a unit vector."""
+    text = BOOM.partition("expect")[0].replace("toward: C", f"{way}: C")
+    told = explain(load(text), "text")
+    assert f"TC: a load on link 2 at B, {'away from' if way == 'away' else 'toward'} C\n" in told
+    assert "N: a couple on link 2, about y\n" in told
+    assert "P: a load of 10 kN on link 2 at B, along -z\n" in told
+
+
+@pytest.mark.parametrize("path", ["loads.P", "lods.P", "points.C.x"])
+@pytest.mark.parametrize("more", [[], ["--find", "TC=3"], ["--find", "rest"]])
+def test_a_case_in_space_is_not_swept_whatever_the_path(
+    path: str, more: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "boom.yaml"
+    file.write_text(BOOM)
+    assert exit_status("sweep", str(file), "--vary", f"{path}=1:2:1", *more) == 1
+    said = capsys.readouterr().err
+    assert "this case is in space" in said and "--set" in said
+
+
 def test_a_boom_on_a_ball_with_two_cables() -> None:
     """Each cable lifts 5 at B: its tension is 5 x 7 / 2 (the cable is 7 long and 2 high)."""
     answer = solve(load(BOOM))

@@ -71,7 +71,7 @@ def _load(figures: Figures, push: Push) -> tuple[Inline, ...]:
     where = f" at {push.where}" if push.where and not push.where.startswith("@") else ""
     return (
         load_name(push.name),
-        f": a {kind}{value} on link {push.link}{where}, along {direction_words(push.direction)}",
+        f": a {kind}{value} on link {push.link}{where}, {push.way}",
     )
 
 

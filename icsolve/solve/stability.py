@@ -9,8 +9,9 @@ from itertools import pairwise
 from icsolve.answer import Answer, by_load
 from icsolve.answer.equilibrium import Stiffness
 from icsolve.case import Case, ForceVector, Number
-from icsolve.errors import SceneError, Status
+from icsolve.errors import CaseError, Problem, SceneError, Status
 from icsolve.kinematics.speeds import joint_order
+from icsolve.read.names import shown
 from icsolve.scene import solve_scene
 from icsolve.solve.positions import led_rest, moved_by, refuse_motion, rest_of
 from icsolve.solve.rest import Rest, balances
@@ -29,9 +30,23 @@ def with_stability(case: Case, answer: Answer, of: str) -> Answer:
     """
     if answer.positions is not None:  # each has its own
         return answer
+    _refuse_unknown(case, of)
     held = holding(case, answer)
     rest = rest_as_written(held, of)
     return replace(answer, stability=rest.stability, stiffness=rest.stiffness, why_no_stiffness=rest.why)
+
+
+def _refuse_unknown(case: Case, of: str) -> None:
+    """Refuse what is neither a link nor a number of the case, by the names that would do."""
+    if of in case.links:
+        return
+    if "." in of:
+        find_number(case, of, "no stability by")
+        return
+    movable = [link for link in case.links if link != case.ground]
+    links = f"name a link that moves ({', '.join(movable)})"
+    said = f"no stability by {shown(of)}: {links}, or a datum that poses the figure, as angles.AB"
+    raise CaseError([Problem(case.path, 1, 1, said)])
 
 
 def holding(case: Case, answer: Answer) -> Case:

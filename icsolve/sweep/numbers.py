@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from icsolve.case import Case, Number
-from icsolve.errors import CaseError, Problem
+from icsolve.errors import CaseError, Problem, SceneError, Status
 from icsolve.read.names import parts, shown, suggestion
 from icsolve.read.settings import like
 from icsolve.scene.sensitivity import numbers_of, parts_of
@@ -41,15 +41,30 @@ def with_numbers(case: Case, values: Mapping[str, float | Number]) -> Case:
     return replace(case, **{name: changed(getattr(case, name)) for name in held})
 
 
-def find_number(case: Case, path: str) -> Number:
+IN_SPACE = (
+    "a sweep moves a planar mechanism, and this case is in space: its points have three coordinates. Solve "
+    "it position by position, with --set."
+)
+
+
+def refuse_space(case: Case) -> None:
+    """Refuse a case in space, whatever is to be varied."""
+    if case.space is not None:
+        raise SceneError(Status.UNSUPPORTED, IN_SPACE)
+
+
+def find_number(case: Case, path: str, refused: str = "cannot vary") -> Number:
     """The number at a path, in any of the ways in which it can be written (``lengths.BA`` for
-    ``lengths.AB``).
+    ``lengths.AB``). ``refused`` begins what is said where there is none.
 
     Raises
     ------
     CaseError
         Where there is none, with what may have been meant, or several.
+    SceneError
+        Where the case is in space.
     """
+    refuse_space(case)
     known = numbers_of(case)
     if path in known:
         return known[path]
@@ -59,8 +74,11 @@ def find_number(case: Case, path: str) -> Number:
         return found[0]
     if found:
         lines = " or ".join(number.path for number in found)
-        raise _refusal(case, section, path, f"{len(found)} numbers are meant by it; write {lines}")
-    raise _refusal(case, section, path, _missing(case, known, path, section, rest))
+        why = f"{len(found)} numbers are meant by it; write {lines}"
+    else:
+        why = _missing(case, known, path, section, rest)
+    line, column = case.marks.get(section, (1, 1))
+    raise CaseError([Problem(case.path, line, column, f"{refused} {shown(path)}: {why}")])
 
 
 def _means(own: str, section: str, rest: str) -> bool:
@@ -107,9 +125,4 @@ def _missing(case: Case, known: Mapping[str, Number], path: str, section: str, r
     return f"the case has no number there{suggestion(path, alike)}"
 
 
-def _refusal(case: Case, section: str, path: str, why: str) -> CaseError:
-    line, column = case.marks.get(section, (1, 1))
-    return CaseError([Problem(case.path, line, column, f"cannot vary {shown(path)}: {why}")])
-
-
-__all__ = ["find_number", "numbers_of", "points_of", "with_numbers"]
+__all__ = ["find_number", "numbers_of", "points_of", "refuse_space", "with_numbers"]

@@ -14,6 +14,7 @@ from icsolve.kinematics.speeds import NO_SPEED
 from icsolve.numbers.replay import Array
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
+from icsolve.sweep.numbers import refuse_space
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.request import Columns, SweepRequest, columns_of, refuse_size, request_of, shown_points
 from icsolve.sweep.run import SweepRun
@@ -24,10 +25,6 @@ from icsolve.sweep.table import CODE, Sweep, Table
 from icsolve.tuples import replace
 
 BY_SCENES = "each row is solved as a scene of its own."
-IN_SPACE = (
-    "a sweep moves a planar mechanism, and this case is in space: its points have three coordinates. Solve "
-    "it position by position, with --set."
-)
 
 
 def sweep(
@@ -70,8 +67,7 @@ def sweep(
         For arrays that can't be columns (of unlike lengths, empty, not finite, of two dimensions), numbers
         that no case may have there, and words that can't be wanted.
     """
-    if case.space is not None:
-        raise SceneError(Status.UNSUPPORTED, IN_SPACE)
+    refuse_space(case)
     columns = columns_of(case, vary, drive)
     dynamic = dynamic or case.dynamic
     wanted = request_of(case, tuple(want) if not isinstance(want, str) else (want,), dynamic)

@@ -12,13 +12,14 @@ from icsolve.screws.space import ZERO, Vec, times
 from icsolve.statics.power import known_value
 from icsolve.statics.space.power import wrenches
 from icsolve.statics.space.reaction_basis import SpatialFigure, SpatialTie, figure_of, in_case, ties_of
-from icsolve.statics.space.reactions import unit_of
+from icsolve.statics.space.reactions import unit_of, way_words
 from icsolve.tuples import NamedTuple
 
 
 class Push(NamedTuple):
     """A load in space, case units: force and couple on ``link`` at ``at`` (None for a couple alone), their
-    opposites on ``against``; ``value`` its number (None where it was not found)."""
+    opposites on ``against``; ``value`` its number (None where it was not found), ``way`` the one in
+    which it acts where that is positive."""
 
     name: str
     link: str
@@ -31,6 +32,7 @@ class Push(NamedTuple):
     value: float | None
     unit: str
     unknown: bool
+    way: str
 
 
 class InSpace(NamedTuple):
@@ -97,5 +99,5 @@ def _loads(known: Known, figure: SpatialFigure) -> tuple[Push, ...]:
         force, couple = (push, ZERO) if where else (ZERO, push)
         unit = unit_of(load, known.case)
         acts = (load.name, load.link, w.against, at, where, direction, force, couple)
-        found.append(Push(*acts, value, unit, number is None))
+        found.append(Push(*acts, value, unit, number is None, way_words(w)))
     return tuple(found)

@@ -20,6 +20,7 @@ from icsolve.case.space import (
     SpatialForce,
     SpatialTorque,
     Thrust,
+    TorqueVector,
     Vector,
 )
 from icsolve.errors import SceneError, Status
@@ -40,6 +41,16 @@ from icsolve.wording.sentences import plural, wrong_count
 def unit_of(load: Load, case: Case) -> str:
     """Unit in which a load's number is given and printed."""
     return case.units.torque if is_couple(load) else senses.unit_of(load, case)
+
+
+def way_words(w: SpatialWrench) -> str:
+    """Which way a load acts where its number is positive: ``toward A``, ``along -z``, ``about x``."""
+    match w.load:
+        case SpatialForce(heading=Toward(point, away)):
+            return f"{'away from' if away else 'toward'} {point}"
+        case SpatialTorque() | TorqueVector():
+            return f"about {direction_words(w.unit[3:])}"
+    return f"along {direction_words(w.unit[:3])}"
 
 
 def sense_of(w: SpatialWrench, value: float) -> str:
