@@ -42,8 +42,8 @@ def with_numbers(case: Case, values: Mapping[str, float | Number]) -> Case:
 
 
 IN_SPACE = (
-    "a sweep moves a planar mechanism, and this case is in space: its points have three coordinates. Solve "
-    "it position by position, with --set."
+    "only a planar mechanism is swept or has a stability, and this case is in space: its points have three "
+    "coordinates. Solve it position by position, with --set."
 )
 
 
