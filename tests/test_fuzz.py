@@ -34,7 +34,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("ICSOLVE_DEBUG", "1")
     if not FULL:
-        monkeypatch.setattr("icsolve.assembly.exclusion.MOST_BOXES", 50_000)
+        monkeypatch.setattr("icsolve.assembly.exclusion.MOST_BOXES", 10_000)
     return tmp_path
 
 
