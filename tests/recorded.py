@@ -34,7 +34,7 @@ class InSixtyDigits:
         for (value, name), traced in self.record._constants.items():
             plain = name in numbers and numbers[name].factor == 1.0
             found[traced.index] = mpf(numbers[name].digits) if plain else mpf(value)
-        return found
+        return {**found, self.record.radian.index: mp.pi / 180}
 
     def of(self, k: int) -> Any:
         """The value of a node."""

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from mpmath import mp, mpf
 
 import icsolve
 from icsolve.answer import Answer
@@ -687,3 +688,42 @@ loads:
     with pytest.raises(SceneError, match=r"rope P-Q-E-B.* in the order in which it runs") as refused:
         icsolve.solve(icsolve.load(told))
     assert refused.value.status == "slack"
+
+
+WINDLASS = """
+units: {length: mm, force: N}
+points: {O: [0, 0], K: [0, 400], B: [100, -800]}
+joints:
+  - {pin: [1, 2], at: O}
+  - {slide: [3, 1], at: B, along: 90}
+  - {rope: [O, B], on: [2, 3], radii: {O: 100}, wraps: {O: cw}}
+loads: {W: {weight: 600, link: 3, at: B}, F: {force: unknown, link: 2, at: K, angle: 180}}
+"""
+
+
+RACK = """icsolve: 1
+points: {O: [0, 0], P: [0, -2], C: [3, -2.5]}
+joints:
+  - {pin: [1, 2], at: O}
+  - {roll: [2, 3], at: P, radii: [2, 0]}
+  - {slide: [3, 1], at: C, along: 0}
+loads: {T: {torque: unknown, link: 2}, W: {force: 5, link: 3, at: C, angle: 0}}
+"""
+
+
+@pytest.mark.parametrize("degrees", [37.0, -1234.5678])
+@pytest.mark.parametrize(
+    ("text", "link", "point", "axis", "per"),
+    [(WINDLASS, "2", "B", 1, "100"), (RACK, "2", "C", 0, "2")],
+    ids=["windlass", "rack"],
+)
+def test_what_a_turn_winds_or_rolls_has_all_digits(
+    text: str, link: str, point: str, axis: int, per: str, degrees: float
+) -> None:
+    """Radius times angle to fifty digits: pi / 180 is no double, and beside a fold a row needs them."""
+    case = icsolve.load("icsolve: 1\n" + text if text is WINDLASS else text)
+    before = case.points[point][axis]
+    after = icsolve.sweep(case, drive={link: [degrees]}).case_of(0).points[point][axis]
+    with mp.workdps(80):
+        gone = mpf(after.digits) - mpf(before.digits)
+        assert abs(gone - mpf(per) * mpf(repr(degrees)) * mp.pi / 180) < mpf(10) ** -50

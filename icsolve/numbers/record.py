@@ -12,8 +12,8 @@ from collections.abc import Callable, Container, Iterable, Sequence
 from enum import IntEnum
 from typing import Any
 
-from icsolve.numbers.arithmetic import ROUNDING_NOISE, Scalar, turn_of
-from icsolve.numbers.tape import decimal_noise
+from icsolve.numbers.arithmetic import RADIAN, ROUNDING_NOISE, Scalar, turn_of
+from icsolve.numbers.tape import UNIT, decimal_noise
 from icsolve.numbers.units import ExactRatio, Number, nearest
 from icsolve.tuples import NamedTuple
 
@@ -230,6 +230,11 @@ class Record:
     def about(self, value: float, noise: float) -> Traced:
         """A constant that is known to within some noise."""
         return self._constant(value, noise, f"about {noise!r}")
+
+    @property
+    def radian(self) -> Traced:
+        """A degree, in radians: pi / 180, which no double is (`icsolve.sweep.exact` has its digits)."""
+        return self._constant(RADIAN, UNIT * RADIAN, "radian")
 
     def _constant(self, value: float, noise: float, name: str) -> Traced:
         found = self._constants.get((value, name))

@@ -79,10 +79,13 @@ class ExactRecord:
     def _decimals(self) -> Values:
         """What the constants of the record are in the file."""
         numbers = numbers_of(self.compiled.setting.case)
-        return {
+        radian = self.record.radian
+        found = {
             traced.index: decimal_of(numbers[name]) if name in numbers else Decimal(value)
             for (value, name), traced in self.record._constants.items()
         }
+        with localcontext(CONTEXT):
+            return {**found, radian.index: pi() / 180}
 
     def _placed(self) -> Values:
         """The points as written that Newton's method places, in all digits: the record has its last step from

@@ -15,7 +15,7 @@ from icsolve.assembly.driven.poses import Places, Rotation, Shape, Spot, dot, mi
 from icsolve.assembly.workspace import Datum, Workspace
 from icsolve.case import Rope
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import RADIAN, Scalar
+from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
 from icsolve.screws.plane import Point, Triple
 from icsolve.screws.ropes import RopePart, part_between
@@ -116,7 +116,7 @@ class RolledStraight(NamedTuple):
         """How far the centre has gone along the flank [degrees times a radius]."""
         through = places.point(self.line.body, self.line.through)
         along = places.vector(self.line.body, self.line.along)
-        return dot(along, minus(places.place(self.centre), through)) / RADIAN
+        return dot(along, minus(places.place(self.centre), through)) / shape.record.radian
 
 
 class RolledRound(NamedTuple):
@@ -189,7 +189,7 @@ class Roped(NamedTuple):
 
     def rest(self, shape: Shape, places: Places, turned: Turn) -> Scalar:
         """By how much it has become longer but for what its drums take up [degrees times a radius]."""
-        return self.longer(places, shape.record, turned) / RADIAN
+        return self.longer(places, shape.record, turned) / shape.record.radian
 
     def longer(self, places: Places, record: Record, turned: Turn, without: Spot | None = None) -> Scalar:
         """By how much the rope is longer than as written [frame], but for the turning of its drums.
@@ -212,7 +212,7 @@ class Roped(NamedTuple):
             more = more + now.length
             if self.is_round(k) or self.is_round(k + 1):
                 angle = turned(dot(then.along, now.along), dot(square(then.along), now.along))
-                more = more + (self.offsets[k] - self.offsets[k + 1]) * angle * RADIAN
+                more = more + (self.offsets[k] - self.offsets[k + 1]) * angle * record.radian
         return more
 
 
@@ -331,7 +331,8 @@ class ConditionRows:
                 p, whole = places.place(one), r + s
                 normal = scaled(1.0 / whole, minus(places.place(two), p))
                 along, contact = square(normal), plus(p, scaled(r, normal))
-                around = whole * 360.0 * RADIAN  # the line of the centres may have turned any number of times
+                # the line of the centres may have turned any number of times
+                around = whole * 360.0 * self.shape.record.radian
                 value = self._left(c)
                 if not math.isfinite(float(value / around)):
                     raise SceneError(Status.UNSUPPORTED, BEYOND)
@@ -352,7 +353,7 @@ class ConditionRows:
         """The sum of the terms and the rest [radians times a factor]."""
         return (
             c.rest(self.shape, self.places, self.shape.record.angle) + spun(c.terms, self.places)
-        ) * RADIAN
+        ) * self.shape.record.radian
 
     def _power(self, c: Immovable) -> dict[tuple[int, int], Scalar]:
         """Power of the wrench on the relative step of the two bodies."""

@@ -36,7 +36,7 @@ from icsolve.assembly.driven.poses import (
 )
 from icsolve.assembly.loci import PlacedCircle, PlacedLine, PlacedLocus, crossing_sine
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import RADIAN, Scalar
+from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record, varies
 from icsolve.screws.plane import Point
 from icsolve.tuples import NamedTuple
@@ -107,7 +107,8 @@ def locus(shape: Shape, places: Places, by: By) -> PlacedLocus:
         assert by.own is not None
         tied = c.tied_to(by.own)
         assert tied is not None
-        more = c.longer(places, shape.record, shape.record.turns, by.own) + spun(c.terms, places) * RADIAN
+        record = shape.record
+        more = c.longer(places, record, record.turns, by.own) + spun(c.terms, places) * record.radian
         left = -more / float(tied[1])
         return PlacedCircle(plus(places.place(tied[0]), _off(shape, places, by.own, by.spot)), left)
     if by.own is None:
@@ -116,7 +117,7 @@ def locus(shape: Shape, places: Places, by: By) -> PlacedLocus:
     through = plus(places.point(c.line.body, c.line.through), _off(shape, places, by.own, by.spot))
     if isinstance(c, OnLine):
         return PlacedLine(plus(through, scaled(c.offset, square(along))), along)
-    return PlacedLine(plus(through, scaled(_way(places, c), along)), square(along))
+    return PlacedLine(plus(through, scaled(_way(shape, places, c), along)), square(along))
 
 
 def _of_line(shape: Shape, places: Places, c: OnLine | RolledStraight, spot: Spot) -> PlacedLine:
@@ -128,13 +129,13 @@ def _of_line(shape: Shape, places: Places, c: OnLine | RolledStraight, spot: Spo
     if isinstance(c, OnLine):
         foot = minus(places.place(c.spot), scaled(c.offset, square(along)))
         return PlacedLine(plus(foot, from_line), along)
-    foot = minus(places.place(c.centre), scaled(_way(places, c), along))
+    foot = minus(places.place(c.centre), scaled(_way(shape, places, c), along))
     return PlacedLine(plus(foot, from_line), square(along))
 
 
-def _way(places: Places, c: RolledStraight) -> Scalar:
+def _way(shape: Shape, places: Places, c: RolledStraight) -> Scalar:
     """How far the centre has gone along the flank."""
-    return -(spun(c.terms, places) * RADIAN)
+    return -(spun(c.terms, places) * shape.record.radian)
 
 
 def _off(shape: Shape, places: Places, own: Spot, spot: Spot) -> Point:
