@@ -228,7 +228,7 @@ GEAR_CHANGES = {
     "pitch: 16": ("pitch: 16, module: 2 mm", "give one of them"),
     "module: 2 mm": ("module: 2 kg", "'kg' is a mass, but a length is wanted"),
     "radii: [3, 5]": ("radii: [3, -5]", "greater than zero"),
-    "crossed: true": ("crossed: yes", "should be true or false"),
+    "crossed: true": ("crossed: perhaps", "should be yes or no"),
     "radii: [1.5, 0]": ("radii: [0, -1]", "greater than zero"),
     "teeth: [31, 57], ": ("teeth: [31, 57], helix angle: 9, ", "whether it is the 'normal pressure angle'"),
     "pressure angle: 20": ("normal pressure angle: 20", "needs 'helix angle'"),

@@ -427,7 +427,7 @@ points: {A: [1, 2], B: [7, 10]}
 joints:
   - {pin: [1, 2], at: A}
   - {pin: [1, 3], at: B}
-  - {belt: [2, 3], radii: [2, 3], crossed: true}
+  - {belt: [2, 3], radii: [2, 3], crossed: yes}
 loads:
   T2: {torque: 10, link: 2}
   T3: {torque: unknown, link: 3}
@@ -469,7 +469,7 @@ def test_a_plain_solve_does_none_of_this_work(tmp_path: Any) -> None:
     path.write_text("icsolve: 1\n" + WATT)
     check = (
         "import sys; here = {name for name in sys.modules if name.startswith('icsolve.statics.')}; "
-        "assert here <= {'icsolve.statics.power'}"
+        "assert here <= {'icsolve.statics.power', 'icsolve.statics.load_wrenches'}"
     )
     code = f"import icsolve; a = icsolve.solve(icsolve.load({str(path)!r})); a.to_dict(); {check}"
     subprocess.run([sys.executable, "-c", code], check=True)

@@ -414,6 +414,21 @@ def _words(*words: str) -> Form:
     return lambda entry, key, node: entry.word(key, words)
 
 
+TRUTHS = {"yes": True, "true": True, "no": False, "false": False}
+
+
+def truth_of(node: Node) -> bool | None:
+    """yes or no, in any of the ways that YAML writes it; None for anything else."""
+    return TRUTHS.get(node.text.lower()) if type(node) is Scalar else None
+
+
+def _truth(entry: Entry, key: str, node: Node) -> bool:
+    found = truth_of(node)
+    if found is None:
+        entry.refuse(node.mark, f"'{key}' of {entry.what} should be yes or no")
+    return bool(found)
+
+
 FORMS: dict[str, Form] = {
     "name": lambda entry, key, node: entry.point(key),
     "link": lambda entry, key, node: entry.link(key),
@@ -436,7 +451,7 @@ FORMS: dict[str, Form] = {
     "corner": lambda entry, key, node: node,
     "sense": _words("ccw", "cw"),
     "hand": _words("right", "left"),
-    "truth": _words("true", "false", "True", "False"),
+    "truth": _truth,
     "text": lambda entry, key, node: node,
 }
 """What reads a value of each form; a room with forms of its own has them in its `Reading.forms`."""

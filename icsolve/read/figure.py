@@ -19,7 +19,7 @@ from icsolve.case import (
     Unknown,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
-from icsolve.read.entry import Entry
+from icsolve.read.entry import Entry, truth_of
 from icsolve.read.keys import CENTROID, MASSES, MASSES_TIES, UNKNOWN
 from icsolve.read.names import Names, point_key, shown, suggestion
 from icsolve.read.owners import FigureData
@@ -301,10 +301,10 @@ def read_dynamic(reading: Reading, node: Node | None) -> bool:
     """Whether the case asks for inertia forces."""
     if node is None:
         return False
-    word = node.text.lower() if type(node) is Scalar else ""
-    if word not in ("yes", "no", "true", "false"):
+    found = truth_of(node)
+    if found is None:
         reading.refuse(node.mark, "'dynamic' should be yes or no: whether inertia forces are among the loads")
-    return word in ("yes", "true")
+    return bool(found)
 
 
 def check_given(reading: Reading) -> None:

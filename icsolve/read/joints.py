@@ -312,7 +312,7 @@ JOINTS = {
         {
             "radii": needed(_RADII),
             "carrier": _CARRIER,
-            "crossed": Key("whether the belt is crossed: true or false", "truth"),
+            "crossed": Key("whether the belt is crossed: yes or no", "truth"),
         },
         "a load for the pull of each strand",
     ),
@@ -425,8 +425,7 @@ def _is_apart(entry: Entry, links: Pair, v: Values) -> bool:
 
 
 def _belt(entry: Entry, links: Pair, v: Values) -> Joint | None:
-    crossed = (v["crossed"] or "").lower() == "true"
-    return Belt(links, v["radii"], crossed, v["carrier"]) if _is_apart(entry, links, v) else None
+    return Belt(links, v["radii"], bool(v["crossed"]), v["carrier"]) if _is_apart(entry, links, v) else None
 
 
 def _contact(entry: Entry, links: Pair, v: Values) -> Joint | None:

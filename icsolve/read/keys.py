@@ -81,7 +81,7 @@ SECTIONS = {
         "shapes of cams and followers, as in {2: {circle: C, radius: 40}, 3: {flat: G, along: 0}}", "profile"
     ),
     "motion": Key("a given motion, as in {link: 2, speed: 12 rad/s}, where rates are asked", "motion"),
-    "dynamic": Key("whether the inertia forces of the motion are among the loads: yes or no", "yes or no"),
+    "dynamic": Key("whether the inertia forces of the motion are among the loads: yes or no", "truth"),
     "expect": Key("published values, as in {T12: 29.67 ccw}", "expect"),
     "tolerance": Key("how far a student's answer may lie: 1%, 3 sf, 0.5 N, {drawing: 0.02 in}", "tolerance"),
     "variables": Key("numbers that are others for each student", "variables"),
