@@ -17,6 +17,7 @@ import icsolve
 from icsolve.case import Case
 from icsolve.draw.tikz import standalone
 from icsolve.draw.words import answer_sentences
+from icsolve.explain import explain
 from icsolve.explain.sheet import exercise, sheet_tex
 from icsolve.grade.platforms.questions import figure
 from icsolve.page.gallery import ENDINGS, KINDS, exhibit, index_html
@@ -275,6 +276,20 @@ angles: {{AB: {{unknown: [-80, 80]}}}}
 joints: [{{pin: [1, 2], at: A}}]
 loads: {{W: {{weight: {weight}, link: 2, at: G}}, S: {{spring: 250, free: 0.9, link: 2, at: B, to: D}}}}
 """
+
+
+TRUSS = """icsolve: 1
+points: {A: [0, 0], B: [2, 0], C: [1, 1]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: C}, {pin: [1, 3], at: B}]
+loads: {P: {force: 10, link: 2, at: C, angle: 270}}
+"""
+
+
+def test_what_is_asked_of_a_structure_is_the_same_on_its_card_and_in_its_solution() -> None:
+    case = icsolve.load(TRUSS)
+    (told,) = exhibit(case, "a", "a.yaml").answers
+    assert told == "Asked: the forces and couples in the joints"
+    assert "The forces and couples in the joints." in explain(case, "txt")
 
 
 # --- the README's pictures ---------------------------------------------------------------------------

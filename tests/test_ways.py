@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import replace
+from pathlib import Path
 from random import Random
 
 import numpy as np
@@ -23,6 +24,7 @@ from icsolve.cli.commands import icsolve
 from icsolve.errors import SceneError, Status
 from icsolve.read import load
 from library import FILES
+from shell import exit_status
 from sizes import MORE
 from test_figure import BUTTERFLY, FOUR_BAR, LOOP, PINS, butterfly
 from test_figure import case as figure_case
@@ -255,3 +257,15 @@ def test_a_way_has_the_points_of_the_scene_digit_by_digit(name: str) -> None:
         return
     told = [way for way in found.ways if all(way.points[p] == at for p, at in answer.points.items())]
     assert len(told) == 1 or not answer.points
+
+
+def test_a_case_of_given_centres_has_one_way_though_it_has_no_points(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "box.yaml"
+    path.write_text(
+        "icsolve: 1\ntitle: Black box\njoints:\n  - {centre: [1, 2], at: [0, 0]}\n"
+        "  - {centre: [1, 3], toward: 90}\n  - {centre: [2, 3], at: [2, 3]}\nloads: {}\n"
+    )
+    assert exit_status("ways", str(path)) == 0
+    assert capsys.readouterr().out.startswith("Black box: one way of assembling")

@@ -211,7 +211,7 @@ def _text(case: Case, found: Ways, digits: int) -> str:
         near = ", ".join(f"{p}: [{at[0]:.12g}, {at[1]:.12g}]" for p, at in way.near.items())
         lines.append("")
         lines.append(f"{number}  near: {{{near}}}" if near else f"{number}  (no near needed)")
-        width = max(map(len, way.points))
+        width = max(map(len, way.points), default=0)
         lines += [f"   {p:<{width}}  {_pair(at, digits)}" for p, at in way.points.items()]
     return "\n".join([*lines, *(f"\nnote: {note}" for note in found.notes)])
 

@@ -144,9 +144,7 @@ def asked_section(known: Known, figures: Figures) -> Section:
     if known.posed:
         return Section("Asked", (words(position_asked(known)),))
     if not unknown:
-        what = "instant centres, and how fast the links move"
-        what = "forces and couples in the joints" if known.structure else what
-        return Section("Asked", (words(f"The {what}."),))
+        return Section("Asked", (words(f"The {asked_without_unknown(known)}."),))
     one = len(unknown) == 1
     loads, s = ("is the load", "s") if one else ("are the loads", "")
     said = f"What {loads} that hold{s} the mechanism in equilibrium in this position?"
@@ -156,6 +154,13 @@ def asked_section(known: Known, figures: Figures) -> Section:
             load = "load does" if one else "loads do"
             said = f"Over what range of the {load} the mechanism hold still in this position?"
     return Section("Asked", (words(said), _loads(unknown)))
+
+
+def asked_without_unknown(known: Known) -> str:
+    """What a case asks for that has no unknown."""
+    if known.structure or known.case.space is not None:
+        return "forces and couples in the joints"
+    return "instant centres, and how fast the links move"
 
 
 def position_asked(known: Known) -> str:

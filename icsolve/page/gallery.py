@@ -13,7 +13,7 @@ from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.draw.figure import ASKED, Drawing, draw
 from icsolve.draw.svg import escaped
 from icsolve.draw.words import answer_sentences, description
-from icsolve.explain.given import position_asked
+from icsolve.explain.given import asked_without_unknown, position_asked
 from icsolve.page import page_html
 from icsolve.report.derivation.known import Known, known_of
 from icsolve.statics.power import is_unknown
@@ -143,7 +143,7 @@ def _answers(known: Known) -> tuple[str, ...]:
     found = tuple(answer_sentences(known))
     if found or known.refusal is not None:
         return found
-    return ("Asked: the reactions of the joints",) if known.case.space else ("Asked: centres and velocities",)
+    return (f"Asked: the {asked_without_unknown(known)}",)
 
 
 # --- the index -------------------------------------------------------------------------------------------
