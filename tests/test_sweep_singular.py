@@ -12,6 +12,7 @@ import contextlib
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from decimal import Decimal
 from functools import partial
 from itertools import chain, combinations
 from pathlib import Path
@@ -489,3 +490,45 @@ def test_a_group_at_its_fold_is_where_its_lengths_put_it_from_wherever_it_comes(
                 pairs += 1
                 assert abs(one - two) <= error + other
     assert min(folds, pairs) > 0
+
+
+FEET = """icsolve: 1
+units: {{length: in, force: lbf, torque: {torque}}}
+points: {{A: [0, 0], D: [{d}, 0]}}
+lengths: {{AB: {a}, BC: {b}, CD: {c}}}
+angles: {{AB: {written}}}
+near: {{C: [{x}, {y}]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
+loads: {{T14: {{torque: {load}, link: 4}}, T12: {{torque: unknown, link: 2}}}}
+"""
+
+
+@pytest.mark.parametrize("seed", range(12 if FULL else 3))
+def test_rows_of_a_case_in_other_units_are_its_rows(seed: int) -> None:
+    """An inch is 25.4 mm, a foot 12 inches: the figure whose lengths are written so, or by arithmetic, is the
+    same figure, and beside the limit of its crank each row is the same number."""
+    draw = Random(seed)
+    d, a, b = (draw.randint(*ends) / 10 for ends in ((40, 50), (20, 30), (20, 30)))
+    c = draw.randint(12, 15) / 10
+    reach = mpf(str(b)) + mpf(str(c))
+    cosine = (mpf(str(a)) ** 2 + mpf(str(d)) ** 2 - reach**2) / (2 * mpf(str(a)) * mpf(str(d)))
+    limit = float(mp.degrees(mp.acos(cosine)))
+    written = round(limit - 5.0)
+    bend = turned(written) * a
+    middle = bend + (d - bend) * b / (b + c)
+    place = {"written": written, "x": middle.real, "y": middle.imag + 0.5}
+    plain = FEET.format(a=a, b=b, c=c, d=d, torque="lbf*in", load=120, **place)
+    sizes = dict(zip("abcd", (a, b, c, d), strict=True))
+    in_mm = {name: f"{Decimal(str(size)) * Decimal('25.4')} mm" for name, size in sizes.items()}
+    metric = FEET.format(**in_mm, torque="lbf*in", load="10 lbf*ft", **place)
+    thirds = {name: f'"$n*{size}/3"' for name, size in sizes.items()}
+    reckoned = "variables: {n: {choices: [3]}}\n" + FEET.format(**thirds, torque="lbf*ft", load=10, **place)
+    rows = np.array([limit - 10.0**-k for k in range(2, 13)])
+    want = {"angles.AB": rows}
+    one, two, three = (icsolve.sweep(icsolve.load(text), want, WANT) for text in (plain, metric, reckoned))
+    assert two.status.tolist() == three.status.tolist() == one.status.tolist()
+    beside = slice(4, None)  # there rows are scenes, each rounded once
+    assert one.answers["T12"][beside].tolist() == two.answers["T12"][beside].tolist()
+    assert two.answers["T12"] == pytest.approx(one.answers["T12"], rel=1e-10, nan_ok=True)
+    assert 12.0 * three.answers["T12"] == pytest.approx(one.answers["T12"], rel=1e-10, nan_ok=True)
+    assert one.status.tolist() == ["ok"] * len(rows)

@@ -8,6 +8,7 @@ the record itself (`gradient`), floats (`still_noise`), arrays on buffers (`icso
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from typing import TypeVar
 
@@ -90,7 +91,9 @@ class RecordedAdjoints:
         return -w
 
     def times(self, w: Scalar, n: int, factor: float = 1.0) -> Scalar:
-        """w v, times a factor"""
+        """w v, times a factor; of radians a degree all digits are known"""
+        if abs(factor) == RADIAN:
+            return w * self.record.nodes[n] * math.copysign(1.0, factor) * self.record.radian
         return w * self.record.nodes[n] * factor
 
     def over(self, w: Scalar, n: int, factor: float = 1.0) -> Scalar:
@@ -100,7 +103,7 @@ class RecordedAdjoints:
     def over_square(self, w: Scalar, x: int, y: int) -> Scalar:
         """w / (x^2 + y^2)"""
         u, v = self.record.nodes[x], self.record.nodes[y]
-        return w / ((u * u + v * v) * RADIAN)
+        return w / ((u * u + v * v) * self.record.radian)
 
 
 def gradient(record: Record, target: Scalar, inputs: Iterable[int]) -> dict[int, Scalar]:

@@ -17,6 +17,8 @@ Scalar = Any
 """A float, an array of them, or any number type with + - * /."""
 RADIAN = math.pi / 180.0
 """A degree, in radians."""
+DEGREE: ExactRatio = (1, 180, 1)
+"""The same exactly."""
 
 
 def magnitude(value: Scalar) -> float:

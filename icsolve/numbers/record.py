@@ -12,7 +12,7 @@ from collections.abc import Callable, Container, Iterable, Sequence
 from enum import IntEnum
 from typing import Any
 
-from icsolve.numbers.arithmetic import RADIAN, ROUNDING_NOISE, Scalar, turn_of
+from icsolve.numbers.arithmetic import DEGREE, ROUNDING_NOISE, Scalar, turn_of
 from icsolve.numbers.tape import UNIT, decimal_noise
 from icsolve.numbers.units import ExactRatio, Number, nearest
 from icsolve.tuples import NamedTuple
@@ -183,6 +183,8 @@ class Record:
         """what was made of some of its nodes, by what it is: nodes never change"""
         self._known: dict[Op, dict[tuple[int, ...], Traced]] = {op: {} for op in Op}
         self._constants: dict[tuple[float, str], Traced] = {}
+        self.ratios: dict[int, ExactRatio] = {}
+        """by node, what constants are that no double is"""
 
     # --- numbers of the case ----------------------------------------------------------------------
 
@@ -232,9 +234,21 @@ class Record:
         return self._constant(value, noise, f"about {noise!r}")
 
     @property
-    def radian(self) -> Traced:
-        """A degree, in radians: pi / 180, which no double is (`icsolve.sweep.exact` has its digits)."""
-        return self._constant(RADIAN, UNIT * RADIAN, "radian")
+    def radian(self) -> Scalar:
+        """A degree, in radians."""
+        return self.ratio(DEGREE)
+
+    def ratio(self, exact: ExactRatio) -> Scalar:
+        """An exact ratio, as of two units: a double where one is that, else a constant with the rounding of
+        the nearest one, and ``ratios`` has which it is."""
+        num, den, power = exact
+        value = nearest(exact)
+        top, bottom = value.as_integer_ratio()
+        if not power and top * den == bottom * num:
+            return value
+        found = self._constant(value, UNIT * abs(value), f"ratio {num}/{den} {power}")
+        self.ratios[found.index] = exact
+        return found
 
     def _constant(self, value: float, noise: float, name: str) -> Traced:
         found = self._constants.get((value, name))
@@ -243,10 +257,6 @@ class Record:
         return found
 
     # --- operations -------------------------------------------------------------------------------
-
-    def ratio(self, exact: ExactRatio) -> Scalar:
-        """The nearest double."""
-        return nearest(exact)
 
     def sqrt(self, value: Scalar) -> Scalar:
         """Square root; of what is below zero: zero."""

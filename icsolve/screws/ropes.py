@@ -16,14 +16,12 @@ from itertools import pairwise
 
 from icsolve.case import Rope
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, exponential
+from icsolve.numbers.arithmetic import DEGREE, FLOATS, Arithmetic, Scalar, exponential
 from icsolve.screws.plane import Point, Triple, force_wrench, pairing, velocity
 from icsolve.tuples import NamedTuple
 
 TOUCHING = 5e-8
 """A rope that turns by less (degrees) on a pulley, in either sense, passes it: it does not go all round."""
-RADIANS = (1, 180, 1)
-"""A degree, in radians: an exact ratio."""
 MOST_GROWN = 300.0
 """Exponents of a pull beyond this leave no room for the loads beside it."""
 
@@ -185,7 +183,7 @@ def wrap_angle(
     turned = arithmetic.angle(ax * bx + ay * by, ax * by - ay * bx)
     signed = turned if rope.wraps[k] == "ccw" else 0.0 - turned
     round_it = signed + 360.0 if float(signed) < -TOUCHING else signed
-    return (round_it + 360.0 * rope.whole_turns(k)) * arithmetic.ratio(RADIANS)
+    return (round_it + 360.0 * rope.whole_turns(k)) * arithmetic.ratio(DEGREE)
 
 
 def slip_rates(parts: tuple[RopePart, ...], twists: Mapping[str, Triple]) -> tuple[Scalar, ...]:

@@ -20,6 +20,7 @@ from icsolve.numbers.balls import Ball, Balls, BelowZero, MoreDigits
 from icsolve.numbers.linear import solve_square
 from icsolve.numbers.record import Implicit, Op, Root, Traced, live, terms_of
 from icsolve.numbers.replay import BINARY
+from icsolve.numbers.units import ExactRatio
 from icsolve.sweep.branches import live_roots
 from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep
@@ -79,13 +80,12 @@ class ExactRecord:
     def _decimals(self) -> Values:
         """What the constants of the record are in the file."""
         numbers = numbers_of(self.compiled.setting.case)
-        radian = self.record.radian
-        found = {
-            traced.index: decimal_of(numbers[name]) if name in numbers else Decimal(value)
-            for (value, name), traced in self.record._constants.items()
-        }
         with localcontext(CONTEXT):
-            return {**found, radian.index: pi() / 180}
+            found = {
+                traced.index: decimal_of(numbers[name]) if name in numbers else Decimal(value)
+                for (value, name), traced in self.record._constants.items()
+            }
+            return found | {k: decimal_ratio(exact) for k, exact in self.record.ratios.items()}
 
     def _placed(self) -> Values:
         """The points as written that Newton's method places, in all digits: the record has its last step from
@@ -294,8 +294,16 @@ def as_written(value: float) -> Decimal:
 
 
 def decimal_of(number: Number) -> Decimal:
-    """A number of the case, as the file has it."""
+    """A number of the case, as the file has it: its unit by the exact factor [case units]."""
+    if number.exact is not None:
+        return decimal_ratio(number.exact)
     return Decimal(number.digits) if number.factor == 1.0 else Decimal(number.value)
+
+
+def decimal_ratio(exact: ExactRatio) -> Decimal:
+    """An exact ratio, in the digits of the context."""
+    num, den, power = exact
+    return Decimal(num) / den * pi() ** power
 
 
 # --- rows as scenes --------------------------------------------------------------------------------
