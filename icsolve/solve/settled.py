@@ -6,7 +6,7 @@ import math
 from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from decimal import Decimal
+from decimal import Decimal, localcontext
 
 import numpy as np
 
@@ -14,13 +14,23 @@ from icsolve.answer.equilibrium import Stiffness
 from icsolve.case import Case, Coordinates, Torque
 from icsolve.errors import SceneError
 from icsolve.numbers.adjoint import gradient
+from icsolve.numbers.arithmetic import DEGREE
 from icsolve.numbers.intervals import Interval, enclose
+from icsolve.numbers.record import terms_of
 from icsolve.numbers.replay import Code
 from icsolve.scene import solve_scene
 from icsolve.solve.followed import rate_of
 from icsolve.solve.load_function import LoadFunction, given_at
 from icsolve.solve.rest import AT_LIMIT, PROBE, Rest, held
-from icsolve.sweep.exact import RowScenes, counted_about
+from icsolve.sweep.exact import (
+    CONTEXT,
+    ZERO,
+    ExactRecord,
+    RowScenes,
+    as_written,
+    counted_about,
+    decimal_ratio,
+)
 from icsolve.tuples import replace
 
 STEPS = 64
@@ -29,6 +39,13 @@ JUMP = 1e-5
 SPREAD = (255.0 * 2.0**-46, 618.0 * 2.0**-46)
 """What becomes of the rounding of loads at eight steps, 64 units each: of the value and slope one step on."""
 DEGREES = 180.0 / math.pi
+EXACT: tuple[str, tuple[int, ...]] = ("in all digits", ())
+"""By this a record keeps itself in all digits."""
+MOST_STEPS = 12
+FASTER = 8
+"""Newton's method closes in on a plain zero: each step is this many times shorter than the last, or more."""
+CLOSED = Decimal("1e-90")
+"""A step of Newton's method after which no digit of a double changes."""
 APART = 1e-6
 """Points of two ways of assembling differ by more than this fraction of the figure's size."""
 
@@ -36,9 +53,51 @@ APART = 1e-6
 def settled(
     function: LoadFunction, bracket: tuple[float, float], span: tuple[float, float], turns: bool
 ) -> Rest | None:
-    """The position in a bracket, to the last digit: between two doubles the power changes its sign."""
+    """The position in a bracket, to the last digit: rounded once where Newton's method finds it in all
+    digits, else between two doubles the power changes its sign."""
     start = _closed_in(function, *bracket)
-    return in_range(function, _to_the_last_digit(function, start, bracket), span, turns)
+    exact = _zero(function, as_written(start), *map(as_written, bracket))
+    closest = _rounded(exact) if exact is not None else _to_the_last_digit(function, start, bracket)
+    return in_range(function, closest, span, turns)
+
+
+def _values(function: LoadFunction, at: Decimal, nodes: Sequence[int]) -> list[Decimal]:
+    """Nodes of a function at a decimal of its free number [case units, degrees], in all digits."""
+    record = function.record
+    exact: ExactRecord | None = record.kept.get(EXACT)
+    if exact is None:
+        exact = record.kept[EXACT] = ExactRecord(function.compiled)
+    given = {k: Decimal(float(v)) for k, v in function.given(np.array(float(at))).items()}
+    return exact.values([record.nodes[k] for k in nodes], {**given, function.input: at})
+
+
+def _least(function: LoadFunction, node: int) -> Decimal:
+    """What is zero beside the terms of a node."""
+    return ZERO * Decimal(terms_of(function.record.nodes, node))
+
+
+def _zero(function: LoadFunction, start: Decimal, low: Decimal, high: Decimal) -> Decimal | None:
+    """The zero of the power between two values by Newton's method in all digits; None where it leaves them or
+    does not close in fast: at zeros of higher order, at jumps, where a root begins."""
+    at, last = start, Decimal("Infinity")
+    with localcontext(CONTEXT):
+        for _ in range(MOST_STEPS):
+            power, slope = _values(function, at, [function.power, function.slope])
+            move = power / slope if slope else Decimal("NaN")
+            if not abs(move) <= last / FASTER:
+                return None
+            at, last = at - move, abs(move)
+            if not low - CLOSED <= at <= high + CLOSED:
+                return None
+            if last <= CLOSED:
+                return at if abs(at) > CLOSED else Decimal(0)
+    return None
+
+
+def _rounded(exact: Decimal) -> tuple[float, float]:
+    """The nearest double and a bound of its error."""
+    value = float(exact)
+    return value, 0.0 if abs(exact - Decimal(value)) <= CLOSED else math.ulp(value)
 
 
 def in_range(
@@ -92,7 +151,7 @@ def _to_the_last_digit(
     step = math.ulp(start) or 5e-324
     here = balancing_torque(function, start)
     if here == 0.0:
-        return start, step
+        return _met(start)
     side = balancing_torque(function, bracket[1])
     toward = 1.0 if (side > 0.0) != (here > 0.0) else -1.0
     low, at_low, reach = start, here, step
@@ -102,7 +161,7 @@ def _to_the_last_digit(
             high = bracket[1] if toward > 0.0 else bracket[0]
         at_high = balancing_torque(function, high)
         if at_high == 0.0:
-            return high, math.ulp(high) or step
+            return _met(high)
         if (at_high > 0.0) != (at_low > 0.0) or high in bracket:
             break
         low, at_low, reach = high, at_high, 4.0 * reach
@@ -114,11 +173,17 @@ def _to_the_last_digit(
             return None if jumps else (best, abs(high - low))
         at_middle = balancing_torque(function, middle)
         if at_middle == 0.0:
-            return middle, math.ulp(middle)
+            return _met(middle)
         if (at_middle > 0.0) == (at_low > 0.0):
             low, at_low = middle, at_middle
         else:
             high, at_high = middle, at_middle
+
+
+def _met(value: float) -> tuple[float, float]:
+    """A value at which the loads balance in all digits, and a bound of its error: none where its double is
+    the decimal that names it."""
+    return value, 0.0 if Decimal(value) == as_written(value) else math.ulp(value)
 
 
 def scene_at(function: LoadFunction, value: float) -> Case:
@@ -156,19 +221,62 @@ def balancing_torque(function: LoadFunction, value: float, on: str = "") -> floa
 
 
 def described(function: LoadFunction, value: float, error: float) -> Rest:
-    """A position with its stiffness: enclosed about the value by the record. Where the loads do not balance
-    it counts, too, that the rate of the free number changes along the motion."""
+    """A position with its stiffness: rounded once where the zero is known in all digits, else enclosed about
+    the value by the record. Of no error the value is meant as it stands, as a file writes it."""
+    at = as_written(value)
+    beside = 2 * Decimal(error)
+    exact = _zero(function, at, at - beside, at + beside) if error else at
+    stiffness = None if exact is None else _stiffness(function, exact)
+    if stiffness is not None:
+        return told(function, value, error, _kind(stiffness), stiffness, "")
+    return _enclosed(function, value, error)
+
+
+def _stiffness(function: LoadFunction, at: Decimal) -> Stiffness | None:
+    """Minus the derivative of the generalised load at a decimal of the free number, rounded once; None at a
+    limit, where the number stands still."""
+    power, slope, rate = _values(function, at, [function.power, function.slope, function.rate])
+    if any(map(Decimal.is_nan, (power, slope, rate))) or abs(rate) <= _least(function, function.rate):
+        return None
+    node = function.slope
+    if abs(power) > _least(function, function.power):
+        node = _changing(function)
+        (slope,) = _values(function, at, [node])
+    factor, unit = units_of(function)
+    least = _least(function, node)
+    with localcontext(CONTEXT):
+        if abs(slope) <= least:
+            return Stiffness(0.0, unit, float(least / abs(rate) * factor))
+        value = float(-slope / rate * factor)
+    return Stiffness(value, unit, math.ulp(value)) if math.isfinite(value) else None
+
+
+def _changing(function: LoadFunction) -> int:
+    """The node of the derivative of the generalised load times the rate: where the loads do not balance it
+    counts, too, that the rate of the free number changes along the motion."""
+    record = function.record
+    motion = record.nodes[function.rate]
+    load = record.nodes[function.power] / motion
+    return record.lifted(gradient(record, load, (function.input,))[function.input] * motion).index
+
+
+def _kind(stiffness: Stiffness) -> str:
+    """``neutral`` where the bound of the stiffness holds zero."""
+    if abs(stiffness.value) <= (stiffness.error or 0.0):
+        return "neutral"
+    return "stable" if stiffness.value > 0.0 else "unstable"
+
+
+def _enclosed(function: LoadFunction, value: float, error: float) -> Rest:
+    """A position whose stiffness is enclosed over what its error leaves open."""
     cells = function.enclosed(Interval(np.array([value - error]), np.array([value + error])))
     record, nodes = function.record, [function.slope, function.rate, function.power]
     slope, rate, power = enclose(record, nodes, cells)
     if float(power.low.flat[0]) > 0.0 or float(power.high.flat[0]) < 0.0:
-        motion = record.nodes[function.rate]
-        load = record.nodes[function.power] / motion
-        change = gradient(record, load, (function.input,))[function.input] * motion
-        (slope,) = enclose(record, [record.lifted(change).index], cells)
-    factor, unit = units_of(function)
+        (slope,) = enclose(record, [_changing(function)], cells)
+    exact, unit = units_of(function)
+    factor = float(exact)
     stiffness, why = None, ""
-    stability = "neutral"
     with np.errstate(all="ignore"):
         pairs = [(float(s.flat[0]), float(r.flat[0])) for s in slope for r in rate] if _has_sign(rate) else []
     ends = [-s / r * factor for s, r in pairs]
@@ -176,10 +284,9 @@ def described(function: LoadFunction, value: float, error: float) -> Rest:
         low, high = min(ends), max(ends)
         middle = 0.5 * (low + high)
         stiffness = Stiffness(middle, unit, 0.5 * (high - low) + 4.0 * math.ulp(middle))
-        stability = "stable" if low > 0.0 else "unstable" if high < 0.0 else "neutral"
     else:
         why = AT_LIMIT
-    return told(function, value, error, stability, stiffness, why)
+    return told(function, value, error, _kind(stiffness) if stiffness else "neutral", stiffness, why)
 
 
 def told(
@@ -204,14 +311,16 @@ def _has_sign(rate: Interval) -> bool:
     return bool((rate.low.flat[0] > 0.0) or (rate.high.flat[0] < 0.0))
 
 
-def units_of(function: LoadFunction) -> tuple[float, str]:
+def units_of(function: LoadFunction) -> tuple[Decimal, str]:
     """What brings minus slope over rate into the unit of a stiffness, and that unit."""
-    case, frame = function.case, function.compiled.scene.frame
-    per_load = 1.0 / (function.force_scale * frame.scale)
-    units = case.units
-    if function.turns_links:
-        return per_load * DEGREES * DEGREES * units.torque_per_force_length, f"{units.torque}/rad"
-    return per_load, f"{units.force}/{units.length}"
+    units, scale = function.case.units, function.compiled.scene.frame.scale
+    with localcontext(CONTEXT):
+        per_load = 1 / (Decimal(function.force_scale) * Decimal(scale))
+        if function.turns_links:
+            return per_load * decimal_ratio(units.exact_torque) / decimal_ratio(
+                DEGREE
+            ) ** 2, f"{units.torque}/rad"
+        return per_load, f"{units.force}/{units.length}"
 
 
 def in_open_cells(function: LoadFunction, cluster: tuple[float, float]) -> tuple[float, float] | None:
@@ -231,7 +340,7 @@ def in_open_cells(function: LoadFunction, cluster: tuple[float, float]) -> tuple
         value, error = turning
         plain = plain_within(value, error)
         if balancing_torque(function, plain) == 0.0:
-            return plain, math.ulp(plain)
+            return _met(plain)
         least = abs(balancing_torque(function, value))
     except SceneError:
         return None

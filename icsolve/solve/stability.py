@@ -165,10 +165,10 @@ def _neutral_between(
         (a, at_a), (b, at_b) = one, two
         slope = (at_b.value - at_a.value) / (b - a)
         value = a - at_a.value / slope
-        error = ((at_a.error or 0.0) + (at_b.error or 0.0)) / abs(slope) + 2.0 * math.ulp(value)
         here = stiffness(value)
+        error = (here.error or 0.0) / abs(slope) + 2.0 * math.ulp(value)
         if abs(here.value) <= 2.0 * error * abs(slope) or not min(a, b) < value < max(a, b):
-            return TurningPower(value, error, *words)
+            return TurningPower(value - here.value / slope, error, *words)
         middle = 0.5 * (a + b)  # cut so often that no side stands still
         for at, k in ((value, here), (middle, stiffness(middle))):
             if one[0] < at < two[0]:
