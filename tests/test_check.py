@@ -222,3 +222,19 @@ def test_a_force_between_two_links_of_a_pin_of_several_says_who_carries_it(asked
     (only,) = compare(solve(case, reactions=True))
     assert only.verdict == "disagrees"
     assert f"the pin at A is carried by link 1, which is named first: ask for {text}" in only.text
+
+
+PUSHED = {
+    "plane": "{A: [0, 0], B: [3, 0]}\njoints: [{pin: [1, 2], at: A}]\nloads:\n"
+    "  P: {force: [30, 40], link: 2, at: B}\n  T: {torque: unknown, link: 2}\n",
+    "space": "{A: [0, 0, 0], B: [3, 0, 0]}\njoints: [{hinge: [1, 2], at: A, axis: z}]\nloads:\n"
+    "  P: {force: [30, 40, 0], link: 2, at: B}\n  T: {torque: unknown, link: 2, along: z}\n",
+}
+
+
+@pytest.mark.parametrize("of", PUSHED)
+def test_a_load_by_its_components_is_compared_by_its_size(of: str) -> None:
+    """In the plane and in space alike; so is what is like an unknown."""
+    like = "  U: {torque: {like: T, times: -0.5}, link: 2" + (", along: z}\n" if of == "space" else "}\n")
+    text = f"icsolve: 1\npoints: {PUSHED[of]}{like}expect: {{P: 50, T: -240, U: 120}}\n"
+    assert [row.verdict for row in compare(solve(load(text)))] == ["agrees"] * 3

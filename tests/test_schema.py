@@ -203,3 +203,27 @@ def test_what_the_schema_refuses_the_reader_refuses(name: str) -> None:
             refused += 1
             assert not reads(document(root)), document(root)
     assert refused > ROUNDS // 8
+
+
+SECTIONS = {
+    "plane": {
+        "icsolve": "1",
+        "points": "{A: [0, 0], B: [1, 0]}",
+        "joints": "[{pin: [1, 2], at: A}]",
+        "loads": "{P: {force: 3, link: 2, at: B, angle: 90}, T: {torque: unknown, link: 2}}",
+    },
+    "space": {
+        "icsolve": "1",
+        "points": "{A: [0, 0, 0], B: [1, 0, 0]}",
+        "joints": "[{weld: [1, 2], at: A}]",
+        "loads": "{P: {force: 3, link: 2, at: B, along: z}}",
+    },
+}
+
+
+@pytest.mark.parametrize("section", keys.SECTIONS)
+@pytest.mark.parametrize("of", SECTIONS)
+def test_every_section_is_read_or_refused(of: str, section: str) -> None:
+    """What makes no sense under it never passes in silence."""
+    assert reads("\n".join(f"{key}: {value}" for key, value in SECTIONS[of].items()))
+    assert not reads("\n".join(f"{k}: {v}" for k, v in {**SECTIONS[of], section: "[[[]]]"}.items()))

@@ -116,6 +116,12 @@ def test_the_worked_solution_says_which_way_a_load_acts_as_it_was_written(way: s
     assert "P: a load of 10 kN on link 2 at B, along -z\n" in told
 
 
+def test_inertia_forces_in_space_are_refused_and_not_left_out() -> None:
+    with pytest.raises(SceneError, match="solved at rest") as refused:
+        solve(load(BOOM), dynamic=True)
+    assert refused.value.status == "unsupported"
+
+
 @pytest.mark.parametrize("path", ["loads.P", "lods.P", "points.C.x"])
 @pytest.mark.parametrize("more", [[], ["--find", "TC=3"], ["--find", "rest"]])
 def test_a_case_in_space_is_not_swept_whatever_the_path(
@@ -514,6 +520,8 @@ CHANGES = {
     "an unknown coordinate": ("B: [400, 0, 0]", "B: [unknown, 0, 0]", 3, 28, "'unknown' cannot stand here"),
     "lengths": ("joints:", "lengths: {AB: 1}\njoints:", 4, 1, "'lengths' has no place in a case in space"),
     "motion": ("joints:", "motion: {link: 2, turns: cw}\njoints:", 4, 1, "takes its own `speed`"),
+    "inertia forces": ("joints:", "dynamic: yes\njoints:", 4, 1, "give the forces of inertia as loads"),
+    "cams": ("joints:", "profile: {2: {circle: C, radius: 4}}\njoints:", 4, 1, "cams are of the plane"),
     "friction": ("axis: x}", "axis: x, mu: 0.1, radius: 2}", 5, 38, "friction is solved in the plane only"),
     "no axis": (", axis: x}", "}", 5, 5, "needs 'axis': the direction of the shaft: x, y, z, -z"),
     "axis of nothing": ("axis: x", "axis: [0, 0, 0]", 5, 35, "its components are all 0"),

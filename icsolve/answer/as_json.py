@@ -45,9 +45,9 @@ def to_dict(answer: Answer) -> dict[str, Any]:
     }
 
 
-def refusal_dict(name: str, error: SceneError) -> dict[str, Any]:
+def refusal_dict(name: str, error: SceneError, schema: str = SCHEMA) -> dict[str, Any]:
     """The object of a case that was read but has no answer."""
-    return {"schema": SCHEMA, "case": name, "status": error.status, "message": error.message, **error.more}
+    return {"schema": schema, "case": name, "status": error.status, "message": error.message, **error.more}
 
 
 def _plain(value: float) -> float:

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from icsolve.cli.commands import CASES, DIGITS, JOBS, JSON, SET, Verb
-from icsolve.cli.run import DONE, NO_ANSWER, complain, for_each, on_stderr
-from icsolve.cli.solving import print_json
+from icsolve.cli.run import DONE, NO_ANSWER, complain, for_each, in_json, on_stderr, print_json
 from icsolve.report.check import (
     AGREES,
     DISAGREES,
@@ -171,12 +170,15 @@ def ways_command(cases: tuple[str, ...], as_json: bool, settings: dict[str, str]
             click.echo(_text(case, found, digits))
         return DONE
 
-    return for_each(cases, work, _refuse_json if as_json else on_stderr, settings)
+    return for_each(cases, work, in_json(WAYS, ways=[]) if as_json else on_stderr, settings)
+
+
+WAYS = "icsolve/ways/1"
 
 
 def _entry(case: Case, found: Ways) -> dict[str, Any]:
     return {
-        "schema": "icsolve/ways/1",
+        "schema": WAYS,
         "case": case.name,
         "status": "ok",
         "ways": [
@@ -189,18 +191,6 @@ def _entry(case: Case, found: Ways) -> dict[str, Any]:
         "complete": found.complete,
         "notes": list(found.notes),
     }
-
-
-def _refuse_json(case: Case, path: str, error: SceneError) -> None:
-    print_json(
-        {
-            "schema": "icsolve/ways/1",
-            "case": case.name,
-            "status": error.status,
-            "message": error.message,
-            "ways": [],
-        }
-    )
 
 
 def _text(case: Case, found: Ways, digits: int) -> str:

@@ -37,6 +37,7 @@ class Verb(click.Command):
         return self.helping
 
 
+CASE = click.argument("case", metavar="CASE")
 CASES = click.argument("cases", metavar="CASE...", nargs=-1, required=True)
 SET = click.option(
     "--set",
@@ -55,6 +56,8 @@ JOBS = click.option(
     type=click.IntRange(1, 256),
     help="Processes [default: one; for 64 files or more as many as there are cores].",
 )
+
+FORCE = click.option("--force", is_flag=True, help="Write over files that are there.")
 
 
 def parse_settings(pairs: tuple[str, ...]) -> dict[str, str]:

@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from icsolve.case import Case
-    from icsolve.errors import SceneError
     from icsolve.sweep.find_on_record import Query
 
     Values = npt.NDArray[np.float64]
@@ -103,12 +102,6 @@ def as_text(case: Case, one: Finding, digits: int) -> str:
     ]
     none = NONE[one.kind].format(name=one.load, value=f"{one.value + 0.0:.{digits}g} {one.unit}")
     return "\n".join(lines or [f"{none} in this range of {one.along}"]) + "\n"
-
-
-def refusal(case: Case, error: SceneError) -> str:
-    """The object of a case in which nothing can be looked for."""
-    entry = {"schema": SCHEMA, "case": case.name, "status": error.status, "message": error.message}
-    return json.dumps(entry) + "\n"
 
 
 def _words(entry: Mapping[str, Any], one: Finding, digits: int) -> dict[str, Any]:

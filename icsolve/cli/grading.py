@@ -11,7 +11,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 import click
 
-from icsolve.cli.commands import Verb
+from icsolve.cli.commands import FORCE, Verb
 from icsolve.cli.run import DONE, NO_ANSWER, complain, refusing
 from icsolve.files import check_free, files_of, folder_of, note, scratch, whole_file, write_whole
 
@@ -61,7 +61,7 @@ COURSE = "course.yaml"
 @click.option("--student", metavar="ID", help="All answers are this student's; a table needs no ids then.")
 @click.option("--metadata", metavar="FILE", help="Gradescope's submission_metadata.json says who it is.")
 @click.option("--jobs", type=click.IntRange(1, 64), hidden=True, expose_value=False)
-@click.option("--force", is_flag=True, help="Write over files that are there.")
+@FORCE
 @click.option("-q", "--quiet", is_flag=True, help="No summary.")
 def grade_command(**options: Any) -> int:
     """Grade a table of answers (CSV of any learning platform) against a folder of cases.

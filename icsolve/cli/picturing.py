@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from icsolve.cli import BUG
-from icsolve.cli.commands import DIGITS, SET, Verb
+from icsolve.cli.commands import CASE, CASES, DIGITS, FORCE, SET, Verb
 from icsolve.cli.output import OUTPUT, one_source, watched, write_output
 from icsolve.cli.run import (
     DONE,
@@ -45,7 +45,7 @@ PAGED = {".html": "html", ".htm": "html"}
 
 
 @click.command("draw", cls=Verb)
-@click.argument("case", metavar="CASE")
+@CASE
 @OUTPUT
 @click.option(
     "--centres",
@@ -82,7 +82,7 @@ def draw_command(case: str, output: str | None, settings: dict[str, str], **aske
 
 
 @click.command("explain", cls=Verb)
-@click.argument("case", metavar="CASE")
+@CASE
 @OUTPUT
 @click.option(
     "--format",
@@ -118,7 +118,7 @@ def explain_command(
 
 
 @click.command("page", cls=Verb)
-@click.argument("case", metavar="CASE")
+@CASE
 @OUTPUT
 @SET
 def page_command(case: str, output: str | None, settings: dict[str, str]) -> int:
@@ -143,7 +143,7 @@ def page_command(case: str, output: str | None, settings: dict[str, str]) -> int
 
 
 @click.command("sheet", cls=Verb)
-@click.argument("cases", metavar="CASE...", nargs=-1, required=True)
+@CASES
 @OUTPUT
 @click.option("--variants", metavar="FILE", help="values.csv of `icsolve variants`: a sheet a student.")
 @click.option("--student", metavar="ID", help="The sheet of this student alone.")
@@ -269,11 +269,11 @@ class Item(NamedTuple):
 
 
 @click.command("gallery", cls=Verb)
-@click.argument("cases", metavar="CASE...", nargs=-1, required=True)
+@CASES
 @click.option("-o", "--output", metavar="DIR", required=True, help="The folder to write into.")
 @click.option("--exercises", is_flag=True, help="Cards and figures without answers, and no pages.")
 @click.option("--title", metavar="TEXT", help="The heading of the index.")
-@click.option("--force", is_flag=True, help="Write over files that are there.")
+@FORCE
 def gallery_command(
     cases: tuple[str, ...], output: str, exercises: bool, title: str | None, force: bool
 ) -> int:

@@ -145,6 +145,24 @@ def on_stderr(case: Case, path: str, error: SceneError) -> None:
     complain(f"{path}: {error.status}: {error.message}")
 
 
+def print_json(entry: Mapping[str, Any]) -> None:
+    """One object on one line; a number that JSON can't hold would be a fault."""
+    import json
+
+    click.echo(json.dumps(entry, allow_nan=False))
+
+
+def in_json(schema: str, **more: Any) -> Refuse:
+    """The way in which a refusal is shown to programs, as an object of a schema with what else that needs."""
+
+    def refuse(case: Case, path: str, error: SceneError) -> None:
+        from icsolve.answer.as_json import refusal_dict
+
+        print_json({**refusal_dict(case.name, error, schema), **more})
+
+    return refuse
+
+
 def for_each(
     arguments: Iterable[str],
     work: Work[T],

@@ -10,13 +10,12 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from icsolve.cli.commands import CASES, DIGITS, JOBS, JSON, SET, Verb
-from icsolve.cli.run import DONE, Work, for_each
+from icsolve.cli.run import DONE, Work, for_each, in_json, print_json
 from icsolve.tuples import NamedTuple, replace
 
 if TYPE_CHECKING:
     from icsolve.answer import Answer
     from icsolve.case import Case
-    from icsolve.errors import SceneError
     from icsolve.report.mechanism import Report
 
 
@@ -87,15 +86,9 @@ def solve_cases(
 ) -> int:
     """Solve and print every case; returns the exit status."""
     if options.as_json:
-        return for_each(cases, _as_json(options), _refuse_json, settings, show=_print_entry, jobs=jobs)
+        refuse = in_json("icsolve/solve/1")
+        return for_each(cases, _as_json(options), refuse, settings, show=_print_entry, jobs=jobs)
     return for_each(cases, _as_text(options), settings=settings, show=_printer(_several(cases)), jobs=jobs)
-
-
-def print_json(entry: Mapping[str, Any]) -> None:
-    """One object on one line; a number that JSON can't hold would be a fault."""
-    import json
-
-    click.echo(json.dumps(entry, allow_nan=False))
 
 
 def _solve(case: Case, options: Options) -> Answer:
@@ -177,9 +170,3 @@ def _as_text(options: Options) -> Work[tuple[str, str]]:
         return path, "\n\n".join(sections)
 
     return work
-
-
-def _refuse_json(case: Case, path: str, error: SceneError) -> None:
-    from icsolve.answer.as_json import refusal_dict
-
-    print_json(refusal_dict(case.name, error))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from icsolve.cli.commands import Verb
-from icsolve.cli.output import unwritten
+from icsolve.cli.output import OUTPUT, unwritten
 from icsolve.cli.run import DONE, UNREADABLE, complain
 from icsolve.files import KeptError, whole_file
 from icsolve.manual import TOPICS, kinds, kinds_like, nearest, template, told_of
@@ -13,7 +13,7 @@ from icsolve.manual import TOPICS, kinds, kinds_like, nearest, template, told_of
 
 @click.command("new", cls=Verb)
 @click.argument("kind", required=False)
-@click.option("-o", "--output", metavar="FILE", help="Write here instead of standard output.")
+@OUTPUT
 def new_command(kind: str | None, output: str | None) -> int:
     """Print a commented case of a KIND of mechanism; without KIND, list the kinds.
 

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from icsolve.cli.commands import DIGITS, SET, Verb
+from icsolve.cli.commands import CASE, DIGITS, SET, Verb
 from icsolve.cli.output import OUTPUT, Progress, one_source, write_output
-from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, for_each, on_stderr
+from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, for_each, in_json, on_stderr
 from icsolve.errors import SceneError, Status
 from icsolve.tuples import NamedTuple, replace
 
@@ -125,7 +125,7 @@ class SweepOptions(NamedTuple):
 
 
 @click.command("sweep", cls=Verb)
-@click.argument("case", metavar="CASE")
+@CASE
 @click.option(
     "--vary", type=SweepSpan(), multiple=True, help="A number and its values; several are a product."
 )
@@ -171,7 +171,7 @@ def sweep_command(case: str, settings: dict[str, str], **options: Any) -> int:
     if not one_source("sweep", case):
         return UNREADABLE
     work = _find if asked.find is not None else _table
-    refuse = _refuse_json if asked.as_json else on_stderr
+    refuse = in_json("icsolve/find/1") if asked.as_json else on_stderr
     return for_each([case], lambda read, path: _readable(work, read, path, asked), refuse, settings=settings)
 
 
@@ -287,12 +287,6 @@ def _find(read: Case, path: str, asked: SweepOptions) -> int:
     for note in () if asked.as_json else found.notes:
         complain(f"{path}: {note}")
     return _written(text, asked.output, asked)
-
-
-def _refuse_json(case: Case, path: str, error: SceneError) -> None:
-    from icsolve.cli.finding import refusal
-
-    click.echo(refusal(case, error), nl=False)
 
 
 def _columns(asked: SweepOptions) -> tuple[Mapping[str, Values], Mapping[str, Values]]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from icsolve.cli.commands import Verb
+from icsolve.cli.commands import FORCE, Verb
 from icsolve.cli.output import watched
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, refusing
 from icsolve.files import can_fork, check_free, started, write_whole
@@ -29,7 +29,7 @@ T = TypeVar("T")
 @click.option("--course", metavar="FILE", help="Seed and tolerances [default: course.yaml beside the cases].")
 @click.option("--seed", metavar="TEXT", help="Another seed gives other variants.")
 @click.option("--figures/--no-figures", default=True, help="An SVG of each variant, and a sheet a student.")
-@click.option("--force", is_flag=True, help="Write over files that are there.")
+@FORCE
 @click.option("-q", "--quiet", is_flag=True, help="No report.")
 def variants_command(
     cases: str,
@@ -189,7 +189,7 @@ def _sheet_path(folder: str, task: VariantTask) -> str:
     "--count", type=click.IntRange(1, 1000), default=10, show_default=True, help="Variants of a case."
 )
 @click.option("--figures/--no-figures", default=True, help="The figure of each question, without its answer.")
-@click.option("--force", is_flag=True, help="Write over files that are there.")
+@FORCE
 def export_command(kind: str, cases: str, output: str, **options: Any) -> int:
     """Make quiz questions (with tolerances, units, and feedback on known mistakes) or an autograder of cases.
 

@@ -166,7 +166,9 @@ PLANAR = {
     "angles": "points are given by their three coordinates",
     "near": "points are given by their three coordinates",
     "links": "points belong to a link by its joints and loads",
+    "profile": "cams are of the plane; in space a contact is a load of unknown size along its normal",
     "motion": "a case in space is solved at rest; power as a load takes its own `speed`",
+    "dynamic": "a case in space is solved at rest; give the forces of inertia as loads",
 }
 """Sections that a case in space has no use for, and why."""
 

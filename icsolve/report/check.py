@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from typing import Any
 
 from icsolve.answer import Answer, Centre, Found
-from icsolve.case import Case, Like, Load, Number, Pair, Torque, pair_name
+from icsolve.case import Case, Number, Pair, Torque, pair_name
 from icsolve.case.expected import (
     ArmIs,
     CentreIs,
@@ -22,6 +24,9 @@ from icsolve.case.expected import (
     Target,
     TensionIs,
 )
+from icsolve.numbers.arithmetic import FLOATS
+from icsolve.report.published import found_value, place_of
+from icsolve.statics.load_wrenches import number_taken, vector_size
 from icsolve.tuples import NamedTuple
 from icsolve.wording.senses import bearing, holding, same_way, turned_at_most
 
@@ -204,10 +209,6 @@ def _width(expected: Expected, number: Number, size: float) -> float:
 
 def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
     """The value that the published one is about; positive in the published sense where that is in words."""
-    if answer.spatial is not None:
-        from icsolve.report.published import found_in_space
-
-        return (found_in_space(answer, expected.target, expected.sense),)
     match expected.target:
         case LoadIs(load):
             return (_load(answer, load, expected.sense),)
@@ -228,9 +229,7 @@ def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
 
 
 def _of_bodies(answer: Answer, target: OfBodies) -> float:
-    from icsolve.report.published import found_value
-
-    if answer.reactions is None and not isinstance(target, FrictionRadiusIs):
+    if answer.reactions is None and answer.spatial is None and not isinstance(target, FrictionRadiusIs):
         if any(found.holds is not None for found in answer.answers.values()):
             raise LookupError("at rest friction leaves the reactions open: give `motion`")
         raise _NotAskedError("reactions were not asked for")
@@ -238,8 +237,9 @@ def _of_bodies(answer: Answer, target: OfBodies) -> float:
 
 
 def _load(answer: Answer, name: str, sense: str | None) -> float:
-    value = _load_value(answer, name)
-    load = _named_load(answer.case, name)
+    space = answer.case.space
+    loads: dict[str, Any] = {load.name: load for load in (space or answer.case).loads}
+    value, load = _load_value(answer, name, loads), loads.get(name)
     if sense is None or load is None:
         return value
     if isinstance(load, Torque):
@@ -255,27 +255,22 @@ def _turned(value: float, sense: str | None) -> float:
     return -value if sense == "cw" else value
 
 
-def _load_value(answer: Answer, name: str) -> float:
-    """A load's number as solved for, as given, or as another load has it."""
+def _load_value(answer: Answer, name: str, loads: Mapping[str, Any]) -> float:
+    """A load's number as solved for, as given, or as another load has it; the size of one by components."""
     if name in answer.answers:
         return _found_value(name, answer.answers[name])
-    value = getattr(_named_load(answer.case, name), "value", None)
-    if isinstance(value, Number):
-        return value.value
-    if isinstance(value, Like):
-        times = 1.0 if value.times is None else value.times.value
-        return times * _load_value(answer, value.load)
-    raise LookupError(f"{name} was not solved for")
+    own, times, number = number_taken(loads[name], loads, FLOATS) if name in loads else (name, 1.0, None)
+    if number is None:
+        if own not in answer.answers:
+            raise LookupError(f"{name} was not solved for")
+        return float(times) * _found_value(own, answer.answers[own])
+    return float(times) * (number.value if isinstance(number, Number) else vector_size(number))
 
 
 def _found_value(name: str, found: Found) -> float:
     if found.holds is not None:
         raise LookupError(f"{name} {holding(found, _digits)}: give `motion` for one value")
     return found.value
-
-
-def _named_load(case: Case, name: str) -> Load | None:
-    return next((load for load in case.loads if load.name == name), None)
 
 
 def _centre(answer: Answer, pair: Pair) -> Centre:
@@ -304,9 +299,7 @@ def _otherwise(centre: Centre) -> str:
 def _end(answer: Answer, end: Pair | str) -> tuple[float, ...]:
     if not isinstance(end, str):
         return _place(answer, end, "at")
-    if end not in answer.points:
-        raise LookupError(f"the point {end} was not found")
-    return answer.points[end]
+    return place_of(answer, end)
 
 
 def _rate(answer: Answer, link: str) -> float:

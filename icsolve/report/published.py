@@ -7,21 +7,10 @@ import math
 from icsolve.answer import Answer
 from icsolve.answer.bodies import Reaction
 from icsolve.answer.space import Parts, SpatialReaction
-from icsolve.case import Number, pair_name
-from icsolve.case.expected import (
-    ArmIs,
-    DistanceIs,
-    FrictionRadiusIs,
-    LoadIs,
-    OfBodies,
-    ReactionIs,
-    Target,
-    TensionIs,
-)
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.case import pair_name
+from icsolve.case.expected import ArmIs, FrictionRadiusIs, OfBodies, ReactionIs, TensionIs
 from icsolve.screws.plane import add, cross, subtract
 from icsolve.screws.space import Vec, size, times
-from icsolve.statics.load_wrenches import number_taken, vector_size
 
 
 def found_value(answer: Answer, target: OfBodies) -> float:
@@ -38,34 +27,6 @@ def found_value(answer: Answer, target: OfBodies) -> float:
             return _tension(answer, target)
         case ReactionIs(by, on, at=at, part=part):
             return _part(_reaction(answer, by, on, at), part)
-
-
-def found_in_space(answer: Answer, target: Target, sense: str | None) -> float:
-    """The value of any target of a case in space, in case units; positive in a published ``sense``.
-
-    Raises LookupError, with a sentence, where the answer has none.
-    """
-    match target:
-        case LoadIs(load):
-            return _load_in_space(answer, load, sense)
-        case DistanceIs(str() as a, str() as b) if answer.spatial is not None:
-            return math.dist(answer.spatial.points[a], answer.spatial.points[b])
-        case ArmIs() | ReactionIs():
-            return found_value(answer, target)
-    raise LookupError("a case in space has no such value")
-
-
-def _load_in_space(answer: Answer, name: str, sense: str | None) -> float:
-    """A load's number, as found, as given, or as another load has it."""
-    if name in answer.answers:
-        found = answer.answers[name]
-        against = sense is not None and found.sense not in ("", sense)
-        return -abs(found.value) if against else abs(found.value) if sense else found.value
-    assert answer.case.space is not None
-    by_name = {load.name: load for load in answer.case.space.loads}
-    _, ratio, number = number_taken(by_name[name], by_name, FLOATS)
-    assert number is not None
-    return float(ratio) * (number.value if isinstance(number, Number) else vector_size(number))
 
 
 def _tension(answer: Answer, target: TensionIs) -> float:
@@ -121,9 +82,7 @@ def _arm(answer: Answer, reaction: Reaction | SpatialReaction, point: str) -> fl
     Where a pin of the same link rubs at the point, its reaction is tangent to the friction circle: the arm
     is to that line, as books draw it.
     """
-    points = answer.points if answer.spatial is None else answer.spatial.points
-    if point not in points:
-        raise LookupError(f"the point {point} was not found")
+    place = place_of(answer, point)
     force, couple = _components(reaction)
     rubbed = _rubbed(answer, reaction, point) if isinstance(reaction, Reaction) else 0.0
     if None in (*force, *couple):
@@ -131,9 +90,17 @@ def _arm(answer: Answer, reaction: Reaction | SpatialReaction, point: str) -> fl
     if not any(force):
         raise LookupError("the force is zero: it has no arm")
     per = answer.case.units.torque_per_force_length
-    moment = cross(subtract(_in_space(reaction.at), _in_space(points[point])), force)
+    moment = cross(subtract(_in_space(reaction.at), _in_space(place)), force)
     whole = add(moment, times(1.0 / per, add(couple, (0.0, 0.0, rubbed))))
     return float(size(whole) / size(force))
+
+
+def place_of(answer: Answer, point: str) -> tuple[float, ...]:
+    """A point of an answer, in the plane or in space. Raises LookupError where it was not found."""
+    points = answer.points if answer.spatial is None else answer.spatial.points
+    if point not in points:
+        raise LookupError(f"the point {point} was not found")
+    return points[point]
 
 
 def _components(reaction: Reaction | SpatialReaction) -> tuple[Parts, Parts]:

@@ -41,6 +41,8 @@ def solve_scene(
     """
     asked = {"all_centres": all_centres, "rates": rates, "examine": examine, "bound": bound, "alone": alone}
     if case.space is not None:
+        if without_inertia(case, dynamic):
+            raise SceneError(Status.UNSUPPORTED, AT_REST)
         from icsolve.statics.space.solve import solve_space
 
         return solve_space(case, bound)
@@ -62,6 +64,7 @@ def solve_scene(
         raise SceneError(refusal.status, said, refusal.more) from None
 
 
+AT_REST = "a case in space is solved at rest: give the forces of inertia as loads, and leave `dynamic` out."
 NOTICED = " Noticed: "
 MISTAKEN = (
     *(Status.STRUCTURE, Status.MOBILITY, Status.NO_VALUE, Status.ANY_VALUE, Status.DEAD_CENTRE),
