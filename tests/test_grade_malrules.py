@@ -21,7 +21,7 @@ from icsolve.grade.mistakes import solved_for as solved
 from icsolve.grade.mistakes.changed import changed_figures
 from icsolve.grade.mistakes.engine import shares
 from icsolve.grade.mistakes.lookup import near_miss
-from icsolve.grade.written.answer import Combined, Reader
+from icsolve.grade.written.answer import Reader
 from library import FILES, sample
 
 CAM = """\
@@ -528,7 +528,7 @@ def test_32_of_33_kinds_of_mistakes_are_named(a_class: Class) -> None:
 
 def test_random_numbers_seldom_get_a_cause_in_the_library() -> None:
     """Numbers even up to three times the right one, and even in their powers of ten: at most 8 % get one."""
-    rng, case_store, combined = random.Random(7), CaseStore(CASES, Course()), Combined(Reader())
+    rng, case_store, reader = random.Random(7), CaseStore(CASES, Course()), Reader()
     names = "13_08_four_bar 13_11_vice_grip five_bar:T12 geneva lamp_arm compound_epicyclic bolt_cutter wedge"
     named = wrong = 0
     for name in names.split():
@@ -537,7 +537,7 @@ def test_random_numbers_seldom_get_a_cause_in_the_library() -> None:
         sizes = [rng.uniform(-3.0, 3.0) for _ in range(60)]
         sizes += [rng.choice((-1.0, 1.0)) * 10.0 ** rng.uniform(-3.0, 3.0) for _ in range(60)]
         for factor in sizes:
-            judged, _ = judge_answer(key, combined, f"{key.value * factor:.4g}")
+            judged, _ = judge_answer(key, reader, f"{key.value * factor:.4g}")
             wrong += judged.verdict == "wrong"
             named += judged.verdict == "wrong" and bool(judged.code)
     assert wrong > 900
@@ -548,8 +548,8 @@ def test_the_bare_size_of_a_negative_answer_seldom_gets_a_cause_either() -> None
     """With thirty misreadings and an answer of -196 N*m, positive sizes are looked up twice: 8 % in all."""
     rng, key = random.Random(7), CaseStore(CASES, Course()).key("v_engine")
     assert isinstance(key, NumberKey) and key.value < 0.0
-    combined = Combined(Reader())
-    found = [judge_answer(key, combined, f"{key.value * rng.uniform(-3.0, 3.0):.4g}")[0] for _ in range(4000)]
+    reader = Reader()
+    found = [judge_answer(key, reader, f"{key.value * rng.uniform(-3.0, 3.0):.4g}")[0] for _ in range(4000)]
     wrong = [judged for judged in found if judged.verdict == "wrong"]
     assert sum(bool(judged.code) for judged in wrong) <= 0.08 * len(wrong)
 

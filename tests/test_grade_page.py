@@ -54,7 +54,8 @@ def test_marks_mistakes_and_who_is_missing(html: str) -> None:
 
 def test_labels_of_the_marks_do_not_overlap() -> None:
     marks = (*((f"a-long-code-{n}", 0.5 + 0.01 * n) for n in range(8)), ("sign", -1.0), ("double", 2.05))
-    counts = Counts(Counter(wrong=1), Counter(), Counter({5: 3}), Counter(), 0.0, 1.0, Counter(), Counter())
+    counts = Counts()
+    counts.verdicts, counts.bins, counts.max_score = Counter(wrong=1), Counter({5: 3}), 1.0
     root = ElementTree.fromstring(
         histogram(counts, marks).replace("<svg", '<svg xmlns="http://www.w3.org/2000/svg"')
     )

@@ -192,6 +192,17 @@ def test_blackboard_by_user_and_by_question(a_class: Class) -> None:
         assert marks(a_class.grade(table)) == {("a", "lever"): "right", ("b", "lever"): "wrong"}
 
 
+def test_blackboard_knows_its_students_by_the_first_id_of_its_columns(a_class: Class) -> None:
+    """In whatever column it stands, the first one too; a table without ids is refused."""
+    answers = "Question 1,Answer 1"
+    for head, cells in (("Student ID,Username", "007,ann"), ("Username,Student ID", "ann,007")):
+        table = f"{head},{answers}\n{cells},Find T. [lever],200\n"
+        assert marks(a_class.grade(table)) == {("007", "lever"): "right"}
+    ran = a_class.grade(f"{answers}\nFind T. [lever],200\n")
+    assert ran.code == 2
+    assert "no column holds the student's id" in ran.err
+
+
 def test_brightspace_with_its_hashes(a_class: Class) -> None:
     table = (
         "Org Defined ID,Username,FirstName,LastName,Attempt #,Attempt Start,Attempt End,Section #,Q #,Q "

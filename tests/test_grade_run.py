@@ -13,7 +13,7 @@ import pytest
 
 from grade_bench import CASES, write_class
 from grade_shell import PRESS, Class
-from icsolve.grade.importing import Store
+from icsolve.grade import importing
 from icsolve.grade.run import Job, grade
 from icsolve.grade.tables.columns import timestamp
 
@@ -158,7 +158,7 @@ def graded(table: str, folder: Path, most: int | None = None) -> str:
     out = io.StringIO()
     with pytest.MonkeyPatch.context() as patch:
         if most is not None:
-            patch.setattr(Store.__init__, "__defaults__", (most,))
+            patch.setattr(importing, "IN_MEMORY", most)
         grade(Job((str(path),), str(CASES)), out)
     return out.getvalue()
 
@@ -180,6 +180,20 @@ def test_the_same_bytes_in_memory_and_on_disk(large: str, tmp_path: Path) -> Non
     once = graded(large, tmp_path)
     assert graded(large, tmp_path) == once
     assert graded(large, tmp_path, most=500) == once
+
+
+@pytest.mark.parametrize("most", [0, importing.IN_MEMORY])
+def test_of_several_files_the_last_counts_wherever_its_rows_stand(
+    most: int, a_class: Class, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Not the answer of the greatest line, nor of the greatest text."""
+    monkeypatch.setattr(importing, "IN_MEMORY", most)
+    header, cases = "student_id,case,answer\n", str(a_class.path("cases"))
+    first = a_class.file("first.csv", f"{header}a,lever,9\nx,lever,1\nb,lever,201\n")
+    second = a_class.file("second.csv", f"{header}a,lever,200\nb,lever,100\n")
+    for files, answers in (((first, second), ("200", "100")), ((second, first), ("9", "201"))):
+        ran = a_class.run("grade", *files, "--cases", cases, "-o", "-", "-q")
+        assert tuple(ran.row(student, "lever")["raw_answer"] for student in "ab") == answers
 
 
 def test_the_same_bytes_with_the_rows_in_any_order(large: str, tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ may follow from other wrong ones by a sum of power that has them all.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
 from operator import mul
 
@@ -184,12 +184,11 @@ Found = tuple[StoredAnswer, Marked]
 
 
 class CarriedForward:
-    """Recognises errors carried forward; ``keep`` takes what is judged anew, so that it is counted."""
+    """Recognises errors carried forward."""
 
-    def __init__(self, case_store: CaseStore, reveal: bool, keep: Callable[[Marked], None]) -> None:
+    def __init__(self, case_store: CaseStore, reveal: bool) -> None:
         self._case_store = case_store
         self._reveal = reveal
-        self._keep = keep
 
     def looked_at(self, found: list[Found]) -> list[Found]:
         """One student's answers, those that follow from a wrong intermediate one with that cause."""
@@ -259,9 +258,7 @@ class CarriedForward:
             share=max(share_of(key, before.judged.parts, mistakes), before.judged.share),
         )
         told = feedback(key, judged, self._reveal)
-        again = Marked(before.item, before.raw, judged, before.points, told, before.written)
-        self._keep(again)
-        return again
+        return Marked(before.item, before.raw, judged, before.points, told, before.written)
 
 
 def _steps(solved: SolvedCase, wrong: list[Found]) -> Iterator[Intermediate]:

@@ -11,6 +11,7 @@ from array import array
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack
 from itertools import islice, pairwise
+from operator import itemgetter
 from typing import IO, TYPE_CHECKING
 
 from icsolve.files import is_plain, reading, scratch
@@ -313,7 +314,7 @@ _CREATE = (
     " attempt text, variant text, time text, trouble text)"
 )
 _INSERT = "insert into s values (?,?,?,?,?,?,?,?,?,?)"
-_SELECT = "select * from s order by student, item, line"
+_SELECT = "select * from s order by student, item, rowid"
 _BATCH = 5000
 IN_MEMORY = 110_000
 """Submissions that are sorted in memory; more go to disk."""
@@ -354,9 +355,9 @@ class Store:
         self._few = []
 
     def sorted(self) -> Iterator[StoredAnswer]:
-        """Entries by student, question and line."""
+        """Entries by student and question, of those the ones that were added first."""
         if self._disk is None:
-            self._few.sort()
+            self._few.sort(key=itemgetter(0, 1))
             yield from self._few
             return
         cursor = self._disk.execute(_SELECT)

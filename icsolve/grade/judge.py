@@ -12,7 +12,7 @@ from icsolve.grade.keys import AGAINST, NEITHER, AnyKey, ChoiceKey, NumberKey, P
 from icsolve.grade.mistakes import Wrong, message, together
 from icsolve.grade.mistakes.lookup import near_miss
 from icsolve.grade.tolerance import SLACK
-from icsolve.grade.written.answer import MISSING, NO_NUMBER, TWO_VALUES, Combined, WrittenAnswer, flagged
+from icsolve.grade.written.answer import MISSING, NO_NUMBER, TWO_VALUES, Reader, WrittenAnswer, flagged
 from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, figures, plain
 from icsolve.grade.written.two_numbers import WrittenPlace, WrittenRange, read_place, read_range
 from icsolve.grade.written.words import CASE, ENERGY, unit_word
@@ -62,14 +62,14 @@ _GROUPED = re.compile(r"[-+]?[1-9]\d{0,2}\.\d{3}(?![\d.])")
 
 
 def judge_answer(
-    key: AnyKey, combined: Combined, answer: str, unit: str = "", direction: str = ""
+    key: AnyKey, reader: Reader, answer: str, unit: str = "", direction: str = ""
 ) -> tuple[Judgement, Read]:
     """The verdict on an answer as it was written.
 
     Parameters
     ----------
     key : of any kind: a number, a place, a range, a choice
-    combined : reads numbers, with the decimal mark of the course
+    reader : reads numbers, with the decimal mark of the course
     answer, unit, direction : texts; unit and direction perhaps in columns of their own
 
     Returns
@@ -83,16 +83,16 @@ def judge_answer(
         doubted = place.doubtful and judged.verdict == WRONG
         return (_unjudged(AMBIGUOUS) if doubted else judged), place
     if isinstance(key, ChoiceKey):
-        return _judge_choice(key, combined, answer, unit, direction)
+        return _judge_choice(key, reader, answer, unit, direction)
     if isinstance(key, RangeKey):
         text = " ".join(part for part in (answer, unit, direction) if part)
-        found = read_range(text, combined.reader.decimal)
+        found = read_range(text, reader.decimal)
         return judge_range(key, found), found
-    written = combined.read(answer, unit, direction)
+    written = reader.read(answer, unit, direction)
     if key.period and written.flag == UNREAD:
         written = _as_heading(answer) or written
     judged = judge(key, written)
-    if judged.verdict == WRONG and combined.reader.decimal == "either" and _GROUPED.match(written.digits):
+    if judged.verdict == WRONG and reader.decimal == "either" and _GROUPED.match(written.digits):
         other = judge(key, written._replace(number=written.number * 1000.0))
         if other.verdict == RIGHT:
             return _unjudged(AMBIGUOUS), flagged(AMBIGUOUS)
@@ -108,14 +108,14 @@ def _as_heading(answer: str) -> WrittenAnswer | None:
 
 
 def _judge_choice(
-    key: ChoiceKey, combined: Combined, answer: str, unit: str, direction: str
+    key: ChoiceKey, reader: Reader, answer: str, unit: str, direction: str
 ) -> tuple[Judgement, Read]:
     """By the nearest of several right values, whose mistakes alone are looked up where it is right; else by
     the first of which it shows a known mistake. Several values are right where each of them is."""
-    number, word, _, _, flag, _ = combined.read(answer, unit, direction)
+    number, word, _, _, flag, _ = reader.read(answer, unit, direction)
     parts = _LISTED.split(answer) if flag == TWO_VALUES else []
     if len(parts) > 1:
-        several = [_judge_choice(key, combined, part, unit, direction) for part in parts]
+        several = [_judge_choice(key, reader, part, unit, direction) for part in parts]
         if all(judged.verdict == RIGHT for judged, _ in several):
             return several[0]
 
@@ -126,7 +126,7 @@ def _judge_choice(
 
     found = []
     for one in sorted(key.keys, key=off):
-        found.append(judge_answer(one, combined, answer, unit, direction))
+        found.append(judge_answer(one, reader, answer, unit, direction))
         if found[-1][0].verdict == RIGHT or found[-1][0].mistakes:
             return found[-1]
     return found[0]

@@ -18,7 +18,7 @@ from icsolve.grade.statistics import Counts, Tally
 from icsolve.grade.tables.columns import NEVER, StoredAnswer, attempt_number, readings
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import GivenValue, Neighbours
-from icsolve.grade.written.answer import MISSING, Combined, Reader, WrittenAnswer
+from icsolve.grade.written.answer import MISSING, Reader, WrittenAnswer
 from icsolve.grade.written.two_numbers import WrittenPlace
 
 _MEMORY = 40_000
@@ -54,17 +54,17 @@ class Marker:
         self.overruled: set[tuple[str, str]] = set()
         """students and questions whose marks were given by hand"""
         self.questions = frozenset(questions)
-        self.combined = Combined(Reader(self.course.decimal))
+        self._reader = Reader(self.course.decimal)
         self._memory: dict[tuple[str, str, str, str, str], Marked] = {}
         self._missing: dict[str, Marked] = {}
         self._keys: dict[str, AnyKey] = {}
-        self._others: list[Marked] = []
+        self._uncounted: list[Marked] = []
         self.owing: dict[str, list[str]] = {}
         """of each question the first students who gave no answer"""
         self.silent = 0
         """students who gave no answer at all"""
         self.tally = Tally(self._band)
-        self._carried_forward = CarriedForward(case_store, self.course.reveal, self._once)
+        self._carried_forward = CarriedForward(case_store, self.course.reveal)
 
     def results(self, entries: Iterable[StoredAnswer], students: Iterable[str] = ()) -> Iterator[Result]:
         """The results of sorted entries, and of sorted ``students`` who may have given none."""
@@ -140,12 +140,15 @@ class Marker:
         told = f"Marked by hand: {override.comment}" if override.comment else "Marked by hand."
         found = Marked(marked.item, marked.raw, again, points, told, marked.written)
         found.place, found.place_unit = marked.place, marked.place_unit
-        self._once(found)
         return found
 
     def _result(self, entry: StoredAnswer, marked: Marked, variant: str = "") -> Result:
         """Counted, as the line of the variant that is the student's own, or that the answer names."""
         marked = self._final(entry, marked)
+        if not marked.count:
+            if len(self._uncounted) >= _MEMORY:
+                self.counted()
+            self._uncounted.append(marked)
         marked.count += 1
         return Result(entry.student, entry.item, variant or entry.variant, entry.attempt, entry.line, marked)
 
@@ -196,7 +199,7 @@ class Marker:
         found = self._memory.get(key)
         if found is None:
             if len(self._memory) >= _MEMORY:
-                self.counted()
+                self._memory.clear()
             found = self._memory[key] = self._judged(entry)
         return found
 
@@ -209,20 +212,10 @@ class Marker:
         given = entry.variant.strip()
         return bool(given) and self._variant(entry) not in ("", given)
 
-    def _once(self, marked: Marked) -> None:
-        """Keep until it is counted what is not in the memory."""
-        self._others.append(marked)
-        if len(self._others) >= _MEMORY:
-            self.tally.add(self._others[:-1])
-            self._others = [marked]
-
     def counted(self) -> dict[str, Counts]:
-        """The counts of all that was judged so far, which is forgotten."""
-        self.tally.add(self._memory.values())
-        self.tally.add(self._others)
-        self.tally.add(self._missing.values())
-        self._memory.clear()
-        self._others.clear()
+        """The counts of all results so far."""
+        self.tally.add(self._uncounted)
+        self._uncounted.clear()
         return self.tally.counts
 
     def _band(self, item: str) -> tuple[float, float] | None:
@@ -238,7 +231,7 @@ class Marker:
             return self._troubled(entry, error.told)
         if self.case_store.varied and self._is_others(entry):
             return self._of_another(entry)
-        judged, read = judge_answer(key, self.combined, entry.answer, entry.unit, entry.direction)
+        judged, read = judge_answer(key, self._reader, entry.answer, entry.unit, entry.direction)
         if self._neighbours is not None and isinstance(key, NumberKey) and isinstance(read, WrittenAnswer):
             judged = self._beside_others(entry, judged, read)
         told = feedback(key, judged, self.course.reveal)
@@ -277,9 +270,7 @@ class Marker:
 
     def _troubled(self, entry: StoredAnswer, why: str) -> Marked:
         """A row that can't be graded: for a person to look at."""
-        marked = self._unjudged(entry, IN_REVIEW, "not-graded", f"Not graded: {why}")
-        self._once(marked)
-        return marked
+        return self._unjudged(entry, IN_REVIEW, "not-graded", f"Not graded: {why}")
 
     def _of_another(self, entry: StoredAnswer) -> Marked:
         """An answer to numbers that are not the student's: a person must say whose it is."""

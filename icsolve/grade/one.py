@@ -10,7 +10,7 @@ from icsolve.grade.course import Course
 from icsolve.grade.judge import feedback, judge_answer
 from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey
 from icsolve.grade.platforms.questions import asked, figure, sensible
-from icsolve.grade.written.answer import Combined, Reader
+from icsolve.grade.written.answer import Reader
 from icsolve.read import case_name
 from icsolve.wording.statement import Statement
 
@@ -73,7 +73,7 @@ class Task:
             ``verdict``, ``score`` from 0 to 1, ``code`` and ``feedback``.
         """
         key = self._key(what)
-        judged, _ = judge_answer(key, Combined(Reader(self._course.decimal)), answer)
+        judged, _ = judge_answer(key, Reader(self._course.decimal), answer)
         told = feedback(key, judged, self._course.reveal)
         return {"verdict": judged.verdict, "score": judged.share, "code": judged.code, "feedback": told}
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Container, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from icsolve.grade.course import Person
 from icsolve.grade.results import Marked, ResultRow, by_student, marks_of
@@ -107,28 +107,51 @@ _MOST_TEXTS = 4000
 _LONGEST = 80
 
 
-class Counts(NamedTuple):
+class Counts:
     """What a class answered to one question."""
 
-    verdicts: Counter[str]
-    mistakes: Counter[str]
-    """by the first cause; '' for those of no known cause"""
-    bins: Counter[int]
-    """answers by `bin_of` their ratio to the right one"""
-    unread: Counter[str]
-    """invalid answers and those for review, by their flag"""
-    score: float
-    max_score: float
-    """marks, and the most that there were, of what was judged"""
-    texts: Counter[str]
-    """the texts that wait for a person"""
-    unexplained: Counter[str]
-    """the wrong values of no known cause, to four figures"""
+    def __init__(self) -> None:
+        self.verdicts: Counter[str] = Counter()
+        self.mistakes: Counter[str] = Counter()
+        """by the first cause; '' for those of no known cause"""
+        self.bins: Counter[int] = Counter()
+        """answers by `bin_of` their ratio to the right one"""
+        self.unread: Counter[str] = Counter()
+        """invalid answers and those for review, by their flag"""
+        self.score = self.max_score = 0.0
+        """marks, and the most that there were, of what was judged"""
+        self.texts: Counter[str] = Counter()
+        """the texts that wait for a person"""
+        self.unexplained: Counter[str] = Counter()
+        """the wrong values of no known cause, to four figures"""
+
+    def add(self, m: Marked, band: tuple[float, float] | None) -> None:
+        """Count an answer as often as it was given; its own count starts again."""
+        judged, n = m.judged, m.count
+        verdict, share, _, value, _, code, causes, _ = judged
+        self.verdicts[verdict] += n
+        if verdict == "wrong":
+            self.mistakes[causes[0].code if causes else ""] += n
+            if not causes and value is not None:
+                _count_text(self.unexplained, f"{value:.4g}", n)
+        elif verdict in ("invalid", "review"):
+            self.unread[code] += n
+            _count_text(self.texts, " ".join(m.raw.split())[:_LONGEST], n)
+        if value is not None and band is not None:
+            self.bins[bin_of(value, *band)] += n
+        if not m.is_open:
+            self.score += n * share * m.points
+            self.max_score += n * m.points
+        m.count = 0
 
 
-def empty() -> Counts:
-    """Nothing yet."""
-    return Counts(Counter(), Counter(), Counter(), Counter(), 0.0, 0.0, Counter(), Counter())
+def _count_text(texts: Counter[str], text: str, n: int) -> None:
+    """Count a text; of too many the commonest half is kept."""
+    texts[text] += n
+    if len(texts) > _MOST_TEXTS:
+        common = texts.most_common(_MOST_TEXTS // 2)
+        texts.clear()
+        texts.update(dict(common))
 
 
 def bin_of(value: float, right: float, half: float) -> int:
@@ -148,46 +171,16 @@ class Tally:
         self.counts: dict[str, Counts] = {}
 
     def add(self, marked: Iterable[Marked]) -> None:
-        """Count answers, each as often as it was given; its own count starts again."""
-        items: dict[str, list[Marked]] = {}
+        """Count answers, each as often as it was given."""
         for m in marked:
-            if m.count:
-                items.setdefault(self._item_of(m, items), []).append(m)
-        for item, own in items.items():
-            self.counts[item] = _with(self.counts.get(item) or empty(), own, self._band(item))
+            item = self._item_of(m)
+            if item not in self.counts:
+                self.counts[item] = Counts()
+            self.counts[item].add(m, self._band(item))
 
-    def _item_of(self, m: Marked, new: Container[str]) -> str:
+    def _item_of(self, m: Marked) -> str:
         """The question under which an answer is counted; of names that are no case only so many are kept."""
-        known = m.item in self.counts or m.item in new
-        strange = m.judged.code == "not-graded" and not known
+        strange = m.judged.code == "not-graded" and m.item not in self.counts
         if strange:
             self._strange += 1
         return OTHERS if strange and self._strange > _MOST_STRANGE else m.item
-
-
-def _with(counts: Counts, marked: list[Marked], band: tuple[float, float] | None) -> Counts:
-    """The counts of a question with more answers to it."""
-    verdicts, mistakes, bins, unread, score, most, texts, unexplained = counts
-    for m in marked:
-        judged, n = m.judged, m.count
-        verdict, share, _, value, _, code, causes, _ = judged
-        verdicts[verdict] += n
-        if verdict == "wrong":
-            mistakes[causes[0].code if causes else ""] += n
-            if not causes and value is not None:
-                unexplained[f"{value:.4g}"] += n
-        elif verdict in ("invalid", "review"):
-            unread[code] += n
-            texts[" ".join(m.raw.split())[:_LONGEST]] += n
-        if value is not None and band is not None:
-            bins[bin_of(value, *band)] += n
-        if not m.is_open:
-            score += n * share * m.points
-            most += n * m.points
-        m.count = 0
-    return Counts(verdicts, mistakes, bins, unread, score, most, _common(texts), _common(unexplained))
-
-
-def _common(texts: Counter[str]) -> Counter[str]:
-    """The commonest of too many texts."""
-    return texts if len(texts) <= _MOST_TEXTS else Counter(dict(texts.most_common(_MOST_TEXTS // 2)))

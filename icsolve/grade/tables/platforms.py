@@ -113,8 +113,11 @@ def _wrong_width(cells: Sequence[str], width: int) -> str:
     return f"this row has {len(cells)} cells under {width} columns: is it cut short?"
 
 
-def _wide(columns: TableColumns, kind: str) -> TableLayout:
-    """A column a question."""
+def _ids(columns: TableColumns, kind: str) -> list[int]:
+    """The columns by which a platform's students are known, best first.
+
+    Raises HeaderError where there is none, or two have one name.
+    """
     at = {name: index for index, name in reversed([*enumerate(columns.names)])}
     by_name = (columns.field(n) if n in FIELDS else at.get(n) for n in _IDS.get(kind, _ANY_ID))
     ids = [i for i in by_name if i is not None]
@@ -124,6 +127,12 @@ def _wide(columns: TableColumns, kind: str) -> TableLayout:
         )
     for index in ids:
         columns.check_once(index)
+    return ids
+
+
+def _wide(columns: TableColumns, kind: str) -> TableLayout:
+    """A column a question."""
+    ids = _ids(columns, kind)
     asked, strange = _questions(columns, set(ids))
     if not asked:
         raise HeaderError(
@@ -207,6 +216,7 @@ _SKIPPED = {"canvas-gradebook": _canvas_row, "canvas-quiz": _canvas_row, "moodle
 _ANY_ID = ("student_id", "email")
 _IDS = {
     "wide": ("student_id", "id", "uid", "user", "email"),
+    "prairielearn": ("uid",),
     "gradescope": ("sid", "student_id", "email"),
     "canvas-quiz": ("student_id", "sis_id", "id", "email"),
     "canvas-gradebook": ("sis user id", "sis login id", "integration id", "id"),
@@ -219,7 +229,7 @@ _IDS = {
 
 def _prairielearn(columns: TableColumns, kind: str) -> TableLayout:
     """A question a row; its answers are JSON."""
-    uid, qid, answers = (columns.names.index(name) for name in ("uid", "qid", "submitted_answer"))
+    qid, answers = (columns.names.index(name) for name in ("qid", "submitted_answer"))
 
     def answered(cells: list[str]) -> Iterator[Asked]:
         case = cells[qid].strip().rsplit("/", 1)[-1]
@@ -228,7 +238,7 @@ def _prairielearn(columns: TableColumns, kind: str) -> TableLayout:
 
     if "attempt" not in columns.fields and columns.has("submission_id"):
         columns.fields["attempt"] = columns.names.index("submission_id")
-    return TableLayout(kind, _rows(columns, kind, [uid], answered))
+    return TableLayout(kind, _rows(columns, kind, _ids(columns, kind), answered))
 
 
 def _json_answers(text: str) -> Iterator[tuple[str, str, str]]:
@@ -282,14 +292,13 @@ def _blackboard(columns: TableColumns, kind: str) -> TableLayout:
         for index, name in enumerate(columns.names)
         if re.fullmatch(r"answer \d+", name) and f"question {name.removeprefix('answer ')}" in columns.names
     ]
-    who = columns.field("student_id") or columns.field("email") or 0
 
     def answered(cells: list[str]) -> Iterator[Asked]:
         for question, answer in pairs:
             if cells[question].strip():
                 yield columns.questions.get(answer) or _by_text(columns, cells[question]), cells[answer], ""
 
-    return TableLayout(kind, _rows(columns, kind, [who], answered))
+    return TableLayout(kind, _rows(columns, kind, _ids(columns, kind), answered))
 
 
 _STAMPS = ("timestamp", "zeitstempel", "horodateur", "marca temporal", "informazioni cronologiche")

@@ -128,8 +128,11 @@ class Reader:
         self.decimal = decimal
         self._rests: dict[str, WrittenAnswer] = {}
 
-    def read(self, text: str) -> WrittenAnswer:
-        """The reading of an answer's text."""
+    def read(self, text: str, unit: str = "", way: str = "") -> WrittenAnswer:
+        """The reading of an answer's text, with its unit and direction where they have columns of their own;
+        what one column says against another is flagged."""
+        if unit or way:
+            return _with_columns(self.read(text), unit, way)
         if text[-1:].isdigit() and "_" not in text and self.decimal != "comma":
             try:
                 number = float(text)
@@ -141,10 +144,10 @@ class Reader:
         if quick is not None and self.decimal != "comma":
             digits, rest = quick.groups()
             after = self._rests.get(rest) or self._remember(rest)
-            _, unit, way, _, flag, note = after
+            _, word, said, _, flag, note = after
             number = float(digits)
-            if not flag and (number >= 0.0 or way is None):
-                return _made((number, unit, way, digits, "", note))
+            if not flag and (number >= 0.0 or said is None):
+                return _made((number, word, said, digits, "", note))
         return self.slowly(text)
 
     def _remember(self, rest: str) -> WrittenAnswer:
@@ -371,54 +374,33 @@ def _joined(
 
 # --- columns of their own ---------------------------------------------------------------------------
 
+_unit_of_column = lru_cache(_MOST)(unit_word)
+_direction_of_column = lru_cache(_MOST)(direction)
+"""Columns repeat themselves from student to student."""
 _NO_UNIT = {"", "-", "1", "none", "n/a", "na", "dimensionless", "[-]"}
 
 
-class Combined:
-    """Reads answers of up to three columns."""
-
-    def __init__(self, reader: Reader) -> None:
-        self.reader = reader
-
-    def read(self, answer: str, unit: str = "", way: str = "") -> WrittenAnswer:
-        """The reading of all of it; what one column says against another is flagged."""
-        written = self.reader.read(answer)
-        if (not unit and not way) or written.flag:
-            return written
-        number, own_unit, own_way, digits, _, note = written
-        word, direction = _unit_alone(unit), _direction_alone(way)
-        flag = _unit_flag(own_unit, word) or _direction_flag(number, own_way, direction)
-        if flag:
-            return flagged(flag)
-        if word is not None:
-            own_unit, note = word, note or word.note  # type: ignore[assignment, union-attr]
-        return WrittenAnswer(number, own_unit, direction or own_way, digits, "", note)  # type: ignore[arg-type]
+def _with_columns(written: WrittenAnswer, unit: str, way: str) -> WrittenAnswer:
+    """A reading with the unit and the direction of columns of their own; flagged where one of them is none,
+    is ambiguous, or says otherwise than the answer itself."""
+    words, ways = _alone(unit), _alone(way)
+    if words and not written.flag:
+        word = _unit_of_column(words)
+        if word is None:
+            return flagged(UNREAD)
+        if word.note == AMBIGUOUS_UNIT or (written.unit is not None and written.unit.unit != word.unit):
+            return flagged(AMBIGUOUS_UNIT)
+        written = written._replace(unit=word, note=written.note or word.note)
+    if ways and not written.flag:
+        said = _direction_of_column(ways)
+        if said is None or said.flag or written.number < 0.0 or written.direction not in (None, said):
+            return flagged(AMBIGUOUS_DIRECTION)
+        written = written._replace(direction=said)
+    return written
 
 
 @lru_cache(_MOST)
-def _unit_alone(text: str) -> UnitWord | str | None:
-    """The unit of its own column; a flag where it is none."""
+def _alone(text: str) -> str:
+    """What a column of its own says, in plain characters; '' where it says nothing."""
     words = plain(text)
-    return None if words.lower() in _NO_UNIT else unit_word(words) or UNREAD
-
-
-@lru_cache(_MOST)
-def _direction_alone(text: str) -> WrittenDirection | str | None:
-    """The direction of its own column; a flag where it is none."""
-    words = plain(text)
-    return None if words.lower() in _NO_UNIT else direction(words) or AMBIGUOUS_DIRECTION
-
-
-def _unit_flag(own: UnitWord | None, word: UnitWord | str | None) -> str:
-    """What is against a unit in a column of its own: it is none, or ambiguous, or the answer has another."""
-    if word is None or isinstance(word, str):
-        return word or ""
-    if word.note == AMBIGUOUS_UNIT or (own is not None and own.unit != word.unit):
-        return AMBIGUOUS_UNIT
-    return ""
-
-
-def _direction_flag(number: float, own: WrittenDirection | None, way: WrittenDirection | str | None) -> str:
-    if way is None or isinstance(way, str):
-        return way or ""
-    return AMBIGUOUS_DIRECTION if way.flag or number < 0.0 or (own is not None and own != way) else ""
+    return "" if words.lower() in _NO_UNIT else words
