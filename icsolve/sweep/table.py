@@ -154,10 +154,12 @@ LETTERS = {"rates": "w", "angular_accelerations": "a", "terms": "power "}
 
 
 def by_kind(arrays: Mapping[tuple[str, str], Array]) -> dict[str, dict[str, Array]]:
-    """Arrays by (kind, name) as arrays by kind and then by name; every kind is there."""
+    """Arrays by (kind, name) as arrays by kind and then by name; every kind that a sweep shows is there, and
+    no other."""
     kinds: dict[str, dict[str, Array]] = {kind: {} for kind in KINDS}
     for (kind, name), array in arrays.items():
-        kinds[kind][name] = array
+        if kind in kinds:
+            kinds[kind][name] = array
     return kinds
 
 
@@ -175,7 +177,9 @@ class Table:
     Attributes
     ----------
     codes : (rows,), places of the statuses in `WORDS`; 0 is ``ok``
-    values, errors : by (kind, name), (rows,) or (rows, parts), as the arrays of `Sweep`
+    values, errors : by (kind, name), (rows,) or (rows, parts), as the arrays of `Sweep`; ``("touching",
+        "2-3")`` has the place of a contact [case length], its pressure angle [degrees; nan: none], and 1
+        where it is lost, (rows, 4)
     holds : by load, (rows, 2) [case units]
     """
 
@@ -238,6 +242,9 @@ class Table:
                 self.holds.setdefault(name, np.full((self.rows, 2), np.nan))[row] = found.holds
         if missing and not self.lacks_rates(row):
             return
+        for one in answer.touching:
+            angle = np.nan if one.pressure_angle is None else one.pressure_angle
+            self.put("touching", "-".join(one.links), row, (*one.at, angle, float(one.lost)))
         for name in asked.points if not missing else ():
             if name in answer.points:
                 x, y = answer.points[name]
