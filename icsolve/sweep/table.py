@@ -190,6 +190,10 @@ class Table:
         self.errors: dict[Key, Array] = {}
         self.holds: dict[str, Array] = {}
 
+    def reserve(self, parts: Mapping[Key, int]) -> None:
+        """Arrays by (kind, name), of so many numbers a row, for what will be put into every row."""
+        self.values |= {k: np.empty(self.rows if n == 1 else (self.rows, n)) for k, n in parts.items()}
+
     def put(self, kind: str, name: str, row: int, value: Value, error: Value | None = None) -> None:
         """One value, a float or a tuple of parts, and the bound of its absolute error where one is proven."""
         shape = (self.rows,) if isinstance(value, float) else (self.rows, len(value))
