@@ -333,3 +333,13 @@ def test_rows_at_once_are_the_scenes_one_by_one(monkeypatch: pytest.MonkeyPatch,
     for key, array in alone.centres.items():
         across = np.cross(together.centres[key], array)
         np.testing.assert_allclose(across, 0.0, atol=1e-9 * np.abs(array).max() ** 2)
+
+
+def test_rows_of_a_dwell_with_friction_have_their_answers() -> None:
+    """A cam whose follower rubs on its guide: no row is ``ok`` without a value, in a dwell least of all."""
+    text = (LIBRARY / "tangent_cam.yaml").read_text().partition("expect:")[0]
+    text = text.replace("along: 90}", "along: 90, mu: 0.1}") + "motion: {link: 2, turns: ccw}\n"
+    found = sweep(load(text), drive={"2": np.arange(0.0, 360.0, 45.0)})
+    assert (found.status == "ok").all()
+    assert np.isfinite(found.answers["T12"]).all()
+    assert not found.answers["T12"][3:7].any()

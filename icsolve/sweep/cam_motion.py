@@ -42,7 +42,7 @@ from icsolve.numbers.replay import Array
 from icsolve.scene.refusals import rubs
 from icsolve.sweep.branches import signs_of
 from icsolve.sweep.exact import CONTEXT, as_written
-from icsolve.sweep.first_contact import FirstContact, FirstContacts, Mask, Poses, Vectors
+from icsolve.sweep.first_contact import FirstContact, FirstContacts, Mask
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recorded_scene import RestingContact
 from icsolve.sweep.request import Columns
@@ -108,29 +108,11 @@ class Follow(NamedTuple):
         Met
             ``point`` and ``normal`` as the frame sees them.
         """
-        (ax, ay), (bx, by) = self.written
-        (ux, uy), v = (bx - ax, by - ay), second - first
-        c, s = ux * v[:, 0] + uy * v[:, 1], ux * v[:, 1] - uy * v[:, 0]
-        size = np.hypot(c, s)
-        c, s = c / size, s / size
-
-        def back(x: Array | float, y: Array | float) -> Vectors:
-            return c * x + s * y, c * y - s * x
-
-        def place(p: Point) -> Vectors:
-            x, y = back(p[0] - first[:, 0], p[1] - first[:, 1])
-            return x + ax, y + ay
-
-        shifts = isinstance(self.freedom, Shift)
-        along = self.freedom.along if isinstance(self.freedom, Shift) else (1.0, 0.0)
-        about = self.freedom.about if isinstance(self.freedom, Turn) else (0.0, 0.0)
-        poses = Poses(place(self.body.at), back(*self.body.face), back(*along), place(about))
-        met = FirstContact(self.curve, self.body, shifts, self.side, self.sense).run(poses)
-
-        def out(v: Array) -> Array:
-            return np.stack([c * v[:, 0] - s * v[:, 1], s * v[:, 0] + c * v[:, 1]], axis=1)
-
-        return met._replace(point=out(met.point - (ax, ay)) + first, normal=out(met.normal))
+        pose = pose_of(self.written, (_parts(first), _parts(second)))
+        body, freedom = pose.body_back(self.body), pose.freedom_back(self.freedom)
+        met = FirstContact(self.curve, body, freedom, self.side, self.sense).run()
+        point, normal = pose.place(_parts(met.point)), pose.out(_parts(met.normal))
+        return met._replace(point=np.stack(point, axis=1), normal=np.stack(normal, axis=1))
 
     def pressure(self, at: Array, normal: Array) -> Array:
         """Pressure angles [degrees] at contacts, as `contact_search.pressure_angle`.
@@ -146,11 +128,7 @@ class Follow(NamedTuple):
             (n,), from 0 to 90: between the normal and the way of the follower's point (of a roller, its
             centre).
         """
-        x, y = at.T + self.body.radius * normal.T
-        if isinstance(self.freedom, Turn):
-            x, y = self.freedom.about[1] - y, x - self.freedom.about[0]
-        else:
-            x, y = (np.full(len(at), v) for v in self.freedom.along)
+        x, y = self.freedom.velocity(_parts(at + self.body.radius * normal))
         along, across = x * normal[:, 0] + y * normal[:, 1], x * normal[:, 1] - y * normal[:, 0]
         angle = np.degrees(np.arctan2(np.abs(across), np.abs(along)))
         return np.where(np.abs(across) <= ROUNDED * np.abs(along), 0.0, angle)
@@ -168,11 +146,11 @@ class Follow(NamedTuple):
             roller = (follower.at, off * follower.radius.value)
         return RestingContact(touch.place, joint, (place.x.value, place.y.value), roller)
 
-    def contact(self, case: Case, pose: LinkPose, met: Candidate) -> tuple[Case, Touching]:
-        """A row's case with this contact."""
+    def contact(self, case: Case, pose: LinkPose, met: Candidate) -> Touching:
+        """A row's contact; raises SceneError where there is no one."""
         meeting = meeting_of(self.curve, met.body, self.side)
         self.seeking.refuse_shared(meeting)
-        return self.seeking.contact(case, self.curve, pose.meeting(meeting), self.freedom, note=False)
+        return self.seeking.contact(case, self.curve, pose.meeting(meeting), self.freedom, note=False)[1]
 
 
 class CamMotion:
@@ -334,7 +312,8 @@ class Rows:
         Returns
         -------
         tuple[dict[Key, Array], Mask]
-            By (kind, name), (rows,) or (rows, parts) [case units]; and in which rows that is sure, (rows,):
+            By (kind, name), (rows,) or (rows, parts) [case units], as of `Table`; and in which rows that is
+            sure, (rows,):
             the others are to be solved one by one.
         """
         sure = np.logical_and.reduce([rested.sure for rested in self.rested]) & (self.codes == 0)
@@ -365,19 +344,27 @@ class Rows:
                 values[key][part.rows] = array
             sure[part.rows[~good]] = False
             sure[part.rows[found.doubtful]] = False
+        for follow, rested in zip(self.course.follows, self.rested, strict=True):
+            at, angles = rested.point, follow.pressure(rested.point, rested.normal)
+            force = values.pop(("contact", follow.seeking.hidden), np.zeros(len(sure)))
+            name = "-".join(follow.seeking.touch.links)
+            values["touching", name] = np.column_stack([at, angles, force < 0.0])
         return values, sure
 
-    def touching(self, row: int) -> list[Touching]:
-        """Where the links touch in a row.
+    def pressures(self) -> dict[tuple[str, str], Array]:
+        """The pressure angles of the contacts by their links, (rows,) each [degrees].
 
-        Raises SceneError where there is no one contact.
+        Raises SceneError where in a row there is no one contact.
         """
-        touching = []
-        for k, follow in enumerate(self.course.follows):
-            one = self._contact(k, row)
-            assert one is not None
-            touching.append(follow.contact(self.course.open, *one)[1])
-        return touching
+        found = {}
+        for k, (follow, rested) in enumerate(zip(self.course.follows, self.rested, strict=True)):
+            angles = follow.pressure(rested.point, rested.normal)
+            for row in np.flatnonzero(~rested.sure).tolist():
+                one = self._contact(k, row)
+                assert one is not None
+                angles[row] = follow.contact(self.course.open, *one).pressure_angle
+            found[follow.seeking.touch.links] = angles
+        return found
 
     def case_of(self, row: int) -> Case:
         """A row as a case whose contacts are to be found on its profiles: its followers are brought to their
@@ -406,8 +393,15 @@ def _point(place: Array) -> Point:
     return (float(place[0]), float(place[1]))
 
 
+def _parts(places: Array) -> Vector:
+    """x and y of places or vectors, (n, 2), as arrays of their own."""
+    x, y = places.T
+    return x, y
+
+
 class LinkPose(NamedTuple):
-    """How far a link has moved from the position as written.
+    """How far a link has moved from the position as written: in one position, or (numbers being arrays) in
+    many at once.
 
     Attributes
     ----------
@@ -415,26 +409,26 @@ class LinkPose(NamedTuple):
     written, now : the places of one of its points, then and now [case length]
     """
 
-    turn: Point
-    written: Point
-    now: Point
+    turn: Vector
+    written: Vector
+    now: Vector
 
-    def out(self, v: Point) -> Point:
+    def out(self, v: Vector) -> Vector:
         """A vector that the link carries, as it is now."""
         (c, s), (x, y) = self.turn, v
         return (c * x - s * y, s * x + c * y)
 
-    def back(self, v: Point) -> Point:
+    def back(self, v: Vector) -> Vector:
         """A vector as the link carried it in the position as written."""
         (c, s), (x, y) = self.turn, v
         return (c * x + s * y, c * y - s * x)
 
-    def place(self, p: Point) -> Point:
+    def place(self, p: Vector) -> Vector:
         """A point that the link carries, as it is now."""
         x, y = self.out((p[0] - self.written[0], p[1] - self.written[1]))
         return (x + self.now[0], y + self.now[1])
 
-    def place_back(self, p: Point) -> Point:
+    def place_back(self, p: Vector) -> Vector:
         """Where a point is as the link sees it, in the position as written."""
         x, y = self.back((p[0] - self.now[0], p[1] - self.now[1]))
         return (x + self.written[0], y + self.written[1])
@@ -456,7 +450,7 @@ class LinkPose(NamedTuple):
         return Meeting(meeting.gap, turned, tuple(map(self.out, meeting.normals)))
 
 
-def pose_of(written: tuple[Point, Point], now: tuple[Point, Point]) -> LinkPose:
+def pose_of(written: tuple[Point, Point], now: tuple[Vector, Vector]) -> LinkPose:
     """The pose of a link by two of its points, then and now [case length].
 
     Divides by zero where they lie at one place.
@@ -465,7 +459,7 @@ def pose_of(written: tuple[Point, Point], now: tuple[Point, Point]) -> LinkPose:
     (cx, cy), (dx, dy) = now
     ux, uy, vx, vy = bx - ax, by - ay, dx - cx, dy - cy
     c, s = ux * vx + uy * vy, ux * vy - uy * vx
-    size = math.hypot(c, s)
+    size = math.hypot(c, s) if isinstance(c, float) else np.hypot(c, s)
     return LinkPose((c / size, s / size), written[0], now[0])
 
 

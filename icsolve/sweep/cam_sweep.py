@@ -5,12 +5,11 @@ The pressure angles of a cam for `solve --report`: now, and over a turn.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from icsolve.answer import Answer
-from icsolve.answer.bodies import Touching
 from icsolve.cams.contact_candidates import Turn
 from icsolve.cams.words import follower_driven, lost_rows, widest_pressure
 from icsolve.case import Case
@@ -18,15 +17,16 @@ from icsolve.case.joints import Mesh
 from icsolve.case.profiles import Flat, Knife, Roller
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
-from icsolve.scene import solve_scene
 from icsolve.sweep.cam_motion import CamMotion, Rows, cam_motion
 from icsolve.sweep.first_contact import Mask
 from icsolve.sweep.numbers import with_numbers
+from icsolve.sweep.parts import distinct_rows
 from icsolve.sweep.program import RowRequest, setting_of
 from icsolve.sweep.request import Columns, SweepRequest
 from icsolve.sweep.runner import Key, Progress
 from icsolve.sweep.runner import Rows as Which
-from icsolve.sweep.table import CODE, KINDS, Sweep, Table
+from icsolve.sweep.scenes import by_scenes
+from icsolve.sweep.table import Sweep, Table
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed
 
@@ -48,82 +48,54 @@ class CamRows(NamedTuple):
     alike: bool
 
 
-class _Seen:
-    """What the rows tell of each contact: the widest pressure angle and where, and the rows that lose it."""
-
-    def __init__(self) -> None:
-        self.widest: dict[tuple[str, ...], tuple[float, int]] = {}
-        self.lost: dict[tuple[str, ...], list[int]] = {}
-        self.at: dict[tuple[str, ...], list[tuple[Which, Array]]] = {}
-
-    def take(self, row: int, touching: Iterable[Touching]) -> None:
-        """Note a row's contacts."""
-        for one in touching:
-            angle = np.nan if one.pressure_angle is None else one.pressure_angle
-            here = (np.array([row]), np.array([one.at]), np.array([angle]), np.array([one.lost]))
-            self.take_all(one.links, *here)
-
-    def take_all(self, links: tuple[str, ...], rows: Which, at: Array, angles: Array, lost: Mask) -> None:
-        """Note a contact in some rows: its places (rows, 2), pressure angles (rows,) [degrees; nan: none],
-        where it is lost (rows,).
-        """
-        self.at.setdefault(links, []).append((rows, at))
-        if np.isfinite(angles).any():
-            k = int(np.flatnonzero(angles >= np.nanmax(angles) - ONE_ANGLE)[0])
-            widest, row = self.widest.get(links, (-1.0, 0))
-            wider = float(angles[k]) - widest
-            if wider > ONE_ANGLE or (wider > -ONE_ANGLE and rows[k] < row):
-                self.widest[links] = (float(angles[k]), int(rows[k]))
-        if lost.any():
-            self.lost.setdefault(links, []).extend(rows[lost].tolist())
-
-    def places(self, count: int) -> dict[str, Array]:
-        """Where the contacts are in all rows, (count, 2) each [case lengths]; nan where one is lost."""
-        found = {"-".join(links): np.full((count, 2), np.nan) for links in self.at}
-        for links, parts in self.at.items():
-            for rows, at in parts:
-                found["-".join(links)][rows] = at
-        return found
-
-    def notes(self, columns: Columns) -> Iterator[str]:
-        """Sentences about them."""
-
-        def where(row: int) -> str:
-            return ", ".join(f"{columns.names[k]} = {float(a[row]):.6g}" for k, a in columns.arrays.items())
-
-        for links, (angle, row) in self.widest.items():
-            yield widest_pressure(links, angle, where(row))
-        for links, rows in self.lost.items():
-            yield lost_rows(links, len(rows), where(rows[0]))
-
-
 def sweep_touching(case: Case, columns: Columns, wanted: SweepRequest, progress: Progress | None) -> Sweep:
     """The sweep of a case with profiles; ``progress`` is told each row.
 
     Raises SceneError as `icsolve.sweep`, and where a follower cannot be followed.
     """
-    table, seen, parts = Table(columns.rows, wanted.asked), _Seen(), []
-    first = cam_motion(case)
-    moving = _moving(first, columns)
-    for part in _parts(case, columns, moving, table):
-        parts.append(part)
-        done = _together(table, part, wanted.error, seen)
-        if progress is not None and done.any():
-            progress(int(done.sum()))
-        for n in np.flatnonzero(~done).tolist():
-            _fill(table, part, n, int(part.rows[n]), columns, seen)
-            if progress is not None:
-                progress(1)
-    notes = (SAID, *(one.note for one in first.touching if one.note), *seen.notes(columns))
+    table, first = Table(columns.rows, wanted.asked), cam_motion(case)
+    parts: list[CamRows] = []
 
     def case_of(row: int) -> Case:
         part = next(part for part in parts if row in part.rows)
         at = int(np.flatnonzero(part.rows == row)[0])
         return part.run.case_of(at) if part.run else _written(part.case, columns, row)
 
+    for part in _parts(case, columns, _moving(first, columns), table):
+        parts.append(part)
+        left = part.rows[~_together(table, part, wanted.error)]
+        left = left[table.codes[left] == 0]
+        if progress is not None and len(left) < len(part.rows):
+            progress(len(part.rows) - len(left))
+        by_scenes(table, left.tolist(), case_of, progress)
+    notes = (SAID, *(one.note for one in first.touching if one.note), *_notes(case, columns, table))
     shown = {columns.names[own]: array for own, array in columns.arrays.items()}
     swept = table.sweep(case, shown, wanted.error, notes, case_of)
-    return replace(swept, touching=seen.places(columns.rows)) if wanted.asked.points else swept
+    if not wanted.asked.points:
+        return swept
+    places = {name: array[:, :2] for (kind, name), array in table.values.items() if kind == "touching"}
+    return replace(swept, touching=places)
+
+
+def _notes(case: Case, columns: Columns, table: Table) -> Iterator[str]:
+    """What the rows tell of each contact: the widest pressure angle and where, and the rows that lose it."""
+
+    def where(row: int) -> str:
+        return ", ".join(f"{columns.names[k]} = {float(a[row]):.6g}" for k, a in columns.arrays.items())
+
+    assert case.profiles is not None
+    found = {
+        touch.links: table.values.get(("touching", "-".join(touch.links))) for touch in case.profiles.touches
+    }
+    known = {links: array for links, array in found.items() if array is not None}
+    for links, (_, _, angles, _) in ((links, array.T) for links, array in known.items()):
+        if np.isfinite(angles).any():
+            row = int(np.flatnonzero(angles >= np.nanmax(angles) - ONE_ANGLE)[0])
+            yield widest_pressure(links, float(angles[row]), where(row))
+    for links, array in known.items():
+        lost = np.flatnonzero(array[:, 3] == 1.0)
+        if lost.size:
+            yield lost_rows(links, len(lost), where(int(lost[0])))
 
 
 def _moving(course: CamMotion, columns: Columns) -> set[str]:
@@ -145,7 +117,10 @@ def _moving(course: CamMotion, columns: Columns) -> set[str]:
 def _parts(case: Case, columns: Columns, moving: set[str], table: Table) -> Iterator[CamRows]:
     """The rows by figures: those whose reshaping numbers are the same."""
     shaping = [p for p in columns.paths if p not in moving and p.split(".")[0] in SHAPING]
-    for values, rows in _alike(columns, shaping):
+    table_of = np.array([columns.paths[p] for p in shaping]).T
+    sets, which = distinct_rows(table_of) if shaping else (np.empty((1, 0)), np.zeros(columns.rows, np.int64))
+    for n, numbers in enumerate(sets):
+        values, rows = dict(zip(shaping, map(float, numbers), strict=True)), np.flatnonzero(which == n)
         try:
             changed = with_numbers(case, values) if values else case
             alike = set(columns.paths) <= {*shaping, *moving}
@@ -155,17 +130,6 @@ def _parts(case: Case, columns: Columns, moving: set[str], table: Table) -> Iter
                 raise
             for row in rows.tolist():
                 table.refuse(row, error)
-
-
-def _alike(columns: Columns, shaping: list[str]) -> Iterator[tuple[dict[str, float], Which]]:
-    """Sets of numbers, and the rows that have them."""
-    if not shaping:
-        yield {}, np.arange(columns.rows)
-        return
-    table = np.stack([columns.paths[p] for p in shaping], axis=1)
-    sets, which = np.unique(table, axis=0, return_inverse=True)
-    for n, numbers in enumerate(sets):
-        yield dict(zip(shaping, map(float, numbers), strict=True)), np.flatnonzero(which.ravel() == n)
 
 
 def _run(case: Case, columns: Columns, rows: Which, moving: set[str], shaping: list[str]) -> Rows | None:
@@ -182,24 +146,22 @@ def _written(case: Case, columns: Columns, row: int) -> Case:
     return with_numbers(case, {path: float(a[row]) for path, a in columns.paths.items()})
 
 
-def _together(table: Table, part: CamRows, error: bool, seen: _Seen) -> Mask:
-    """Fill in the rows of a part that one record solves all at once; which these are."""
+def _together(table: Table, part: CamRows, error: bool) -> Mask:
+    """Fill in the rows of a part that one record solves all at once, and the statuses of those that do not
+    assemble; which are solved."""
     case, run = part.case, part.run
+    done = np.zeros(len(part.rows), dtype=bool)
+    if run is None:
+        return done
     teeth = any(isinstance(joint, Mesh) and joint.pressure_angle is not None for joint in case.joints)
-    if run is None or teeth or error or table.asked.in_motion:
-        return np.zeros(len(part.rows), dtype=bool)
-    values, done = run.together(table.asked)
-    if part.alike and table.asked.answers:
-        _dwell(run, values, done, table.asked)
-    rows = part.rows[done]
-    own = Table(len(rows), table.asked)
-    own.values = {key: array[done] for key, array in values.items() if key[0] in KINDS}
-    table.take(rows, own)
-    for follow, rested in zip(run.course.follows, run.rested, strict=True):
-        force = values.get(("contact", follow.seeking.hidden))
-        lost = force[done] < 0.0 if force is not None else np.zeros(len(rows), dtype=bool)
-        at = rested.point[done]
-        seen.take_all(follow.seeking.touch.links, rows, at, follow.pressure(at, rested.normal[done]), lost)
+    if not (teeth or error or table.asked.in_motion):
+        values, done = run.together(table.asked)
+        if values and part.alike and table.asked.answers:
+            _dwell(run, values, done, table.asked)
+        own = Table(int(done.sum()), table.asked)
+        own.values = {key: array[done] for key, array in values.items()}
+        table.take(part.rows[done], own)
+    table.codes[part.rows[~done]] = run.codes[~done]
     return done
 
 
@@ -209,44 +171,17 @@ def _dwell(run: Rows, values: dict[Key, Array], done: Mask, asked: RowRequest) -
     rows = np.flatnonzero(run.dwelling & ~done)
     if len(rows) <= len(PROOFS):
         return
-    found: list[Answer] = []
-    refused: list[str] = []
-    for n in (int(share * (len(rows) - 1)) for share in PROOFS):
-        try:
-            found.append(solve_scene(run.case_of(int(rows[n])), **_options(asked)))
-        except SceneError as error:
-            refused.append(error.status)
-    if len(refused) == len(PROOFS) and len(set(refused)) == 1 and refused[0] in CODE:
-        run.codes[rows] = CODE[refused[0]]
-    elif not refused and not any(one.value for answer in found for one in answer.answers.values()):
-        rates = [answer.rates or {} for answer in found]
-        still = {link for link in run.course.case.links if all(one.get(link) == 0.0 for one in rates)}
-        for (kind, name), array in values.items():
-            if kind == "answers" or (kind == "rates" and name in still):
+    some = [int(rows[int(share * (len(rows) - 1))]) for share in PROOFS]
+    proofs = Table(run.columns.rows, asked)
+    by_scenes(proofs, some, run.case_of)
+    codes, found = proofs.codes[some], {key: array[some] for key, array in proofs.values.items()}
+    if codes.any():
+        run.codes[rows] = codes[0] if len(set(codes.tolist())) == 1 else run.codes[rows]
+    elif not any(array.any() for (kind, _), array in found.items() if kind == "answers"):
+        for key, array in values.items():
+            if key[0] == "answers" or (key[0] == "rates" and not found[key].any()):
                 array[rows] = 0.0
         done[rows] = True
-
-
-def _fill(table: Table, part: CamRows, n: int, row: int, columns: Columns, seen: _Seen) -> None:
-    """Solve one row."""
-    asked = table.asked
-    if part.run is not None and part.run.codes[n]:
-        table.codes[row] = part.run.codes[n]
-        return
-    try:
-        case = part.run.case_of(n) if part.run is not None else _written(part.case, columns, row)
-        answer = solve_scene(case, **_options(asked))
-    except SceneError as error:
-        table.refuse(row, error)
-        return
-    table.fill(row, answer)
-    seen.take(row, answer.touching)
-
-
-def _options(asked: RowRequest) -> Mapping[str, bool]:
-    rates = asked.rates or asked.velocities
-    more = {"all_centres": bool(asked.centres), "examine": bool(asked.points), "dynamic": asked.dynamic}
-    return {**more, "rates": rates, "bound": True}
 
 
 STEP = 2.0
@@ -299,13 +234,7 @@ def _over_a_turn(case: Case, cam: str) -> Mapping[tuple[str, str], tuple[float, 
         return {}
     try:
         rows = Rows(cam_motion(case), Columns({}, {cam: np.arange(0.0, 360.0, STEP)}, {cam: cam}))
-        if rows.codes.any():
-            return {}
-        seen: dict[tuple[str, str], list[float]] = {}
-        for row in range(rows.columns.rows):
-            for one in rows.touching(row):
-                if one.pressure_angle is not None:
-                    seen.setdefault(one.links, []).append(one.pressure_angle)
+        found = {} if rows.codes.any() else rows.pressures()
     except SceneError:
         return {}
-    return {links: (min(angles), max(angles)) for links, angles in seen.items()}
+    return {links: (float(angles.min()), float(angles.max())) for links, angles in found.items()}

@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from icsolve.answer import by_load
 from icsolve.assembly.steps import PointGroup
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
@@ -29,7 +28,9 @@ from icsolve.statics.power import is_unknown
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.numbers import find_number, with_numbers
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of
-from icsolve.sweep.request import RequestError, SweepRequest, request_of
+from icsolve.sweep.request import RequestError, SweepRequest, request_of, told
+from icsolve.sweep.runner import Key, Rows, column
+from icsolve.sweep.table import CODE, WORDS, Table, by_kind
 from icsolve.tuples import NamedTuple, dataclass, field, replace
 
 FEW = 24
@@ -40,7 +41,8 @@ is solved as a scene: that decides nothing, it only looks closer."""
 
 FINE = np.array((str(Status.OK),), dtype="<U24")
 
-Key = tuple[str, str]
+Gradients = dict[str, dict[str, Array]]
+"""By answer, then by input."""
 EVALUATED = ("answers", "points", "centres", "rates", "terms")
 
 
@@ -66,7 +68,7 @@ class Evaluated:
     centres: dict[str, Array] = field(default_factory=dict)
     rates: dict[str, Array] = field(default_factory=dict)
     terms: dict[str, Array] = field(default_factory=dict)
-    gradients: dict[str, dict[str, Array]] = field(default_factory=dict)
+    gradients: Gradients = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.status)
@@ -80,7 +82,7 @@ class RecordedRows(NamedTuple):
     the rows that a scene of their own has to tell, (n,)."""
 
     arrays: dict[Key, Array]
-    gradients: dict[str, dict[str, Array]]
+    gradients: Gradients
     doubted: npt.NDArray[np.bool_]
 
 
@@ -180,78 +182,67 @@ class Evaluator:
             if found is not None:
                 return found
         given, rows = _columns(self.inputs, columns)
+        table = self._empty(rows)
         if self.compiled is None:
-            out, again = _Rows(self._keys(), rows), np.arange(rows)
+            again, slopes = np.arange(rows), Gradients()
         else:
-            out = _Rows(self.compiled.parts, rows)
-            again = self.compiled.run(given, rows, out)
+            again, slopes = self.compiled.run(given, rows, table)
         for row in again.tolist():
-            self._as_scene(given, row, out)
-        return out.result()
+            self._as_scene(given, row, table)
+        for array in (array for by in slopes.values() for array in by.values()):
+            array[again] = np.nan
+        kinds = by_kind(table.values)
+        status = np.array(WORDS if table.codes.any() else WORDS[:1], FINE.dtype)[table.codes]
+        return Evaluated(status, gradients=slopes, **{kind: kinds[kind] for kind in EVALUATED})
 
     def recorded(self, *columns: Array) -> RecordedRows | None:
         """What the record says of every row, (n,) each column; None where there is no record. No scene is
         solved: the rows that it doubts are to be solved by who asks."""
         if self.compiled is None:
             return None
-        out = _Rows(self.compiled.parts, len(columns[0]))
-        doubted = np.zeros(len(columns[0]), dtype=bool)
-        doubted[self.compiled.run(list(columns), len(columns[0]), out)] = True
-        return RecordedRows(out.arrays, out.gradients, doubted)
+        table = self._empty(len(columns[0]))
+        again, slopes = self.compiled.run(list(columns), table.rows, table)
+        doubted = np.zeros(table.rows, dtype=bool)
+        doubted[again] = True
+        return RecordedRows(table.values, slopes, doubted)
 
     def case_of(self, *numbers: float) -> Case:
         """The case with these numbers, in the order of ``inputs`` [case units, degrees], as if written so."""
         return with_numbers(self.case, dict(zip(self.own, map(float, numbers), strict=True)))
 
-    def _keys(self) -> dict[Key, int]:
+    def _empty(self, rows: int) -> Table:
+        """A table whose arrays of what is asked are there, whatever the rows have."""
+        if self.compiled is not None:
+            table = Table(rows, self.compiled.asked)
+            table.reserve(self.compiled.parts)
+            return table
         asked = self.wanted.asked
+        table = Table(rows, asked)
         loads = [load.name for load in self.case.loads if is_unknown(load)] if asked.answers else []
-        keys: dict[Key, int] = {("answers", name): 1 for name in loads}
-        keys |= {("points", name): 2 for name in asked.points}
-        keys |= {("centres", f"{a}-{b}"): 3 for a, b in asked.centres}
-        return keys | ({("rates", link): 1 for link in self.case.links} if asked.rates else {})
+        table.reserve({("answers", name): 1 for name in loads})
+        table.reserve({("points", name): 2 for name in asked.points})
+        table.reserve({("centres", f"{a}-{b}"): 3 for a, b in asked.centres})
+        table.reserve({("rates", link): 1 for link in self.case.links} if asked.rates else {})
+        return table
 
-    def _as_scene(self, given: list[Array], row: int, out: _Rows) -> None:
+    def _as_scene(self, given: list[Array], row: int, table: Table) -> None:
         """One row as `icsolve.solve` has it, on the branch that was followed."""
-        out.blank(row)
+        for array in table.values.values():
+            array[row] = np.nan
         numbers = [float(c[row] if c.ndim else c) for c in given]
         if not all(map(isfinite, numbers)):
-            out.status[row] = Status.CANNOT_ASSEMBLE
+            table.codes[row] = CODE[Status.CANNOT_ASSEMBLE]
             return
         case = self.case_of(*numbers)
         if self.compiled is not None:
             case = self.compiled.on_its_branch(case, given, row)
-        rates = any(kind in ("rates", "centres") for kind, _ in out.arrays)
+        centres = bool(table.asked.centres)
         try:
-            answer = solve_scene(
-                case, rates=rates, all_centres=any(kind == "centres" for kind, _ in out.arrays)
-            )
+            answer = solve_scene(case, rates=table.asked.rates or centres, all_centres=centres)
         except SceneError as refusal:
-            out.status[row] = refusal.status
+            table.refuse(row, refusal)
             return
-        out.status[row] = answer.status
-        for (kind, name), array in out.arrays.items():
-            if kind == "answers" and name in by_load(answer.answers):
-                value = by_load(answer.answers)[name].value
-                array[row] = np.nan if value is None else value
-            elif kind == "points" and name in answer.points:
-                array[row] = answer.points[name]
-            elif kind == "rates" and answer.rates is not None and isinstance(answer.rates[name], float):
-                array[row] = answer.rates[name]
-            elif kind == "terms":
-                array[row] = next((term.factor for term in answer.terms if term.load == name), np.nan)
-            elif kind == "centres":
-                pair = next(p for p in answer.centres if f"{p[0]}-{p[1]}" == name)
-                array[row] = _homogeneous(answer.centres[pair])
-
-
-def _homogeneous(centre: Any) -> tuple[float, float, float]:
-    if centre.kind == "at":
-        return (*centre.place, 1.0)
-    if centre.kind == "toward":
-        c, s = turn_of(centre.place[0])
-        return (c, s, 0.0)
-    return (0.0, 0.0, 0.0)
+        table.fill(row, answer)
 
 
 def _one_by_one(case: Case) -> bool:
@@ -262,42 +253,22 @@ def _one_by_one(case: Case) -> bool:
 
 def _columns(names: Sequence[str], columns: Sequence[npt.ArrayLike]) -> tuple[list[Array], int]:
     """The columns as arrays, and how many rows they make."""
-    given = [np.asarray(column, dtype=np.float64) for column in columns]
+    given = [np.asarray(values, dtype=np.float64) for values in columns]
     rows = max(len(c) if c.ndim else 1 for c in given)
-    for name, column in zip(names, given, strict=True):
-        if column.ndim > 1 or (column.ndim and len(column) not in (1, rows)):
-            raise RequestError(f"{name} has the shape {column.shape} where {rows} rows are asked for")
+    for name, values in zip(names, given, strict=True):
+        if values.ndim > 1 or (values.ndim and len(values) not in (1, rows)):
+            raise RequestError(f"{name} has the shape {values.shape} where {rows} rows are asked for")
     return [c if c.ndim == 0 or len(c) == rows else c[0] for c in given], rows
-
-
-class _Rows:
-    """Arrays of a call, filled row by row or at once."""
-
-    def __init__(self, parts: Mapping[Key, int], rows: int) -> None:
-        shapes = {key: rows if n == 1 else (rows, n) for key, n in parts.items()}
-        self.arrays: dict[Key, Array] = {key: np.empty(shape) for key, shape in shapes.items()}
-        self.gradients: dict[str, dict[str, Array]] = {}
-        self.status = np.full(rows, Status.OK, dtype="<U24")
-
-    def blank(self, row: int) -> None:
-        """A row without values."""
-        for array in (*self.arrays.values(), *(a for by in self.gradients.values() for a in by.values())):
-            array[row] = np.nan
-
-    def result(self) -> Evaluated:
-        """As frozen arrays by kind."""
-        kinds: dict[str, dict[str, Array]] = {kind: {} for kind in EVALUATED}
-        for (kind, name), array in self.arrays.items():
-            kinds[kind][name] = array
-        return Evaluated(self.status, gradients=self.gradients, **kinds)
 
 
 class _Compiled:
     """The record of a case with its inputs, as Python for few rows and as numpy for many."""
 
-    def __init__(self, compiled: CompiledSweep, names: Mapping[str, str], gradients: bool) -> None:
+    def __init__(
+        self, compiled: CompiledSweep, asked: RowRequest, names: Mapping[str, str], gradients: bool
+    ) -> None:
         record = compiled.record
-        self.compiled, self.names = compiled, tuple(names)
+        self.compiled, self.asked, self.names = compiled, asked, tuple(names)
         self.nodes = [compiled.inputs[own] for own in names.values()]
         self.parts = {key: len(values) for key, values in compiled.outputs.items()}
         values = [(key, part, v) for key, some in compiled.outputs.items() for part, v in enumerate(some)]
@@ -361,15 +332,17 @@ class _Compiled:
             gradients.setdefault(name, {})[path] = np.array((value,))
         return Evaluated(FINE.copy(), gradients=gradients, **kinds)
 
-    def run(self, given: list[Array], rows: int, out: _Rows) -> npt.NDArray[np.int64]:
-        """Fill all rows from the inputs, (rows,) or () each; the indices of those to be solved as scenes."""
-        out.gradients = {name: {} for name, _ in self.slopes}
-        targets = [a if a.ndim == 1 else a[:, part] for a, part in ((out.arrays[k], p) for k, p in self.keys)]
+    def run(self, given: list[Array], rows: int, table: Table) -> tuple[Rows, Gradients]:
+        """Fill all rows from the inputs, (rows,) or () each; the indices of those to be solved as scenes, and
+        the gradients."""
+        slopes: Gradients = {name: {} for name, _ in self.slopes}
+        targets = [column(table.values[key], part) for key, part in self.keys]
         for name, path in self.slopes:
-            targets.append(out.gradients[name].setdefault(path, np.empty(rows)))
-        return self._few(given, rows, targets) if rows <= FEW else self._many(given, rows, targets)
+            targets.append(slopes[name].setdefault(path, np.empty(rows)))
+        few = rows <= FEW
+        return (self._few(given, rows, targets) if few else self._many(given, rows, targets)), slopes
 
-    def _few(self, given: list[Array], rows: int, targets: list[Array]) -> npt.NDArray[np.int64]:
+    def _few(self, given: list[Array], rows: int, targets: list[Array]) -> Rows:
         again = []
         columns = [c.tolist() for c in given]
         for row in range(rows):
@@ -385,7 +358,7 @@ class _Compiled:
                 target[row] = value
         return np.array(again, dtype=np.int64)
 
-    def _many(self, given: list[Array], rows: int, targets: list[Array]) -> npt.NDArray[np.int64]:
+    def _many(self, given: list[Array], rows: int, targets: list[Array]) -> Rows:
         again = []
         shown, positive = len(self.shown), len(self.positive)
         for start in range(0, rows, BLOCK):
@@ -430,17 +403,13 @@ def _compiled(case: Case, names: Mapping[str, str], asked: RowRequest, gradients
     if any(isinstance(step, PointGroup) for step in setting.figure.steps):
         return None
     setting = setting._replace(paths=tuple(names.values()), drive=Drive((), (), ()))
+    asked = told(case, asked)
     try:
-        compiled = compile_sweep(setting, _told(case, asked))
+        compiled = compile_sweep(setting, asked)
     except SceneError:  # beside the case as written nothing moves: it does so by exact data alone
         return None
     alone = compiled.refusal is not None or compiled.delicate or compiled.idle
-    return None if alone else _Compiled(compiled, names, gradients)
-
-
-def _told(case: Case, asked: RowRequest) -> RowRequest:
-    """Where no load is unknown, rates are run: without them the status would mean nothing."""
-    return asked if any(map(is_unknown, case.loads)) or asked.centres else asked._replace(rates=True)
+    return None if alone else _Compiled(compiled, asked, names, gradients)
 
 
 __all__ = ["Evaluated", "Evaluator", "evaluator"]

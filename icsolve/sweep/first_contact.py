@@ -14,6 +14,7 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
+from icsolve.cams.contact_candidates import Freedom, Shift
 from icsolve.cams.curve import AT_END, CORNER, Body, Curve
 from icsolve.cams.pieces import TURN, CircularArc, Piece, PolarPiece, Spline, Straight
 from icsolve.numbers.replay import Array
@@ -36,26 +37,6 @@ Vectors = tuple[Array, Array]
 """x and y, (n,) each."""
 
 
-class Poses(NamedTuple):
-    """A follower as the cam sees it, row by row.
-
-    Attributes
-    ----------
-    at : place of its point, x and y, (n,) each [case length]
-    face, along : unit vectors of a flat face, and of the guide of a follower that slides
-    about : pivot of one that turns [case length]
-    """
-
-    at: Vectors
-    face: Vectors
-    along: Vectors
-    about: Vectors
-
-    def some(self, rows: slice) -> Poses:
-        """Some rows."""
-        return Poses(*((x[rows], y[rows]) for x, y in self))
-
-
 class FirstContacts(NamedTuple):
     """Where followers meet their cams.
 
@@ -76,20 +57,23 @@ class FirstContacts(NamedTuple):
 
 
 class FirstContact:
-    """The first meetings from outside of one follower and its cam, in many poses.
+    """The first meetings from outside of one follower and its cam, in many positions.
 
     Parameters
     ----------
     curve : the cam's profile
-    body : the follower: its kind and its radius
-    shifts : whether it slides; else it turns about a point
+    body, freedom : the follower as the cam sees it and how it moves, whose places and directions are pairs of
+        arrays, (n,) each [case length]
     side : of a flat face the side on which it has its body, 1 or -1
     sense : 1 where the gap grows as it moves on, -1 where it shrinks
     """
 
-    def __init__(self, curve: Curve, body: Body, shifts: bool, side: float, sense: float) -> None:
+    def __init__(self, curve: Curve, body: Body, freedom: Freedom, side: float, sense: float) -> None:
         self.size, self.side, self.sense = curve.size, side, sense
-        self.flat, self.shifts = body.kind == "flat face", shifts
+        self.flat, self.shifts = body.kind == "flat face", isinstance(freedom, Shift)
+        self.at: Array = np.array(body.at)
+        self.face: Array = np.array(body.face)
+        self.guide: Array = np.array(freedom.along if isinstance(freedom, Shift) else freedom.about)
         self.line = _Line(curve, 0.0 if self.flat else body.radius)
         self.angles = np.linspace(0.0, TURN, WAYS + 1)
         if self.flat and not self.shifts:
@@ -97,20 +81,19 @@ class FirstContact:
                 _outer(np.cos(self.angles), self.line.x) + _outer(np.sin(self.angles), self.line.y)
             ).max(1)
 
-    def run(self, poses: Poses) -> FirstContacts:
+    def run(self) -> FirstContacts:
         """All rows; what does not exist is not sure, and raises nothing."""
-        rows = len(poses.at[0])
-        parts = [
-            self._block(poses.some(slice(start, start + ROWS))) for start in range(0, max(rows, 1), ROWS)
-        ]
+        rows = self.at.shape[1]
+        parts = [self._block(slice(start, start + ROWS)) for start in range(0, max(rows, 1), ROWS)]
         return FirstContacts(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
-    def _block(self, poses: Poses) -> FirstContacts:
+    def _block(self, rows: slice) -> FirstContacts:
+        at, face, guide = self.at[:, rows], self.face[:, rows], self.guide[:, rows]
         with np.errstate(all="ignore"):
             if self.flat:
-                met = self._face_shifted(poses) if self.shifts else self._face_turned(poses)
+                met = (self._face_shifted if self.shifts else self._face_turned)(at, face, guide)
             else:
-                met = self._centre(poses)
+                met = self._centre(at, guide)
         finite = (
             np.isfinite(met.by) & np.isfinite(met.point).all(axis=1) & np.isfinite(met.normal).all(axis=1)
         )
@@ -118,15 +101,16 @@ class FirstContact:
 
     # --- rollers and knife edges ------------------------------------------------------------------
 
-    def _centre(self, poses: Poses) -> FirstContacts:
-        """Where the way of the follower's point crosses the line."""
-        line, (px, py) = self.line, poses.at
+    def _centre(self, at: Array, guide: Array) -> FirstContacts:
+        """Where the way of the follower's point crosses the line; ``guide`` is the direction in which it
+        slides, or its pivot."""
+        line, (px, py) = self.line, at
         rows = len(px)
         if self.shifts:
-            dx, dy = poses.along
+            dx, dy = guide
             off = _outer(dy, line.x) - _outer(dx, line.y) - (px * dy - py * dx)[:, None]
         else:
-            qx, qy = poses.about
+            qx, qy = guide
             square = (px - qx) ** 2 + (py - qy) ** 2
             off = (
                 line.square
@@ -138,32 +122,31 @@ class FirstContact:
         a, b = line.first[chord], line.first[chord] + 1
         share = off[row, a] / (off[row, a] - off[row, b])
         x, y = (v[a] + share * (v[b] - v[a]) for v in (line.x, line.y))
-        by, sense = self._way(poses, row, x, y, line.nx[a], line.ny[a])
+        by, sense = self._way(at[:, row], guide[:, row], x, y, line.nx[a], line.ny[a])
         real = np.ones(len(row), dtype=bool) if self.shifts else line.good[a] | line.good[b]
         chosen, sure = self._first(row[real], by[real], sense[real], rows)
         picked = np.flatnonzero(real)[chosen]
         chord, sure = chord[picked], sure & (chosen >= 0)
         sure &= line.good[line.first[chord]] & line.good[line.first[chord] + 1]
-        every = np.arange(rows)
 
-        def miss(k: Which, x: Array, y: Array) -> Array:
+        def miss(x: Array, y: Array) -> Array:
             if self.shifts:
-                return (x - px[k]) * dy[k] - (y - py[k]) * dx[k]
-            return (x - qx[k]) ** 2 + (y - qy[k]) ** 2 - square[k]
+                return np.asarray((x - px) * dy - (y - py) * dx)
+            return np.asarray((x - qx) ** 2 + (y - qy) ** 2 - square)
 
         x, y, nx, ny, closed, centre = line.closed(chord, miss)
-        by, _ = self._way(poses, every, x, y, nx, ny)
+        by, _ = self._way(at, guide, x, y, nx, ny)
         point = np.stack([x - line.radius * nx, y - line.radius * ny], axis=1)
         return FirstContacts(by, point, np.stack([nx, ny], axis=1), sure & closed, centre)
 
-    def _way(self, poses: Poses, row: Which, x: Array, y: Array, nx: Array, ny: Array) -> tuple[Array, Array]:
+    def _way(self, at: Array, guide: Array, x: Array, y: Array, nx: Array, ny: Array) -> tuple[Array, Array]:
         """How far the follower is moved to places, and whether the gap grows there as it moves on."""
-        (px, py), (dx, dy) = poses.at, poses.along
+        px, py = at
         if self.shifts:
-            by = (x - px[row]) * dx[row] + (y - py[row]) * dy[row]
-            return by, np.sign(nx * dx[row] + ny * dy[row])
-        qx, qy = (v[row] for v in poses.about)
-        by = np.arctan2(y - qy, x - qx) - np.arctan2(py[row] - qy, px[row] - qx)
+            dx, dy = guide
+            return (x - px) * dx + (y - py) * dy, np.sign(nx * dx + ny * dy)
+        qx, qy = guide
+        by = np.arctan2(y - qy, x - qx) - np.arctan2(py - qy, px - qx)
         return _wrapped(by), np.sign(ny * (x - qx) - nx * (y - qy))
 
     def _first(self, row: Which, by: Array, sense: Array, rows: int) -> tuple[Which, Mask]:
@@ -200,8 +183,8 @@ class FirstContact:
 
     # --- faces ------------------------------------------------------------------------------------
 
-    def _face_shifted(self, poses: Poses) -> FirstContacts:
-        (fx, fy), (dx, dy), (px, py) = poses.face, poses.along, poses.at
+    def _face_shifted(self, at: Array, face: Array, along: Array) -> FirstContacts:
+        (px, py), (fx, fy), (dx, dy) = at, face, along
         wx, wy = -self.side * fy, self.side * fx
         x, y, sure, centre = self.line.farthest(wx, wy)
         rate = wx * dx + wy * dy
@@ -209,9 +192,9 @@ class FirstContact:
         sure &= (np.sign(rate) == self.sense) & (np.abs(rate) > CLOSE)
         return FirstContacts(by, np.stack([x, y], axis=1), np.stack([wx, wy], axis=1), sure, centre)
 
-    def _face_turned(self, poses: Poses) -> FirstContacts:
+    def _face_turned(self, at: Array, face: Array, about: Array) -> FirstContacts:
         """A face on an arm: by the angle of its normal, the gap is the arm's less the profile's reach."""
-        (fx, fy), (qx, qy), (px, py) = poses.face, poses.about, poses.at
+        (px, py), (fx, fy), (qx, qy) = at, face, about
         wx, wy = -self.side * fy, self.side * fx
         rows, start = len(px), np.arctan2(wy, wx)
         own = wx * (px - qx) + wy * (py - qy)
@@ -282,17 +265,17 @@ class _Line:
         return found[0], found[1], found[2], found[3]
 
     def closed(
-        self, chord: Which, miss: Callable[[Which, Array, Array], Array]
+        self, chord: Which, miss: Callable[[Array, Array], Array]
     ) -> tuple[Array, Array, Array, Array, Mask, Array]:
         """Where a function of the place vanishes on a chord of each row: x, y, nx, ny, and where it does,
         (rows,) each [frame]; and the centres of the arcs there, (rows, 2).
         """
         first = self.first[chord]
-        pieces, every = self.piece[first], np.arange(len(chord))
+        pieces = self.piece[first]
 
         def value(u: Array) -> Array:
             x, y, _, _ = self.at(pieces, u)
-            return miss(every, x, y)
+            return miss(x, y)
 
         u, there = _zero(value, self.u[first], self.u[first + 1])
         return (*self.at(pieces, u), there, self.centres(pieces, u))

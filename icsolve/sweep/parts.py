@@ -162,7 +162,7 @@ class SweepParts:
         """
         values, start = self.arrays[main], self._written(main)
         grid = grid_of([start, float(values.min()), float(values.max())], self._way(compiled, main, {}))
-        sets, which = _sets(np.stack([self.arrays[name] for name in others], axis=1))
+        sets, which = distinct_rows(np.stack([self.arrays[name] for name in others], axis=1))
         share, whole = np.linspace(0.0, 1.0, GLANCES), np.ones(len(grid))
         if len(sets) * (GLANCES + len(grid)) > len(values) * GLANCES:
             every = np.column_stack([*(self.arrays[name] for name in others), values])
@@ -205,7 +205,7 @@ class SweepParts:
             if len(rows):
                 yield rows
             return
-        which = _sets(np.stack([self.arrays[name][rows] for name in others], axis=1))[1]
+        which = distinct_rows(np.stack([self.arrays[name][rows] for name in others], axis=1))[1]
         order = np.argsort(which, kind="stable")
         yield from (rows[part] for part in np.split(order, np.flatnonzero(np.diff(which[order])) + 1))
 
@@ -242,7 +242,7 @@ class SweepParts:
         return InputLine(base, {main: 1.0}, self._written(main), widest, 360.0 if angle else None)
 
 
-def _sets(table: Array) -> tuple[Array, Rows]:
+def distinct_rows(table: Array) -> tuple[Array, Rows]:
     """The different rows of a table, and which of them each row is; rows alike often follow one another."""
     new = np.ones(len(table), dtype=bool)
     np.any(table[1:] != table[:-1], axis=1, out=new[1:])

@@ -13,6 +13,7 @@ from icsolve.case import Case, Pair
 from icsolve.numbers.replay import Array
 from icsolve.numbers.units import BOUNDS
 from icsolve.read.names import pairs, shown, suggestion
+from icsolve.statics.power import is_unknown
 from icsolve.sweep.numbers import find_number, numbers_of
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recorded_scene import pairs as all_pairs
@@ -189,6 +190,12 @@ def request_of(case: Case, want: tuple[str, ...], dynamic: bool = False) -> Swee
     moving = ("rates" in kinds, "velocities" in kinds, "accelerations" in kinds, dynamic)
     asked = RowRequest(answers, tuple(points), tuple(centres), *moving, terms="terms" in kinds)
     return SweepRequest(asked, "error" in kinds, want)
+
+
+def told(case: Case, asked: RowRequest) -> RowRequest:
+    """What has to be run: where no load is unknown, rates, so that the status means something."""
+    unknown = any(map(is_unknown, case.loads))
+    return asked if unknown or asked.rates or asked.centres else asked._replace(rates=True)
 
 
 def refuse_size(columns: Columns, asked: RowRequest, error: bool) -> None:

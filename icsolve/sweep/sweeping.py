@@ -13,10 +13,17 @@ from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import NO_SPEED
 from icsolve.numbers.replay import Array
 from icsolve.scene.refusals import rubs
-from icsolve.statics.power import is_unknown
 from icsolve.sweep.numbers import refuse_space
 from icsolve.sweep.program import RowRequest
-from icsolve.sweep.request import Columns, SweepRequest, columns_of, refuse_size, request_of, shown_points
+from icsolve.sweep.request import (
+    Columns,
+    SweepRequest,
+    columns_of,
+    refuse_size,
+    request_of,
+    shown_points,
+    told,
+)
 from icsolve.sweep.run import SweepRun
 from icsolve.sweep.runner import Progress
 from icsolve.sweep.scenes import by_scenes, families
@@ -78,7 +85,7 @@ def sweep(
         from icsolve.sweep.cam_sweep import sweep_touching
 
         return sweep_touching(case, columns, wanted, progress)
-    start = start_of(case, columns, _told(case, wanted.asked))
+    start = start_of(case, columns, told(case, wanted.asked))
     if start.one_by_one:
         return _family(start, columns, wanted, progress)
     if case.ropes or wanted.asked.in_motion or (_rubs(case) and not _rubs_at_once(start, wanted)):
@@ -146,12 +153,6 @@ def _family(start: Start, columns: Columns, wanted: SweepRequest, progress: Prog
         table.take(rows, part)
         cases |= {row: partial(part.case_of, n) for n, row in enumerate(rows.tolist())}
     return table.sweep(start.case, _shown(columns), wanted.error, tuple(notes), case_of)
-
-
-def _told(case: Case, asked: RowRequest) -> RowRequest:
-    """What has to be run: where no load is unknown, rates, so that the status means something."""
-    unknown = any(map(is_unknown, case.loads))
-    return asked if unknown or asked.rates or asked.centres else asked._replace(rates=True)
 
 
 def _shown(columns: Columns) -> dict[str, Array]:

@@ -154,10 +154,12 @@ LETTERS = {"rates": "w", "angular_accelerations": "a", "terms": "power "}
 
 
 def by_kind(arrays: Mapping[tuple[str, str], Array]) -> dict[str, dict[str, Array]]:
-    """Arrays by (kind, name) as arrays by kind and then by name; every kind is there."""
+    """Arrays by (kind, name) as arrays by kind and then by name; every kind that a sweep shows is there, and
+    no other."""
     kinds: dict[str, dict[str, Array]] = {kind: {} for kind in KINDS}
     for (kind, name), array in arrays.items():
-        kinds[kind][name] = array
+        if kind in kinds:
+            kinds[kind][name] = array
     return kinds
 
 
@@ -175,7 +177,9 @@ class Table:
     Attributes
     ----------
     codes : (rows,), places of the statuses in `WORDS`; 0 is ``ok``
-    values, errors : by (kind, name), (rows,) or (rows, parts), as the arrays of `Sweep`
+    values, errors : by (kind, name), (rows,) or (rows, parts), as the arrays of `Sweep`; ``("touching",
+        "2-3")`` has the place of a contact [case length], its pressure angle [degrees; nan: none], and 1
+        where it is lost, (rows, 4)
     holds : by load, (rows, 2) [case units]
     """
 
@@ -185,6 +189,10 @@ class Table:
         self.values: dict[Key, Array] = {}
         self.errors: dict[Key, Array] = {}
         self.holds: dict[str, Array] = {}
+
+    def reserve(self, parts: Mapping[Key, int]) -> None:
+        """Arrays by (kind, name), of so many numbers a row, for what will be put into every row."""
+        self.values |= {k: np.empty(self.rows if n == 1 else (self.rows, n)) for k, n in parts.items()}
 
     def put(self, kind: str, name: str, row: int, value: Value, error: Value | None = None) -> None:
         """One value, a float or a tuple of parts, and the bound of its absolute error where one is proven."""
@@ -238,6 +246,9 @@ class Table:
                 self.holds.setdefault(name, np.full((self.rows, 2), np.nan))[row] = found.holds
         if missing and not self.lacks_rates(row):
             return
+        for one in answer.touching:
+            angle = np.nan if one.pressure_angle is None else one.pressure_angle
+            self.put("touching", "-".join(one.links), row, (*one.at, angle, float(one.lost)))
         for name in asked.points if not missing else ():
             if name in answer.points:
                 x, y = answer.points[name]
