@@ -262,7 +262,7 @@ def _result(node: Traced, of: Callable[[int], Jet]) -> Jet:
             return of(node.a).cos_sin()[0]
         case Op.SIN:
             return of(node.a).cos_sin()[1]
-    raise TypeError(node.op.name)
+    raise TypeError(node.op)
 
 
 STILL = 2.0**-45

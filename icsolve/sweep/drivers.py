@@ -17,11 +17,20 @@ from icsolve.assembly.driven.constraints import (
     Immovable,
     OnLine,
     Pointed,
+    Roped,
     SpotDistance,
     Turning,
 )
 from icsolve.assembly.driven.groups import DEPENDENT, as_written, derivatives, jacobian
 from icsolve.assembly.driven.mechanism import Mechanism
+from icsolve.assembly.driven.order import (
+    AssemblyOrder,
+    AssemblyStep,
+    PlaceAtIntersection,
+    PlaceByPoint,
+    PlaceByTwoPoints,
+    RotateWith,
+)
 from icsolve.assembly.driven.poses import Places as Still
 from icsolve.assembly.driven.poses import Rotation, Spot, minus
 from icsolve.assembly.workspace import CORNER, LENGTH, RAY, Datum, X, Y, data_of, normalised, number_of
@@ -369,6 +378,9 @@ def drive_of(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str]) -
         ``mobility`` where a link cannot be turned, or a number and a link take the same freedom; what a joint
         says that cannot be moved.
     """
+    closed = _closed(mechanism, paths, links)
+    if closed is not None:
+        return closed
     case = mechanism.case
     bodies = [body for body in mechanism.spots if body != mechanism.top.ground]
     written = as_written(mechanism, bodies)
@@ -407,6 +419,36 @@ def drive_of(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str]) -
         return Drive((), (), ())
     held, left = _held(mechanism, row, left, moving)
     return Drive(tuple(moving), held, _spinning(bodies, left))
+
+
+REGULAR = (PlaceByPoint, PlaceByTwoPoints, PlaceAtIntersection)
+"""Steps that take as many conditions as they make known numbers, and that are singular nowhere they are taken."""
+
+
+def _closed(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str]) -> Drive | None:
+    """The drive where the links close step by step with these as drivers, and a count of freedoms leaves no
+    condition to spare: each driver then takes a freedom of its own, and none is left. None where that does not
+    show it, and the derivatives of all conditions have to."""
+    poses = {path: pose for path in paths if (pose := pose_of(mechanism, path)) is not None}
+    if mechanism.top.freedoms_by_count != len(poses) + len(links) or len(poses) + len(links) == 0:
+        return None
+    drivers: list[Constraint] = [turning(mechanism, link, 0.0) for link in links]
+    drivers += [condition(mechanism, pose, value_of(mechanism.case, pose.datum)) for pose in poses.values()]
+    constraints = [*drivers, *mechanism.constraints]
+    if any(isinstance(c, Immovable | Roped) for c in constraints):
+        return None
+    order = AssemblyOrder(mechanism.shape, mechanism.spots, constraints)
+    while order.advance():
+        if not (isinstance(order.steps[-1], REGULAR) or _turns_plainly(order.steps[-1])):
+            return None
+    return Drive(tuple(poses), (), ()) if len(order.full) == len(mechanism.spots) else None
+
+
+def _turns_plainly(step: AssemblyStep) -> bool:
+    """Whether a step gives a body the rotation of a driver, or of a body that turns alike."""
+    return isinstance(step, RotateWith) and (
+        isinstance(step.by, Pointed) or (isinstance(step.by, Turning) and (step.by.alike or len(step.by.terms) == 1))
+    )
 
 
 def _held(
