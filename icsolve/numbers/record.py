@@ -18,8 +18,8 @@ from icsolve.tuples import NamedTuple
 
 
 class Op:
-    """What a node is or does to the nodes ``a`` and ``b``: a plain number, since looking a member of an `enum`
-    up takes as long as an operation.
+    """What a node is or does to the nodes ``a`` and ``b``: plain numbers, since members of an `enum` take as
+    long to look up as an operation takes.
     """
 
     INPUT = 0
@@ -382,7 +382,8 @@ class Record:
 
     def _outside(self, operation: Callable[[Scalar, Scalar], Scalar], a: Traced, b: Traced) -> Scalar:
         """A product or quotient with the minus signs of its operands before it."""
-        found = operation(*(self.nodes[v.a] if v.op is NEG else v for v in (a, b)))
+        one, two = self.nodes[a.a] if a.op is NEG else a, self.nodes[b.a] if b.op is NEG else b
+        found = operation(one, two)
         return found if a.op is b.op else self.negate(found)
 
     def negate(self, a: Scalar) -> Scalar:
