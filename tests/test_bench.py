@@ -315,6 +315,7 @@ def test_the_whole_benchmark_in_small(tmp_path: Path, monkeypatch: pytest.Monkey
     monkeypatch.setattr(report, "FAMILIES", FAMILIES[:4])
     monkeypatch.setattr("icsolve.bench.speed.MILLION", 10_000)
     monkeypatch.setattr("icsolve.bench.promises.STARTS", STARTS[::3])
+    monkeypatch.setattr("icsolve.bench.speed.PEERS", PEERS[:1])  # each is used in a test of its own
     ran = CliRunner().invoke(command, ["bench", "-o", str(tmp_path / "plot.svg")], standalone_mode=False)
     assert ran.return_value == int("| NO |" in ran.stdout)
     for heading in ("One scene", "A full turn", "Grading", "Rows", "Time", "Laws", "Figures"):
@@ -343,6 +344,7 @@ def test_a_broken_law_is_told_and_fails_the_command(tmp_path: Path, monkeypatch:
     """And so does a time that is not kept; what is kept is a success."""
     kept = nothing()
     monkeypatch.setattr(report, "run", lambda full, say: kept)
+    monkeypatch.setattr("icsolve.bench.picture.picture", lambda *what: "<svg/>")  # drawn in tests of its own
     arguments = ["bench", "-o", str(tmp_path / "plot.svg")]
     kept.gates.append(ratio("a fast machine", 2, 3))
     assert CliRunner().invoke(command, arguments, standalone_mode=False).return_value == 0
