@@ -29,7 +29,7 @@ from icsolve.bench.accuracy import (
     scenes,
     scored,
 )
-from icsolve.bench.families import BOUNDED, FAMILIES, Family, all_joints, linkage
+from icsolve.bench.families import BOUNDED, BUTTERFLY, FAMILIES, Draw, Family, all_joints, by_sides, linkage
 from icsolve.bench.full_turn import (
     FOUR_BAR,
     MECHANISMS,
@@ -45,8 +45,9 @@ from icsolve.bench.full_turn import (
     written_out,
 )
 from icsolve.bench.gates import Effort, Gate, gate_table, least, nothing, ratio
+from icsolve.bench.growth import butterflies, gears, scissors
 from icsolve.bench.picture import figure, picture
-from icsolve.bench.promises import STARTS
+from icsolve.bench.promises import SEED, STARTS, newton_in_c
 from icsolve.bench.rivals import METHODS, Method
 from icsolve.bench.speed import BOUNDED as BOUNDED_SWEEP
 from icsolve.bench.speed import BY_HAND, IN_C, SWEPT
@@ -114,8 +115,27 @@ def test_the_closed_form_in_c_is_that_by_hand(mechanism: CrankTurning, tmp_path:
     library = compiled(str(tmp_path))
     assert library is not None
     angle, out = np.linspace(0.0, 6.0, 100), np.empty(100)
-    in_c(library, mechanism, angle, out)()
+    in_c(library, mechanism.function, mechanism.data, angle, out)()
     assert out == pytest.approx(mechanism.by_hand(angle), rel=1e-13)
+
+
+@pytest.mark.skipif(not (shutil.which("cc") or shutil.which("gcc")), reason="no C compiler")
+def test_newtons_method_in_c_finds_the_rows_of_the_sweep(tmp_path: Path) -> None:
+    """Each row of the double butterfly from the one before it, wherever the first one lies."""
+    library, case = compiled(str(tmp_path)), icsolve.load(by_sides(linkage(BUTTERFLY), (1, 4))(Random(SEED)))
+    assert library is not None
+    angle = case.angles[0].value
+    degrees, out = angle.value + np.linspace(-6.0, 6.0, 40), np.empty(40)
+    newton_in_c(library, case, degrees, out)()
+    assert out == pytest.approx(icsolve.sweep(case, {angle.path: degrees}).answers["U"], rel=1e-10)
+
+
+@pytest.mark.parametrize(
+    "draw", [gears(5), scissors(3), butterflies(2)], ids=["gears", "scissors", "butterflies"]
+)
+def test_what_grows_has_answers(draw: Draw) -> None:
+    text = draw(Random(1))
+    assert icsolve.solve(icsolve.load(text)).answers.keys() <= {"U", "F"}
 
 
 def test_the_bare_kernels_are_the_same_scene() -> None:
@@ -295,6 +315,7 @@ def test_the_whole_benchmark_in_small(tmp_path: Path, monkeypatch: pytest.Monkey
     monkeypatch.setattr(report, "FAMILIES", FAMILIES[:4])
     monkeypatch.setattr("icsolve.bench.speed.MILLION", 10_000)
     monkeypatch.setattr("icsolve.bench.promises.STARTS", STARTS[::3])
+    monkeypatch.setattr("icsolve.bench.speed.PEERS", PEERS[:1])  # each is used in a test of its own
     ran = CliRunner().invoke(command, ["bench", "-o", str(tmp_path / "plot.svg")], standalone_mode=False)
     assert ran.return_value == int("| NO |" in ran.stdout)
     for heading in ("One scene", "A full turn", "Grading", "Rows", "Time", "Laws", "Figures"):
@@ -323,6 +344,7 @@ def test_a_broken_law_is_told_and_fails_the_command(tmp_path: Path, monkeypatch:
     """And so does a time that is not kept; what is kept is a success."""
     kept = nothing()
     monkeypatch.setattr(report, "run", lambda full, say: kept)
+    monkeypatch.setattr("icsolve.bench.picture.picture", lambda *what: "<svg/>")  # drawn in tests of its own
     arguments = ["bench", "-o", str(tmp_path / "plot.svg")]
     kept.gates.append(ratio("a fast machine", 2, 3))
     assert CliRunner().invoke(command, arguments, standalone_mode=False).return_value == 0

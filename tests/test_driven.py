@@ -13,10 +13,15 @@ import numpy as np
 import pytest
 
 import icsolve
-from icsolve.assembly import case_point, solve_figure
-from icsolve.sweep.numbers import with_numbers
-from icsolve.sweep.program import RowRequest, compile_sweep, setting_of
+from icsolve.assembly import case_point, placed_figure, solve_figure
+from icsolve.assembly.driven.mechanism import mechanism
+from icsolve.numbers.record import Record
+from icsolve.structure.topology import topology
+from icsolve.sweep.drivers import closed_drive, drive_of
+from icsolve.sweep.numbers import numbers_of, with_numbers
+from icsolve.sweep.program import RowRequest, compile_sweep, setting_of, wanted_points
 from icsolve.tuples import replace
+from library import FILES
 from mechanisms import Generator, butterfly, four_bar, stephenson, three_loops, triple_pin, watt
 from transcribe import Scene, text
 
@@ -88,3 +93,29 @@ def test_groups_that_know_nothing_of_each_other_are_placed_apart() -> None:
     motion = compile_sweep(setting_of(several, [], ["2"]), RowRequest(answers=False)).motion
     assert motion is not None
     assert [len(group.bodies) for group in motion.groups] == [6, 6, 6]
+
+
+@pytest.mark.parametrize("source", ["library", "random"])
+def test_a_drive_whose_links_close_is_that_of_the_derivatives(source: str) -> None:
+    """Where the links close step by step with some numbers and links as drivers and nothing to spare, the
+    derivatives of all conditions say the same of what moves, what is held and what is locked."""
+    rng, met = Random(7), 0
+    loaded = [icsolve.load(path) for path in FILES.values()] if source == "library" else []
+    scenes = [make(rng) for make in (four_bar, watt, stephenson, triple_pin, three_loops, butterfly) * 2]
+    for case in loaded or map(by_shapes, scenes):
+        with suppress(icsolve.SceneError):
+            topology(case)
+            figure = placed_figure(case, *wanted_points(case))
+            held = mechanism(case, figure.frame, Record(), figure.points)
+            turns = [((), (link,)) for link in case.links]
+            paths = [path for path in numbers_of(case) if path.startswith(("lengths.", "angles."))]
+            for drivers in [
+                *turns,
+                *(((path,), ()) for path in paths),
+                *(((p,), (case.links[-1],)) for p in paths),
+            ]:
+                closed = closed_drive(held, *drivers)
+                if closed is not None:
+                    met += 1
+                    assert closed._replace(order=None) == drive_of(held, *drivers)
+    assert met > 20

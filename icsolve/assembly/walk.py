@@ -11,7 +11,7 @@ one run again on balls of more and more digits, until its signs are certain.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
@@ -19,7 +19,7 @@ from icsolve.assembly.conditions import TOO_CLOSE, agrees, residual, size_of
 from icsolve.assembly.loci import PlacedCircle, gaps_of, is_ray, is_round, side
 from icsolve.assembly.order import Order
 from icsolve.assembly.steps import CLOSED_FORMS, Meet, Miss, Step, aims, needs
-from icsolve.assembly.workspace import Datum, Key, Workspace, normalised
+from icsolve.assembly.workspace import LENGTH, Datum, Key, Workspace, normalised
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.screws.plane import Point
 from icsolve.tuples import LateModule, NamedTuple
@@ -247,7 +247,7 @@ class Walk:
     def __init__(self, order: Order, workspace: Workspace, every: bool = False) -> None:
         self.order, self.workspace, self.used = order, workspace, order.used()
         self.near = {p: normalised(workspace.frame, xy) for p, xy in workspace.case.near.items()}
-        self.checks = _due(order)
+        self.checks = _due(order, self.used)
         self.budget = (10 if every else 1) * (20_000 + 20 * len(order.steps))
         self.most = MOST_WAYS if every else MOST_MODES
         self.placed: dict[Key, Path] = {}
@@ -482,11 +482,12 @@ def squared_distance(one: Point, two: Point) -> float:
     return float(dx * dx + dy * dy)
 
 
-def _due(order: Order) -> dict[int, list[Datum]]:
-    """The data to compare after each step: those whose last point it places."""
+def _due(order: Order, used: Collection[Datum]) -> dict[int, list[Datum]]:
+    """The data to compare after each step: those whose last point it places, but for lengths of which the
+    steps are made, which have no sense that a way could miss."""
     depth = {key: i for i, step in enumerate(order.steps) for key in step.targets}
     due: dict[int, list[Datum]] = {}
     for datum in order.facts.data:
-        if all(p in depth for p in datum.points):
+        if (datum.kind != LENGTH or datum not in used) and all(p in depth for p in datum.points):
             due.setdefault(max(depth[p] for p in datum.points), []).append(datum)
     return due

@@ -63,8 +63,13 @@ def given_points(case: Case) -> list[str]:
     ]
 
 
-def data_of(case: Case) -> Iterator[Datum]:
+@lru_cache(maxsize=32)
+def data_of(case: Case) -> tuple[Datum, ...]:
     """Every datum but the full coordinates: those of greatest authority first."""
+    return tuple(_data(case))
+
+
+def _data(case: Case) -> Iterator[Datum]:
     for name, place in case.points.items():
         if type(place) is Centroid:
             yield Datum(MEAN, name, (name, *place.of))
@@ -99,14 +104,14 @@ def _guide(index: int, at: str, guide: Guide) -> Iterator[Datum]:
 
 def names_of(case: Case) -> list[str]:
     """Every point that the case names, in order of first mention in the figure, joints and links."""
-    names = dict.fromkeys(case.points)
+    names = [*case.points]
     for datum in data_of(case):
-        names.update(dict.fromkeys(datum.points))
+        names += datum.points
     for joint in case.joints:
-        names.update(dict.fromkeys(joint.named))
+        names += joint.named
     for carried in case.carries.values():
-        names.update(dict.fromkeys(carried))
-    return list(names)
+        names += carried
+    return list(dict.fromkeys(names))
 
 
 class Facts(NamedTuple):
@@ -126,7 +131,7 @@ class Facts(NamedTuple):
 
 def facts_of(case: Case, only: tuple[Datum, ...] | None = None) -> Facts:
     """Look-up tables over the data of a case, or over some of them."""
-    data = tuple(data_of(case)) if only is None else only
+    data = data_of(case) if only is None else only
     of: dict[str, list[Datum]] = {}
     arms: dict[tuple[str, str], list[tuple[Datum, str, int]]] = {}
     for datum in data:
@@ -380,14 +385,14 @@ def keys_in(made: object) -> tuple[Key, ...]:
 
 def _parts(made: object, found: list[Datum | Key]) -> list[Datum | Key]:
     """The data and the points among the fields of a value, and among theirs, behind those found before."""
-    if isinstance(made, tuple) and type(made) is not Datum:
+    if type(made) is Datum or type(made) is str:
+        found.append(made)
+    elif isinstance(made, tuple):
         if len(made) == 2 and type(made[0]) is int and type(made[1]) is str:
             found.append(made)
         else:
             for part in made:
                 _parts(part, found)
-    elif isinstance(made, Datum | str):
-        found.append(made)
     return found
 
 

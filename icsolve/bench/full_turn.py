@@ -13,7 +13,7 @@ import math
 import os
 import shutil
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from importlib.resources import files
 from typing import Any
@@ -164,14 +164,16 @@ def compiled(folder: str) -> ctypes.CDLL | None:
         return None
 
 
-def in_c(library: ctypes.CDLL, mechanism: CrankTurning, angle: Array, out: Array) -> Callable[[], object]:
-    """A call of the C function on arrays that are there."""
-    data = (ctypes.c_double * len(mechanism.data))(*mechanism.data)
+def in_c(
+    library: ctypes.CDLL, name: str, data: Sequence[float], angle: Array, out: Array
+) -> Callable[[], object]:
+    """A call of a C function by its name and numbers, on arrays that are there."""
+    numbers = (ctypes.c_double * len(data))(*data)
     pointers = [array.ctypes.data_as(ctypes.c_void_p) for array in (angle, out)]
-    function, count = getattr(library, mechanism.function), ctypes.c_int(len(angle))
+    function, count = getattr(library, name), ctypes.c_int(len(angle))
 
     def call() -> object:
-        return function(count, pointers[0], data, pointers[1])
+        return function(count, pointers[0], numbers, pointers[1])
 
     return call
 

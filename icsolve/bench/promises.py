@@ -8,20 +8,24 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 import os
 import sys
 from collections.abc import Callable, Iterator
+from ctypes import CDLL
 from functools import partial
-from itertools import cycle
 from random import Random
 
 import numpy as np
 
-from icsolve.bench.families import BUTTERFLY, FamilySheet, by_sides, chain, linkage
-from icsolve.bench.full_turn import FOUR_BAR, FOUR_BAR_CASE, Array
-from icsolve.bench.gates import Effort, Gate, Kept, cpu_seconds, least, once, own_command, ratio, table
-from icsolve.bench.speed import FRESH_CASES
+from icsolve.bench.families import BUTTERFLY, by_sides, chain, linkage
+from icsolve.bench.full_turn import FOUR_BAR, FOUR_BAR_CASE, Array, compiled, in_c
+from icsolve.bench.gates import USUAL, Effort, Gate, Kept, cpu_seconds, least, once, own_command, ratio, table
+from icsolve.bench.growth import butterflies, growth, memory
+from icsolve.case import Case, Number, Torque
 from icsolve.files import scratch
+from icsolve.manual import template
+from icsolve.numbers.arithmetic import turn_of
 from icsolve.read import load
 from icsolve.solve import solve
 from icsolve.sweep import sweep
@@ -48,16 +52,20 @@ LOBES = ", ".join(f"{10 * k}: {40.0 + 8.0 * float(np.cos(np.radians(30.0 * k))):
 LOBED = CAM % f"{{about: A, zero: [A, C], radii: {{{LOBES}}}}}"
 SEED = 3
 """A double butterfly that moves by its first link over some degrees to both sides."""
+NEWTON = "a group by Newton's method (double butterfly)"
+THREE = 2
+"""A seed of three double butterflies in series that move so by a degree."""
 
 
 def promises(effort: Effort, kept: Kept) -> Iterator[str]:
     """Table by table."""
-    quick = effort.seconds < 1.0
+    quick, full = effort.seconds < USUAL.seconds / 2.0, effort.seconds > USUAL.seconds
     yield _rows(effort, kept, ROWS // 40 if quick else ROWS)
-    yield _families(effort, kept, (10, 30) if quick else (10, 100, 1000))
-    yield _growth(kept, quick)
+    yield _families(effort, kept, (10, 30) if quick else (10, 100, 1000, 10_000)[: 4 if full else 3])
+    yield growth(kept, quick, full)
+    yield memory(kept, quick)
     yield _tables(effort, kept, ROWS // 40 if quick else 5 * ROWS)
-    yield _starts(effort, kept, 20 if quick else 400)
+    yield _starts(effort, kept, 20 if quick else 2_000 if full else 400)
 
 
 # --- rows -----------------------------------------------------------------------------------------
@@ -75,10 +83,12 @@ def _rows(effort: Effort, kept: Kept, rows: int) -> str:
         "a roller on an eccentric disk": (DISK, 20.0),
         "a roller on a table of radii": (LOBED, 20.0),
     }
+    groups = [load(butterflies(n)(Random(THREE))) for n in (1, 3)]
+    degree: Array = np.linspace(-0.5, 0.5, rows)
     calls: dict[str, Callable[[], object]] = {
         name: partial(sweep, load(text), drive={"2": turn}) for name, (text, _) in limits.items()
     }
-    calls["a group by Newton's method (double butterfly)"] = lambda: sweep(butterfly, {angle.path: near})
+    calls[NEWTON] = lambda: sweep(butterfly, {angle.path: near})
     chained = load(by_sides(chain(10), (1, 2))(Random(1)))
     start = chained.angles[0].value
     few, many = (start.value + np.linspace(-0.01, 0.01, n) for n in (POSITIONS // 10, POSITIONS))
@@ -86,18 +96,54 @@ def _rows(effort: Effort, kept: Kept, rows: int) -> str:
         "a chain of 22 links, 36 rows": lambda: sweep(chained, {start.path: few}),
         "the same, 360 rows": lambda: sweep(chained, {start.path: many}),
     }
+    one, three = (f"{n} by Newton's method, of coordinates" for n in ("one group", "three groups"))
+    calls |= {one: lambda: sweep(groups[0], drive={"2": degree})}
+    calls |= {three: lambda: sweep(groups[1], drive={"2": degree})}
+    with scratch() as folder:
+        library = compiled(folder)
+        if library is not None:
+            calls[IN_C] = newton_in_c(library, butterfly, near, np.empty(len(near)))
     times = dict(zip(calls, least(list(calls.values()), effort.seconds), strict=True))
-    counts = dict.fromkeys(calls, rows) | {list(calls)[4]: len(near)}
-    counts |= dict(zip(list(calls)[-2:], (len(few), len(many)), strict=True))
+    short = [name for name in calls if "36" in name]
+    counts = dict.fromkeys(calls, rows) | {NEWTON: len(near), IN_C: len(near)}
+    counts |= dict(zip(short, (len(few), len(many)), strict=True))
     micros = {name: 1e6 * took / counts[name] for name, took in times.items()}
+    took = [times[name] for name in short]
     for name, (_, limit) in limits.items():
         kept.gates.append(Gate(f"a row {name}", micros[name], limit, " us"))
-    kept.gates.append(Gate(f"a row of {list(calls)[4]}", micros[list(calls)[4]], 4.0, " us"))
-    kept.gates.append(
-        ratio("36 rows of a chain / 360 of them", times[list(calls)[-2]] / times[list(calls)[-1]], 1)
-    )
+    kept.gates.append(Gate(f"a row of {NEWTON}", micros[NEWTON], 4.0, " us"))
+    if IN_C in times:
+        kept.gates.append(ratio(f"a row of {NEWTON} / the same in C", times[NEWTON] / times[IN_C], 4))
+    kept.gates.append(ratio("three groups by Newton's method / one", times[three] / times[one], 6))
+    kept.gates.append(ratio("36 rows of a chain / 360 of them", took[0] / took[1], 1))
     shown = [[name, str(counts[name]), f"{micros[name]:.3g}"] for name in calls]
     return table(("rows of a sweep, warm", "rows", "us a row"), shown)
+
+
+IN_C = "the same group in C -O3, by Newton's method for each row"
+
+
+def newton_in_c(library: CDLL, case: Case, degrees: Array, out: Array) -> Callable[[], object]:
+    """A call of Newton's method in C on a double butterfly by its lengths (`families.BUTTERFLY`): it writes
+    the torque on the crank at each angle."""
+    at, written = solve(case).points, case.angles[0].value.value
+    given = {frozenset((side.a, side.b)): side.value.value for side in case.lengths}
+    c, s = (float(part) for part in turn_of(written))
+    x, y = at["P5"][0] - at["P1"][0], at["P5"][1] - at["P1"][1]
+    ends = "P6-P7 P6-P8 P7-P8 P6-P9 P6-P10 P9-P10 P2-P7 P3-P9 P4-P8 P5-P10".split()
+    data = [
+        *(part for name in ("P1", "P2", "P3") for part in at[name]),
+        *(given[frozenset(("P1", "P4"))], c * x + s * y, c * y - s * x),
+        *(given[frozenset(pair.split("-"))] for pair in ends),
+        *(part for n in range(6, 11) for part in at[f"P{n}"]),
+        math.radians(written),
+        next(
+            load.value.value
+            for load in case.loads
+            if isinstance(load, Torque) and isinstance(load.value, Number)
+        ),
+    ]
+    return in_c(library, "double_butterfly", data, np.radians(degrees), out)
 
 
 # --- families -------------------------------------------------------------------------------------
@@ -151,70 +197,6 @@ def _torque(a: Array, b: Array, c: Array, angle: Array, load: Array) -> Array:
     return torque
 
 
-# --- growth ---------------------------------------------------------------------------------------
-
-
-def _growth(kept: Kept, quick: bool) -> str:
-    """Fresh cases of more and more links: seconds, and the exponent of a power law through them."""
-    sizes = (6, 12) if quick else (22, 42, 82, 162)
-    series: list[tuple[str, Callable[[int], Callable[[], object]], tuple[int, ...], float]] = [
-        ("solve a chain of four-bars, links", lambda n: _solved(chain(n // 2 - 1)), sizes, 1.3),
-        ("the same by lengths", lambda n: _solved(by_sides(chain(n // 2 - 1), (1, 2))), sizes, 1.3),
-        ("a gear train, wheels", lambda n: _solved(_gears(n)), (6, 12) if quick else (100, 200, 400), 1.3),
-        ("set up a sweep of a chain, links", _set_up, sizes, 1.5),
-    ]
-    rows = []
-    for what, made, counts, limit in series:
-        times = [min(once(made(n)) for _ in range(2)) for n in counts]
-        power = float(np.polyfit(np.log(counts), np.log(times), 1)[0])
-        kept.gates.append(Gate(f"{what}: exponent of growth", power, limit))
-        shown = ", ".join(f"{n}: {1e3 * t:.3g}" for n, t in zip(counts, times, strict=True))
-        rows.append([what, shown, f"{power:.2f}"])
-    links = sizes[-2]
-    case = load(chain(links // 2 - 1)(Random(1)))
-    every = once(lambda: list(solve(case, all_centres=True).centres.items()))
-    kept.gates.append(Gate(f"all centres of {links} links", every, 1, " s"))
-    rows.append([f"all n(n-1)/2 centres of {links} links", f"{1e3 * every:.3g}", ""])
-    (fresh,) = least([_fresh_sweeps()], 0.2)
-    kept.gates.append(Gate("set-up of a sweep of a four-bar, fresh", 1e3 * fresh, 1, " ms"))
-    rows.append(["36 rows of a fresh four-bar", f"{1e3 * fresh:.3g}", ""])
-    return table(("growth, fresh", "ms", "exponent"), rows)
-
-
-def _solved(draw: Callable[[Random], str]) -> Callable[[], object]:
-    case = load(draw(Random(1)))
-    return lambda: solve(case).to_dict()
-
-
-def _gears(wheels: int) -> Callable[[Random], str]:
-    """Wheels in a row, each in mesh with the next."""
-
-    def draw(rng: Random) -> str:
-        sheet, at = FamilySheet(rng), 0.0
-        teeth = [rng.randrange(15, 40) for _ in range(wheels)]
-        for k, n in enumerate(teeth):
-            at += (n + teeth[k - 1]) / 20.0 if k else 0.0
-            sheet.pin(1, sheet.link(), (at, 0.0))
-        for k in range(wheels - 1):
-            sheet.joints.append(f"  - {{gears: [{k + 2}, {k + 3}], teeth: [{teeth[k]}, {teeth[k + 1]}]}}")
-        return sheet.text(f"K: {{torque: 7.5, link: {wheels + 1}}}, U: {{torque: unknown, link: 2}}")
-
-    return draw
-
-
-def _set_up(links: int) -> Callable[[], object]:
-    case = load(by_sides(chain(links // 2 - 1), (1, 2))(Random(1)))
-    angle = case.angles[0].value
-    return lambda: sweep(case, {angle.path: angle.value + np.linspace(-0.01, 0.01, 8)})
-
-
-def _fresh_sweeps() -> Callable[[], object]:
-    """Sweeps of four-bars that take turns: more of them than are remembered."""
-    texts = (FOUR_BAR_CASE.replace("AB: 60", f"AB: {60.0 + k / 100.0}") for k in range(FRESH_CASES + 16))
-    cases, turn = cycle([load(text) for text in texts]), np.linspace(60.0, 420.0, POSITIONS // 10)
-    return lambda: sweep(next(cases), {"angles.AB": turn})
-
-
 # --- tables, folders and starts -------------------------------------------------------------------
 
 
@@ -244,15 +226,30 @@ def _tables(effort: Effort, kept: Kept, rows: int) -> str:
 
 
 PLAIN, NUMPY, SHAPELY = ("click, yaml", "click, yaml, numpy", "click, yaml, shapely")
+COORDINATES = """\
+icsolve: 1
+points: {A: [0, 0], B: [0.5, 0.9], C: [3.1, 2.3], D: [4, 0]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}]
+loads: {T4: {torque: 10, link: 4}, T2: {torque: unknown, link: 2}}
+"""
+SPACE = template("shaft")
 STARTS = (
+    ("solve", COORDINATES, PLAIN, 1.25),
     ("solve", FOUR_BAR_CASE, PLAIN, 1.25),
     ("solve", MOVING, PLAIN, 1.35),
+    ("solve", SPACE, PLAIN, 1.35),
     ("solve", DISK, PLAIN, 1.6),
     ("sweep", FOUR_BAR_CASE, NUMPY, 1.15),
     ("draw", FOUR_BAR_CASE, SHAPELY, 1.5),
     ("page", FOUR_BAR_CASE, SHAPELY, 1.5),
 )
-NAMED = {FOUR_BAR_CASE: "four-bar", MOVING: "friction", DISK: "cam"}
+NAMED = {
+    COORDINATES: "coordinates",
+    FOUR_BAR_CASE: "four-bar",
+    MOVING: "friction",
+    SPACE: "space",
+    DISK: "cam",
+}
 
 
 def _starts(effort: Effort, kept: Kept, files: int) -> str:

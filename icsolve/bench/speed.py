@@ -98,7 +98,7 @@ def _calls(mechanism: CrankTurning, degrees: Array, library: ctypes.CDLL | None)
         BOUNDED: lambda: swept(case, degrees, ("answers", "error")),
     }
     if library is not None:
-        run = in_c(library, mechanism, radians, out)
+        run = in_c(library, mechanism.function, mechanism.data, radians, out)
 
         def compiled_turn() -> Array:
             run()

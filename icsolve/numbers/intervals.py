@@ -109,7 +109,7 @@ def _out(a: Array) -> Array:
     return np.asarray(np.nextafter(a, np.inf))
 
 
-def _run(op: Op, parts: Sequence[Array], same: bool) -> Array:
+def _run(op: int, parts: Sequence[Array], same: bool) -> Array:
     a, b = parts[0], parts[-1]
     match op:
         case Op.ADD:
@@ -128,7 +128,7 @@ def _run(op: Op, parts: Sequence[Array], same: bool) -> Array:
             return _angle(_ends(a), _ends(b))
         case Op.NEAREST:
             return np.asarray(np.rint(a))
-    raise TypeError(op.name)
+    raise TypeError(op)
 
 
 def _not_negative(a: Array) -> Array:

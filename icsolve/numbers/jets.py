@@ -96,16 +96,26 @@ class Jet(NamedTuple):
     second: BallArray
 
     def __add__(self, other: Jet) -> Jet:  # type: ignore[override]
-        return Jet(*(a + b for a, b in zip(self, other, strict=True)))
+        (a, a1, a2), (b, b1, b2) = self, other
+        if isinstance(other, StillJet):
+            return type(self)(a + b, a1, a2)
+        return Jet(a + b, b1, b2) if isinstance(self, StillJet) else Jet(a + b, a1 + b1, a2 + b2)
 
     def __sub__(self, other: Jet) -> Jet:
-        return Jet(*(a - b for a, b in zip(self, other, strict=True)))
+        (a, a1, a2), (b, b1, b2) = self, other
+        if isinstance(other, StillJet):
+            return type(self)(a - b, a1, a2)
+        return Jet(a - b, -b1, -b2) if isinstance(self, StillJet) else Jet(a - b, a1 - b1, a2 - b2)
 
     def __neg__(self) -> Jet:
-        return Jet(*(-a for a in self))
+        return type(self)(*(-a for a in self))
 
     def __mul__(self, other: Jet) -> Jet:  # type: ignore[override]
         (a, a1, a2), (b, b1, b2) = self, other
+        if isinstance(other, StillJet):
+            return StillJet(a * b, a1, a2) if isinstance(self, StillJet) else Jet(a * b, a1 * b, a2 * b)
+        if isinstance(self, StillJet):
+            return Jet(a * b, a * b1, a * b2)
         return Jet(a * b, a1 * b + a * b1, a2 * b + (a1 * b1).times(2.0) + a * b2)
 
     def over(self, other: Jet) -> Jet:
@@ -175,6 +185,12 @@ class Jet(NamedTuple):
         return Jet(BallArray(mid, np.where(same, 0.0, rad + 1.0)), open_, open_)
 
 
+class StillJet(Jet):
+    """One that is the same at all inputs: its derivatives are zero."""
+
+    __slots__ = ()
+
+
 class Cells:
     """A record over cells of one input.
 
@@ -189,6 +205,12 @@ class Cells:
     def __init__(self, record: Record, wanted: Sequence[int], main: int, inputs: Mapping[int, float]) -> None:
         self.record, self.wanted, self.main, self.inputs = record, tuple(wanted), main, inputs
         self.order = live(record, self.wanted)
+        last = {n: k for k in self.order for n in record.nodes[k].of}
+        self.gone: dict[int, list[int]] = {}
+        """by node, those that no later one needs"""
+        for n, k in last.items():
+            if n not in self.wanted:
+                self.gone.setdefault(k, []).append(n)
 
     def run(self, mid: Array, half: Array) -> tuple[list[Jet], list[Jet]]:
         """The wanted nodes over the cells ``mid - half`` to ``mid + half``, and at their middles.
@@ -211,7 +233,7 @@ class Cells:
         one = BallArray(np.ones_like(mid), np.zeros_like(mid))
 
         def still(value: float, noise: float) -> Jet:
-            return Jet(BallArray(np.full_like(mid, value), np.full_like(mid, noise)), nothing, nothing)
+            return StillJet(BallArray(np.full_like(mid, value), np.full_like(mid, noise)), nothing, nothing)
 
         def of(jets: dict[int, Jet], k: int) -> Jet:
             if k not in jets:
@@ -236,6 +258,8 @@ class Cells:
                     whole[narrow] = of(whole, narrow).within(of(middle, narrow), half)
                 for jets in (whole, middle):
                     jets[k] = _result(node, partial(of, jets))
+                    for n in self.gone.get(k, ()):
+                        jets.pop(n, None)
             return [of(whole, k) for k in self.wanted], [of(middle, k) for k in self.wanted]
 
 
@@ -262,7 +286,7 @@ def _result(node: Traced, of: Callable[[int], Jet]) -> Jet:
             return of(node.a).cos_sin()[0]
         case Op.SIN:
             return of(node.a).cos_sin()[1]
-    raise TypeError(node.op.name)
+    raise TypeError(node.op)
 
 
 STILL = 2.0**-45

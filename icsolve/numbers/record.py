@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Container, Iterable, Sequence
-from enum import IntEnum
 from typing import Any
 
 from icsolve.numbers.arithmetic import DEGREE, ROUNDING_NOISE, Scalar, turn_of
@@ -18,8 +17,10 @@ from icsolve.numbers.units import ExactRatio, Number, nearest
 from icsolve.tuples import NamedTuple
 
 
-class Op(IntEnum):
-    """What a node is or does to the nodes ``a`` and ``b``."""
+class Op:
+    """What a node is or does to the nodes ``a`` and ``b``: plain numbers, since members of an `enum` take as
+    long to look up as an operation takes.
+    """
 
     INPUT = 0
     CONST = 1
@@ -37,6 +38,7 @@ class Op(IntEnum):
     """the nearest whole number"""
 
 
+OPERATIONS = 12
 ADD, SUB, MUL, NEG = Op.ADD, Op.SUB, Op.MUL, Op.NEG
 
 
@@ -58,7 +60,7 @@ class Traced:
     def __init__(
         self,
         record: Record,
-        op: Op,
+        op: int,
         a: int,
         b: int,
         value: float,
@@ -181,7 +183,7 @@ class Record:
         """by the number's id: cosine and sine of a direction that moves with a link"""
         self.kept: dict[tuple[str, tuple[int, ...]], Any] = {}
         """what was made of some of its nodes, by what it is: nodes never change"""
-        self._known: dict[Op, dict[tuple[int, ...], Traced]] = {op: {} for op in Op}
+        self._known: list[dict[tuple[int, ...], Traced]] = [{} for _ in range(OPERATIONS)]
         self._constants: dict[tuple[float, str], Traced] = {}
         self.ratios: dict[int, ExactRatio] = {}
         """by node, what constants are that no double is"""
@@ -337,11 +339,12 @@ class Record:
             return self.add(a, self.nodes[b.a])
         return self._sum(SUB, a, b, a.value - b.value)
 
-    def _sum(self, op: Op, a: Traced, b: Traced, value: float) -> Scalar:
+    def _sum(self, op: int, a: Traced, b: Traced, value: float) -> Scalar:
         """A sum or difference; two exact numbers that cancel leave nothing."""
         if value == 0.0 and not (a.row or b.row) and self._exact(a.index) and self._exact(b.index):
             return 0.0
-        return self._of_two(op, a, b, value)
+        of = (a.index, b.index)
+        return self._known[op].get(of) or self._made(op, of, value, a.row or b.row)
 
     def multiply(self, a: Scalar, b: Scalar) -> Scalar:
         """a b"""
@@ -357,7 +360,8 @@ class Record:
             a = self.lifted(a)
         if a.op is NEG or b.op is NEG:
             return self._outside(self.multiply, a, b)
-        return self._of_two(MUL, *((a, b) if a.index <= b.index else (b, a)), a.value * b.value)
+        of = (a.index, b.index) if a.index <= b.index else (b.index, a.index)
+        return self._known[MUL].get(of) or self._made(MUL, of, a.value * b.value, a.row or b.row)
 
     def divide(self, a: Scalar, b: Scalar) -> Scalar:
         """a / b"""
@@ -378,7 +382,8 @@ class Record:
 
     def _outside(self, operation: Callable[[Scalar, Scalar], Scalar], a: Traced, b: Traced) -> Scalar:
         """A product or quotient with the minus signs of its operands before it."""
-        found = operation(*(self.nodes[v.a] if v.op is NEG else v for v in (a, b)))
+        one, two = self.nodes[a.a] if a.op is NEG else a, self.nodes[b.a] if b.op is NEG else b
+        found = operation(one, two)
         return found if a.op is b.op else self.negate(found)
 
     def negate(self, a: Scalar) -> Scalar:
@@ -395,15 +400,17 @@ class Record:
         """A number as a node of this record."""
         return value if isinstance(value, Traced) else self._constant(float(value), 0.0, "exact")
 
-    def _of_two(self, op: Op, a: Traced, b: Traced, value: float) -> Scalar:
+    def _of_two(self, op: int, a: Traced, b: Traced, value: float) -> Scalar:
         """What an operation makes of two nodes; the same is made once."""
-        known, of = self._known[op], (a.index, b.index)
-        found = known.get(of)
-        if found is None:
-            found = known[of] = Traced(self, op, *of, value, a.row or b.row, 0.0, of)
+        of = (a.index, b.index)
+        return self._known[op].get(of) or self._made(op, of, value, a.row or b.row)
+
+    def _made(self, op: int, of: tuple[int, int], value: float, row: bool) -> Traced:
+        """A new node of two."""
+        found = self._known[op][of] = Traced(self, op, *of, value, row, 0.0, of)
         return found
 
-    def _of_one(self, op: Op, a: Traced, value: float, beside: int = 0) -> Traced:
+    def _of_one(self, op: int, a: Traced, value: float, beside: int = 0) -> Traced:
         """The same of one node."""
         known, of = self._known[op], (a.index,)
         found = known.get(of)
@@ -431,15 +438,17 @@ def live(record: Record, wanted: Iterable[int], given: Container[int] = ()) -> l
 
     Nodes that are the same in every row are left out: their values stand in the record.
     """
-    nodes, seen = record.nodes, set[int]()
-    stack = [k for k in wanted if nodes[k].row]
+    nodes = record.nodes
+    seen = {k for k in wanted if nodes[k].row}
+    stack = list(seen)
     while stack:
         k = stack.pop()
-        if k in seen:
+        if k in given:
             continue
-        seen.add(k)
-        if k not in given:
-            stack += [n for n in nodes[k].of if nodes[n].row]
+        for n in nodes[k].of:
+            if n not in seen and nodes[n].row:
+                seen.add(n)
+                stack.append(n)
     return sorted(seen)
 
 

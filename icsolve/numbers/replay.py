@@ -32,6 +32,8 @@ SOON = 64
 Step = tuple[Callable[..., Any], tuple[Any, ...]]
 
 BINARY = {Op.ADD: np.add, Op.SUB: np.subtract, Op.MUL: np.multiply, Op.DIV: np.divide}
+TURNS = (Op.COS, Op.SIN)
+"""What is found together, and reads its angle after it has written."""
 
 
 class Code:
@@ -67,18 +69,22 @@ class Code:
         free: list[int] = []
         count = len(place)
         for at, node in enumerate(nodes):
-            gone = [place[n] for n in {*node.of} if last[n] == at and n in place and n not in keep]
-            in_place = node.op not in (Op.COS, Op.SIN)
+            own, gone = node.index, []
+            for n in node.of:
+                if last[n] == at and n not in keep and n in place and place[n] not in gone:
+                    gone.append(place[n])
+            in_place = node.op not in TURNS
             if in_place:
                 free += gone
-            if not free:
-                free.append(count)
+            if free:
+                place[own] = free.pop()
+            else:
+                place[own] = count
                 count += 1
-            place[node.index] = free.pop()
             if not in_place:
                 free += gone
-            if node.index not in last and node.index not in keep:
-                free.append(place[node.index])
+            if own not in last and own not in keep:
+                free.append(place[own])
         return place, count
 
     def bound(self, rows: int) -> tuple[list[Step], Array]:
@@ -106,10 +112,11 @@ class Code:
         done: set[int] = set()
         for k in self.order:
             node, out = nodes[k], held[k]
-            if k in done:
+            operation = BINARY.get(node.op)
+            if operation is not None:
+                yield operation, (value(node.a), value(node.b), out)
+            elif k in done:
                 continue
-            if node.op in BINARY:
-                yield BINARY[node.op], (value(node.a), value(node.b), out)
             elif node.op == Op.NEG:
                 yield np.negative, (value(node.a), out)
             elif node.op == Op.SQRT:

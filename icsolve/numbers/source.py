@@ -20,7 +20,7 @@ DEEPEST = 12
 class Language(NamedTuple):
     """How a language writes the operations; ``{a}`` and ``{b}`` are operands."""
 
-    forms: Mapping[Op, str]
+    forms: Mapping[int, str]
     turned: str
     """cosine and sine of ``{a}`` degrees to the names ``{c}`` and ``{s}``"""
     assigned: str

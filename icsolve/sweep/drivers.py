@@ -17,11 +17,20 @@ from icsolve.assembly.driven.constraints import (
     Immovable,
     OnLine,
     Pointed,
+    Roped,
     SpotDistance,
     Turning,
 )
 from icsolve.assembly.driven.groups import DEPENDENT, as_written, derivatives, jacobian
 from icsolve.assembly.driven.mechanism import Mechanism
+from icsolve.assembly.driven.order import (
+    AssemblyOrder,
+    AssemblyStep,
+    PlaceAtIntersection,
+    PlaceByPoint,
+    PlaceByTwoPoints,
+    RotateWith,
+)
 from icsolve.assembly.driven.poses import Places as Still
 from icsolve.assembly.driven.poses import Rotation, Spot, minus
 from icsolve.assembly.workspace import CORNER, LENGTH, RAY, Datum, X, Y, data_of, normalised, number_of
@@ -170,12 +179,16 @@ class Pose(NamedTuple):
     spots: tuple[Spot, ...]
 
 
+def datum_at(case: Case, path: str) -> Datum | None:
+    """The datum of a path that can pose the figure; of the coordinates of a point that has both, none."""
+    return next((d for d in data_of(case) if d.kind in KINDS and number_of(case, d).path == path), None)
+
+
 def pose_of(mechanism: Mechanism, path: str) -> Pose | None:
     """The datum at a path if it poses the figure: it is not one of the shape of a link."""
-    case = mechanism.case
-    for datum in data_of(case):
-        if datum.kind in KINDS and number_of(case, datum).path == path:
-            return posing(mechanism, datum)
+    case, own = mechanism.case, datum_at(mechanism.case, path)
+    if own is not None:
+        return posing(mechanism, own)
     section, _, name = path.partition(".")
     point, _, axis = name.rpartition(".")
     if section != "points" or not isinstance(case.points.get(point), Coordinates):
@@ -346,12 +359,15 @@ class Drive(NamedTuple):
     moving : the varied paths that move the mechanism; the others give another case in each row
     held : the data that are held while it moves, as many as it has freedoms left
     locked : bodies that only spin, which are kept from it
+    order : the order in which the links close with all these as drivers, where it showed that; its conditions
+        are those of the turned links, of the numbers, and of the mechanism
     """
 
     moving: tuple[str, ...]
     held: tuple[Pose, ...]
     locked: tuple[int, ...]
     """bodies that only spin, which are kept from it"""
+    order: AssemblyOrder | None = None
 
 
 def drive_of(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str]) -> Drive:
@@ -407,6 +423,34 @@ def drive_of(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str]) -
         return Drive((), (), ())
     held, left = _held(mechanism, row, left, moving)
     return Drive(tuple(moving), held, _spinning(bodies, left))
+
+
+def closed_drive(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str]) -> Drive | None:
+    """The drive where the links close step by step with these as drivers, and a count of freedoms leaves no
+    condition to spare: each driver then takes a freedom of its own, and none is left. None where that does
+    not show it, and the derivatives of all conditions have to (`drive_of`)."""
+    poses = {path: pose for path in paths if (pose := pose_of(mechanism, path)) is not None}
+    if mechanism.top.freedoms_by_count != len(poses) + len(links) or len(poses) + len(links) == 0:
+        return None
+    drivers: list[Constraint] = [turning(mechanism, link, 0.0) for link in links]
+    drivers += [condition(mechanism, pose, value_of(mechanism.case, pose.datum)) for pose in poses.values()]
+    constraints = [*drivers, *mechanism.constraints]
+    if any(isinstance(c, Immovable | Roped) for c in constraints):
+        return None
+    order = AssemblyOrder(mechanism.shape, mechanism.spots, constraints)
+    while len(order.full) < len(mechanism.spots):
+        if not order.advance() or not _is_regular(order.steps[-1]):
+            return None
+    return Drive(tuple(poses), (), (), order)
+
+
+def _is_regular(step: AssemblyStep) -> bool:
+    """Whether a step takes as many conditions as it makes known numbers, and is nowhere singular: of
+    the rotations that of a driver, or of a body that turns alike."""
+    if isinstance(step, RotateWith):
+        by = step.by
+        return isinstance(by, Pointed) or (isinstance(by, Turning) and (by.alike or len(by.terms) == 1))
+    return isinstance(step, PlaceByPoint | PlaceByTwoPoints | PlaceAtIntersection)
 
 
 def _held(

@@ -54,7 +54,7 @@ CONTEXT = Context(prec=DIGITS, Emin=-999_999, Emax=999_999, traps=[DivisionByZer
 """What is not a number compares with nothing."""
 
 Values = dict[int, Decimal]
-Step = tuple[int, Op, int, int]
+Step = tuple[int, int, int, int]
 """A node, its operation and what it is made of."""
 
 
@@ -254,7 +254,7 @@ class ExactRecord:
         raise Unreached
 
 
-def _result(op: Op, a: Decimal, b: Decimal) -> Decimal:
+def _result(op: int, a: Decimal, b: Decimal) -> Decimal:
     """An operation; NaN of what is NaN."""
     if a.is_nan() or b.is_nan():
         return Decimal("NaN")

@@ -6,15 +6,16 @@ rates and centres: each with the kernels that one scene has.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 
-from icsolve.assembly import Figure, place, placed_figure
+from icsolve.assembly import Figure, Placement, place, placed_figure
 from icsolve.assembly.conditions import refuse_misfit
 from icsolve.assembly.driven.constraints import Constraint, Turning
 from icsolve.assembly.driven.mechanism import Mechanism, mechanism
 from icsolve.assembly.driven.motion import DrivenMotion, order_of, set_moving
-from icsolve.assembly.workspace import names_of, number_of
+from icsolve.assembly.steps import Meet, Polar
+from icsolve.assembly.workspace import data_in, names_of, number_of
 from icsolve.case import Case, Pair, TorsionSpring
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Scalar
@@ -23,7 +24,16 @@ from icsolve.scene import refusals
 from icsolve.screws.plane import Point
 from icsolve.statics.load_wrenches import points_of, spring_angle
 from icsolve.structure.topology import Topology, topology
-from icsolve.sweep.drivers import Drive, condition, drive_of, pose_of, turning, turns_links
+from icsolve.sweep.drivers import (
+    Drive,
+    closed_drive,
+    condition,
+    datum_at,
+    drive_of,
+    pose_of,
+    turning,
+    turns_links,
+)
 from icsolve.sweep.friction_rows import FrictionRows, rubbing
 from icsolve.sweep.numbers import find_number, numbers_of, with_numbers
 from icsolve.sweep.recorded_scene import (
@@ -66,7 +76,8 @@ class RowRequest(NamedTuple):
 
 class Setting(NamedTuple):
     """A case whose position as written is solved, and what is varied: paths of numbers, and links that
-    are turned."""
+    are turned. ``first`` may have the mechanism on a record, on which the first program that is compiled
+    goes on."""
 
     case: Case
     top: Topology
@@ -74,6 +85,7 @@ class Setting(NamedTuple):
     paths: tuple[str, ...]
     links: tuple[str, ...]
     drive: Drive
+    first: list[Mechanism] | None = None
 
     @property
     def moves(self) -> bool:
@@ -130,10 +142,10 @@ def setting_of(case: Case, paths: Sequence[str], links: Sequence[str], *, posing
     figure = placed_figure(case, *wanted_points(case))
     refuse_misfit(case, figure.points, figure.frame.scale)
     refusals.refuse_no_direction(refusals.directions_of_joints(case), figure.points, FLOATS)
-    drive = Drive((), (), ())
+    setting = Setting(case, top, figure, own, tuple(links), Drive((), (), ()))
     if links or any(path.split(".")[0] in ("points", "lengths", "angles") for path in own):
-        drive = _drive(case, figure, own, links, posing=posing)
-    return Setting(case, top, figure, own, tuple(links), drive)
+        return _driven(setting, posing=posing)
+    return setting
 
 
 def wanted_points(case: Case) -> tuple[list[str], list[str]]:
@@ -152,16 +164,32 @@ def wanted_points(case: Case) -> tuple[list[str], list[str]]:
     return wanted, [p for p in wanted if p in needed]
 
 
-def _drive(case: Case, figure: Figure, paths: Sequence[str], links: Sequence[str], *, posing: bool) -> Drive:
-    """What moves, found on a record that is thrown away."""
+def _driven(setting: Setting, *, posing: bool) -> Setting:
+    """The setting with what moves, found on a record: where it is not that of the program, thrown away."""
+    case, figure, paths, links = setting.case, setting.figure, setting.paths, setting.links
+    record = Record()
+    held = mechanism(case, figure.frame, record, _written(figure, place(figure, case, record)))
+    poses = [path for path in paths if posing or _poses(case, figure, held, path)]
+    drive = closed_drive(held, poses, links)
+    if drive is not None:
+        return setting._replace(drive=drive, first=[held] if drive.moving == paths else None)
     scratch = mechanism(case, figure.frame, Record(), figure.points)
-    poses = [path for path in paths if posing or _poses(case, figure, scratch, path)]
-    return drive_of(scratch, poses, links)
+    return setting._replace(drive=drive_of(scratch, poses, links))
+
+
+def _written(figure: Figure, placed: Placement) -> dict[str, Point]:
+    """The points of a figure, placed in another arithmetic."""
+    return {name: placed.points[name] for name in figure.points}
 
 
 def _poses(case: Case, figure: Figure, scratch: Mechanism, path: str) -> bool:
     """Whether a number of the figure places a joint, and not only points that links carry besides (but for
     those of a wheel or a lever, which it turns); numbers that are only compared with the figure may."""
+    held = {joint.at for joint in case.joints}
+    held |= {p for rope in case.ropes for p, _ in zip(rope.points, rope.links, strict=False)}
+    own = datum_at(case, path)
+    if any(isinstance(s, Polar | Meet) and s.target in held and own in data_in(s) for s in figure.steps):
+        return True
     written = numbers_of(case)[path].value
     before, after = place(figure, case).points, {}
     for nudge in NUDGES:
@@ -170,8 +198,6 @@ def _poses(case: Case, figure: Figure, scratch: Mechanism, path: str) -> bool:
             after = place(figure, changed).points
             break
     moved = {name for name, p in before.items() if p != after.get(name)}
-    held = {joint.at for joint in case.joints}
-    held |= {p for rope in case.ropes for p, _ in zip(rope.points, rope.links, strict=False)}
     if not moved or held & moved:
         return True
     return turns_links(scratch, path, moved, written)
@@ -211,29 +237,30 @@ def compile_sweep(setting: Setting, asked: RowRequest, signs: Signs = ()) -> Com
 
 
 def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> CompiledSweep:
-    case, record, frame = setting.case, Record(), setting.figure.frame
-    numbers = numbers_of(case)
-    record.follows = setting.moves
+    case, frame = setting.case, setting.figure.frame
     inputs: dict[str, int] = {}
-    for path in setting.paths:
-        if path not in setting.drive.moving:
-            value = numbers[path].value
-            node = record.input(path, value + (abs(value) or 1.0) * nudge)
-            record.vary[path], inputs[path] = node, node.index
-    placed = place(setting.figure, case, record)
-    ref = placed.points
-    margins = tuple(m.index for step in placed.margins.values() for m in step if varies(m))
-    names = {name: ref[name] for name in setting.figure.points}
-    if setting.moves:
-        motion = _motion(setting, record, names, nudge, inputs, signs)
-        scene = moved_scene(motion.mechanism, motion.moved)
+    margins: tuple[int, ...] = ()
+    motion: DrivenMotion | None = None
+    if setting.first and setting.drive.order is not None:
+        motion = _motion(setting, setting.first.pop(), nudge, inputs, signs)
     else:
-        motion, scene = None, RecordedScene(case, setting.top, frame, record, names)
+        record = Record()
+        record.follows = setting.moves
+        placed = _placed(setting, record, nudge, inputs)
+        if inputs:
+            margins = tuple(m.index for step in placed.margins.values() for m in step if varies(m))
+        names = _written(setting.figure, placed)
+        if setting.moves:
+            motion = _motion(setting, mechanism(case, frame, record, names), nudge, inputs, signs)
+        else:
+            scene = RecordedScene(case, setting.top, frame, record, names)
+    if motion is not None:
+        scene = moved_scene(motion.mechanism, motion.moved)
     scene = rested(scene, asked.contacts, inputs)
     outputs, found = _outputs(scene, asked)
     compiled = CompiledSweep(
         setting,
-        record,
+        scene.record,
         inputs,
         outputs,
         motion,
@@ -253,6 +280,17 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
     )
 
 
+def _placed(setting: Setting, record: Record, nudge: float, inputs: dict[str, int]) -> Placement:
+    """The figure as written, of numbers that vary where another is asked for in each row."""
+    numbers = numbers_of(setting.case)
+    for path in setting.paths:
+        if path not in setting.drive.moving:
+            value = numbers[path].value
+            node = record.input(path, value + (abs(value) or 1.0) * nudge)
+            record.vary[path], inputs[path] = node, node.index
+    return place(setting.figure, setting.case, record)
+
+
 def spring_angles(scene: RecordedScene) -> dict[str, Scalar]:
     """The angles that the torsion springs of a scene follow, by load [degrees]."""
     springs = [load for load in scene.case.loads if isinstance(load, TorsionSpring)]
@@ -260,16 +298,11 @@ def spring_angles(scene: RecordedScene) -> dict[str, Scalar]:
 
 
 def _motion(
-    setting: Setting,
-    record: Record,
-    ref: Mapping[str, Point],
-    nudge: float,
-    inputs: dict[str, int],
-    signs: Signs,
+    setting: Setting, held: Mechanism, nudge: float, inputs: dict[str, int], signs: Signs
 ) -> DrivenMotion:
     """The mechanism driven by the inputs."""
     case, numbers, drive = setting.case, numbers_of(setting.case), setting.drive
-    held: Mechanism = mechanism(case, setting.figure.frame, record, ref)
+    record = held.shape.record
     drivers: list[Constraint] = []
     for link in setting.links:
         node = record.input(link, 180.0 * nudge)
@@ -288,7 +321,7 @@ def _motion(
     drivers += [Turning(((body, 1.0),), 0.0) for body in drive.locked]
     turns = {name: record.input(name, sign) for name, sign in signs}
     inputs |= {name: node.index for name, node in turns.items()}
-    return set_moving(held, order_of(held, drivers), turns)
+    return set_moving(held, order_of(held, drivers, drive.order), turns)
 
 
 def _not_together(path: str, paths: Sequence[str]) -> SceneError:

@@ -189,7 +189,9 @@ def moved_scene(mechanism: Mechanism, moved: Moved) -> RecordedScene:
     write, case = _Writer(mechanism, moved), mechanism.case
     joints = tuple(write.joint(i, joint) for i, joint in enumerate(case.joints))
     loads = tuple(map(write.load, case.loads))
-    rewritten = replace(case, joints=joints, loads=loads, ropes=write.ropes)
+    rewritten = case
+    if (joints, loads, write.ropes) != (case.joints, case.loads, case.ropes):
+        rewritten = replace(case, joints=joints, loads=loads, ropes=write.ropes)
     scene = RecordedScene(
         rewritten, topology(rewritten), mechanism.frame, mechanism.shape.record, write.points
     )

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from copy import copy
+from typing import Any
 
 from icsolve.assembly.driven.constraints import (
     ConditionRows,
@@ -20,11 +22,13 @@ from icsolve.assembly.driven.order import (
     AssemblyOrder,
     AssemblyStep,
     AssurGroup,
+    By,
     PlaceAtIntersection,
     PlaceByPoint,
     PlaceByTwoPoints,
     RotateToLine,
     RotateWith,
+    ThroughTurned,
     locus,
     reference,
     rotation_to_line,
@@ -61,12 +65,17 @@ class DrivenMotion(NamedTuple):
     """what the conditions leave that were not needed: it is to vanish"""
 
 
-def order_of(mechanism: Mechanism, drivers: list[Constraint]) -> AssemblyOrder:
-    """The order in which the mechanism closes.
+def order_of(
+    mechanism: Mechanism, drivers: list[Constraint], known: AssemblyOrder | None = None
+) -> AssemblyOrder:
+    """The order in which the mechanism closes; that which is known, if one is, of the same drivers and
+    conditions.
 
     Raises SceneError where a joint cannot be moved, links stay loose, or the position as written is singular.
     """
     constraints = [*drivers, *mechanism.constraints]
+    if known is not None:
+        return _again(known, constraints)
     for constraint in constraints:
         if isinstance(constraint, Immovable):
             raise constraint.refusal
@@ -78,6 +87,31 @@ def order_of(mechanism: Mechanism, drivers: list[Constraint]) -> AssemblyOrder:
         if not left:
             return order
         order.take(smallest(mechanism, order, left))
+
+
+def _again(order: AssemblyOrder, constraints: list[Constraint]) -> AssemblyOrder:
+    """The same steps of the same mechanism on other conditions of the same kinds, in the same order."""
+    now: dict[int, Any] = {id(was): c for was, c in zip(order.constraints, constraints, strict=True)}
+
+    def met(by: By) -> By:
+        return by._replace(by=now[id(by.by)]) if isinstance(by, ThroughTurned) else by
+
+    def renewed(step: AssemblyStep) -> AssemblyStep:
+        match step:
+            case RotateWith(_, by, instead):
+                return step._replace(by=now.get(id(by), by), instead=now.get(id(instead)))
+            case PlaceAtIntersection(_, (one, two)):
+                return step._replace(loci=(met(one), met(two)))
+            case RotateToLine():
+                return step._replace(by=now[id(step.by)])
+            case AssurGroup():
+                return step._replace(constraints=tuple([now[id(c)] for c in step.constraints]))
+        return step
+
+    other = copy(order)
+    other.constraints, other.steps = constraints, [renewed(step) for step in order.steps]
+    other.used = {id(now[k]) for k in order.used if k in now}
+    return other
 
 
 def set_moving(mechanism: Mechanism, order: AssemblyOrder, signs: Mapping[str, Scalar]) -> DrivenMotion:
