@@ -583,8 +583,8 @@ def test_beyond_the_fold_of_a_group_nothing_assembles_however_near_it_is() -> No
 
 @pytest.mark.parametrize("seed", range(24 if FULL else 6))
 def test_a_group_is_followed_to_its_fold_from_wherever_it_is_written(seed: int) -> None:
-    """A plate on parallel bars: rows 1e-2 to 1e-13 degrees before the fold assemble, and lie as near to it as a
-    root lets them, however long the steps to it were."""
+    """A plate on parallel bars: rows 1e-2 to 1e-13 degrees before the fold assemble, the nearer to it the
+    nearer, however long the steps to it were."""
     dice, met = Random(f"followed {seed}"), 0
     for _ in range(3):
         x, y = dice.choice([(4, 3), (-4, 3), (3, -4), (-3, -4)])

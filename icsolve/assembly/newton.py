@@ -44,7 +44,8 @@ FLAT = 1e-11
 HALVED = 0.75
 """Steps that close in on a solution are shorter than this of the one before, those on a double one too."""
 ARRIVED = 1e-4
-"""What was found lies nearer to a solution than this [frame of size 1]: a longer step is one from between two."""
+"""What was found lies nearer to a solution than this [frame of size 1]: a longer step is one from between
+two."""
 MISSED = 1e-13
 """Residual [frame of size 1] above which what was arrived at is no solution: of a smaller one the decimals
 tell."""
@@ -52,7 +53,7 @@ ONE = 3e-8
 """Solutions nearer than this, over their distance and the group's size, are one: so far apart are the two
 beside a fold where doubles no longer tell that there are two."""
 LITTLE = 1e-2
-"""A part of the way to the nearest solution by which data may miss, for it to be said that these are meant."""
+"""By this part of the way to the nearest solution data may miss, for it to be said that these are meant."""
 MOST_BRANCHES = 64
 SPREAD = 16
 TOGETHER = 64
@@ -277,8 +278,8 @@ def _pair(group: PointGroup, workspace: Workspace, end: Start, reach: float) -> 
     the two; none beyond a fold.
 
     The equations F change least along v, the singular vector of their smallest singular value, and by that
-    along u. There u F is a parabola nearly, for the data are squares of distances: it is laid through three of
-    its values.
+    along u. There u F is a parabola nearly, for the data are squares of distances: it is laid through three
+    of its values.
     """
     import numpy as np
 

@@ -258,7 +258,7 @@ class PointGroup(NamedTuple):
             self.put(workspace, [a - b for a, b in zip(x, move, strict=True)])
 
     def _enclose(self, workspace: Workspace) -> None:
-        """Balls that hold the one solution near the start. Raises BelowZero where all digits show none there."""
+        """Balls that hold the one solution near the start. Raises BelowZero where all digits show none."""
         from icsolve.numbers.balls import Balls, BelowZero, MoreDigits
         from icsolve.numbers.krawczyk import enclosed_root, turns_away
 
