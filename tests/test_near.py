@@ -111,18 +111,19 @@ def test_rings_of_forty_beside_others(seed: int, monkeypatch: pytest.MonkeyPatch
 
     Where the one is expected from the other, it is nearer than that.
     """
-    twin, shares = newton._twin, []
+    pair, shares = newton._pair, []
 
-    def kept(group: PointGroup, workspace: Workspace, end: newton.Start) -> newton.Start:
-        start = twin(group, workspace, end)
+    def kept(group: PointGroup, workspace: Workspace, end: newton.Start, reach: float) -> list[newton.Start]:
+        starts = pair(group, workspace, end, reach)
+        start = max(starts, key=lambda other: apart(end, other))
         there = newton._descend(group, workspace, start, 1.0, 60).end
         shares.append(apart(start, there) / apart(end, there))
-        return start
+        return starts
 
     def apart(one: newton.Start, two: newton.Start) -> float:
         return math.hypot(*(math.dist(one[p], two[p]) for p in one))
 
-    monkeypatch.setattr(newton, "_twin", kept)
+    monkeypatch.setattr(newton, "_pair", kept)
     text, at = ring(40, seed)
     places = places_of(load(text))
     near = {p: at for p, at in places_near(text).items() if p in places}

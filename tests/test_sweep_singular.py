@@ -532,3 +532,79 @@ def test_rows_of_a_case_in_other_units_are_its_rows(seed: int) -> None:
     assert two.answers["T12"] == pytest.approx(one.answers["T12"], rel=1e-10, nan_ok=True)
     assert 12.0 * three.answers["T12"] == pytest.approx(one.answers["T12"], rel=1e-10, nan_ok=True)
     assert one.status.tolist() == ["ok"] * len(rows)
+
+
+def _ways_at_a_plates_fold(dice: Random) -> Iterator[tuple[str, float, str, float]]:
+    """How each side of the fold of a random plate is answered, `near` being the fold itself, or a place just
+    on the side on which the plate assembles: what is near, degrees past the fold on that side, the status,
+    and how far the plate is then. Nothing where both sides assemble."""
+    x, y = dice.choice([(4, 3), (-4, 3), (3, -4), (-3, -4)])
+    sizes = [dice.choice([-1, 1]) * n for n in dice.sample(range(1, 7), 3)]
+    b, d, e = ((px + n * x, py + n * y) for (px, py), n in zip(((0, 0), (3, 0), (0, 4)), sizes, strict=True))
+    plate = partial(PLATE.format, b=b, low=b[1] - 5, d=d, e=e)
+    fold = {"C": [0.0, 0.0], "F": [3.0, 0.0], "G": [0.0, 4.0]}
+
+    def solved(off: float, near: dict[str, list[float]]) -> tuple[str, dict[str, Any]]:
+        text = plate(more=BY_LENGTHS.format(bars=[5 * abs(n) for n in sizes], turned=repr(90.0 + off)))
+        case = icsolve.load(text.replace("near: {C: [0, 0], F: [3, 0], G: [0, 4]}", f"near: {near}"))
+        try:
+            return "ok", icsolve.solve(case).to_dict()["points"]
+        except icsolve.SceneError as refusal:
+            return refusal.status, {}
+
+    sides = [side for side in (1.0, -1.0) if solved(0.01 * side, fold)[0] != "cannot-assemble"]
+    if len(sides) != 1:
+        return
+    side = sides[0]
+    aside = {p: [x + 0.02, y - 0.01] for p, (x, y) in fold.items()}
+    beside = next(
+        at for status, at in (solved(0.01 * side, near) for near in (fold, aside)) if status == "ok"
+    )
+    places = {"fold": fold, "beside": {p: [round(x, 4) for x in beside[p]] for p in fold}}
+    for name, near in places.items():
+        for k in range(3, 14 if name == "beside" else 9):
+            for off in (10.0**-k, -(10.0**-k)):
+                status, points = solved(off * side, near)
+                yield name, off, status, math.hypot(*points["C"]) if points else 0.0
+
+
+def test_beyond_the_fold_of_a_group_nothing_assembles_however_near_it_is() -> None:
+    """What lies at `near` there is named, never another way a long way off; on the other side two ways lie
+    about the fold, equally near to it."""
+    dice, asked = Random("folds"), []
+    for _ in range(60 if FULL else 6):
+        for name, off, status, away in _ways_at_a_plates_fold(dice):
+            asked.append(name)
+            assert away < 0.5, (name, off)
+            wanted = "cannot-assemble" if off < 0.0 else "ok" if name == "beside" else "ambiguous"
+            assert status == wanted, (name, off, status)
+    assert "beside" in asked
+
+
+@pytest.mark.parametrize("seed", range(24 if FULL else 6))
+def test_a_group_is_followed_to_its_fold_from_wherever_it_is_written(seed: int) -> None:
+    """A plate on parallel bars: rows 1e-2 to 1e-13 degrees before the fold assemble, the nearer to it the
+    nearer, however long the steps to it were."""
+    dice, met = Random(f"followed {seed}"), 0
+    for _ in range(3):
+        x, y = dice.choice([(4, 3), (-4, 3), (3, -4), (-3, -4)])
+        sizes = [dice.choice([-1, 1]) * n for n in dice.sample(range(1, 7), 3)]
+        b, d, e = (
+            (px + n * x, py + n * y) for (px, py), n in zip(((0, 0), (3, 0), (0, 4)), sizes, strict=True)
+        )
+        plate = partial(PLATE.format, b=b, low=b[1] - 5, d=d, e=e)
+        for start in (side * off for side in (1.0, -1.0) for off in (2.0, 0.5, 0.2, 0.1)):
+            text = plate(more=BY_LENGTHS.format(bars=[5 * abs(n) for n in sizes], turned=90.0 + start))
+            case = icsolve.load(text)
+            try:
+                icsolve.solve(case)
+            except icsolve.SceneError:
+                continue
+            rows = [90.0 + math.copysign(10.0**-k, start) for k in range(2, 14)]
+            sweep = icsolve.sweep(case, {"angles.AB": rows}, WANT)
+            away = np.hypot(*sweep.points["C"].T)
+            if not away[-1] > 0.1:  # else it is not this fold that they lead to
+                met += 1
+                assert set(sweep.status) == {"ok"}, (sizes, start, sweep.status)
+                assert np.all(np.diff(away) < 1e-12)
+    assert met

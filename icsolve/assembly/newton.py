@@ -41,6 +41,19 @@ CLOSED = 1e-9
 """Residual, over the square of the group's size, below which a start has arrived, before polishing."""
 FLAT = 1e-11
 """Smallest over largest pivot of a solution that stands alone."""
+HALVED = 0.75
+"""Steps that close in on a solution are shorter than this of the one before, those on a double one too."""
+ARRIVED = 1e-4
+"""What was found lies nearer to a solution than this [frame of size 1]: a longer step is one from between
+two."""
+MISSED = 1e-13
+"""Residual [frame of size 1] above which what was arrived at is no solution: of a smaller one the decimals
+tell."""
+ONE = 3e-8
+"""Solutions nearer than this, over their distance and the group's size, are one: so far apart are the two
+beside a fold where doubles no longer tell that there are two."""
+LITTLE = 1e-2
+"""By this part of the way to the nearest solution data may miss, for it to be said that these are meant."""
 MOST_BRANCHES = 64
 SPREAD = 16
 TOGETHER = 64
@@ -137,7 +150,7 @@ def _searched(
     search.found.sort(key=lambda end: math.hypot(*(math.dist(end[t], near[t]) for t in held)))
     polished = [_polished(group, workspace, end) for end in search.found]
     settled = [option for option in polished if option is not None]
-    if settled:
+    if settled and polished[0] is not None:
         first = dict(zip(group.targets, settled[0].start, strict=True))
         if not search.leaves(first):
             return Converged(settled, None, {}, search.complete)
@@ -175,6 +188,9 @@ class _NewtonSearch:
                 self.beside = _least_residual(self.group, self.workspace, held, self.reach)
             if self.beside:
                 self._try(self.beside, MOST_STEPS)
+                with suppress(SceneError):
+                    for start in _pair(self.group, self.workspace, self.beside, self.reach):
+                        self._try(start, MOST_STEPS)
             if len(self.found) > known:
                 self.beside = {}
         work, most = 0, CLOSE_WORK if self.found else MOST_WORK
@@ -211,21 +227,31 @@ class _NewtonSearch:
         """Keep a new solution, or where the data were violated least."""
         if descent.off > CLOSED * self.reach * self.reach:
             self.closest = min(self.closest, descent, key=lambda each: each.off)
-        elif not any(_same(descent.end, other, self.reach) for other in self.found):
-            self.found.append(descent.end)
+            return
+        settled = _settled(self.group, self.workspace, descent.end)
+        if settled.off > MISSED:
+            self.closest = min(self.closest, descent, key=lambda each: each.off)
+        elif not any(_same(settled.places, other, self.reach) for other in self.found):
+            self.found.append(settled.places)
 
     def leaves(self, first: Start) -> bool:
-        """Whether the nearest solution lies elsewhere, and the data come close to being met at `near`."""
+        """Whether the nearest solution lies elsewhere, and the data come close to being met at `near`: at a
+        place about it, or but for a little at one much nearer than the solution is."""
         if not self.beside:
             return False
         found, beside = (max(math.dist(at[t], self.near[t]) for t in at) for at in (first, self.beside))
-        return found > self.reach / 2.0 and beside < self.reach / 4.0
+        if found > self.reach / 2.0:
+            return beside < self.reach / 4.0
+        self.workspace.points.update(self.beside)
+        off = math.hypot(*self.group.system(self.workspace)[0])
+        small = off < LITTLE * self.reach * found and beside < found / 4.0
+        return small and not _pair(self.group, self.workspace, self.beside, self.reach)
 
     def _starts(self, held: list[str]) -> Iterator[Start]:
         group, near = self.group, self.near
         for end in list(self.found):
             with suppress(SceneError):
-                yield _twin(group, self.workspace, end)
+                yield from _pair(group, self.workspace, end, self.reach)
         if self.found:
             yield from _about(near, self.found[0])
         if held:
@@ -247,36 +273,36 @@ def _about(near: Mapping[str, Spot], end: Start) -> Iterator[Start]:
         yield {t: even(k, j, near.get(t, end[t]), radius) for j, t in enumerate(end)}
 
 
-def _twin(group: PointGroup, workspace: Workspace, end: Start) -> Start:
-    """Where the solution beside one that is nearly double is to be expected.
+def _pair(group: PointGroup, workspace: Workspace, end: Start, reach: float) -> list[Start]:
+    """Where two solutions that lie close together are to be expected, from a place near them or from one of
+    the two; none beyond a fold.
 
-    In the direction v in which the equations F change least (their derivatives J have the smallest singular
-    value there, with u: by inverse iteration) they change by s u.Jv + s^2 u.Q, and by nothing at s = 0 and
-    at the other root: the data are squares of distances, so that Q hardly depends on s.
+    The equations F change least along v, the singular vector of their smallest singular value, and by that
+    along u. There u F is a parabola nearly, for the data are squares of distances: it is laid through three
+    of its values.
     """
+    import numpy as np
+
     workspace.points.update(end)
     values, rows = group.system(workspace)
-    across: list[Row] = [{} for _ in rows]
-    for i, row in enumerate(rows):
-        for j, a in row.items():
-            across[j][i] = a
-    v = [1.0] * len(rows)
-    for _ in range(INVERSE_STEPS):
-        u = _unit(newton_step(v, across).move)
-        v = _unit(newton_step(u, rows).move)
-    slope = sum(w * sum(a * v[j] for j, a in row.items()) for w, row in zip(u, rows, strict=True))
-    workspace.points.update(_moved(end, v, -1.0))
-    after = group.system(workspace)[0]
-    bend = sum(w * (b - a) for w, a, b in zip(u, values, after, strict=True)) - slope
-    return _moved(end, v, slope / bend if bend else 0.0)
+    slopes = np.array([[row.get(k, 0.0) for k in range(len(rows))] for row in rows])
+    left, _, right = np.linalg.svd(slopes)
+    u, v = left[:, -1].tolist(), right[-1].tolist()
+    step = max(BESIDE * reach, math.sqrt(math.hypot(*values)))
+    along = []
+    for way in (-step, 0.0, step):
+        workspace.points.update(_moved(end, v, -way))
+        along.append(sum(w * f for w, f in zip(u, group.system(workspace)[0], strict=True)))
+    before, here, after = along
+    slope, bend = (after - before) / 2.0, (after + before) / 2.0 - here
+    inside = slope * slope - 4.0 * bend * here
+    if not (inside >= 0.0 and bend):
+        return []
+    return [_moved(end, v, step * (slope + way * math.sqrt(inside)) / (2.0 * bend)) for way in (1.0, -1.0)]
 
 
-def _unit(v: Sequence[float]) -> list[float]:
-    size = math.hypot(*v)
-    return [x / size for x in v] if size else list(v)
-
-
-INVERSE_STEPS = 4
+BESIDE = 1e-3
+"""How far aside, over a group's size, values are taken from which two solutions close together are told."""
 
 
 def even(k: int, j: int, about: Spot, reach: float) -> Spot:
@@ -353,7 +379,7 @@ def _damped(rows: list[Row], values: list[float], damping: float) -> list[float]
 
 
 def _same(one: Start, two: Start, reach: float) -> bool:
-    return all(math.dist(one[t], two[t]) <= 1e-6 * (reach + math.hypot(*one[t])) for t in one)
+    return all(math.dist(one[t], two[t]) <= ONE * (reach + math.hypot(*one[t])) for t in one)
 
 
 def _descend(group: PointGroup, workspace: Workspace, start: Start, reach: float, most: int) -> Descent:
@@ -417,23 +443,36 @@ def _moved(at: Start, move: Sequence[float], fraction: float) -> Start:
     }
 
 
+class Settled(NamedTuple):
+    """Where Newton's method settles: the places with the least residual, this, and the flatness there."""
+
+    places: Start
+    off: float
+    flatness: float
+
+
+def _settled(group: PointGroup, workspace: Workspace, end: Start) -> Settled:
+    """Newton's method in full precision, while it closes in: where two solutions lie close together its steps
+    at least halve, and where there is none beyond a fold they grow again."""
+    workspace.points.update(end)
+    found, last = Settled(end, math.inf, 0.0), math.inf
+    for _ in range(MOST_NEAR_STEPS):
+        values, rows = group.system(workspace)
+        step, off, places = newton_step(values, rows), math.hypot(*values), _places(group, workspace)
+        if off <= found.off:
+            found = Settled(places, off, step.flatness)
+        longest = max(map(abs, step.move))
+        if not 0.0 < longest < HALVED * last:
+            break
+        last = longest
+        workspace.points.update(_moved(places, step.move, min(1.0, ARRIVED / longest)))
+    return found
+
+
 def _polished(group: PointGroup, workspace: Workspace, end: Start) -> PointGroup | None:
     """The group settled on a solution in full precision; None where it does not stand alone."""
-    workspace.points.update(end)
-    best = math.inf
-    option = group
-    for _ in range(12):
-        move, flatness = newton_step(*group.system(workspace))
-        if flatness < FLAT:
-            return None
-        places = _places(group, workspace)
-        option = group._replace(start=tuple(places.values()))
-        longest = max(map(abs, move))
-        if longest >= best / 2.0 and best < 1e-7:
-            break
-        best = longest
-        workspace.points.update(_moved(places, move, 1.0))
-    return option
+    settled = _settled(group, workspace, end)
+    return None if settled.flatness < FLAT else group._replace(start=tuple(settled.places.values()))
 
 
 def _constructed(

@@ -258,9 +258,9 @@ class PointGroup(NamedTuple):
             self.put(workspace, [a - b for a, b in zip(x, move, strict=True)])
 
     def _enclose(self, workspace: Workspace) -> None:
-        """Balls that hold the one solution near the start."""
-        from icsolve.numbers.balls import Balls
-        from icsolve.numbers.krawczyk import enclosed_root
+        """Balls that hold the one solution near the start. Raises BelowZero where all digits show none."""
+        from icsolve.numbers.balls import Balls, BelowZero, MoreDigits
+        from icsolve.numbers.krawczyk import enclosed_root, turns_away
 
         assert isinstance(workspace.arithmetic, Balls)
 
@@ -269,7 +269,13 @@ class PointGroup(NamedTuple):
             return self.system(workspace)
 
         start = [float(part) for at in self.start for part in at]
-        self.put(workspace, enclosed_root(system, start, workspace.arithmetic))
+        try:
+            found = enclosed_root(system, start, workspace.arithmetic)
+        except MoreDigits:
+            if workspace.arithmetic.highest and turns_away(system, start, workspace.arithmetic):
+                raise BelowZero from None
+            raise
+        self.put(workspace, found)
 
     def put(self, workspace: Workspace, x: Sequence[Scalar]) -> None:
         """Put the points at coordinates, (n,), those of a point together."""

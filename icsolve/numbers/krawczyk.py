@@ -26,6 +26,8 @@ System = Callable[[Sequence[Scalar]], tuple[Sequence[Scalar], Sequence[Mapping[i
 MOST_STEPS = 60
 WIDENINGS = 4
 ROUNDING = 2.0**-51
+SHORTEST = 1e-30
+"""Steps shorter than this may grow by what all digits leave open."""
 FEW = 8
 """Equations whose inverse is soon had in decimals."""
 WIDEST = 1e-6
@@ -83,6 +85,28 @@ def _closed_in(system: System, middle: list[Decimal], balls: Balls) -> list[Ball
             break
         middle = [balls.subtract(x, d) for x, d in zip(middle, step, strict=True)]
     return None
+
+
+def turns_away(system: System, start: Sequence[float | Decimal], balls: Balls) -> bool:
+    """Whether Newton's method, with all digits, closes in on no root near a start: as beyond a fold, where a
+    root of a negative number would have to be taken, its steps halve, and then grow beyond all of them.
+
+    It is no proof; where two roots are one the steps halve for ever, and nothing is said.
+    """
+    middle, last = [Decimal(x) for x in start], math.inf
+    for _ in range(4 * MOST_STEPS):
+        values, rows = system([balls.exactly(x) for x in middle])
+        near = _in_decimals(rows, balls)
+        if near is None:
+            return False
+        step = [_product(row, values, balls)[0] for row in near]
+        longest = max(abs(float(x)) for x in step)
+        if longest < balls.unit:
+            return False
+        if not longest < last and longest > SHORTEST:
+            return True
+        middle, last = [balls.subtract(x, d) for x, d in zip(middle, step, strict=True)], longest
+    return False
 
 
 def _enclosed(

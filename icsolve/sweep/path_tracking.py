@@ -121,6 +121,10 @@ class PathTracker:
         low, high = self.ends
         return (np.abs(s - low) <= self._slack) | (np.abs(s - high) <= self._slack)
 
+    def unbroken(self, low: float, high: float) -> bool:
+        """Whether the groups were followed from one place to another without a break."""
+        return any(segment.s[0] <= low and high <= segment.s[-1] for segment in self.segments)
+
     def passages(self) -> list[float]:
         """The singular positions that groups go through."""
         return [self._passage(one, two) for one, two in self.breaks]
@@ -263,18 +267,35 @@ class PathTracker:
         sense = 1.0 if end >= first[0] else -1.0
         h = widest * FIRST
         while sense * (end - steps[-1][0]) > 0.0 and h > widest * SHORTEST:
-            s, q, turns = steps[-1]
+            s = steps[-1][0]
             there = s + sense * min(h, sense * (end - s))
             at = np.array([there])
-            guess, ahead = segment_of(steps[-4:]).at(at)
-            found, counted, good = self._solved(self._plain(at), guess, ahead, QUICK)
-            if good[0] and goes_on(q, guess[0], found[0], len(steps) > 1) and counts(turns, counted[0]):
+            found, counted, right = self._step(steps[-4:], there)
+            if not right and len(steps) > 1 and (tangent := self._tangent(steps[-1], sense)) is not None:
+                found, counted, right = self._step([tangent, steps[-1]], there)
+            if right:
                 self._orient(s, there, at, found, counted)
                 steps.append((there, found[0], counted[0]))
                 h = min(1.5 * h, widest)
             else:
                 h /= 2.0
         return steps
+
+    def _step(self, steps: Sequence[Step], there: float) -> tuple[Array, Array, bool]:
+        """The state, (1, unknowns), and the counted turns at a place to which steps point, the last of them
+        the one before it; and whether it went on there."""
+        at, (_, q, turns) = np.array([there]), steps[-1]
+        guess, ahead = segment_of(steps).at(at)
+        found, counted, good = self._solved(self._plain(at), guess, ahead, QUICK)
+        on = good[0] and goes_on(q, guess[0], found[0], len(steps) > 1) and counts(turns, counted[0])
+        return found, counted, bool(on)
+
+    def _tangent(self, step: Step, sense: float) -> Step | None:
+        """A step so short that it and the given one tell the tangent, ahead of it: before a limit the last
+        steps, which were long, point beside it however short the next one is."""
+        there = step[0] + sense * self.line.widest * SHORTEST / 4.0
+        found, counted, right = self._step([step], there)
+        return (there, found[0], counted[0]) if right else None
 
     def _orient(self, s: float, there: float, at: Array, q: Array, turns: Array) -> None:
         """Note a singular position between two steps: the groups' determinants change sign there."""

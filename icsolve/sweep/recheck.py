@@ -170,6 +170,8 @@ class Recheck:
         at, step = as_written(s), Decimal(AROUND * tracker.line.widest)
         weights, total = (1, -6, 15, 15, -6, 1), Decimal(20)
         places = [at + k * step for k in (-3, -2, -1, 1, 2, 3)]
+        if not tracker.unbroken(float(places[0]), float(places[-1])):
+            return {}  # a limit lies between: beyond it they are states of another way
         try:
             states = [self.scenes.exact.states(self._along(place, row), columns) for place in places]
         except Unreached:
