@@ -316,6 +316,7 @@ def test_the_whole_benchmark_in_small(tmp_path: Path, monkeypatch: pytest.Monkey
     monkeypatch.setattr("icsolve.bench.speed.MILLION", 10_000)
     monkeypatch.setattr("icsolve.bench.promises.STARTS", STARTS[::3])
     monkeypatch.setattr("icsolve.bench.speed.PEERS", PEERS[:1])  # each is used in a test of its own
+    monkeypatch.setattr("icsolve.bench.speed.SAMPLE", 4)  # positions of sixty digits
     ran = CliRunner().invoke(command, ["bench", "-o", str(tmp_path / "plot.svg")], standalone_mode=False)
     assert ran.return_value == int("| NO |" in ran.stdout)
     for heading in ("One scene", "A full turn", "Grading", "Rows", "Time", "Laws", "Figures"):

@@ -53,6 +53,7 @@ LOBED = CAM % f"{{about: A, zero: [A, C], radii: {{{LOBES}}}}}"
 SEED = 3
 """A double butterfly that moves by its first link over some degrees to both sides."""
 NEWTON = "a group by Newton's method (double butterfly)"
+IN_C = "the same group in C -O3, by Newton's method for each row"
 THREE = 2
 """A seed of three double butterflies in series that move so by a degree."""
 
@@ -118,9 +119,6 @@ def _rows(effort: Effort, kept: Kept, rows: int) -> str:
     kept.gates.append(ratio("36 rows of a chain / 360 of them", took[0] / took[1], 1))
     shown = [[name, str(counts[name]), f"{micros[name]:.3g}"] for name in calls]
     return table(("rows of a sweep, warm", "rows", "us a row"), shown)
-
-
-IN_C = "the same group in C -O3, by Newton's method for each row"
 
 
 def newton_in_c(library: CDLL, case: Case, degrees: Array, out: Array) -> Callable[[], object]:
