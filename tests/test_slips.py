@@ -447,6 +447,8 @@ REFUSED = {
     "a variable that is not there": ("BC: 3.5", "BC: $L", 5, 22, "a number under 'variables'"),
     "a unit in brackets": ("DE: 1.5", "DE: 1.5 [in]", 5, 44, "behind its number without brackets"),
     "a unit with the name": ("AB: 1", "AB (in): 1", 5, 11, "write the name alone, AB"),
+    "no colon in the first line": ("icsolve: 1", "icsolve 1", 1, 8, "after the key, icsolve: 1"),
+    "like alone": ("force: 100,", "like: T12,", 14, 7, "in place of its number, as in {force: {like: P}}"),
     "gravity downward": ("title:", "gravity: -9.81\ntitle:", 2, 10, "given by its size"),
 }
 

@@ -116,6 +116,8 @@ def _own_key(entry: Entry, forms: Forms[T]) -> str | None:
         likely = suggestion(strange[0], own) if strange else ""
         if strange and strange[0] in ("type", "kind", "value", "magnitude", "size"):
             likely = "; its number stands under the name of its kind, as in {force: 100} or {torque: 5}"
+        elif strange and strange[0] in ("like", "times"):
+            likely = "; what is like another load says so in place of its number, as in {force: {like: P}}"
         elif strange and strange[0].lower() in ("fx", "fy", "x", "y"):
             likely = "; a force by its components is {force: [30, -40]}"
         mark = entry.mark(strange[0]) if strange else entry.node.mark

@@ -108,6 +108,10 @@ def _of_colons(
             place[0],
             bare.start(2) + 1,
         ), f"write a colon and a space before this bracket, {bare[1]}: {bare[2]}"
+    above = re.match(r"(\w+) +([^:#\s].*)", lines[place[0] - 2]) if place[0] > 1 else None
+    if "mapping values" in problem and above and ":" not in above[0]:
+        written = f"{above[1]}: {above[2].strip()[:60]}"
+        return (place[0] - 1, above.end(1) + 1), f"write a colon after the key, {written}"
     if "mapping values" in problem and re.match(r"\s+[\w-]+:", line):
         return (place[0], len(line) - len(line.lstrip()) + 1), _ASKEW
     if "could not find expected ':'" in problem and at and ":" not in lines[at.line]:
