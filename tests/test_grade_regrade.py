@@ -159,6 +159,12 @@ def test_a_total_fills_one_column_scaled_to_its_points(a_class: Class) -> None:
     assert "there is no column 'Homework 8' for the total" in ran.err
 
 
+@pytest.mark.parametrize("points", ["1,000", "1,000.00", "1000"])
+def test_points_with_divided_thousands_are_thousands(points: str, a_class: Class) -> None:
+    found = written(a_class, CANVAS.replace(",20,5", f',"{points}",5'), "--total", "Homework 7 (90210)")
+    assert [row[5] for row in found[1:]] == [points, "1000", "", "0"]
+
+
 def test_a_column_is_filled_by_its_own_points(a_class: Class) -> None:
     found = written(a_class, CANVAS.replace("Homework 7", "lever").replace(",Other (1)", ",pusher (2)"))
     assert [row[5:] for row in found[1:]] == [["20", "5"], ["20", "5"], ["", "5"], ["0", "0"]]

@@ -14,6 +14,7 @@ from collections.abc import Iterable, Sequence
 from icsolve.grade.course import Person
 from icsolve.grade.results import ResultRow, csv_text, marks_of, safe, shown
 from icsolve.grade.tables.columns import FIELDS, plain_name
+from icsolve.grade.written.numerals import numeral
 from icsolve.tuples import NamedTuple
 
 Students = Iterable[tuple[str, list[ResultRow]]]
@@ -48,7 +49,9 @@ class Template:
         self.header, *self.rows = [row + [""] * (width - len(row)) for row in table]
         self.names = [plain_name(name) for name in self.header]
         cells = [cell.strip() for row in self.rows for cell in row]
-        commas, points = (sum(bool(re.fullmatch(rf"\d+{m}\d+", c)) for c in cells) for m in (",", r"\."))
+        commas, points = (  # before three digits they may divide thousands
+            sum(bool(re.fullmatch(rf"\d+{mark}(?!\d{{3}}$)\d+", c)) for c in cells) for mark in (",", r"\.")
+        )
         self.comma = commas > points
 
     def number(self, value: float | None, form: str = "") -> str:
@@ -58,11 +61,10 @@ class Template:
 
     def points(self, text: str) -> float | None:
         """A number of the file; None where there is none above zero."""
-        try:
-            value = float(text.strip().replace(",", "."))
-        except ValueError:
-            return None
-        return value if value > 0.0 else None
+        text = text.strip()
+        found = numeral(text, 0, "comma" if self.comma else "point")
+        whole = found is not None and not found.flag and found.end == len(text)
+        return found.value if found is not None and whole and found.value > 0.0 else None
 
     def new_column(self, name: str) -> int:
         """Another column at the end."""
