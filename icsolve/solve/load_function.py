@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 
@@ -33,7 +33,7 @@ from icsolve.numbers.replay import Array, Code
 from icsolve.scene import refusals
 from icsolve.screws.plane import velocity
 from icsolve.statics import load_wrenches, power
-from icsolve.structure.topology import Topology, topology
+from icsolve.structure.topology import topology
 from icsolve.sweep.branches import may_vanish
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.numbers import with_numbers
@@ -79,7 +79,6 @@ class LoadFunction(NamedTuple):
     case: Case
     path: str
     compiled: CompiledSweep
-    figure: Figure
     input: int
     power: int
     slope: int
@@ -131,7 +130,6 @@ def load_functions(
     Raises SceneError where no value gives a figure, or the mechanism has not one freedom; TogetherError,
     where it is to be ``whole``, for more modes than are looked at.
     """
-    top = topology(case)
     refusals.refuse_loose(case)
     values = [low + (high - low) * (k + 0.37) / SAMPLES for k in range(SAMPLES)]
     refusal: SceneError | None = None
@@ -153,11 +151,8 @@ def load_functions(
             samples.sort(key=lambda value: abs(value - middle))
         for value in (*samples[:3], *samples[3::16]):  # somewhere else than where a load has no direction
             written = given_at(case, path, value)
-            figure = Figure(frame_of(written), {}, steps)
-            placed, _ = placed_with_margins(figure, order, written)
-            figure = figure._replace(points={p: placed.points[p] for p in order.points})
             try:
-                found.append(_function(written, path, top, figure, order, span))
+                found.append(_function(written, path, figure_in(written, order, steps), order, span))
             except (SceneError, ZeroDivisionError) as error:
                 refusal = error if isinstance(error, SceneError) else refusal
                 continue
@@ -263,6 +258,41 @@ def placed_with_margins(
     return placed, [*(margin for step in placed.margins.values() for margin in step), *senses]
 
 
+def figure_in(case: Case, order: Order, steps: Steps) -> Figure:
+    """The figure of a case in a mode in which it assembles."""
+    figure = Figure(frame_of(case), {}, steps)
+    placed, _ = placed_with_margins(figure, order, case)
+    return figure._replace(points={p: placed.points[p] for p in order.points})
+
+
+class RecordedMode(NamedTuple):
+    """One mode of a figure on a record by its free numbers, and the nodes that must not be negative."""
+
+    compiled: CompiledSweep
+    margins: list[int]
+
+
+def read_anew(case: Case, paths: Sequence[str], figure: Figure, order: Order) -> RecordedMode:
+    """A mode of a figure that is read anew at all values of some numbers."""
+    setting = Setting(case, topology(case), figure, tuple(paths), (), Drive((), (), ()))
+    compiled = compile_sweep(setting, RowRequest(answers=False))
+    margins = placed_with_margins(figure, order, case, compiled.record)[1]
+    return RecordedMode(
+        compiled, [compiled.record.lifted(margin).index for margin in margins if varies(margin)]
+    )
+
+
+def moved(setting: Setting, signs: Signs = ()) -> RecordedMode:
+    """A mode in which the mechanism moves from the position as written, with the signs of some branches.
+
+    Raises TogetherError where points only all together have places.
+    """
+    compiled = compile_sweep(setting, RowRequest(answers=False), signs)
+    if compiled.motion is not None and compiled.motion.groups:
+        raise TogetherError(Status.UNSUPPORTED, TOGETHER)
+    return RecordedMode(compiled, [n for root in compiled.record.roots.values() for n, _ in root.margins])
+
+
 def moving_function(
     case: Case, path: str = "", link: str = "", span: tuple[float, float] | None = None, posing: bool = False
 ) -> LoadFunction:
@@ -275,15 +305,7 @@ def moving_function(
     setting = setting_of(case, (path,) if path else (), (link,) if link else (), posing=posing)
     if path and not setting.moves:
         raise SceneError(Status.UNSUPPORTED, f"{path} does not pose the figure: it moves nothing.")
-    compiled = compile_sweep(setting, RowRequest(answers=False))
-    if compiled.motion is not None and compiled.motion.groups:
-        raise TogetherError(Status.UNSUPPORTED, TOGETHER)
-    return _moving_on(compiled, path or link, span)
-
-
-def _moving_on(compiled: CompiledSweep, path: str, span: tuple[float, float] | None) -> LoadFunction:
-    margins = [node for root in compiled.record.roots.values() for node, _ in root.margins]
-    return _on_sheet(compiled, path, compiled.setting.figure, margins, span)
+    return _on_record(moved(setting), path or link, span)
 
 
 def with_other_ways(function: LoadFunction, span: tuple[float, float]) -> list[LoadFunction]:
@@ -303,8 +325,8 @@ def with_other_ways(function: LoadFunction, span: tuple[float, float]) -> list[L
             met = may_vanish(radicand) and beyond not in (known for _, known in found)
             if met and len(found) < MOST_MODES:
                 with suppress(SceneError):  # a load may have no direction in it
-                    again = compile_sweep(one.compiled.setting, RowRequest(answers=False), beyond)
-                    found.append((_moving_on(again, function.path, span), beyond))
+                    again = moved(one.compiled.setting, beyond)
+                    found.append((_on_record(again, function.path, span), beyond))
     return [one for one, _ in found]
 
 
@@ -312,24 +334,18 @@ def written_function(case: Case, path: str, span: tuple[float, float] | None) ->
     """The function of a case as it is written, each value read anew, in the mode in which it is."""
     figure = solve_figure(case, wanted_points(case)[1])
     order = order_of(case, figure.points)._replace(steps=figure.steps)
-    return _function(case, path, topology(case), figure, order, span)
+    return _function(case, path, figure, order, span)
 
 
 def _function(
-    case: Case, path: str, top: Topology, figure: Figure, order: Order, span: tuple[float, float] | None
+    case: Case, path: str, figure: Figure, order: Order, span: tuple[float, float] | None
 ) -> LoadFunction:
-    compiled = compile_sweep(
-        Setting(case, top, figure, (path,), (), Drive((), (), ())), RowRequest(answers=False)
-    )
-    margins = placed_with_margins(figure, order, case, compiled.record)[1]
-    nodes = [compiled.record.lifted(margin).index for margin in margins if varies(margin)]
-    return _on_sheet(compiled, path, figure, nodes, span)
+    return _on_record(read_anew(case, (path,), figure, order), path, span)
 
 
-def _on_sheet(
-    compiled: CompiledSweep, path: str, figure: Figure, margins: list[int], span: tuple[float, float] | None
-) -> LoadFunction:
+def _on_record(mode: RecordedMode, path: str, span: tuple[float, float] | None) -> LoadFunction:
     """The power of the loads on a record that has the figure, by its one input."""
+    compiled, margins = mode
     record, scene, given = compiled.record, compiled.scene, compiled.inputs[path]
     record.follows = True  # also where each position is read anew: turns count from one of them
     motions = motions_of(scene)
@@ -344,25 +360,29 @@ def _on_sheet(
     total = power.known_power(balance, 0, record)
     rate, poses = _rate(scene, motions.twists, given)
     slope = gradient(record, total, (given,))[given]
-    named = {p: scene.points[p] for p in figure.points if not p.startswith("@")}
-    places = {p: (record.lifted(x).index, record.lifted(y).index) for p, (x, y) in named.items()}
     return LoadFunction(
         compiled.setting.case,
         path,
         compiled,
-        figure,
         given,
         record.lifted(total).index,
         record.lifted(slope).index,
         record.lifted(rate).index,
         tuple(margins),
-        places,
+        places_on(compiled),
         _turning(motions.twists),
         power.force_scale(balance),
         poses,
         {name: record.lifted(angle).index for name, angle in spring_angles(scene).items()},
         _turns(record, given, set(compiled.inputs.values()) - {given}, span),
     )
+
+
+def places_on(compiled: CompiledSweep) -> dict[str, tuple[int, int]]:
+    """The nodes of the points of a figure that are named."""
+    record, scene = compiled.record, compiled.scene
+    named = {p: scene.points[p] for p in compiled.setting.figure.points if not p.startswith("@")}
+    return {p: (record.lifted(x).index, record.lifted(y).index) for p, (x, y) in named.items()}
 
 
 def _turns(

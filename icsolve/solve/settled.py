@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from decimal import Decimal, localcontext
 
@@ -17,7 +17,8 @@ from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.arithmetic import DEGREE
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import terms_of
-from icsolve.numbers.replay import Code
+from icsolve.numbers.replay import Array, Code
+from icsolve.numbers.roots import last_that_holds
 from icsolve.scene import solve_scene
 from icsolve.solve.followed import rate_of
 from icsolve.solve.load_function import LoadFunction, given_at
@@ -31,6 +32,7 @@ from icsolve.sweep.exact import (
     counted_about,
     decimal_ratio,
 )
+from icsolve.sweep.program import CompiledSweep
 from icsolve.tuples import replace
 
 STEPS = 64
@@ -189,22 +191,41 @@ def _met(value: float) -> tuple[float, float]:
 def scene_at(function: LoadFunction, value: float) -> Case:
     """The case with the free datum at a value, in the mode of the function; of a mechanism that moves, the
     row of its sweep."""
-    if function.compiled.setting.moves:
-        given = {k: Decimal(float(v)) for k, v in function.given(np.array(value)).items()}
-        own = {} if function.path in function.case.links else {function.path: given[function.input]}
-        row = RowScenes(function.compiled).case(given, own)
-        return replace(row, near={}, motion=(), expect=())
-    ox, oy, scale = function.compiled.scene.frame
-    nodes = [k for pair in function.places.values() for k in pair]
-    found = Code(function.record, [*nodes, *function.springs.values()]).run(
-        function.given(np.array(value)), 1
-    )
+    given = function.given(np.array(value))
+    return scene_in(function.compiled, given, {function.path: value}, function.places, function.springs)
+
+
+def scene_in(
+    compiled: CompiledSweep,
+    given: Mapping[int, Array],
+    values: Mapping[str, float],
+    places: Mapping[str, tuple[int, int]],
+    springs: Mapping[str, int],
+) -> Case:
+    """The case of a recorded mode where free numbers have values.
+
+    Parameters
+    ----------
+    given : all inputs of the record by node, single numbers
+    values : the free data by path, or the turning of a link [case units, degrees]
+    places, springs : nodes of the points that are named, and of the angles that torsion springs follow
+    """
+    case = compiled.setting.case
+    if compiled.setting.moves:
+        exact = {k: Decimal(float(v)) for k, v in given.items()}
+        own = {path: exact[compiled.inputs[path]] for path in values if path not in case.links}
+        return replace(RowScenes(compiled).case(exact, own), near={}, motion=(), expect=())
+    ox, oy, scale = compiled.scene.frame
+    nodes = [k for pair in places.values() for k in pair]
+    found = Code(compiled.record, [*nodes, *springs.values()]).run(given, 1)
     flat = [float(np.ravel(v)[0]) for v in found]
-    pairs = zip(function.places, zip(flat[::2], flat[1::2], strict=False), strict=False)
+    pairs = zip(places, zip(flat[::2], flat[1::2], strict=False), strict=False)
     near = {name: (x / scale + ox, y / scale + oy) for name, (x, y) in pairs if math.isfinite(x + y)}
-    free = {name: at for name, at in near.items() if name not in placed_by_coordinates(function.case)}
-    counted = counted_about(function.case, dict(zip(function.springs, flat[len(nodes) :], strict=True)))
-    return replace(given_at(counted, function.path, value), near=free, motion=(), expect=())
+    free = {name: at for name, at in near.items() if name not in placed_by_coordinates(case)}
+    case = counted_about(case, dict(zip(springs, flat[len(nodes) :], strict=True)))
+    for path, value in values.items():
+        case = given_at(case, path, value)
+    return replace(case, near=free, motion=(), expect=())
 
 
 def placed_by_coordinates(case: Case) -> set[str]:
@@ -433,15 +454,11 @@ def _turning_point(function: LoadFunction, low: float, high: float) -> tuple[flo
         (slope,) = enclose(function.record, [function.slope], function.enclosed(Interval(here, here)))
         return int(float(slope.low.flat[0]) > 0.0) - int(float(slope.high.flat[0]) < 0.0)
 
-    def edge(outside: float, inside: float, word: int) -> float:
-        while (middle := 0.5 * (outside + inside)) not in (outside, inside):
-            outside, inside = (middle, inside) if sign(middle) == word else (outside, middle)
-        return inside
-
     first, last = sign(low), sign(high)
     if not first or not last or first == last:
         return None
-    start, stop = edge(low, high, first), edge(high, low, last)
+    _, start = last_that_holds(lambda value: sign(value) == first, low, high)
+    _, stop = last_that_holds(lambda value: sign(value) == last, high, low)
     middle = 0.5 * (start + stop)
     return middle, 0.5 * abs(stop - start) + math.ulp(middle)
 

@@ -9,45 +9,39 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from decimal import Decimal
 from typing import Any
 
 import numpy as np
 
 from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
-from icsolve.assembly import Figure
 from icsolve.assembly.modes import ways_of
-from icsolve.assembly.order import Order
-from icsolve.assembly.workspace import frame_of
 from icsolve.case import Case, Load, TorsionSpring
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import gradient
-from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.intervals import Interval, enclose
-from icsolve.numbers.record import varies
 from icsolve.numbers.replay import Array, Code
 from icsolve.scene import solve_scene
 from icsolve.screws.plane import velocity
 from icsolve.solve.branches import nearest
 from icsolve.solve.load_function import (
     PARTS,
-    TOGETHER,
+    RecordedMode,
     bearers,
     clearance,
+    figure_in,
     given_at,
     modes_of,
+    moved,
     order_of_all,
-    placed_with_margins,
+    places_on,
+    read_anew,
     refuse_together,
 )
 from icsolve.solve.positions import refuse_ropes, refuse_unwritten, whole_range
 from icsolve.solve.rest import held, with_scene
-from icsolve.solve.settled import DEGREES, within_a_turn
+from icsolve.solve.settled import DEGREES, scene_in, within_a_turn
 from icsolve.statics import load_wrenches, power
-from icsolve.structure.topology import topology
-from icsolve.sweep.drivers import Drive
-from icsolve.sweep.exact import RowScenes
-from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of
+from icsolve.sweep.program import CompiledSweep, setting_of
 from icsolve.sweep.recorded_scene import motions_of
 from icsolve.tuples import NamedTuple, replace
 
@@ -141,7 +135,7 @@ def _surfaces(
     if starts:
         written = _at(case, paths, starts)
         ways = [replace(written, near=way.near) for way in ways_of(written).ways]
-        return [_moving(way, paths) for way in ways]
+        return [_surface(moved(setting_of(way, paths, (), posing=True)), paths) for way in ways]
     refuse_ropes(case, " and ".join(paths))
     order = order_of_all(_at(case, paths, [a + part * (b - a) for a, b in limits]) for part in (0.37, *PARTS))
     refuse_together(order)
@@ -155,11 +149,9 @@ def _surfaces(
             written = _at(case, paths, values)
             if not clearance(written, order, steps) > 0.0:
                 continue
-            figure = Figure(frame_of(written), {}, steps)
-            placed, _ = placed_with_margins(figure, order, written)
-            figure = figure._replace(points={p: placed.points[p] for p in order.points})
+            figure = figure_in(written, order, steps)
             try:
-                surfaces.append(_anew(written, paths, figure, order))
+                surfaces.append(_surface(read_anew(written, paths, figure, order), paths))
             except (SceneError, ZeroDivisionError, ValueError) as error:
                 refusal = error if isinstance(error, SceneError) else refusal
                 if refusal is not None and refusal.status == Status.MOBILITY:
@@ -178,26 +170,9 @@ def _at(case: Case, paths: Sequence[str], values: Sequence[float]) -> Case:
     return case
 
 
-def _anew(case: Case, paths: Sequence[str], figure: Figure, order: Order) -> Surface:
-    setting = Setting(case, topology(case), figure, tuple(paths), (), Drive((), (), ()))
-    compiled = compile_sweep(setting, RowRequest(answers=False))
-    margins = [m for m in placed_with_margins(figure, order, case, compiled.record)[1] if varies(m)]
-    return _surface(compiled, paths, margins)
-
-
-def _moving(case: Case, paths: Sequence[str]) -> Surface:
-    compiled = compile_sweep(setting_of(case, paths, (), posing=True), RowRequest(answers=False))
-    if compiled.motion is not None and compiled.motion.groups:
-        raise SceneError(Status.UNSUPPORTED, TOGETHER)
-    record = compiled.record
-    return _surface(
-        compiled, paths, [record.nodes[n] for root in record.roots.values() for n, _ in root.margins]
-    )
-
-
-def _surface(compiled: CompiledSweep, paths: Sequence[str], margins: Sequence[Scalar]) -> Surface:
+def _surface(mode: RecordedMode, paths: Sequence[str]) -> Surface:
+    compiled = mode.compiled
     case, record, scene = compiled.scene.case, compiled.record, compiled.scene
-    figure = compiled.setting.figure
     motions = motions_of(scene)
     if motions.mobility != 2:
         raise SceneError(
@@ -215,12 +190,11 @@ def _surface(compiled: CompiledSweep, paths: Sequence[str], margins: Sequence[Sc
             for axis in (0, 1):
                 velocities += list(gradient(record, scene.points[name][axis], inputs).values())
                 velocities += [velocity(motions.twists[link][m], scene.points[name])[axis] for m in (0, 1)]
-    named = {p: scene.points[p] for p in figure.points if not p.startswith("@")}
-    nodes = [[record.lifted(v).index for v in some] for some in (totals, slopes, velocities, margins)]
-    places = {p: (record.lifted(x).index, record.lifted(y).index) for p, (x, y) in named.items()}
+    powers, by_data, rates = ([record.lifted(v).index for v in some] for some in (totals, slopes, velocities))
     links = [link for link, ts in motions.twists.items() if any(float(t[2]) for t in ts)]
     scale = power.force_scale(balance)
-    return Surface(compiled, inputs, nodes[0], nodes[1], nodes[2], nodes[3], places, scale, links)
+    places = places_on(compiled)
+    return Surface(compiled, inputs, powers, by_data, rates, mode.margins, places, scale, links)
 
 
 def _distance(surface: Surface, case: Case, limits: Sequence[Span]) -> float:
@@ -366,19 +340,8 @@ def _derivatives(surface: Surface, values: Sequence[float], off: Sequence[float]
 
 
 def _scene(surface: Surface, paths: Sequence[str], values: Sequence[float]) -> Case:
-    compiled = surface.compiled
-    case = compiled.setting.case
-    if compiled.setting.moves:
-        given = {k: Decimal(v) for k, v in zip(surface.inputs, values, strict=True)}
-        own = dict(zip(paths, given.values(), strict=True))
-        return replace(RowScenes(compiled).case(given, own), near={}, motion=(), expect=())
-    ox, oy, scale = compiled.scene.frame
-    at = {k: np.array(v) for k, v in zip(surface.inputs, values, strict=True)}
-    nodes = [k for pair in surface.places.values() for k in pair]
-    flat = [float(np.ravel(v)[0]) for v in Code(compiled.record, nodes).run(at, 1)]
-    places = zip(surface.places, zip(flat[::2], flat[1::2], strict=True), strict=True)
-    near = {name: (x / scale + ox, y / scale + oy) for name, (x, y) in places if name not in case.points}
-    return replace(_at(case, paths, values), near=near, motion=(), expect=())
+    given = {k: np.array(v) for k, v in zip(surface.inputs, values, strict=True)}
+    return scene_in(surface.compiled, given, dict(zip(paths, values, strict=True)), surface.places, {})
 
 
 def _to_the_last_digits(
