@@ -238,3 +238,23 @@ def test_a_load_by_its_components_is_compared_by_its_size(of: str) -> None:
     like = "  U: {torque: {like: T, times: -0.5}, link: 2" + (", along: z}\n" if of == "space" else "}\n")
     text = f"icsolve: 1\npoints: {PUSHED[of]}{like}expect: {{P: 50, T: -240, U: 120}}\n"
     assert [row.verdict for row in compare(solve(load(text)))] == ["agrees"] * 3
+
+
+@pytest.mark.parametrize(
+    ("given", "published", "wrong"),
+    [
+        ("force: 50, angle: 90, at: B", "50 up", "50 down"),
+        ("force: -50, angle: 90, at: B", "50 down", "50 up"),
+        ("force: 50, toward: A, at: B", "50 toward A", "50 right"),
+        ("force: [30, 40], at: B", "50 at 53.13 deg", "50 left"),
+        ("weight: 50, at: B", "50 down", "50 up"),
+        ("torque: 50, turns: cw", "50 cw", "50 ccw"),
+    ],
+)
+def test_the_sense_of_a_load_that_is_given_is_compared_too(given: str, published: str, wrong: str) -> None:
+    text = (
+        f"{PUSHED['plane'].partition('  P')[0]}  P: {{{given}, link: 2}}\n  T: {{torque: unknown, link: 2}}\n"
+    )
+    for value, verdict in ((published, "agrees"), (wrong, "disagrees")):
+        (only,) = compare(solve(load(f"icsolve: 1\npoints: {text}expect: {{P: {value}}}\n")))
+        assert only.verdict == verdict, only

@@ -86,8 +86,10 @@ def solve_cases(
 ) -> int:
     """Solve and print every case; returns the exit status."""
     if options.as_json:
-        refuse = in_json("icsolve/solve/1")
-        return for_each(cases, _as_json(options), refuse, settings, show=_print_entry, jobs=jobs)
+        from icsolve.answer.as_json import SCHEMA
+
+        work, refuse = _as_json(options), in_json(SCHEMA)
+        return for_each(cases, work, refuse, settings, show=_print_entry, jobs=jobs)
     return for_each(cases, _as_text(options), settings=settings, show=_printer(_several(cases)), jobs=jobs)
 
 

@@ -16,7 +16,7 @@ import click
 
 from icsolve.cli.commands import CASE, DIGITS, SET, Verb
 from icsolve.cli.output import OUTPUT, Progress, one_source, write_output
-from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, for_each, in_json, on_stderr
+from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, Refuse, complain, for_each, in_json, on_stderr
 from icsolve.errors import SceneError, Status
 from icsolve.tuples import NamedTuple, replace
 
@@ -171,7 +171,11 @@ def sweep_command(case: str, settings: dict[str, str], **options: Any) -> int:
     if not one_source("sweep", case):
         return UNREADABLE
     work = _find if asked.find is not None else _table
-    refuse = in_json("icsolve/find/1") if asked.as_json else on_stderr
+    refuse: Refuse = on_stderr
+    if asked.as_json:
+        from icsolve.cli.finding import SCHEMA
+
+        refuse = in_json(SCHEMA)
     return for_each([case], lambda read, path: _readable(work, read, path, asked), refuse, settings=settings)
 
 

@@ -163,20 +163,26 @@ def section_of(reading: Reading, root: Mapping, key: str, form: str = "") -> Map
 
 
 def _joints(reading: Reading, root: Mapping) -> tuple[tuple[Joint, ...], tuple[Rope, ...]]:
+    node = joint_list(reading, root, "{pin: [1, 2], at: A}")
+    ropes: tuple[Rope, ...] = ()
+    if any(type(item) is Mapping and "rope" in item.items for item in node.items):
+        from icsolve.read.ropes import read_ropes
+
+        ropes, node = read_ropes(reading, node)
+    return read_joints(reading, node), ropes
+
+
+def joint_list(reading: Reading, root: Mapping, example: str) -> Sequence:
+    """The joints as they are listed; none, with the reason noted, where they are not."""
     node = root.items.get("joints")
     if type(node) is Sequence and node.items:
-        ropes: tuple[Rope, ...] = ()
-        if any(type(item) is Mapping and "rope" in item.items for item in node.items):
-            from icsolve.read.ropes import read_ropes
-
-            ropes, node = read_ropes(reading, node)
-        return read_joints(reading, node), ropes
+        return node
+    mark = root.keys.get("joints", root.mark)
     if node is None or is_null(node) or type(node) is Sequence:
-        mark = root.keys.get("joints", root.mark)
-        reading.refuse(mark, "the case has no joints; list them, as in joints: [{pin: [1, 2], at: A}]")
+        reading.refuse(mark, f"the case has no joints; list them, as in joints: [{example}]")
     else:
-        reading.refuse(node.mark, "'joints' should be a list, each item as in - {pin: [1, 2], at: B}")
-    return (), ()
+        reading.refuse(node.mark, f"'joints' should be a list, each item as in - {example}")
+    return Sequence([], mark)
 
 
 def ground_of(reading: Reading, root: Mapping) -> str:

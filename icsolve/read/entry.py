@@ -15,7 +15,7 @@ from icsolve.numbers.units import BOUNDS, exactly, nearest, quotient, split_quan
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.keys import LIKE, Key, Rule
 from icsolve.read.names import shown, suggestion
-from icsolve.read.reading import Reading, number
+from icsolve.read.reading import Reading, number, numbers
 
 Values = dict[str, Any]
 """What an entry holds under each key of its table; None of what is left out."""
@@ -175,12 +175,7 @@ class Entry:
             self.refuse_value(node, key, wanted)
             return None
         path, dimension = path or f"{self.path}.{key}", dimension or self.keys[key].dimension
-        found = [
-            number(self.reading, item, dimension, f"{path}.{name}")
-            for item, name in zip(node.items, names, strict=True)
-        ]
-        good = tuple(one for one in found if one is not None)
-        return good if len(good) == len(names) else None
+        return numbers(self.reading, node.items, dimension, path, names)
 
     def pair(self, key: str, node: Node) -> tuple[Number, ...] | None:
         """A list of two numbers, at paths ``key.0`` and ``key.1``, within the key's bound."""

@@ -29,7 +29,7 @@ from icsolve.read.entry import Entry
 from icsolve.read.keys import EXPECTED, EXPECTED_TIES
 from icsolve.read.loads import dimension_of as load_dimension
 from icsolve.read.names import LONGEST_KEY, is_name, pairs, parts, shown, suggestion
-from icsolve.read.reading import Reading, number, quantity
+from icsolve.read.reading import Reading, number, numbers, quantity
 from icsolve.tuples import NamedTuple
 
 SHARES = (
@@ -105,30 +105,23 @@ def _readings(reading: Reading, key: str, points: set[str]) -> Iterator[Target]:
 
 
 def _in_words(reading: Reading, words: list[str], points: set[str]) -> Iterator[Target]:
-    """``v C on 8``, ``h F32 A``, ``rf B``, ``T A-P-B``, of a part ``T A-P-B 2``."""
-    if len(words) == 4 and words[0] == "v" and words[2] == "on":
-        if words[1] in points and reading.knows_link(words[3]):
-            yield SpeedIs(words[1], words[3])
-    elif len(words) == 3 and words[0] == "h" and words[1].startswith("F") and words[2] in points:
-        for by, on in pairs(words[1][1:], reading.knows_link):
-            yield ArmIs(by, on, words[2])
-    elif len(words) == 2 and words[0] == "rf" and words[1] in points:
-        yield FrictionRadiusIs(words[1])
-    elif words[0] == "T" and words[1] in reading.ropes and len(words) < 4:
-        part = words[2] if len(words) == 3 else "1"
-        if part.isdigit() and 0 < int(part) < len(words[1].split("-")):
-            yield TensionIs(words[1], int(part))
-    elif words[-1].startswith("F"):
-        yield from _shares(reading, words, points)
-
-
-def _shares(reading: Reading, words: list[str], points: set[str]) -> Iterator[ReactionIs]:
-    """``thrust F12@A``, ``couple 3 F23``: of a pair of gears, that of gear 3."""
-    share = " ".join(words[:-1])
-    if words[0] in SHARES and (len(words) == 2 or (len(words) == 3 and reading.knows_link(words[1]))):
-        for whole in _reactions(reading, words[-1], points):
-            if whole.part == "":
-                yield whole._replace(part=share)
+    """``v C on 8``, ``h F32 A``, ``rf B``, ``T A-P-B``, of a part ``T A-P-B 2``; a share, ``thrust F12@A``,
+    ``couple 3 F23``: of a pair of gears, that of gear 3."""
+    match words:
+        case ["v", point, "on", link] if point in points and reading.knows_link(link):
+            yield SpeedIs(point, link)
+        case ["h", force, point] if force.startswith("F") and point in points:
+            yield from (ArmIs(by, on, point) for by, on in pairs(force[1:], reading.knows_link))
+        case ["rf", point] if point in points:
+            yield FrictionRadiusIs(point)
+        case ["T", rope, *part] if rope in reading.ropes and len(part) < 2:
+            digits = part[0] if part else "1"
+            if digits.isdigit() and 0 < int(digits) < len(rope.split("-")):
+                yield TensionIs(rope, int(digits))
+        case [share, *gear, force] if share in SHARES and len(gear) < 2:
+            if all(map(reading.knows_link, gear)):
+                wholes = (whole for whole in _reactions(reading, force, points) if whole.part == "")
+                yield from (whole._replace(part=" ".join(words[:-1])) for whole in wholes)
 
 
 def _rates(reading: Reading, key: str) -> Iterator[Target]:
@@ -358,11 +351,8 @@ def _place(reading: Reading, node: Node, path: str) -> _Value | None:
     if type(node) is not Sequence or len(node.items) != 2:
         reading.refuse(node.mark, "a centre is published as [x, y], or as {toward: 90} at infinity")
         return None
-    values = [
-        number(reading, item, "length", f"{path}.{axis}") for item, axis in zip(node.items, "xy", strict=True)
-    ]
-    good = tuple(value for value in values if value is not None)
-    return _Value(good) if len(good) == 2 else None
+    place = numbers(reading, node.items, "length", path, "xy")
+    return _Value(place) if place is not None else None
 
 
 def _divided(text: str) -> tuple[str, str | None]:

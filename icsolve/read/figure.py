@@ -23,7 +23,7 @@ from icsolve.read.entry import Entry, truth_of
 from icsolve.read.keys import CENTROID, MASSES, MASSES_TIES, UNKNOWN
 from icsolve.read.names import Names, point_key, shown, suggestion
 from icsolve.read.owners import FigureData
-from icsolve.read.reading import COMPASS, Reading, number
+from icsolve.read.reading import COMPASS, Reading, number, numbers
 from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:
@@ -181,12 +181,10 @@ def _unknown(reading: Reading, node: Node, dimension: str, path: str) -> Unknown
                 entry.refuse(span.mark, f"an unknown has a range of two numbers, {{unknown: {form}}}")
                 return None
         else:
-            low, high = (
-                number(reading, item, dimension, f"{path}.{end}")
-                for item, end in zip(span.items, ("low", "high"), strict=True)
-            )
-            if low is None or high is None:
+            ends = numbers(reading, span.items, dimension, path, ("low", "high"))
+            if ends is None:
                 return None
+            low, high = ends
             if low.value >= high.value:
                 entry.refuse(span.mark, "a range goes from the lower to the higher number")
                 return None
@@ -250,10 +248,9 @@ def read_near(reading: Reading, section: Mapping) -> dict[str, tuple[float, floa
             form = decimals(node) or "as in [3.5, 2.4]"
             reading.refuse(node.mark, f"near {name} should be two coordinates, {form}")
             continue
-        x = number(reading, node.items[0], "length", f"near.{name}.x")
-        y = number(reading, node.items[1], "length", f"near.{name}.y")
-        if x is not None and y is not None:
-            found[name] = (x.value, y.value)
+        at = numbers(reading, node.items, "length", f"near.{name}", "xy")
+        if at is not None:
+            found[name] = (at[0].value, at[1].value)
     return found
 
 

@@ -213,6 +213,15 @@ def number(reading: Reading, node: Node, dimension: str, path: str) -> Number | 
     return quantity(reading, node, node.text.strip(), dimension, path)
 
 
+def numbers(
+    reading: Reading, nodes: Iterable[Node], dimension: str, path: str, names: Iterable[str]
+) -> tuple[Number, ...] | None:
+    """The number of each node, at ``path.x``, ``path.y``; None, with the reason noted, where one has none."""
+    found = [number(reading, n, dimension, f"{path}.{name}") for n, name in zip(nodes, names, strict=True)]
+    good = tuple(one for one in found if one is not None)
+    return good if len(good) == len(found) else None
+
+
 def quantity(reading: Reading, node: Scalar, text: str, dimension: str, path: str) -> Number | None:
     """As ``number``, of a text that may be a part of the node's."""
     try:

@@ -26,7 +26,7 @@ from icsolve.case.space import (
     Vector,
 )
 from icsolve.numbers.balls import PRECISIONS, Balls
-from icsolve.read.build import ground_of, readable, section_of, told_of_itself
+from icsolve.read.build import ground_of, joint_list, readable, section_of, told_of_itself
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry, Values
 from icsolve.read.expect import read_expect
@@ -187,7 +187,10 @@ def build_space(root: Mapping, problems: Problems, name: str, units: Units) -> C
     mention_links(reading, root.items.get("joints"))
     ground = ground_of(reading, root)
     gravity, down = _gravity(reading, root)
-    joints = _joints(reading, root)
+    listed = joint_list(reading, root, "{ball: [1, 2], at: A}")
+    joints: tuple[Joint, ...] = read_list(
+        reading, listed, SPACE_JOINTS, BUILDERS, "{hinge: [1, 2], at: A, axis: z}"
+    )
     loads = read_section(reading, section_of(reading, root, "loads", _FORMS["loads"]), SPACE)
     points = read_points(reading, section_of(reading, root, "points", _FORMS["points"]))
     if readable(root, "points"):
@@ -210,15 +213,6 @@ def _check_sections(reading: SpaceReading, root: Mapping) -> None:
             reading.refuse(mark, f"{said}: {PLANAR[key]}")
         elif key not in SECTIONS:
             reading.unknown_key(key, mark, SECTIONS, "a case")
-
-
-def _joints(reading: SpaceReading, root: Mapping) -> tuple[Joint, ...]:
-    node = root.items.get("joints")
-    if type(node) is Sequence and node.items:
-        return read_list(reading, node, SPACE_JOINTS, BUILDERS, "{hinge: [1, 2], at: A, axis: z}")
-    mark = root.keys.get("joints", root.mark)
-    reading.refuse(mark, "the case has no joints; list them, as in joints: [{ball: [1, 2], at: A}]")
-    return ()
 
 
 def _check_given(reading: SpaceReading) -> None:

@@ -83,17 +83,9 @@ def replaced(text: str, values: Named[str, str]) -> tuple[str, Fraction | None]:
 
 def decimal(value: Fraction) -> str:
     """The shortest decimal of a fraction: exact where it has one of few digits, else 17 digits."""
-    denominator = value.denominator
-    for prime in (2, 5):
-        while denominator % prime == 0:
-            denominator //= prime
-    if denominator == 1 and abs(value) < 10**15:
-        places = 0
-        while value.denominator != 1 and (value * 10**places).denominator != 1 and places < 18:
-            places += 1
-        scaled = value * 10**places
-        if scaled.denominator == 1:
-            return _placed(int(scaled), places)
+    for places in range(19) if abs(value) < 10**15 else ():
+        if 10**places % value.denominator == 0:
+            return _placed(int(value * 10**places), places)
     try:
         return repr(float(value))
     except OverflowError:

@@ -26,6 +26,7 @@ from icsolve.case.expected import (
 )
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.report.published import found_value, place_of
+from icsolve.scene.parts import scene_of, sense_with
 from icsolve.statics.load_wrenches import number_taken, vector_size
 from icsolve.tuples import NamedTuple
 from icsolve.wording.senses import bearing, holding, same_way, turned_at_most
@@ -245,9 +246,18 @@ def _load(answer: Answer, name: str, sense: str | None) -> float:
     if isinstance(load, Torque):
         return _turned(value if load.positive == "ccw" else -value, sense)
     found = answer.answers.get(name)
-    if found is None or not found.sense:
+    own = found.sense if found is not None else _given_sense(answer, name, value)
+    if not own:
         return value
-    return abs(value) if same_way(sense, found.sense, load, answer.points) else -abs(value)
+    return abs(value) if same_way(sense, own, load, answer.points) else -abs(value)
+
+
+def _given_sense(answer: Answer, name: str, value: float) -> str:
+    """The sense of a load that the case gives, as it acts in the scene."""
+    scene = scene_of(answer)
+    if scene is None:
+        raise _NotAskedError(f"the case gives {name}, and its sense was not worked out")
+    return next(sense_with(w, value) for w in scene.outcome.balance.wrenches if w.load.name == name)
 
 
 def _turned(value: float, sense: str | None) -> float:

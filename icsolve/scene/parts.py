@@ -363,10 +363,14 @@ def _found(case: Case, balance: power.Balance, unknowns: Mapping[str, Value]) ->
     for w in balance.wrenches:
         if w.load.name in unknowns:
             value, error, why = unknowns[w.load.name]
-            degrees = math.degrees(math.atan2(-w.unit[0], w.unit[1]))
-            sense = sense_of(w.load, value, float(w.gain), degrees)
-            found[w.load.name] = Found(value, unit_of(w.load, case), sense, error, why)
+            found[w.load.name] = Found(value, unit_of(w.load, case), sense_with(w, value), error, why)
     return found
+
+
+def sense_with(w: Wrench, value: float) -> str:
+    """The sense of a load with a value; '' for zero."""
+    degrees = math.degrees(math.atan2(-w.unit[0], w.unit[1]))
+    return sense_of(w.load, value, float(w.gain), degrees)
 
 
 def _directed(case: Case, found: dict[str, Found]) -> dict[str, Found]:
