@@ -101,12 +101,13 @@ def check_reactions(scene: Scene, answer: Answer) -> None:
 
 
 def check_witnesses(answer: Answer, scene: Scene) -> None:
-    """Power and free bodies agree within their bound, and to 1e-9 of the largest term."""
+    """Power and free bodies agree within their bound, which is rounding, and to 1e-9 of the largest term."""
     largest = max(abs(term.power) for term in answer.terms)
     for w in answer.witnesses:
         term = next(term for term in answer.terms if term.load == w.load)
         assert abs(w.difference) <= w.bound, f"{w}" + told(scene)
         assert abs(w.difference * term.factor) <= LAW * largest, f"{w}" + told(scene)
+        assert w.bound * abs(term.factor) <= LAW * largest, f"{w}" + told(scene)
 
 
 def random_scenes(first: int, number: int) -> Iterable[Scene]:

@@ -117,7 +117,7 @@ def test_a_null_space_has_a_vector_for_each_free_unknown(rank: int, columns: int
         found = null_space(rows, columns)
         assert (found.rank, len(found.basis), len(found.pivots)) == (expected, columns - expected, expected)
         assert found.dropped < 1e-14
-        for k, x in enumerate(found.basis):
+        for x in found.basis:
             for row in rows:
                 terms = [a * b for a, b in zip(row, x, strict=True)]
                 assert abs(math.fsum(terms)) <= 1e-14 * columns * max(1.0, *map(abs, terms))
@@ -164,6 +164,7 @@ def test_of_balls_a_pivot_is_the_largest_that_is_certainly_not_zero() -> None:
     found = null_space([[wide, sure]], 2, vanishes=balls.vanishes)
     assert found.rank == 1
     assert [float(x) for x in found.basis[0]] == [1.0, -10.0]
+    assert null_space([[2.0, sure]], 2, vanishes=balls.vanishes).rank == 1  # a float is certain
     assert null_space([[nothing, nothing]], 2, vanishes=balls.vanishes).rank == 0
     with pytest.raises(MoreDigits):
         null_space([[sure, 0.0], [0.0, wide]], 2, vanishes=balls.vanishes)

@@ -23,7 +23,7 @@ from icsolve.numbers.adjoint import gradient, still_noise
 from icsolve.numbers.backward import Backward
 from icsolve.numbers.balls import INEXACT, Ball, Balls
 from icsolve.numbers.intervals import Interval, enclose
-from icsolve.numbers.jets import BallArray
+from icsolve.numbers.jets import BallArray, Jet
 from icsolve.numbers.record import Record
 from icsolve.numbers.tape import Tape
 
@@ -49,7 +49,7 @@ def exact(value: Decimal) -> Any:
 
 
 def ball(draw: Random, balls: Balls, positive: bool) -> Ball:
-    """A decimal of all digits with a radius: often as small as a rounding, sometimes as large as a measurement."""
+    """A decimal of all digits with a radius: of a rounding, or of a measurement."""
     digits = "".join(draw.choice("0123456789") for _ in range(balls.digits))
     value = Decimal(f"{draw.randint(1, 9)}.{digits}"[: balls.digits])
     radius = draw.choice([0.0, 10.0 ** -(balls.digits - 1), 10.0 ** -(balls.digits // 2), 0.03])
@@ -113,6 +113,25 @@ def test_a_direction_loses_what_its_quotient_does(digits: int) -> None:
         x, y = (balls.exactly(Decimal(repr(draw.uniform(-3.0, 3.0)))) for _ in "xy")
         found, true = balls.angle(x, y), many.degrees(many.atan2(exact(y.value), exact(x.value)))
         assert abs(exact(found.value) - true) <= found.radius <= 3e3 * 10.0**-digits
+
+
+@pytest.mark.parametrize("value", ["0.1", "0.7", "-123.456"])
+def test_zero_lies_in_a_ball_to_the_last_digit(value: str) -> None:
+    """A float's rounding of the value does not tell; a hair of a hundredth of a millionth of a ball does."""
+    balls, radius = Balls(60), abs(float(value))
+    for share, holds in (("1e-30", True), ("-1e-30", True), ("1e-14", False), ("-1e-14", True)):
+        edge = Decimal(radius) * (1 + Decimal(share))
+        assert Ball(balls, edge, radius, radius * 1.001, INEXACT).holds_zero == holds
+        assert Ball(balls, -edge, radius, radius * 1.001, INEXACT).is_certain != holds
+
+
+@pytest.mark.parametrize("carried", [0.0, 1.0])
+def test_an_exact_zero_stays_exact_in_quotients_and_what_cancels_has_what_is_carried(carried: float) -> None:
+    balls = Balls(30, carried=carried)
+    third, nothing = balls.ball(1.0) / 3.0, balls.ball(1.0) - balls.ball(1.0)
+    assert (nothing / third).exact
+    for rest in (third - third, third + -third):
+        assert rest.radius == pytest.approx(2.0 * carried * third.radius, rel=1e-12)
 
 
 # --- numbers on a tape and of a record: first-order sums, to the last bit or so ----------------------------
@@ -190,6 +209,24 @@ def test_a_record_has_the_rounding_and_the_derivatives_of_each_operation(name: s
         assert [passed.by[k][0] for k in nodes] == pytest.approx(slopes, rel=1e-12)
         (passed,) = Backward(record, [made.index], nodes).run(given, 1)  # exact
         assert passed.bound[0] == pytest.approx(HALF_ULP * own * abs(made.value), rel=1e-12)
+
+
+@pytest.mark.parametrize(("factor", "half_ulps"), [(1.0, 1.0), (25.4, 3.0)])
+def test_a_decimal_has_half_an_ulp_and_with_the_factor_of_its_unit_three(
+    factor: float, half_ulps: float
+) -> None:
+    for value in (0.3, 7.5, 2.0**53, 3.0):
+        tape, number = Tape(), Number(value, 0.0, "a", f"{value!r}", factor)
+        noise = 0.0 if (factor, value) == (1.0, 3.0) else half_ulps * HALF_ULP * value
+        assert tape.bound(tape.given(number)) == noise
+        assert tape.converted == ({} if factor == 1.0 else {"a": noise})
+    assert tape.bound(tape.ratio((1, 3, 0))) == HALF_ULP / 3.0
+    assert tape.bound(tape.ratio((3, 3, 0))) == 0.0
+
+
+def test_a_number_on_a_tape_is_equal_to_its_value() -> None:
+    one = Tape().constant(1.5)
+    assert (one == 1.5, one == 2.5, one != 2.5) == (True, False, True)
 
 
 @pytest.mark.parametrize("name", ANGLES)
@@ -273,6 +310,19 @@ def test_the_cosine_and_sine_of_a_place_are_twelve_half_ulps_wide(name: str) -> 
         here = np.array([degrees])
         ((low, high),) = enclose(record, [made.index], {angle.index: Interval(here, here)})
         assert 10.5 * HALF_ULP <= high[0] - low[0] <= 13.0 * HALF_ULP or 1.0 in (high[0], -low[0])
+
+
+def test_a_direction_of_a_cell_is_a_whole_turn_wider_only_where_it_holds_the_cut() -> None:
+    nothing = BallArray(np.zeros(1), np.zeros(1))
+    for degrees in (-179.9, -90.0, 0.0, 90.0, 179.0, 179.9):
+        x, y = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+        off = 0.01
+        one, two = (Jet(BallArray(np.array([v]), np.array([off])), nothing, nothing) for v in (x, y))
+        value = one.direction(two).value
+        turn = 360.0 if abs(degrees) > 179.5 else 0.0
+        rad = math.degrees(math.asin(math.hypot(off, off))) + turn + 360.0 * 2.0**-51
+        assert value.mid[0] == pytest.approx(degrees, abs=1e-12)
+        assert value.rad[0] == pytest.approx(rad, abs=2e-13)
 
 
 CELLS: dict[str, tuple[int, Operation]] = {

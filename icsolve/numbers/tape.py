@@ -38,6 +38,8 @@ Operand = Union["Taped", float]
 Node = tuple[int, float, int, float, float]
 """One recorded value: first operand and the derivative by it, second operand and the derivative by
 it, own rounding error. Operand 0 is none."""
+NONE = (0, 0.0, 0, 0.0)
+"""No operands."""
 
 
 class Taped:
@@ -175,7 +177,7 @@ class Tape:
     """The record; an `icsolve.numbers.arithmetic.Arithmetic` whose numbers are `Taped`."""
 
     def __init__(self) -> None:
-        self.nodes: list[Node] = [(0, 0.0, 0, 0.0, 0.0)]
+        self.nodes: list[Node] = [(*NONE, 0.0)]
         self.inputs: dict[str, Taped] = {}
         self.turns: dict[str, tuple[Taped, Taped]] = {}
         self.suspects: list[tuple[int, float]] = []
@@ -185,15 +187,18 @@ class Tape:
 
     def constant(self, value: float) -> Taped:
         """An exact number."""
-        return Taped(self, (0, 0.0, 0, 0.0, 0.0), value, abs(value))
+        return self._leaf(value, 0.0)
+
+    def _leaf(self, value: float, noise: float) -> Taped:
+        """A number that is made of no others."""
+        return Taped(self, (*NONE, noise), value, abs(value))
 
     def given(self, number: Number) -> Taped:
         """A number of the case, with the rounding of its decimals; one node a path."""
         found = self.inputs.get(number.path)
         if found is None:
             noise = decimal_noise(number)
-            found = Taped(self, (0, 0.0, 0, 0.0, noise), number.value, abs(number.value))
-            self.inputs[number.path] = found
+            found = self.inputs[number.path] = self._leaf(number.value, noise)
             if number.factor != 1.0:
                 self.converted[number.path] = noise
         return found
@@ -201,7 +206,7 @@ class Tape:
     def ratio(self, exact: ExactRatio) -> Taped:
         """The nearest double, with its rounding."""
         value = nearest(exact)
-        return Taped(self, (0, 0.0, 0, 0.0, 0.0 if value == 1.0 else UNIT * abs(value)), value, abs(value))
+        return self._leaf(value, 0.0 if value == 1.0 else UNIT * abs(value))
 
     def turn(self, number: Number) -> tuple[Taped, Taped]:
         """Cosine and sine of an angle of the case (degrees)."""
@@ -226,7 +231,7 @@ class Tape:
         if x <= CANCELLED * size:
             self.suspects.append((value.index, x))
         if x <= 0.0:
-            return Taped(self, (0, 0.0, 0, 0.0, math.sqrt(UNIT * size)), 0.0, math.sqrt(size))
+            return Taped(self, (*NONE, math.sqrt(UNIT * size)), 0.0, math.sqrt(size))
         root = math.sqrt(x)
         return Taped(self, (value.index, 0.5 / root, 0, 0.0, UNIT * root), root, math.sqrt(size))
 

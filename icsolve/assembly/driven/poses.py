@@ -174,8 +174,6 @@ def product(a: Point, b: Point) -> Point:
 
 def quotient(a: Point, b: Point) -> Point:
     """Quotient of two complex numbers (x, y); divides by zero where b is (0, 0)."""
-    if type(b[0]) is float and type(b[1]) is float and b == (1.0, 0.0):
-        return a
     size = b[0] * b[0] + b[1] * b[1]
     return ((a[0] * b[0] + a[1] * b[1]) / size, (a[1] * b[0] - a[0] * b[1]) / size)
 
