@@ -98,8 +98,8 @@ def _force(known: Known, figures: Figures, acting: Acting) -> tuple[Acting, list
     """A load by what it exerts: a spring by its force or moment in the position."""
     if not isinstance(acting.load, Spring | TorsionSpring):
         return acting, []
-    symbol, value, stretched = gain_of(known, figures, acting)
-    _, force, said = sprung(known, figures, acting, symbol, value)
+    value, stretched = gain_of(known, figures, acting)
+    _, force, said = sprung(known, figures, acting, value)
     turns = force.at is None
     gain = 1.0 / known.case.units.torque_per_force_length if turns else 1.0
     return force._replace(gain=gain), [*stretched, *said]

@@ -24,7 +24,7 @@ from icsolve.explain.formula import (
     solved_for,
     total,
 )
-from icsolve.explain.given import Figures, load_name
+from icsolve.explain.given import Figures, gain_names, load_name
 from icsolve.explain.levers import Lever, lever, motion_name, pivot
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.report.derivation.known import Acting, Known, acting_loads
@@ -195,7 +195,7 @@ def _drawn(known: Known, figures: Figures, rope: Rope, found: set[str]) -> Itera
         return
     found |= {rope.name, f"end of {rope.name}"}
     last = len(rope.points) - 1
-    symbols = total([(1, product(load_name(a.load.name), *_gain(a))) for a in loads])
+    symbols = total([(1, product(load_name(a.load.name), *gain_names(a.load))) for a in loads])
     numbers = total([(1, product(figures.number(a.value or 0.0), *_gain_number(figures, a))) for a in loads])
     tension = figures.quantity(_tensions(known, rope)[-1], known.case.units.force)
     one = " in all of it" if not rope.slips else f" in its part at {rope.points[-1]}"
@@ -203,12 +203,8 @@ def _drawn(known: Known, figures: Figures, rope: Rope, found: set[str]) -> Itera
     yield formula(_symbol(known, rope, last), symbols, numbers, tension)
 
 
-def _gain(acting: Acting) -> tuple[Expr, ...]:
-    return (Name("g"),) if isinstance(acting.load, Weight) and acting.load.mass else ()
-
-
 def _gain_number(figures: Figures, acting: Acting) -> tuple[Num, ...]:
-    return (figures.number(acting.gain),) if _gain(acting) else ()
+    return (figures.number(acting.gain),) if gain_names(acting.load) else ()
 
 
 def _alone(known: Known, link: str) -> bool:
@@ -217,7 +213,9 @@ def _alone(known: Known, link: str) -> bool:
     joints = [joint for joint in case.joints if link in joint.links]
     plain = all(j.freedom == 1 and case.ground in j.links and j.friction is None for j in joints)
     loads = [a for a in acting_loads(known) if link in (a.link, a.against)]
-    simple = all(a.against == case.ground and (a.at is None or a.gain == 1.0 or _gain(a)) for a in loads)
+    simple = all(
+        a.against == case.ground and (isinstance(a.load, Torque | Weight) or a.gain == 1.0) for a in loads
+    )
     turned = any(link in screw.links for screw in case.screws)
     return link != case.ground and bool(joints) and plain and simple and not turned
 
@@ -285,7 +283,7 @@ def _of_load(
         one, said = lever(known, figures, headings, (name,), low, acting.link, acting.at, acting.direction)
         factors = (*_gain_number(figures, acting), one.number)
         return RopeWork(
-            1, name, (one.name, *_gain(acting)), factors, number, new
+            1, name, (one.name, *gain_names(acting.load)), factors, number, new
         ), [] if one.name in shown else said
     if pivot(known, acting.link) is None:
         return None, []
