@@ -315,11 +315,11 @@ def _times(acting: Acting, root: Acting) -> float:
 # --- an equation for every motion ------------------------------------------------------------------------
 
 
-def motions_section(known: Known, figures: Figures, loads: Sequence[Acting]) -> Section | None:
-    """One equation a motion; None where the motions are not known."""
+def motions_section(known: Known, figures: Figures, loads: Sequence[Acting]) -> Iterable[Section]:
+    """One equation a motion, where the motions are known."""
     motions = independent_motions(known)
     if not motions:
-        return None
+        return
     count = len(motions)
     freedoms = (
         "one freedom: in equilibrium the powers of all loads add up to zero."
@@ -331,7 +331,8 @@ def motions_section(known: Known, figures: Figures, loads: Sequence[Acting]) -> 
     rows = []
     friction = rubbed(known, motions[0].driver) if motions[0].driver in known.twists else []
     if count > 1 and any(r.value for r in friction):
-        return Section("Power", (*blocks, words(SHARED)))
+        yield Section("Power", (*blocks, words(SHARED)))
+        return
     for n, motion in enumerate(motions, 1):
         row, said = _motion(known, figures, loads, motion, n if count > 1 else 0)
         if row and friction:
@@ -344,7 +345,7 @@ def motions_section(known: Known, figures: Figures, loads: Sequence[Acting]) -> 
     if known.answer is not None and all(acting.value is not None for acting in loads):
         blocks.append(words("With these values the sums are"))
         blocks += [_summed(figures, row, found=True) for row in rows if row]
-    return Section("Power", tuple(blocks))
+    yield Section("Power", tuple(blocks))
 
 
 SHARED = (

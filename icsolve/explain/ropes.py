@@ -110,13 +110,13 @@ def screw_ratio(known: Known, figures: Figures, ratio: Ratio) -> Iterable[Block]
 
 def ropes_section(
     known: Known, figures: Figures, headings: Headings, before: Sequence[Section]
-) -> tuple[Section | None, bool]:
+) -> tuple[tuple[Section, ...], bool]:
     """The tension of every rope: by the load at its free end, or by the equilibrium of one link; Euler's
     formula where it slips; and whether a tension is left to the equations of the links. Formulas that stand
     ``before`` are not repeated."""
     answer = known.answer
     if answer is None or not answer.tensions:
-        return None, False
+        return (), False
     blocks: list[Block] = []
     found: set[str] = set()
     for rope in known.case.ropes:
@@ -136,7 +136,8 @@ def ropes_section(
     missing = [rope.name for rope in known.case.ropes if rope.name not in found]
     if missing:
         blocks.append(words(f"The equations of equilibrium (below) give the tension of {listed(missing)}."))
-    return Section("Ropes" if len(known.case.ropes) > 1 else "The rope", tuple(blocks)), bool(missing)
+    title = "Ropes" if len(known.case.ropes) > 1 else "The rope"
+    return (Section(title, tuple(blocks)),), bool(missing)
 
 
 def _tensions(known: Known, rope: Rope) -> list[float]:
@@ -295,12 +296,11 @@ def _of_load(
 # --- screws ------------------------------------------------------------------------------------------------
 
 
-def screws_section(known: Known, figures: Figures) -> Section | None:
+def screws_section(known: Known, figures: Figures) -> Iterable[Section]:
     """The torque of every screw by its thread, as books have it."""
     blocks = [block for screw in known.case.screws for block in _screw(known, figures, screw)]
-    return (
-        Section("The screw" if len(known.case.screws) == 1 else "Screws", tuple(blocks)) if blocks else None
-    )
+    if blocks:
+        yield Section("The screw" if len(known.case.screws) == 1 else "Screws", tuple(blocks))
 
 
 def _screw(known: Known, figures: Figures, screw: Screw) -> Iterable[Block]:
