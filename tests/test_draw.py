@@ -388,3 +388,17 @@ def test_the_round_ground_that_something_runs_on_is_there(on: str) -> None:
     disk = max(map(float, re.findall(r'<circle class="body" [^>]* r="([^"]*)"', svg)))
     assert ground / disk == pytest.approx(2.5, rel=0.1)  # to the line beside it
     assert 'class="hatch"' in frame
+
+
+@pytest.mark.parametrize(("links", "told"), [(2, "The centres by inspection."), (4, "The one step.")])
+def test_a_figure_with_more_steps_than_there_are_says_how_many_there_are(links: int, told: str) -> None:
+    """All centres of a lever are by inspection, a four-bar with one load asked for has one to construct."""
+    pins = range(1, links + 1 if links > 2 else links)
+    joints = "".join(f"  - {{pin: [{n}, {n % links + 1}], at: {'ABCD'[n - 1]}}}\n" for n in pins)
+    case = icsolve.load(
+        "icsolve: 1\npoints: {A: [0, 0], B: [0, 1], C: [2, 2], D: [3, 0]}\njoints:\n"
+        f"{joints}loads:\n"
+        f"  P: {{force: 5, link: {links}, at: {'BBBC'[links - 1]}, angle: 0}}\n"
+        "  T: {torque: unknown, link: 2}\n"
+    )
+    assert f">{told}</text>" in draw(case, Drawing(step=9))

@@ -612,3 +612,21 @@ def test_an_exercise_does_not_stand_in_the_position_that_it_asks_for(name: str) 
     table = next(block for block in told.blocks if isinstance(block, ShownTable))
     assert {row[0][0] for row in table.rows}.isdisjoint(moving)
     assert len(positions) == str(told.key[0]).count("; ") + 1
+
+
+@pytest.mark.parametrize(
+    "load", ["{torque: 20, link: 2}", "{spring: 20 N*m/rad, corner: OC, free: 90, link: 2}"]
+)
+def test_what_gives_the_tension_of_a_rope_comes_to_the_tension(load: str) -> None:
+    """A torque or a torsion spring on a drum: the numbers of each formula are what stands behind them."""
+    case = icsolve.load(
+        "icsolve: 1\nunits: {length: m, force: N, torque: N*m}\n"
+        "points: {O: [0, 0], C: [1, 0], B: [0.1, -0.8]}\njoints:\n"
+        "  - {pin: [1, 2], at: O}\n  - {slide: [3, 1], at: B, along: 90}\n"
+        "  - {rope: [O, B], on: [2, 3], radii: {O: 0.1}, wraps: {O: cw}}\n"
+        f"loads:\n  S: {load}\n  F: {{force: unknown, link: 3, at: B, angle: -90}}\n"
+    )
+    told = explain(case).split("The rope\n", 1)[1].split("Answer\n", 1)[0]
+    sides = [line.split(" = ")[1:] for line in told.splitlines() if line.startswith("    T = ")]
+    values = {float(eval(side.removesuffix(" N").replace(" x ", "*"), {})) for one in sides for side in one}
+    assert values and max(values) == pytest.approx(min(values), rel=1e-5)

@@ -27,11 +27,12 @@ from icsolve.case import Pin
 from icsolve.draw.bodies import pushes_on
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.page import page_html
+from icsolve.page.document import equation_of
 from icsolve.page.figure import figure_of
 from icsolve.page.forces import forces_data
 from icsolve.page.live import live_of
 from icsolve.page.motion import motion_of
-from icsolve.report.derivation.known import known_of
+from icsolve.report.derivation.known import acting_loads, known_of
 from icsolve.scene.refusals import rubs
 from icsolve.screws.ropes import offsets_of, rope_length
 from library import FILES, LIBRARY, PAGED, motion, page_of
@@ -250,6 +251,45 @@ def test_the_terms_add_up_to_zero_in_every_position() -> None:
         known = np.isfinite(unknown)
         assert known.sum() > 300
         assert (np.abs(sum(terms) + unknown)[known] <= 1e-8 * size[known]).all()
+
+
+EXERTED = {
+    "W: {mass: 3 kg, link: 4, at: C}": ("W g", "N"),
+    "P: {force: 10, link: 4, at: C, angle: 180}": ("P", "N"),
+    "s: {spring: 0.2 N/mm, link: 4, at: C, to: A, free: 20}": ("s s s", "N"),
+    "k: {spring: 20 N*m/rad, corner: BCD, free: 90, link: 4, against: 3}": ("k s k", "N·m"),
+    "k: {spring: 20 N*m/rad, corner: DC, free: 90, link: 4}": ("k s k", "N·m"),
+    "p: {pressure: 2 MPa, bore: 20, link: 4, at: C, angle: 180}": ("p A p", "N"),
+    "q: {distributed: 2 N/mm, link: 4, from: D, to: C, angle: 180}": ("q L q", "N"),
+    "T: {torque: 2, link: 4}": ("T", "N·m"),
+}
+"""What a load of each kind exerts, as the worked solution writes it, and its unit."""
+
+
+@pytest.mark.parametrize("load", EXERTED)
+@pytest.mark.parametrize("asked", [False, True], ids=["known", "asked"])
+def test_the_equation_of_a_page_has_what_each_load_exerts_in_its_own_unit(load: str, asked: bool) -> None:
+    """Name, factor and unit of a load, known or asked for: those of the worked solution below it."""
+    symbols, unit = EXERTED[load]
+    number = re.search(r"(mass|force|spring|pressure|distributed|torque): [^,]+", load)
+    assert number is not None
+    one = load.replace(number[0], f"{number[1]}: unknown") if asked else load
+    known = known_of(icsolve.load(
+        "icsolve: 1\nunits: {length: mm, force: N, torque: N*m}\npoints: {A: [0, 0], D: [100, 0]}\n"
+        "lengths: {AB: 25, BC: 87.5, CD: 62.5}\nangles: {AB: 60}\nnear: {C: [87, 60]}\njoints:\n"
+        "  - {pin: [1, 2], at: A}\n  - {pin: [2, 3], at: B}\n  - {pin: [3, 4], at: C}\n"
+        f"  - {{pin: [4, 1], at: D}}\nloads:\n  {one}\n"
+        f"  M: {{torque: {5 if asked else 'unknown'}, link: 2}}\n"
+    ))  # fmt: skip
+    equation = equation_of(known, motion_of(known, []))
+    assert equation is not None
+    told, its = equation.root if asked else (equation.rows[0][0], equation.rows[0][3])
+    assert re.sub(r"\s+", " ", re.sub("<[^>]+>", " ", told)).strip() == symbols
+    assert its.replace("*", "·") == unit
+    (acting,) = (one for one in acting_loads(known) if one.load.name == load.partition(":")[0])
+    shown = column(equation.data[0]["size"])[motion_of(known, []).zero] if not asked else None
+    whole = math.hypot(*acting.force) if acting.at else acting.couple * 1e-3
+    assert shown is None or shown == pytest.approx(whole)
 
 
 def test_a_range_that_ends_is_shown_to_end() -> None:

@@ -12,7 +12,7 @@ from types import MappingProxyType
 from icsolve.case import Case, Joint, Spring
 from icsolve.case.joints import Guided, Mesh, Rolling, Sliding
 from icsolve.case.profiles import Circle, Flat, Knife, Roller, points_of
-from icsolve.draw.marks import Box, Mark, Point, View, along
+from icsolve.draw.marks import Box, Mark, MarkGroup, Point, View, along
 from icsolve.draw.place import Label, Placer, Soft
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS, turn_of
@@ -368,12 +368,13 @@ ORDER = ("t-point", "t-unknown", "t-known", "t-centre", "t-velocity", "t-link")
 """Whose labels choose their places first."""
 
 
-def with_labels(part: Part, window: Box) -> list[Mark]:
-    """The marks of a part and its labels, placed."""
+def placed_labels(part: Part, window: Box) -> Iterable[tuple[Label, MarkGroup]]:
+    """The labels of a part that say something, each with its marks at its place."""
     placer = Placer(part.solid, part.soft, window)
     labels = sorted(part.labels, key=lambda label: ORDER.index(label.kind) if label.kind in ORDER else 9)
-    return [*part.marks, *(placer.put(label) for label in _told(labels))]
+    return ((label, placer.put(label)) for label in labels if label.runs)
 
 
-def _told(labels: Iterable[Label]) -> Iterable[Label]:
-    return (label for label in labels if label.runs)
+def with_labels(part: Part, window: Box) -> list[Mark]:
+    """The marks of a part and its labels, placed."""
+    return [*part.marks, *(marks for _, marks in placed_labels(part, window))]

@@ -137,7 +137,7 @@ def _caption_runs(known: Known, kind: str, line: str) -> tuple[TextRun, ...]:
 
 
 def _below(known: Known, steps: Sequence[Step], step: int | None) -> Iterable[tuple[str, str]]:
-    if step is not None:
+    if step is not None and steps:
         yield "t-axis", step_sentence(known, steps, step)
     for sentence in (*answer_sentences(known), *position_sentences(known)):
         yield "t-unknown", sentence
@@ -195,8 +195,8 @@ def step_sentence(known: Known, steps: Sequence[Step], number: int) -> str:
     """How the last centre that is shown was found."""
     last = next((s for s in steps if s.number == number), None)
     if number == 0 or last is None:
-        count = max((s.number for s in steps), default=0)
-        return "The centres by inspection." if number == 0 else f"All {count} steps."
+        count = max((s.number for s in steps), default=0) if number else 0
+        return ("The centres by inspection.", "The one step.")[count] if count < 2 else f"All {count} steps."
     name = f"I{pair_name(known.case, last.centre.pair)}"
     if not last.centre.lines:
         return f"Step {number}: {name} from the loop equations of the whole mechanism."

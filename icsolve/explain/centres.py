@@ -131,11 +131,12 @@ def _normal(joint: Joint | None) -> str:
 # --- ratios of speeds ------------------------------------------------------------------------------------
 
 
-def ratio_section(known: Known, figures: Figures, ratios: Ratios) -> Section | None:
-    """How the other links move beside the reference; None where nothing follows."""
+def ratio_section(known: Known, figures: Figures, ratios: Ratios) -> Iterable[Section]:
+    """How the other links move beside the reference, where anything follows."""
     blocks = [block for ratio in ratios.ratios for block in _blocks(known, figures, ratios, ratio)]
     blocks += _carried(figures, ratios)
-    return Section("Ratios of the speeds", tuple(blocks)) if blocks else None
+    if blocks:
+        yield Section("Ratios of the speeds", tuple(blocks))
 
 
 def _blocks(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio) -> Iterable[Block]:
@@ -258,8 +259,7 @@ def worked_speeds(known: Known, figures: Figures) -> Iterable[Section]:
     ratios = ratios_of(known, sorted(moving, key=lambda link: link != given))
     if ratios is None:
         return
-    section = ratio_section(known, figures, ratios)
-    yield from () if section is None else (section,)
+    yield from ratio_section(known, figures, ratios)
     reference = ratios.reference
     x, y, w = known.twists[reference]
     speed = w if known.turns(reference) else math.hypot(x, y)

@@ -33,15 +33,15 @@ LEAST = 1e-7
 """An unknown that moves less than this fraction of the figure stands at a limit."""
 
 
-def equilibrium_section(known: Known, figures: Figures) -> Section | None:
-    """The virtual work of the loads in each position; None where none is told so."""
+def equilibrium_section(known: Known, figures: Figures) -> Iterable[Section]:
+    """The virtual work of the loads in each position, where one is told so."""
     positions = () if known.answer is None else known.answer.positions or ()
     said = [block for one in positions for block in _position(known, figures, one)]
     if not said:
-        return None
+        return
     terms = tuple((1, product(_exerted(acting), _way(acting))) for acting in acting_loads(known))
     blocks = (words(WORK), formula(Name("Q"), Sum(terms)), words(CONDITION))
-    return Section("Virtual work", (*blocks, *said))
+    yield Section("Virtual work", (*blocks, *said))
 
 
 def _exerted(acting: Acting) -> Name:
@@ -98,8 +98,8 @@ def _force(known: Known, figures: Figures, acting: Acting) -> tuple[Acting, list
     """A load by what it exerts: a spring by its force or moment in the position."""
     if not isinstance(acting.load, Spring | TorsionSpring):
         return acting, []
-    symbol, value, stretched = gain_of(known, figures, acting)
-    _, force, said = sprung(known, figures, acting, symbol, value)
+    value, stretched = gain_of(known, figures, acting)
+    _, force, said = sprung(known, figures, acting, value)
     turns = force.at is None
     gain = 1.0 / known.case.units.torque_per_force_length if turns else 1.0
     return force._replace(gain=gain), [*stretched, *said]

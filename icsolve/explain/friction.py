@@ -56,18 +56,18 @@ def rubbed(known: Known, reference: str) -> list[Rubbed]:
     return found
 
 
-def friction_section(known: Known, figures: Figures) -> Section | None:
+def friction_section(known: Known, figures: Figures) -> Iterable[Section]:
     """The rule at each joint that rubs: friction circles of pins, friction angles of guides; then what they
     come to in this position."""
     rules = [block for joint in known.case.joints for block in _rule(figures, joint)]
     if not rules:
-        return None
+        return
     blocks: list[Block] = [words(RULE), *rules]
     friction = None if known.answer is None else known.answer.friction
     if friction is not None and friction.rubbing:
         blocks += [words("With the equations of equilibrium of all links (below) these give:")]
         blocks += [Items(tuple((_rubs(known, figures, one),) for one in friction.rubbing))]
-    return Section("Friction", tuple(blocks))
+    yield Section("Friction", tuple(blocks))
 
 
 RULE = (

@@ -7,7 +7,19 @@ from collections.abc import Container, Iterable
 from typing import TypeGuard
 
 from icsolve.answer import Centre
-from icsolve.case import Centroid, Coordinates, Number, Units, pair_name
+from icsolve.case import (
+    Area,
+    Centroid,
+    Coordinates,
+    Force,
+    Load,
+    Number,
+    Spring,
+    TorsionSpring,
+    Units,
+    Weight,
+    pair_name,
+)
 from icsolve.draw.words import name_runs
 from icsolve.explain.document import Block, Items, Section, ShownTable, words
 from icsolve.explain.formula import OMEGA, Name, Num, Quantity
@@ -81,6 +93,18 @@ def load_name(name: str) -> Name:
         return Name(*(run.text for run in name_runs(name)))
     letters = name.rstrip("0123456789")
     return Name(letters, name[len(letters) :]) if len(letters) == 1 else Name(name)
+
+
+def gain_names(load: Load) -> tuple[Name, ...]:
+    """What stands beside the name of a load where a unit of it is no unit of force or torque: what a kilogram
+    weighs, by how much a spring is stretched or turned, the area or length that a load acts on."""
+    if isinstance(load, Weight):
+        return (Name("g"),) if load.mass else ()
+    if isinstance(load, Spring | TorsionSpring):
+        return (Name("s", load.name),)
+    if isinstance(load, Force) and load.over is not None:
+        return (Name("A" if isinstance(load.over, Area) else "L", load.name),)
+    return ()
 
 
 def rate_name(link: str) -> Name:

@@ -21,7 +21,7 @@ from icsolve.case import (
 from icsolve.explain.document import Block, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Quotient, Square, Sum, Trig, product, solved_for, total
 from icsolve.explain.friction import Rubbed, rubbed
-from icsolve.explain.given import Figures, load_name
+from icsolve.explain.given import Figures, gain_names, load_name
 from icsolve.explain.levers import lever, motion_name
 from icsolve.report.derivation.known import Acting, Known
 from icsolve.report.derivation.ratios import OneMotion, Ratios, independent_motions, speed_words
@@ -87,10 +87,10 @@ def term_of(
         said += more
     if not ends:
         return None, said
-    gain, value, more = gain_of(known, figures, acting)
-    name = load_name(acting.load.name)
+    value, more = gain_of(known, figures, acting)
+    name, gain = load_name(acting.load.name), gain_names(acting.load)
     if isinstance(acting.load, Spring | TorsionSpring) and acting.value is not None and not acting.unknown:
-        name, acting, said_so = sprung(known, figures, acting, gain, value)
+        name, acting, said_so = sprung(known, figures, acting, value)
         more, gain, value = [*more, *said_so], (), 1.0
     scale = conversion(known, ratios, acting)
     parts = tuple((end.sign, product(end.number, figures.number(ratios.rates[end.link]))) for end in ends)
@@ -101,9 +101,7 @@ def term_of(
     return ShownTerm(acting, tuple(ends), gain, numbers, sign * total * value * scale, name), [*said, *more]
 
 
-def sprung(
-    known: Known, figures: Figures, acting: Acting, gain: tuple[Expr, ...], value: float
-) -> tuple[Name, Acting, list[Block]]:
+def sprung(known: Known, figures: Figures, acting: Acting, value: float) -> tuple[Name, Acting, list[Block]]:
     """A spring as the force, or the moment, that it exerts."""
     torsion, stiffness = isinstance(acting.load, TorsionSpring), acting.value or 0.0
     unit = known.case.units.torque if torsion else known.case.units.force
@@ -111,7 +109,7 @@ def sprung(
     numbers = product(figures.number(stiffness), figures.number(value))
     size = figures.quantity(stiffness * value, unit)
     said = words("So its ", "moment" if torsion else "force", " is")
-    law = formula(name, product(load_name(acting.load.name), *gain), numbers, size)
+    law = formula(name, product(load_name(acting.load.name), *gain_names(acting.load)), numbers, size)
     return name, acting._replace(value=stiffness * value, unit=unit), [said, law]
 
 
@@ -131,33 +129,34 @@ def conversion(known: Known, ratios: Ratios, acting: Acting) -> float:
     return 1.0 / ratio if torque else 1.0
 
 
-def gain_of(known: Known, figures: Figures, acting: Acting) -> tuple[tuple[Expr, ...], float, list[Block]]:
-    """What a kilogram weighs, or by how much a spring is stretched: symbol, number and words."""
+def gain_of(known: Known, figures: Figures, acting: Acting) -> tuple[float, list[Block]]:
+    """The number of what stands beside a load (`gain_names`), and how it is found."""
     load = acting.load
-    if isinstance(load, Weight) and load.mass:
+    if not gain_names(load):
+        return 1.0, []
+    (name,) = gain_names(load)
+    if isinstance(load, Weight):
         weight = figures.quantity(acting.gain, f"{known.case.units.force}/kg")
-        return (Name("g"),), acting.gain, [words("A mass weighs g = ", weight, ".")]
+        return acting.gain, [words("A mass weighs g = ", weight, ".")]
     if isinstance(load, TorsionSpring):
         slack = acting.gain * known.case.units.torque_per_force_length
-        name, size = Name("s", load.name), figures.quantity(slack, "rad")
+        size = figures.quantity(slack, "rad")
         angles = (load.free.value, load.free.value - math.degrees(slack))
         begin, end = (figures.number(angle) for angle in angles)
         turned = product(Sum(((1, begin), (-1, end))), Name("pi"))
         turn = formula(name, Quotient(turned, Num("180")), size)
-        return (name,), slack, [words("By how much ", load_name(load.name), " is turned:"), turn]
+        return slack, [words("By how much ", load_name(load.name), " is turned:"), turn]
     if isinstance(load, Force) and isinstance(load.over, Area):
-        return (Name("A", load.name),), acting.gain, _area(known, figures, load, load.over, acting.gain)
+        return acting.gain, _area(known, figures, load, load.over, acting.gain)
     if isinstance(load, Force) and load.over is not None:
-        name, length = Name("L", load.name), figures.distance(acting.gain)
+        length = figures.distance(acting.gain)
         said = words("The length over which ", load_name(load.name), " makes its resultant:")
-        return (name,), acting.gain, [said, formula(name, *_tapered(known, figures, load), length)]
-    if isinstance(load, Spring):
-        a, b = known.points[load.at], known.points[load.to]
-        long, free = figures.length(math.dist(a, b)), figures.length(load.free.value)
-        name = Name("s", load.name)
-        stretch = formula(name, Sum(((1, long), (-1, free))), figures.distance(acting.gain))
-        return (name,), acting.gain, [words("The stretch of ", load_name(load.name), ":"), stretch]
-    return (), 1.0, []
+        return acting.gain, [said, formula(name, *_tapered(known, figures, load), length)]
+    assert isinstance(load, Spring)
+    a, b = known.points[load.at], known.points[load.to]
+    long, free = figures.length(math.dist(a, b)), figures.length(load.free.value)
+    stretch = formula(name, Sum(((1, long), (-1, free))), figures.distance(acting.gain))
+    return acting.gain, [words("The stretch of ", load_name(load.name), ":"), stretch]
 
 
 def _area(known: Known, figures: Figures, load: Force, over: Area, gain: float) -> list[Block]:
@@ -316,11 +315,11 @@ def _times(acting: Acting, root: Acting) -> float:
 # --- an equation for every motion ------------------------------------------------------------------------
 
 
-def motions_section(known: Known, figures: Figures, loads: Sequence[Acting]) -> Section | None:
-    """One equation a motion; None where the motions are not known."""
+def motions_section(known: Known, figures: Figures, loads: Sequence[Acting]) -> Iterable[Section]:
+    """One equation a motion, where the motions are known."""
     motions = independent_motions(known)
     if not motions:
-        return None
+        return
     count = len(motions)
     freedoms = (
         "one freedom: in equilibrium the powers of all loads add up to zero."
@@ -332,7 +331,8 @@ def motions_section(known: Known, figures: Figures, loads: Sequence[Acting]) -> 
     rows = []
     friction = rubbed(known, motions[0].driver) if motions[0].driver in known.twists else []
     if count > 1 and any(r.value for r in friction):
-        return Section("Power", (*blocks, words(SHARED)))
+        yield Section("Power", (*blocks, words(SHARED)))
+        return
     for n, motion in enumerate(motions, 1):
         row, said = _motion(known, figures, loads, motion, n if count > 1 else 0)
         if row and friction:
@@ -345,7 +345,7 @@ def motions_section(known: Known, figures: Figures, loads: Sequence[Acting]) -> 
     if known.answer is not None and all(acting.value is not None for acting in loads):
         blocks.append(words("With these values the sums are"))
         blocks += [_summed(figures, row, found=True) for row in rows if row]
-    return Section("Power", tuple(blocks))
+    yield Section("Power", tuple(blocks))
 
 
 SHARED = (

@@ -24,7 +24,7 @@ from icsolve.explain.formula import (
     solved_for,
     total,
 )
-from icsolve.explain.given import Figures, load_name
+from icsolve.explain.given import Figures, gain_names, load_name
 from icsolve.explain.levers import Lever, lever, motion_name, pivot
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.report.derivation.known import Acting, Known, acting_loads
@@ -110,13 +110,13 @@ def screw_ratio(known: Known, figures: Figures, ratio: Ratio) -> Iterable[Block]
 
 def ropes_section(
     known: Known, figures: Figures, headings: Headings, before: Sequence[Section]
-) -> tuple[Section | None, bool]:
+) -> tuple[tuple[Section, ...], bool]:
     """The tension of every rope: by the load at its free end, or by the equilibrium of one link; Euler's
     formula where it slips; and whether a tension is left to the equations of the links. Formulas that stand
     ``before`` are not repeated."""
     answer = known.answer
     if answer is None or not answer.tensions:
-        return None, False
+        return (), False
     blocks: list[Block] = []
     found: set[str] = set()
     for rope in known.case.ropes:
@@ -136,7 +136,8 @@ def ropes_section(
     missing = [rope.name for rope in known.case.ropes if rope.name not in found]
     if missing:
         blocks.append(words(f"The equations of equilibrium (below) give the tension of {listed(missing)}."))
-    return Section("Ropes" if len(known.case.ropes) > 1 else "The rope", tuple(blocks)), bool(missing)
+    title = "Ropes" if len(known.case.ropes) > 1 else "The rope"
+    return (Section(title, tuple(blocks)),), bool(missing)
 
 
 def _tensions(known: Known, rope: Rope) -> list[float]:
@@ -195,7 +196,7 @@ def _drawn(known: Known, figures: Figures, rope: Rope, found: set[str]) -> Itera
         return
     found |= {rope.name, f"end of {rope.name}"}
     last = len(rope.points) - 1
-    symbols = total([(1, product(load_name(a.load.name), *_gain(a))) for a in loads])
+    symbols = total([(1, product(load_name(a.load.name), *gain_names(a.load))) for a in loads])
     numbers = total([(1, product(figures.number(a.value or 0.0), *_gain_number(figures, a))) for a in loads])
     tension = figures.quantity(_tensions(known, rope)[-1], known.case.units.force)
     one = " in all of it" if not rope.slips else f" in its part at {rope.points[-1]}"
@@ -203,12 +204,8 @@ def _drawn(known: Known, figures: Figures, rope: Rope, found: set[str]) -> Itera
     yield formula(_symbol(known, rope, last), symbols, numbers, tension)
 
 
-def _gain(acting: Acting) -> tuple[Expr, ...]:
-    return (Name("g"),) if isinstance(acting.load, Weight) and acting.load.mass else ()
-
-
 def _gain_number(figures: Figures, acting: Acting) -> tuple[Num, ...]:
-    return (figures.number(acting.gain),) if _gain(acting) else ()
+    return (figures.number(acting.gain),) if gain_names(acting.load) else ()
 
 
 def _alone(known: Known, link: str) -> bool:
@@ -217,7 +214,9 @@ def _alone(known: Known, link: str) -> bool:
     joints = [joint for joint in case.joints if link in joint.links]
     plain = all(j.freedom == 1 and case.ground in j.links and j.friction is None for j in joints)
     loads = [a for a in acting_loads(known) if link in (a.link, a.against)]
-    simple = all(a.against == case.ground and (a.at is None or a.gain == 1.0 or _gain(a)) for a in loads)
+    simple = all(
+        a.against == case.ground and (isinstance(a.load, Torque | Weight) or a.gain == 1.0) for a in loads
+    )
     turned = any(link in screw.links for screw in case.screws)
     return link != case.ground and bool(joints) and plain and simple and not turned
 
@@ -285,7 +284,7 @@ def _of_load(
         one, said = lever(known, figures, headings, (name,), low, acting.link, acting.at, acting.direction)
         factors = (*_gain_number(figures, acting), one.number)
         return RopeWork(
-            1, name, (one.name, *_gain(acting)), factors, number, new
+            1, name, (one.name, *gain_names(acting.load)), factors, number, new
         ), [] if one.name in shown else said
     if pivot(known, acting.link) is None:
         return None, []
@@ -297,12 +296,11 @@ def _of_load(
 # --- screws ------------------------------------------------------------------------------------------------
 
 
-def screws_section(known: Known, figures: Figures) -> Section | None:
+def screws_section(known: Known, figures: Figures) -> Iterable[Section]:
     """The torque of every screw by its thread, as books have it."""
     blocks = [block for screw in known.case.screws for block in _screw(known, figures, screw)]
-    return (
-        Section("The screw" if len(known.case.screws) == 1 else "Screws", tuple(blocks)) if blocks else None
-    )
+    if blocks:
+        yield Section("The screw" if len(known.case.screws) == 1 else "Screws", tuple(blocks))
 
 
 def _screw(known: Known, figures: Figures, screw: Screw) -> Iterable[Block]:

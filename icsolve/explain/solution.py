@@ -48,8 +48,7 @@ def answer_section(known: Known, figures: Figures) -> Iterable[Section]:
     if answer is None:
         return
     if answer.positions:
-        work = equilibrium_section(known, figures)
-        yield from () if work is None else (work,)
+        yield from equilibrium_section(known, figures)
         rests = tuple((line,) for line in positions_text(answer, figures.digits))
         said = HOLDS if all(one.stability is None for one in answer.positions) else SEARCHED
         yield Section("Positions of equilibrium", (words(said), Items(rests)))
@@ -242,16 +241,14 @@ def _sections(known: Known, figures: Figures, bodies: bool) -> Iterable[Section]
     if known.refusal is not None:
         yield _refused(known.refusal)
         return
-    inertia = inertia_section(known, figures)
-    yield from () if inertia is None else (inertia,)
+    yield from inertia_section(known, figures)
     power = list(_by_power(known, figures))
     yield from power
     ratios = answer_ratios(known)
     ropes, is_open = ropes_section(known, figures, {} if ratios is None else ratios.headings, power)
-    screws = screws_section(known, figures)
-    yield from (section for section in (ropes, screws) if section is not None)
-    rubbed = friction_section(known, figures)
-    yield from () if rubbed is None else (rubbed,)
+    yield from ropes
+    yield from screws_section(known, figures)
+    yield from friction_section(known, figures)
     yield from answer_section(known, figures)
     yield from left_out(known, steps, bodies=bodies)
     yield from check_section(known, figures)
@@ -303,11 +300,9 @@ def _by_power(known: Known, figures: Figures) -> Iterable[Section]:
     several = known.answer is not None and (known.answer.mobility or 0) > 1 and len(asked) > 1
     section = None if ratios is None or several else power_section(known, figures, ratios, loads)
     if ratios is None or section is None:
-        section = motions_section(known, figures, loads)
-        yield from () if section is None else (section,)
+        yield from motions_section(known, figures, loads)
         return
-    speeds = ratio_section(known, figures, ratios)
-    yield from () if speeds is None else (speeds,)
+    yield from ratio_section(known, figures, ratios)
     yield section
 
 
@@ -320,11 +315,12 @@ DALEMBERT = (
 )
 
 
-def inertia_section(known: Known, figures: Figures) -> Section | None:
-    """-m a at the centre of mass and -J alpha of every link that has a mass; None where there are none."""
+def inertia_section(known: Known, figures: Figures) -> Iterable[Section]:
+    """-m a at the centre of mass and -J alpha of every link that has a mass."""
     loads = [load for load in known.case.loads if load.name.startswith("inertia ")]
     blocks = [block for load in loads for block in _inertia(known, figures, load)]
-    return Section("Inertia forces", (words(DALEMBERT), *blocks)) if blocks else None
+    if blocks:
+        yield Section("Inertia forces", (words(DALEMBERT), *blocks))
 
 
 def _inertia(known: Known, figures: Figures, load: Load) -> Iterable[Block]:

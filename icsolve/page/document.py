@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from icsolve.case import Spring, Torque, Weight
+from icsolve.case import Torque
 from icsolve.draw.words import (
     answer_sentences,
     datum_name,
@@ -27,7 +27,7 @@ from icsolve.draw.words import (
 )
 from icsolve.explain.document import Document, Formula, formula
 from icsolve.explain.formula import MATHML, OMEGA, Expr, Name, Num, Quotient, Sum, product
-from icsolve.explain.given import load_name
+from icsolve.explain.given import gain_names, load_name
 from icsolve.explain.typeset import AsHtml
 from icsolve.page.columns import Array, exact, script_json
 from icsolve.page.fields import section
@@ -107,15 +107,12 @@ def turn_of(acting: Acting) -> int:
 
 def exerted(acting: Acting) -> Expr:
     """The force or torque of a load: of a mass its weight, of a spring its pull."""
-    name = load_name(acting.load.name)
-    if isinstance(acting.load, Spring):
-        return product(name, Name("s", acting.load.name))
-    return product(name, Name("g")) if isinstance(acting.load, Weight) and acting.load.mass else name
+    return product(load_name(acting.load.name), *gain_names(acting.load))
 
 
 def unit_exerted(known: Known, acting: Acting) -> str:
     """Its unit."""
-    return known.case.units.torque if isinstance(acting.load, Torque) else known.case.units.force
+    return known.case.units.torque if acting.at is None else known.case.units.force
 
 
 def _displayed(block: Formula) -> str:

@@ -18,9 +18,9 @@ from icsolve.draw.frame import frame_parts, joint_name, joint_parts, point_parts
 from icsolve.draw.links import DrawnBody, bars, body_of, guide_in_picture, link_part, outline
 from icsolve.draw.loads import load_parts
 from icsolve.draw.marks import Box, Mark, MarkGroup, Point, Stroke, TextMark, bounds
-from icsolve.draw.place import Label, Placer, joined
+from icsolve.draw.place import Label, joined
 from icsolve.draw.ropes import RopeCourse, belts, courses, filled, pulley_marks, rope_marks
-from icsolve.draw.scene import ORDER, Part, Scene, Wheel, around, together
+from icsolve.draw.scene import Part, Scene, Wheel, around, placed_labels, together
 from icsolve.page.columns import Array
 from icsolve.page.motion import PageMotion
 from icsolve.page.poses import moved
@@ -62,9 +62,7 @@ def figure_of(known: Known, steps: Sequence[Step], motion: PageMotion | None) ->
     under = together(parts)
     over = together([*_loads(scene, links), *_points(scene)])
     whole = together([under, over])
-    placer = Placer(whole.solid, whole.soft, scene.view.window)
-    labels = sorted(whole.labels, key=lambda label: ORDER.index(label.kind) if label.kind in ORDER else 9)
-    placed = [_told(scene, label, placer.put(label)) for label in labels if label.runs]
+    placed = [_told(label, marks) for label, marks in placed_labels(whole, scene.view.window)]
     layers = (
         MarkGroup("mechanism", "", under.marks),
         MarkGroup("centres", "", ()),
@@ -226,7 +224,7 @@ def _arrows(acting: Acting, marks: Sequence[Mark]) -> Iterable[Mark]:
         yield MarkGroup("", "", tuple(marks[2:]), "", (("data-load", name), ("data-end", other)))
 
 
-def _told(scene: Scene, label: Label, group: MarkGroup) -> MarkGroup:
+def _told(label: Label, group: MarkGroup) -> MarkGroup:
     """A label that knows what it follows."""
     kind, _, name = label.name.partition("-")
     x, y = _middle(group)

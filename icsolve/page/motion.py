@@ -11,7 +11,7 @@ from icsolve.case import Case, Centroid, Coordinates, Like, Load, Number, Pair, 
 from icsolve.case.joints import Guided, Mesh, without_friction
 from icsolve.draw.figure import genevas
 from icsolve.draw.loads import round_at_most
-from icsolve.draw.plot import asymptotes, dead_centres
+from icsolve.draw.plot import DEAD, asymptotes, dead_centres
 from icsolve.draw.words import figure_number, unit_word
 from icsolve.errors import SceneError, Status
 from icsolve.page.columns import Array
@@ -247,7 +247,6 @@ def _pass_change_points(found: Sweep) -> None:
                 column[row] = np.nan
 
 
-DEAD = (Status.DEAD_CENTRE, Status.NO_VALUE)
 BESIDE, GROWN = 1e-3, 3.0
 """Degrees beside a dead centre, and by how much an answer grows at least from ten times as far away."""
 

@@ -14,7 +14,6 @@ from icsolve.draw.marks import Box, Mark, bounds
 from icsolve.draw.plot import PlotFrame, PlottedCurve, plot_marks
 from icsolve.draw.svg import element, escaped, number
 from icsolve.draw.words import description, figure_number
-from icsolve.errors import Status
 from icsolve.page.columns import FINE, Array, compact
 from icsolve.page.figure import PageFigure
 from icsolve.page.motion import PageMotion
@@ -24,7 +23,6 @@ from icsolve.tuples import NamedTuple
 from icsolve.wording.senses import unit_of
 
 SIZE = (440.0, 250.0)
-DEAD = (Status.DEAD_CENTRE, Status.NO_VALUE)
 MOST = 3
 """So many curves are told apart in one plot."""
 
