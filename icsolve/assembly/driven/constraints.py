@@ -1,7 +1,7 @@
 """Joints and drivers as conditions on where the links are; each with its derivatives, for Newton's method.
 
 A pin is no condition here but one spot of several bodies. A slide is a `Turning` (its two bodies turn
-alike) and an `OnLine`; a slot is an `OnLine`; gears and belts are a `Turning`; rolling is in `rolling`.
+alike) and an `OnLine`; a slot is an `OnLine`; gears and belts are a `Turning`; rolling is in `mechanism`.
 """
 
 from __future__ import annotations
