@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Callable, Iterable, Iterator
-from itertools import combinations, pairwise
+from itertools import combinations
 
 from icsolve.assembly.loci import ArcLocus, Axis, CircleLocus, LineLocus, Locus, Shifted, Tether, is_round
 from icsolve.assembly.steps import Given, Mean, Meet, Polar, Step, Turned
@@ -335,12 +335,10 @@ def _tethered(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]
     rope = cluster.drawing.facts.ropes[datum.ref]  # type: ignore[index]
     if any(p != point and p not in cluster.placed for p in datum.points):
         return
-    own = [k for k, pair in enumerate(pairwise(datum.points)) if point in pair]
-    others = {p for k in own for p in datum.points[k : k + 2]} - {point}
-    sized = any(rope.radii[n] is not None for k in own for n in (k, k + 1))
-    if len(others) == 1 and not sized:
+    tied = rope.tied_to(datum.points, point)
+    if tied is not None:
         rest = tuple(p for p in datum.points if p != point)
-        yield BY_LENGTH, Tether(cluster.key(*others), datum, rest, len(own))
+        yield BY_LENGTH, Tether(cluster.key(tied[0]), datum, rest, tied[1])
 
 
 def _axis(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:

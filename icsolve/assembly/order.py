@@ -31,7 +31,7 @@ from icsolve.assembly.workspace import (
 )
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
-from icsolve.structure.plan import loose, matched, strongly_connected
+from icsolve.structure.plan import determined, loose, matched
 from icsolve.structure.topology import reached
 from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording.sentences import listed
@@ -195,15 +195,6 @@ def leans(system: System, point: str) -> list[str]:
     return list(dict.fromkeys(p for i in rows for p, _ in system.reach[i] if p != point))
 
 
-def groups_of(system: System, goal: list[str]) -> list[tuple[str, ...]]:
-    """The strongly connected parts that lean on no other part."""
-    needs = {p: leans(system, p) for p in goal}
-    place = {p: n for n, p in enumerate(goal)}
-    parts = [sorted(part, key=place.__getitem__) for part in strongly_connected(needs)]
-    closed = [tuple(part) for part in parts if all({*needs[p]} <= {*part} for p in part)]
-    return sorted(closed, key=lambda part: place[part[0]])
-
-
 # --- what is free in a figure with too few data, and what would fix it, in words ---
 
 
@@ -313,7 +304,10 @@ def next_group(drawing: LooseFigure, wanted: Iterable[str]) -> PointGroup:
     goal = list(reached(goal, lambda p: leans(system, p)))
     if any((p, part) in system.free for p in goal for part in (0, 1)):
         raise underdetermined(system, placed, goal)
-    points = min(groups_of(system, goal), key=len)
-    own = {(p, part) for p in points for part in (0, 1)}
-    equations = tuple(system.equations[i] for i in sorted(system.matched[u] for u in own))
-    return PointGroup(points, equations)
+    number = {p: n for n, p in enumerate(goal)}
+    held = {number[p]: [system.matched[p, part] for part in (0, 1)] for p in goal}
+    parts = determined(held, lambda i: dict.fromkeys(number[p] for p, _ in system.reach[i]), 2)
+    closed = (sorted(part.bodies) for part in parts if not part.others)
+    points = min(closed, key=lambda part: (len(part), part))
+    equations = (system.equations[i] for i in sorted(i for n in points for i in held[n]))
+    return PointGroup(tuple(goal[n] for n in points), tuple(equations))

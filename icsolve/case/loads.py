@@ -3,9 +3,15 @@ the ropes that run over them, driven screws."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import TypeVar
+
 from icsolve.case.joints import Guided, Thread
 from icsolve.numbers.units import ExactRatio, Number
 from icsolve.tuples import NamedTuple
+
+T = TypeVar("T")
 
 
 class Inertia(NamedTuple):
@@ -82,6 +88,15 @@ class Rope(NamedTuple):
     def is_free(self) -> bool:
         """Whether its last end is one that loads pull."""
         return len(self.links) < len(self.points)
+
+    def tied_to(self, stands: Sequence[T], at: T) -> tuple[T, int] | None:
+        """What straight parts alone lead from to one of what ``stands`` at its places, and how many do; None
+        where they come from several, or go round something."""
+        own = [k for k, pair in enumerate(pairwise(stands)) if at in pair]
+        others = {end for k in own for end in stands[k : k + 2]} - {at}
+        if len(others) != 1 or any(self.radii[n] is not None for k in own for n in (k, k + 1)):
+            return None
+        return next(iter(others)), len(own)
 
 
 class Like(NamedTuple):

@@ -33,7 +33,7 @@ def freedoms(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[Triple
     tuple[Triple, ...]
         One (pin, slide) or two (slot, contact, mesh). Two span the line of possible relative centres.
     """
-    _, _, _, joint, _, pivots = bond
+    _, _, _, joint, _, pivots, _ = bond
     return _mesh(bond, points, arithmetic) if pivots[0] else joint_freedoms(joint, points, arithmetic)
 
 

@@ -27,6 +27,8 @@ class Bond(NamedTuple):
     links: tuple[str, str]
     pivots: tuple[str, str] = ("", "")
     """of gears and belts: the points at which the two links are pinned to their carrier"""
+    carrier: int = -1
+    """of gears and belts: the body to which both are pinned"""
 
     @property
     def constraints(self) -> int:
@@ -162,10 +164,10 @@ def _bonds(case: Case, body_of: dict[str, int], pins: dict[str, list[int]]) -> I
             a, b = body_of[links[0]], body_of[links[1]]
             if not joint.freedom or a == b:
                 continue
-            pivots = ("", "")
+            pivots, carrier = ("", ""), -1
             if isinstance(joint, Mesh):
-                pivots = _pivots(joint, body_of, pins, pins_of)
-            yield Bond(a, b, joint.freedom, joint, links, pivots)
+                pivots, carrier = _pivots(joint, body_of, pins, pins_of)
+            yield Bond(a, b, joint.freedom, joint, links, pivots, carrier)
 
 
 def pairs_of(joint: Joint) -> list[tuple[str, str]]:
@@ -176,18 +178,18 @@ def pairs_of(joint: Joint) -> list[tuple[str, str]]:
 
 def _pivots(
     joint: Mesh, body_of: dict[str, int], pins: dict[str, list[int]], pins_of: dict[int, list[str]]
-) -> tuple[str, str]:
-    """The pins about which two wheels turn on a common carrier."""
+) -> tuple[tuple[str, str], int]:
+    """The pins about which two wheels turn on a common carrier, and that."""
     a, b = (body_of[link] for link in joint.links)
     wanted = body_of[joint.carrier] if joint.carrier else None
     found: dict[tuple[str, str], int] = {}
     for p in pins_of.get(a, ()):
         for q in pins_of.get(b, ()):
-            for carrier in set(pins[p]) & set(pins[q]) - {a, b} if p != q else ():
+            for carrier in sorted(set(pins[p]) & set(pins[q]) - {a, b}) if p != q else ():
                 if wanted in (None, carrier):
                     found.setdefault((p, q), carrier)
     if len(found) == 1:
-        return next(iter(found))
+        return next(iter(found.items()))
     names = f"{joint.kind} {joint.links[0]} and {joint.links[1]}"
     if not found:
         raise SceneError(

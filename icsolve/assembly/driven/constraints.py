@@ -1,7 +1,7 @@
 """Joints and drivers as conditions on where the links are; each with its derivatives, for Newton's method.
 
 A pin is no condition here but one spot of several bodies. A slide is a `Turning` (its two bodies turn
-alike) and an `OnLine`; a slot is an `OnLine`; gears and belts are a `Turning`; rolling is in `rolling`.
+alike) and an `OnLine`; a slot is an `OnLine`; gears and belts are a `Turning`; rolling is in `mechanism`.
 """
 
 from __future__ import annotations
@@ -175,11 +175,7 @@ class Roped(NamedTuple):
 
     def tied_to(self, spot: Spot) -> tuple[Spot, int] | None:
         """The one spot from which straight parts alone lead to another, and how many do; None elsewhere."""
-        own = [k for k in range(len(self.written)) if spot in self.spots[k : k + 2]]
-        others = {end for k in own for end in self.spots[k : k + 2]} - {spot}
-        if len(others) != 1 or any(self.is_round(n) for k in own for n in (k, k + 1)):
-            return None
-        return next(iter(others)), len(own)
+        return self.rope.tied_to(self.spots, spot)
 
     @property
     def terms(self) -> Terms:

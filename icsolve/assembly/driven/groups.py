@@ -216,22 +216,23 @@ def settled(mechanism: Mechanism, moved: Moved, step: AssurGroup, number: int) -
     guessed = [record.input(f"guess {number} {k}", float(x)) for k, x in enumerate(start)]
     q = dict(zip(step.bodies, _threes(guessed), strict=True))
     workspace = Workspace(mechanism.case, mechanism.frame, record)
-    rows = list(_equations(mechanism, moved, step, Guess(moved, bases, q), workspace))
+    conditions = ConditionRows(mechanism.shape, Guess(moved, bases, q), bases, workspace)
+    rows = list(equations(mechanism, conditions, step.constraints, moved))
     columns = [(body, part) for body in step.bodies for part in range(3)]
-    equations = Implicit(
+    system = Implicit(
         tuple(g.index for g in guessed),
         (),
         tuple(row.value for row in rows),
         tuple(tuple(row.by.get(column, 0.0) for column in columns) for row in rows),
     )
-    values = _at_record(record, equations)
+    values = _at_record(record, system)
     solved = [record.input(f"state {number} {k}", float(v)) for k, v in enumerate(values)]
     states = dict(zip(step.bodies, _threes(solved), strict=True))
-    equations = equations._replace(solved=tuple(s.index for s in solved))
-    record.implicit.append(equations)
+    system = system._replace(solved=tuple(s.index for s in solved))
+    record.implicit.append(system)
     return NewtonGroup(
         step.bodies,
-        equations,
+        system,
         bases,
         {b: rotated(mechanism.shape, s[2]) for b, s in states.items()},
         {b: (s[0], s[1]) for b, s in states.items()},
@@ -241,14 +242,6 @@ def settled(mechanism: Mechanism, moved: Moved, step: AssurGroup, number: int) -
 def _threes(values: Sequence[Scalar]) -> Iterator[tuple[Scalar, Scalar, Scalar]]:
     """Place and turning (x, y, angle) of body after body."""
     return zip(values[::3], values[1::3], values[2::3], strict=True)
-
-
-def _equations(
-    mechanism: Mechanism, moved: Moved, step: AssurGroup, guess: Guess, workspace: Workspace
-) -> Iterator[ConditionRow]:
-    own = {body: guess.bases[body] for body in step.bodies}
-    rows = ConditionRows(mechanism.shape, guess, own, workspace)
-    return equations(mechanism, rows, step.constraints, moved)
 
 
 def _at_record(record: Record, equations: Implicit) -> Array:

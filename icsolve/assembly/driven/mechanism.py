@@ -189,7 +189,7 @@ def mechanism(case: Case, frame: Frame, record: Record, ref: Mapping[str, Point]
             constraints += _immovable(joint, top, places, refusal)
         else:
             constraints += _conditions(joint, lines.get(i), shape, top.body_of)
-    constraints += [_meshed(bond, top, record) for bond in top.bonds if bond.pivots[0]]
+    constraints += [_meshed(bond, record) for bond in top.bonds if bond.pivots[0]]
     constraints += [_roped(rope, top, frame, record, places) for rope in top.ropes]
     _base(spots, lines.values(), places)
     owners = _owners(case, top, spots, contacts)
@@ -337,26 +337,14 @@ def _carry(spots: dict[int, list[Spot]], constraints: Iterable[Constraint]) -> N
                 spots[spot[0]].append(spot)
 
 
-def _meshed(bond: Bond, top: Topology, record: Record) -> Turning:
+def _meshed(bond: Bond, record: Record) -> Turning:
     """Two gears or pulleys seen from their carrier: ``n_a (w_a - w_c) = -+ n_b (w_b - w_c)``."""
     joint = bond.joint
     assert isinstance(joint, Mesh)
     a, b = (record.given(n) for n in joint.sizes)
     a, b = (-n if float(n) < 0.0 else n for n in (a, b))
     b = -b if joint.turns_alike else b
-    return Turning(((bond.a, a), (bond.b, b), (_carrier(bond, top), -(a + b))))
-
-
-def _carrier(bond: Bond, top: Topology) -> int:
-    """The body that carries both pivots."""
-    around: list[set[int]] = []
-    for pivot in bond.pivots:
-        pins = (other for other in top.bonds if other.joint.pivot == pivot)
-        around.append({body for pin in pins for body in (pin.a, pin.b)})
-    carriers = around[0] & around[1] - {bond.a, bond.b}
-    assert isinstance(bond.joint, Mesh)
-    named = bond.joint.carrier
-    return top.body_of[named] if named else min(carriers)
+    return Turning(((bond.a, a), (bond.b, b), (bond.carrier, -(a + b))))
 
 
 def _base(spots: dict[int, list[Spot]], lines: Iterable[BodyLine], ref: dict[str, Point]) -> None:
