@@ -383,7 +383,9 @@ class RowScenes:
 def counted_about(case: Case, angles: Mapping[str, float]) -> Case:
     """The case with its torsion springs' turns counted about angles, by load [degrees]."""
     loads = [
-        load._replace(about=angles[load.name]) if isinstance(load, TorsionSpring) else load
+        load._replace(about=angles[load.name])
+        if isinstance(load, TorsionSpring) and load.name in angles
+        else load
         for load in case.loads
     ]
     return replace(case, loads=tuple(loads)) if angles else case
