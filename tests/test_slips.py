@@ -583,6 +583,11 @@ SCENES = {
         "nothing but angles.CDF names point F",
     ),
     "a length in small letters": ([("AB: 1", "ab: 1")], "underdetermined", "did you mean A-B?"),
+    "a point in small letters": (
+        [("D: [4, 0]", "d: [4, 0]")],
+        "underdetermined",
+        "a point d, which is another",
+    ),
     "a load on the frame by its number": ([("title:", "ground: 4\ntitle:")], "", "link 4, the frame"),
     "two unknowns": ([("force: 100", "force: unknown")], "mobility", "Give one of them a number"),
 }

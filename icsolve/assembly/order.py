@@ -202,10 +202,14 @@ COUNT = {1: "one more length, angle or coordinate", 2: "two more (lengths, angle
 
 
 def underdetermined(system: System, placed: Iterable[str], goal: list[str]) -> SceneError:
-    """The refusal that lists every free part of the figure that the goal leans on."""
+    """The refusal that lists every free part of the figure that the goal leans on, and points that may be
+    meant by another case of their letters."""
     known = set(placed)
     parts = [part for part in _parts(system) if any(p in part for p in goal)]
-    return SceneError(Status.UNDERDETERMINED, "; ".join(_said(system, part, known) for part in parts))
+    said = [_said(system, part, known) for part in parts]
+    pairs = ((p, q) for part in parts for p in part for q in known if p.lower() == q.lower())
+    said += [f"the file has a point {q}, which is another than {p}" for p, q in pairs]
+    return SceneError(Status.UNDERDETERMINED, "; ".join(said))
 
 
 def _parts(system: System) -> list[list[str]]:
