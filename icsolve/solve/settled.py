@@ -337,11 +337,10 @@ def units_of(function: LoadFunction) -> tuple[Decimal, str]:
     units, scale = function.case.units, function.compiled.scene.frame.scale
     with localcontext(CONTEXT):
         per_load = 1 / (Decimal(function.force_scale) * Decimal(scale))
-        if function.turns_links:
-            return per_load * decimal_ratio(units.exact_torque) / decimal_ratio(
-                DEGREE
-            ) ** 2, f"{units.torque}/rad"
-        return per_load, f"{units.force}/{units.length}"
+        if not function.turns_links:
+            return per_load, f"{units.force}/{units.length}"
+        per_torque = per_load * decimal_ratio(units.exact_torque)
+        return per_torque / decimal_ratio(DEGREE) ** 2, f"{units.torque}/rad"
 
 
 def in_open_cells(function: LoadFunction, cluster: tuple[float, float]) -> tuple[float, float] | None:
