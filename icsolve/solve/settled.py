@@ -26,11 +26,11 @@ from icsolve.solve.rest import AT_LIMIT, PROBE, Rest, held
 from icsolve.sweep.exact import (
     CONTEXT,
     ZERO,
-    ExactRecord,
     RowScenes,
     as_written,
     counted_about,
     decimal_ratio,
+    exact_record,
 )
 from icsolve.sweep.program import CompiledSweep
 from icsolve.tuples import replace
@@ -41,8 +41,6 @@ JUMP = 1e-5
 SPREAD = (255.0 * 2.0**-46, 618.0 * 2.0**-46)
 """What becomes of the rounding of loads at eight steps, 64 units each: of the value and slope one step on."""
 DEGREES = 180.0 / math.pi
-EXACT: tuple[str, tuple[int, ...]] = ("in all digits", ())
-"""By this a record keeps itself in all digits."""
 MOST_STEPS = 12
 FASTER = 8
 """Newton's method closes in on a plain zero: each step is this many times shorter than the last, or more."""
@@ -65,10 +63,7 @@ def settled(
 
 def _values(function: LoadFunction, at: Decimal, nodes: Sequence[int]) -> list[Decimal]:
     """Nodes of a function at a decimal of its free number [case units, degrees], in all digits."""
-    record = function.record
-    exact: ExactRecord | None = record.kept.get(EXACT)
-    if exact is None:
-        exact = record.kept[EXACT] = ExactRecord(function.compiled)
+    record, exact = function.record, exact_record(function.compiled)
     given = {k: Decimal(float(v)) for k, v in function.given(np.array(float(at))).items()}
     return exact.values([record.nodes[k] for k in nodes], {**given, function.input: at})
 

@@ -254,6 +254,18 @@ class ExactRecord:
         raise Unreached
 
 
+EXACT: tuple[str, tuple[int, ...]] = ("in all digits", ())
+"""By this a record keeps itself in all digits."""
+
+
+def exact_record(compiled: CompiledSweep) -> ExactRecord:
+    """The record of a compiled sweep in all digits, made once."""
+    found: ExactRecord | None = compiled.record.kept.get(EXACT)
+    if found is None:
+        found = compiled.record.kept[EXACT] = ExactRecord(compiled)
+    return found
+
+
 def _result(op: int, a: Decimal, b: Decimal) -> Decimal:
     """An operation; NaN of what is NaN."""
     if a.is_nan() or b.is_nan():
@@ -313,7 +325,7 @@ class RowScenes:
     """Rows of a compiled sweep as cases: all points by coordinates, directions as they have turned."""
 
     def __init__(self, compiled: CompiledSweep) -> None:
-        self.compiled, self.exact = compiled, ExactRecord(compiled)
+        self.compiled, self.exact = compiled, exact_record(compiled)
         self.roots = live_roots(compiled)
         self.scene, record = compiled.scene, compiled.record
         self.points = dict(self.scene.points)
