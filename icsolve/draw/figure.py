@@ -14,9 +14,9 @@ from icsolve.draw.centres import centre_parts, circle_marks
 from icsolve.draw.frame import frame_parts, joint_parts, point_parts, rims, threads
 from icsolve.draw.links import DrawnBody, bars, body_of, inside_plate, link_part, outline, wheel_parts
 from icsolve.draw.loads import legend, load_parts, velocity_parts
-from icsolve.draw.marks import HEIGHT, WIDTH, Box, Mark, MarkGroup, Point, bounds, view_of
+from icsolve.draw.marks import HEIGHT, WIDTH, Box, Mark, Point, bounds, view_of
 from icsolve.draw.place import joined
-from icsolve.draw.ropes import belts, courses, filled, free_ends, pulley_marks, rope_marks
+from icsolve.draw.ropes import RopeCourse, belts, courses, filled, free_ends, pulley_parts, rope_marks
 from icsolve.draw.scene import (
     Geneva,
     Part,
@@ -108,29 +108,46 @@ def _shortest(known: Known) -> float:
     return min((span for span in spans if span > TOGETHER * known.size), default=math.inf)
 
 
-def figure_marks(scene: Scene, steps: Sequence[Step], *, velocities: bool) -> list[Mark]:
-    """The whole figure: frame, links, centres, joints, loads, and all labels."""
+class DrawnMechanism(NamedTuple):
+    """What lies under centres and loads: frame, links, ropes and joints; what links and ropes fill."""
+
+    parts: tuple[Part, ...]
+    filled: shapely.Geometry
+    ropes: tuple[RopeCourse, ...]
+
+
+def mechanism_of(scene: Scene, *, moving: bool = False) -> DrawnMechanism:
+    """The mechanism of a figure. In one that is moving wheels show how they turn, and screws no threads,
+    which would stay behind their nuts."""
     bodies = [body_of(scene, link) for link in scene.case.links if link != scene.case.ground]
     bodies.sort(key=lambda body: (len(body.blocks), -float(shapely.area(outline(body)))))  # rods first
-    ropes = courses(scene)
-    pulleys = tuple(mark for marks in pulley_marks(ropes).values() for mark in marks)
+    ropes = tuple(courses(scene))
     links = joined([*(bars(body) for body in bodies), *filled(ropes)])
-    speeds = velocity_parts(scene) if velocities else []
     under = [body for body in bodies if _hides_its_foot(scene, body)]
-    parts = [
-        *wheel_parts(bodies),
+    parts = (
+        *wheel_parts(bodies, spokes=moving),
         *rims(scene),
         *(link_part(scene, body) for body in under),
         *frame_parts(scene, links),
         *(link_part(scene, body) for body in bodies if body not in under),
-        *threads(scene),
+        *(() if moving else threads(scene)),
         *belts(scene),
-        *([Part((MarkGroup("pulleys", "", pulleys, "pulleys"),))] if pulleys else ()),
+        *pulley_parts(ropes),
         *rope_marks(scene, ropes),
         *joint_parts(scene),
+    )
+    return DrawnMechanism(parts, links, ropes)
+
+
+def figure_marks(scene: Scene, steps: Sequence[Step], *, velocities: bool) -> list[Mark]:
+    """The whole figure: mechanism, centres, loads, and all labels."""
+    mechanism = mechanism_of(scene)
+    speeds = velocity_parts(scene) if velocities else []
+    parts = [
+        *mechanism.parts,
         *centre_parts(scene, steps),
-        *load_parts(scene, _filled(links, speeds)),
-        *_supports(scene, links),
+        *load_parts(scene, _filled(mechanism.filled, speeds)),
+        *_supports(scene, mechanism.filled),
         *speeds,
         *point_parts(scene),
     ]

@@ -10,8 +10,8 @@ import shapely
 
 from icsolve.case import Belt, Contact, Gears, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
 from icsolve.case.joints import Guided
-from icsolve.draw.links import ROD, block_place, guide_in_picture, under_wedge
-from icsolve.draw.marks import Disc, Mark, MarkGroup, Point, Stroke, TextRun, along, unit
+from icsolve.draw.links import ROD, block_place, guide_in_picture, number_label, turns, under_wedge
+from icsolve.draw.marks import Disc, Follows, Mark, MarkGroup, Point, Stroke, along, unit
 from icsolve.draw.place import Label, Soft, area, bar, hatched, joined
 from icsolve.draw.scene import (
     BLOCK,
@@ -27,6 +27,7 @@ from icsolve.draw.scene import (
     outlines,
 )
 from icsolve.draw.words import name_runs
+from icsolve.tuples import NamedTuple
 
 FOOT = (17.0, 13.0)
 """Height of a foot and half its width."""
@@ -35,51 +36,56 @@ PITCH = 7.0
 DOWN, UP, LEFT, RIGHT = (0.0, 1.0), (0.0, -1.0), (-1.0, 0.0), (1.0, 0.0)
 
 
-def frame_parts(scene: Scene, links: shapely.Geometry, *, following: bool = False) -> list[Part]:
-    """Feet, rails and straight edges of the frame, and its number; with ``following`` each foot and rail is
-    a group that says which point it follows."""
+class FramePiece(NamedTuple):
+    """A part of the frame, what labels had better not cover of it, where the frame's number may stand, and
+    what it follows."""
+
+    marks: tuple[Mark, ...]
+    soft: tuple[Soft, ...]
+    anchors: tuple[Point, ...]
+    follows: Follows = ()
+
+
+def frame_parts(scene: Scene, links: shapely.Geometry) -> list[Part]:
+    """Feet, rails and straight edges of the frame, and its number."""
     ground = scene.case.ground
-    name_at = {at: name for name, at in reversed(list(scene.at.items()))}
-    held = [("data-at", name_at[p]) for p in _feet(scene)]
-    parts = [_foot(p, links) for p in _feet(scene)]
     guides = [joint for joint in _guides(scene) if joint.links[1] == ground]
-    parts += [_rail(scene, joint, links) for joint in guides if joint.thread is None]
-    held += [("data-rail", joint.at) for joint in guides if joint.thread is None]
-    parts += [_spindle(scene, joint) for joint in guides if joint.thread is not None]
-    parts += [_surface(scene, edge) for edge in scene.round.edges if edge.link == ground]
-    parts += [_annulus(scene, w) for w in scene.round.wheels if w.link == ground]
-    anchors = tuple(a for part in parts for a in part.labels[0].anchors)[:6]
-    bare = [part._replace(labels=()) for part in parts]
-    for n, data in enumerate(held if following else ()):
-        bare[n] = bare[n]._replace(marks=(MarkGroup("", "", bare[n].marks, "", (data,)),))
-    if anchors:
-        runs = (TextRun(ground),)
-        bare.append(Part(labels=(Label(f"number-{ground}", runs, "t-link", 12.0, anchors, 5.0, badge=True),)))
-    marks = tuple(mark for part in bare for mark in part.marks)
+    pieces = [_foot(name, scene.at[name], links) for name in _feet(scene)]
+    pieces += [_rail(scene, joint, links) for joint in guides if joint.thread is None]
+    pieces += [_spindle(scene, joint) for joint in guides if joint.thread is not None]
+    pieces += [_surface(scene, edge) for edge in scene.round.edges if edge.link == ground]
+    pieces += [_annulus(scene, w) for w in scene.round.wheels if w.link == ground]
+    marks = tuple(MarkGroup("", "", piece.marks, follows=piece.follows) for piece in pieces)
+    soft = tuple(soft for piece in pieces for soft in piece.soft)
+    anchors = tuple(a for piece in pieces for a in piece.anchors)[:6]
+    number = (number_label(ground, anchors, 5.0),) if anchors else ()
     group = MarkGroup(f"link-{ground}", "", marks, f"frame {ground}")
-    return [*(part._replace(marks=()) for part in bare), Part((group,) if marks else ())]
+    return [Part((group,), soft, (), number)] if marks else []
 
 
-def _feet(scene: Scene) -> list[Point]:
+def _feet(scene: Scene) -> list[str]:
     """Where the frame holds something: its pins, welds, blocks on it, and the ends of springs."""
     ground = scene.case.ground
-    found: list[Point] = []
+    found: list[str] = []
     for joint in scene.joints():
         own = joint.carried[:1] if isinstance(joint, Guided) else joint.carried
         if joint.at is not None and (ground, joint.at) in own:
-            found.append(scene.at[joint.at])
+            found.append(joint.at)
     for rope in scene.case.ropes:
         held = zip(rope.points, rope.links, rope.mu, strict=False)
-        found += [scene.at[p] for p, link, mu in held if link == ground and mu is None and p in scene.at]
-    found += [scene.at[spring.to] for spring in fixed_springs(scene.case) if spring.to in scene.at]
-    return list(dict.fromkeys(found))
+        found += [p for p, link, mu in held if link == ground and mu is None and p in scene.at]
+    found += [spring.to for spring in fixed_springs(scene.case) if spring.to in scene.at]
+    places: dict[Point, str] = {}
+    for name in found:
+        places.setdefault(scene.at[name], name)
+    return list(places.values())
 
 
 def _guides(scene: Scene) -> Iterable[Guided]:
     return (joint for joint in scene.joints() if isinstance(joint, Guided))
 
 
-def _foot(p: Point, links: shapely.Geometry) -> Part:
+def _foot(name: str, p: Point, links: shapely.Geometry) -> FramePiece:
     """A pin's foot: a triangle on hatched ground, where it hides least of the links."""
     height, half = FOOT
 
@@ -99,8 +105,7 @@ def _foot(p: Point, links: shapely.Geometry) -> Part:
     ground = hatched(ends[0], ends[1], 1.0 if _turns_left(side, down) else -1.0)
     shape = shapely.Polygon([apex, ends[0], ends[1]]).buffer(7.0, quad_segs=1)
     beside = (along(ends[0], down, 3.0), along(ends[1], down, 3.0))
-    label = Label("", (), "", 0.0, beside, 0.0)
-    return Part((area(triangle, "foot"), *ground), (Soft(shape, 1.5),), (), (label,))
+    return FramePiece((area(triangle, "foot"), *ground), (Soft(shape, 1.5),), beside, (("at", name),))
 
 
 def _turns_left(u: Point, v: Point) -> bool:
@@ -108,7 +113,7 @@ def _turns_left(u: Point, v: Point) -> bool:
     return -u[1] * v[0] + u[0] * v[1] > 0.0
 
 
-def _rail(scene: Scene, joint: Guided, links: shapely.Geometry) -> Part:
+def _rail(scene: Scene, joint: Guided, links: shapely.Geometry) -> FramePiece:
     """A hatched rail beside a block; two beside a pin that runs in a slot of the frame."""
     p, u = block_place(scene, joint), guide_in_picture(scene, joint)
     first, last = scene.ends(joint.links[1], scene.known.points[joint.at], p, u, 0.0)
@@ -135,7 +140,7 @@ def _rail(scene: Scene, joint: Guided, links: shapely.Geometry) -> Part:
     ends = tuple(along(q, v, sides[0] * (offset + 5.0)) for q in beyond)
     rails = [mark.points for mark in marks if isinstance(mark, Stroke) and mark.kind == "frame"]
     lines = [Soft(_band(points), 1.5) for points in rails]
-    return Part(tuple(marks), tuple(lines), (), (Label("", (), "", 0.0, ends, 0.0),))
+    return FramePiece(tuple(marks), tuple(lines), ends, (("rail", joint.at),))
 
 
 def _beside_cams(scene: Scene, p: Point, a: Point, b: Point) -> Iterable[tuple[Point, Point]]:
@@ -157,7 +162,7 @@ def _beside_cams(scene: Scene, p: Point, a: Point, b: Point) -> Iterable[tuple[P
         yield (near.coords[0], near.coords[-1])
 
 
-def _spindle(scene: Scene, joint: Guided) -> Part:
+def _spindle(scene: Scene, joint: Guided) -> FramePiece:
     """The rod of a screw that the frame holds, with its bearing."""
     p, u = scene.at[joint.at], guide_in_picture(scene, joint)
     first, last = scene.ends(joint.links[1], scene.known.points[joint.at], p, u, RAIL)
@@ -165,7 +170,7 @@ def _spindle(scene: Scene, joint: Guided) -> Part:
     ends = (along(first, v, -14.0), along(first, v, 14.0))
     marks: tuple[Mark, ...] = (area(bar((first, last), ROD), "body"), *hatched(*ends, 1.0))
     soft = (Soft(bar((first, last), ROD), 1.5), Soft(_band(ends), 1.5))
-    return Part(marks, soft, (), (Label("", (), "", 0.0, ends, 0.0),))
+    return FramePiece(marks, soft, ends)
 
 
 def threads(scene: Scene) -> list[Part]:
@@ -198,17 +203,17 @@ def _cover(middle: Point, u: Point, links: shapely.Geometry) -> float:
     return float(shapely.length(shapely.intersection(line, links)))
 
 
-def _surface(scene: Scene, edge: Edge) -> Part:
+def _surface(scene: Scene, edge: Edge) -> FramePiece:
     """Level ground on which something rolls or rubs."""
     at, n = scene.view.at(edge.at), (edge.normal[0], -edge.normal[1])
     u = (-n[1], n[0])
     ends = scene.ends(edge.link, edge.at, at, u, 74.0)
     marks = hatched(ends[0], ends[1], 1.0 if _turns_left(u, (-n[0], -n[1])) else -1.0)
     beside = tuple(along(end, n, -5.0) for end in ends)
-    return Part(tuple(marks), (Soft(_band(ends), 1.5),), (), (Label("", (), "", 0.0, beside, 0.0),))
+    return FramePiece(tuple(marks), (Soft(_band(ends), 1.5),), beside)
 
 
-def _annulus(scene: Scene, wheel: Wheel) -> Part:
+def _annulus(scene: Scene, wheel: Wheel) -> FramePiece:
     """A pitch circle of the frame with hatching outside."""
     centre, radius = scene.view.at(wheel.centre), wheel.radius * scene.view.scale
     count = max(int(2.0 * math.pi * radius / 9.0), 12)
@@ -222,7 +227,7 @@ def _annulus(scene: Scene, wheel: Wheel) -> Part:
         marks.append(Stroke((_polar(centre, outer, a), _polar(centre, outer + depth, b)), "hatch"))
     ring = shapely.Point(centre).buffer(outer + depth).boundary
     spots = tuple(_polar(centre, outer + depth, a) for a in (-0.8, -2.3, 0.8, 2.3))
-    return Part(tuple(marks), (Soft(ring, 2.0),), (), (Label("", (), "", 0.0, spots, 0.0),))
+    return FramePiece(tuple(marks), (Soft(ring, 2.0),), spots)
 
 
 def _polar(centre: Point, radius: float, angle: float) -> Point:
@@ -238,10 +243,8 @@ def rims(scene: Scene, link: str = "") -> list[Part]:
             marks = (Disc(centre, radius, "rim"), Disc(centre, radius + 7.0, "frame"))
             ring = shapely.Point(centre).buffer(radius + 3.0).boundary
             spots = tuple(_polar(centre, radius + 7.0, a) for a in (-0.8, -2.3, 0.8, 2.3))
-            label = Label(
-                f"number-{wheel.link}", (TextRun(wheel.link),), "t-link", 12.0, spots, 4.0, badge=True
-            )
-            group = MarkGroup(f"rim-{wheel.link}", "", marks, f"link {wheel.link}")
+            group = MarkGroup(f"rim-{wheel.link}", "", marks, f"link {wheel.link}", (), turns(wheel.link))
+            label = number_label(wheel.link, spots, 4.0)
             parts.append(Part((group,), (Soft(ring, 2.0),), (), (label,)))
     return parts
 
@@ -252,16 +255,12 @@ def joint_parts(scene: Scene) -> list[Part]:
     for joint in scene.joints():
         marks = _symbol(scene, joint)
         if marks:
-            at = scene.at[joint.at or ""]
+            at = joint.at or ""
+            name = "-".join(("joint", type(joint).__name__.lower(), at.replace("@", "at-"), *joint.links))
+            group = MarkGroup(name, "", tuple(marks), follows=(("at", at),))
             reach = PIN + 1.0 if joint.pivot or joint.guide else 4.0
-            parts.append(Part((MarkGroup(joint_name(joint), "", tuple(marks)),), (), (around(at, reach),)))
+            parts.append(Part((group,), (), (around(scene.at[at], reach),)))
     return parts
-
-
-def joint_name(joint: Joint) -> str:
-    """The id of a joint's symbol."""
-    at = (joint.at or "").replace("@", "at-")
-    return "-".join(("joint", type(joint).__name__.lower(), at, *joint.links))
 
 
 def _symbol(scene: Scene, joint: Joint) -> list[Mark]:
@@ -313,8 +312,9 @@ def point_parts(scene: Scene) -> list[Part]:
         if name not in scene.at or name.startswith("@"):
             continue
         p = scene.at[name]
-        pinned = name in jointed
-        label = Label(f"point-{name}", name_runs(name), "t-point", 15.0, (p,), PIN + 3.0 if pinned else 5.0)
-        dot = () if pinned else (Disc(p, 2.2, "dot"),)
+        pinned, follows = name in jointed, (("at", name),)
+        gap = PIN + 3.0 if pinned else 5.0
+        label = Label(f"point-{name}", name_runs(name), "t-point", 15.0, (p,), gap, follows=follows)
+        dot = () if pinned else (MarkGroup("", "", (Disc(p, 2.2, "dot"),), follows=follows),)
         parts.append(Part(dot, (), () if pinned else (around(p, 2.6),), (label,)))
     return parts

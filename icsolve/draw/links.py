@@ -9,7 +9,7 @@ import shapely
 
 from icsolve.case import Weight
 from icsolve.case.joints import Guided
-from icsolve.draw.marks import Disc, Mark, MarkGroup, Point, TextRun, along, unit
+from icsolve.draw.marks import Disc, Follows, Mark, MarkGroup, Point, Stroke, TextRun, along, unit
 from icsolve.draw.place import Label, Soft, area, bar, joined, nearest, plate, tilted
 from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene, geneva_of, normal_of, outlines
 from icsolve.numbers.arithmetic import FLOATS
@@ -365,25 +365,22 @@ def _anchors(
     return tuple(spots[:9])
 
 
-def wheel_parts(bodies: Iterable[DrawnBody]) -> list[Part]:
-    """The wheels of all links, large ones under small ones, all under bars and feet."""
-    discs = [(disc, body.link) for body in bodies for disc in body.wheels]
-    discs.sort(key=lambda found: -found[0].radius)
-    return [
-        Part(
-            (MarkGroup(f"wheel-{link}" if n == 0 else "", "", (disc,), f"link {link}"),),
-            (Soft(shapely.Point(disc.centre).buffer(disc.radius).boundary, 1.5),),
-        )
-        for n, disc, link in _counted(discs)
-    ]
+def wheel_parts(bodies: Iterable[DrawnBody], *, spokes: bool = False) -> Iterable[Part]:
+    """The wheels of all links, large ones under small ones, all under bars and feet; spokes show how they
+    turn."""
+    wheels = [(disc, body.link, n) for body in bodies for n, disc in enumerate(body.wheels)]
+    for disc, link, n in sorted(wheels, key=lambda found: -found[0].radius):
+        (x, y), r = disc.centre, disc.radius
+        cross = (((x - r, y), (x + r, y)), ((x, y - r), (x, y + r))) if spokes else ()
+        marks: tuple[Mark, ...] = (disc, *(Stroke(ends, "faint") for ends in cross))
+        name = f"wheel-{link}" if n == 0 else ""
+        group = MarkGroup(name, "", marks, f"link {link}", (), turns(link))
+        yield Part((group,), (Soft(shapely.Point(disc.centre).buffer(r).boundary, 1.5),))
 
 
-def _counted(discs: list[tuple[Disc, str]]) -> Iterable[tuple[int, Disc, str]]:
-    """Each wheel with how many of its link came before (an id stands once)."""
-    seen: dict[str, int] = {}
-    for disc, link in discs:
-        yield seen.get(link, 0), disc, link
-        seen[link] = seen.get(link, 0) + 1
+def turns(link: str) -> Follows:
+    """What goes and turns with a link."""
+    return (("turn", link),)
 
 
 def link_part(scene: Scene, body: DrawnBody) -> Part:
@@ -397,15 +394,19 @@ def link_part(scene: Scene, body: DrawnBody) -> Part:
     inside = inside_plate(body)
     soft = [Soft(shape.difference(inside), 0.3 if body.dashed else COVER) for shape in solids]
     soft += [Soft(shape.boundary, OUTLINE) for shape in solids] + [Soft(inside, PLATE)]
-    group = MarkGroup(f"link-{body.link}", "", tuple(marks), f"link {body.link}")
+    group = MarkGroup(f"link-{body.link}", "", tuple(marks), f"link {body.link}", (), turns(body.link))
     rim = any(wheel.rim and wheel.link == body.link for wheel in scene.round.wheels)
     middle = shapely.centroid(inside)
     on = not inside.is_empty and bool(shapely.contains(inside, middle))
     anchors = ((middle.x, middle.y),) if on else body.anchors
-    number = Label(
-        f"number-{body.link}", (TextRun(body.link),), "t-link", 12.0, anchors, 10.0, badge=True, on=on
-    )
+    number = number_label(body.link, anchors, 10.0)._replace(on=on)
     return Part((group,) if marks else (), tuple(soft), (), (number,) if body.anchors and not rim else ())
+
+
+def number_label(link: str, anchors: tuple[Point, ...], gap: float) -> Label:
+    """The number of a link."""
+    runs, follows = (TextRun(link),), (("on", link),)
+    return Label(f"number-{link}", runs, "t-link", 12.0, anchors, gap, badge=True, follows=follows)
 
 
 def inside_plate(body: DrawnBody) -> shapely.Geometry:

@@ -4,7 +4,7 @@ with the answer beside it. Velocities of the points, square to their radii."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import shapely
 
@@ -107,21 +107,21 @@ def _force(scene: Scene, acting: Acting, links: shapely.Geometry) -> Part | None
     tail, tip = ends[:2]
     spread = _spread(scene, acting, tail, tip)
     lines = [(tail, tip), *(line for line, _ in spread)]
-    marks = arrow(tail, tip, kind)
-    if hung or spread:
-        sheaf = [mark for line, size in spread for mark in arrow(*line, kind, size)]
-        tails = tuple(line[0] for line, _ in spread)
-        rail = (Stroke(tails, kind),) if isinstance(getattr(acting.load, "over", None), Stretch) else ()
-        marks = (MarkGroup("", "", (*(sheaf or marks), *hung)), MarkGroup("", "", rail))
+    sheaf = [mark for line, size in spread for mark in arrow(*line, kind, size)]
+    marks: list[Mark] = [*(sheaf or arrow(tail, tip, kind)), *hung]
+    if spread and not pressed:
+        marks.append(Stroke(tuple(line[0] for line, _ in spread), kind))
+    groups = [_following(acting, marks)]
     if acting.against != scene.case.ground:
         partner = _partner(scene, acting.load)
-        lines.append((along(partner, u, -8.0), along(partner, u, -8.0 - ARROW)))
-        marks += arrow(*lines[-1], kind)
+        end = along(scene.at[partner], u, -8.0)
+        lines.append((end, along(end, u, -ARROW)))
+        groups.append(_following(acting, arrow(*lines[-1], kind), ("end", partner)))
     soft = tuple(Soft(shapely.LineString(line).buffer(4.0, quad_segs=1), 4.0) for line in lines)
     outer, inner = (tail, tip) if math.dist(tail, at) > math.dist(tip, at) else (tip, tail)
     middle = ((outer[0] + inner[0]) / 2.0, (outer[1] + inner[1]) / 2.0)
     inward = along(outer, unit(at[0] - outer[0], at[1] - outer[1]), 12.0)
-    return _with_label(acting, marks, soft, (outer, inward, middle))
+    return _with_label(acting, groups, soft, (outer, inward, middle))
 
 
 def _spread(scene: Scene, acting: Acting, tail: Point, tip: Point) -> list[tuple[tuple[Point, Point], float]]:
@@ -176,19 +176,19 @@ def hidden(scene: Scene, way: tuple[Point, Point, float], links: shapely.Geometr
     return float(shapely.area(shapely.intersection(shape, links))) + bias + out
 
 
-def _partner(scene: Scene, load: Load) -> Point:
+def _partner(scene: Scene, load: Load) -> str:
     """Where the opposite of a force between two links acts: the point that it is toward, or its own."""
     name: str = getattr(getattr(load, "heading", None), "point", "")
-    at: str = getattr(load, "at", "")
-    return scene.at[name if name in scene.at else at]
+    return name if name in scene.at else str(getattr(load, "at", ""))
 
 
 def _spring(scene: Scene, acting: Acting, load: Spring) -> Part:
     a, b = scene.at[load.at], scene.at[load.to]
     line = Stroke(tuple(_coil(a, b)), "unknown" if acting.unknown else "spring")
+    coil = MarkGroup("", "", (line,), follows=(("span", load.name),))
     soft = (Soft(shapely.LineString([a, b]).buffer(7.0, quad_segs=1), 3.0),)
     middle = [(a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])) for s in (0.5, 0.35, 0.65)]
-    return _with_label(acting, (line,), soft, tuple(middle), gap=10.0)
+    return _with_label(acting, [coil], soft, tuple(middle), gap=10.0)
 
 
 def _spiral(scene: Scene, acting: Acting, load: TorsionSpring) -> Part | None:
@@ -202,7 +202,8 @@ def _spiral(scene: Scene, acting: Acting, load: TorsionSpring) -> Part | None:
     chain = tuple(along(centre, (math.cos(a), math.sin(a)), r) for a, r in places)
     soft = (Soft(shapely.Point(centre).buffer(SPIRAL), 1.0),)
     sides = tuple(along(centre, (math.cos(a), math.sin(a)), SPIRAL) for a in (0.0, math.pi, -1.57, 1.57))
-    return _with_label(acting, (Stroke(chain, "unknown" if acting.unknown else "spring"),), soft, sides)
+    line = Stroke(chain, "unknown" if acting.unknown else "spring")
+    return _with_label(acting, [_following(acting, [line])], soft, sides)
 
 
 def _coil(a: Point, b: Point) -> Iterable[Point]:
@@ -230,9 +231,8 @@ def _screwed(scene: Scene, acting: Acting, screw: Screw) -> Part:
     ring = [along(along(centre, v, 15.0 * math.sin(a)), u, -6.0 * math.cos(a)) for a in angles]
     marks = (*arrow(ring[-2], ring[-1], kind_of(acting)), Stroke(tuple(ring[:-1]), kind_of(acting)))
     soft = (Soft(shapely.Point(centre).buffer(17.0), 3.0),)
-    return _with_label(
-        acting, marks, soft, (along(centre, v, 15.0), along(centre, v, -15.0), along(centre, u, 8.0))
-    )
+    anchors = (along(centre, v, 15.0), along(centre, v, -15.0), along(centre, u, 8.0))
+    return _with_label(acting, [_following(acting, marks)], soft, anchors)
 
 
 def _torque(scene: Scene, acting: Acting, turned: dict[Point, int]) -> Part | None:
@@ -254,7 +254,7 @@ def _torque(scene: Scene, acting: Acting, turned: dict[Point, int]) -> Part | No
     ring = shapely.Point(centre).buffer(radius + 3.0).difference(shapely.Point(centre).buffer(radius - 3.0))
     angles = (0.0, math.pi, -1.57, 1.57, -0.8, 2.4)
     sides = tuple(along(centre, (math.cos(a), math.sin(a)), radius) for a in angles)
-    return _with_label(acting, marks, (Soft(ring, 4.0),), sides)
+    return _with_label(acting, [_following(acting, marks)], (Soft(ring, 4.0),), sides)
 
 
 def axle(scene: Scene, link: str) -> Point | None:
@@ -274,18 +274,22 @@ def axle(scene: Scene, link: str) -> Point | None:
     return next(iter([*wheels, *points, *joints]), None)
 
 
+def _following(acting: Acting, marks: Iterable[Mark], *more: tuple[str, str]) -> MarkGroup:
+    """Marks that go with a load."""
+    return MarkGroup("", "", tuple(marks), follows=(("load", acting.load.name), *more))
+
+
 def _with_label(
     acting: Acting,
-    marks: tuple[Mark, ...],
+    marks: Sequence[Mark],
     soft: tuple[Soft, ...],
     anchors: tuple[Point, ...],
     gap: float = 6.0,
 ) -> Part:
-    runs, name = load_words(acting), acting.load.name
-    label = Label(f"label-{name}", runs, f"t-{kind_of(acting)}", 14.0, anchors, gap)
-    return Part(
-        (MarkGroup(f"load-{name}", "", marks, plain_text(runs)),), (*soft, *heads(marks)), (), (label,)
-    )
+    runs, name, kind = load_words(acting), acting.load.name, f"t-{kind_of(acting)}"
+    label = Label(f"label-{name}", runs, kind, 14.0, anchors, gap, follows=(("label", name),))
+    group = MarkGroup(f"load-{name}", "", tuple(marks), plain_text(runs))
+    return Part((group,), (*soft, *heads(marks)), (), (label,))
 
 
 def heads(marks: Iterable[Mark]) -> list[Soft]:

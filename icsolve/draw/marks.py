@@ -72,10 +72,16 @@ class TextMark(NamedTuple):
     anchor: str = "middle"
 
 
+Follows = tuple[tuple[str, str], ...]
+"""What goes with what where the mechanism moves: ``turn`` with a link, ``at`` with a point, ``on`` with a
+place of a link without turning, ``rail`` with a guide of the frame, ``load``, ``span`` (a spring), ``label``
+and ``rope`` with what has that name."""
+
+
 class MarkGroup(NamedTuple):
     """Marks that belong together, under an id and with a title that a reader can call up.
 
-    ``data`` are further attributes.
+    ``data`` are further attributes; what the group ``follows`` is told in pictures that move.
     """
 
     name: str
@@ -83,6 +89,7 @@ class MarkGroup(NamedTuple):
     marks: tuple[Mark, ...]
     title: str = ""
     data: tuple[tuple[str, str], ...] = ()
+    follows: Follows = ()
 
 
 Mark = AreaMark | Stroke | Disc | ArcMark | TextMark | MarkGroup

@@ -19,6 +19,7 @@ from icsolve.draw.marks import (
     AreaMark,
     Box,
     Disc,
+    Follows,
     Mark,
     MarkGroup,
     Point,
@@ -132,7 +133,7 @@ class Label(NamedTuple):
 
     ``anchors`` are points that it may stand beside, best first, ``gap`` the distance kept from them;
     ``badge`` puts it in a circle (a link's number), ``on`` lets it stand on its anchors too. ``name`` is
-    the id of its group.
+    the id of its group. One that ``follows`` nothing is true of the position as written alone.
     """
 
     name: str
@@ -143,6 +144,7 @@ class Label(NamedTuple):
     gap: float
     badge: bool = False
     on: bool = False
+    follows: Follows = ()
 
 
 class Soft(NamedTuple):

@@ -15,7 +15,7 @@ import shapely
 from icsolve.case import Rope
 from icsolve.draw.marks import Disc, Mark, MarkGroup, Point, Stroke, TextRun
 from icsolve.draw.place import Label, Soft
-from icsolve.draw.scene import BeltLoop, Part, Scene, around
+from icsolve.draw.scene import BeltLoop, Part, Scene, Wheel, around
 from icsolve.draw.words import quantity
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
@@ -134,22 +134,22 @@ def filled(ropes: Sequence[RopeCourse]) -> list[shapely.Geometry]:
     return [*lines, *(shapely.Point(d.centre).buffer(d.radius) for rope in ropes for _, d in rope.pulleys)]
 
 
-def pulley_marks(ropes: Sequence[RopeCourse]) -> dict[str, tuple[Mark, ...]]:
-    """The pulleys in a place with their pins, by their point, the largest first."""
+def pulley_parts(ropes: Sequence[RopeCourse]) -> list[Part]:
+    """The pulleys in each place with their pins, the largest first."""
     found: dict[str, tuple[Mark, ...]] = {}
     every = dict.fromkeys(pulley for rope in ropes for pulley in rope.pulleys)
     for name, disc in sorted(every, key=lambda pulley: -pulley[1].radius):
         found[name] = (*found.get(name, ()), disc, Disc(disc.centre, AXLE, "pin"))
-    return found
+    places = tuple(MarkGroup("", "", marks, follows=(("at", name),)) for name, marks in found.items())
+    return [Part((MarkGroup("pulleys", "", places, "pulleys"),))] if places else []
 
 
 def rope_marks(scene: Scene, ropes: Sequence[RopeCourse]) -> list[Part]:
     """The ropes, and the tensions."""
     parts = []
     for rope in ropes:
-        group = MarkGroup(
-            f"rope-{rope.rope.name}", "", (Stroke(rope.line, "rope"),), f"rope {rope.rope.name}"
-        )
+        name, line = rope.rope.name, Stroke(rope.line, "rope")
+        group = MarkGroup(f"rope-{name}", "", (line,), f"rope {name}", follows=(("rope", name),))
         solid = tuple(around(disc.centre, AXLE) for _, disc in rope.pulleys)
         rims = (shapely.Point(disc.centre).buffer(disc.radius).boundary for _, disc in rope.pulleys)
         soft = (Soft(shapely.LineString(rope.line), 3.0), *(Soft(ring, 1.5) for ring in rims))
@@ -175,14 +175,25 @@ def _tensions(scene: Scene, course: RopeCourse) -> Iterable[Label]:
 
 
 def belts(scene: Scene) -> list[Part]:
-    """The two strands of each belt."""
+    """The two strands of each belt; they go round with the link that carries both wheels."""
     parts = []
     for loop in scene.round.loops:
         strands = [Stroke(ends, "rope") for ends in _strands(scene, loop)]
         soft = tuple(Soft(shapely.LineString(strand.points), 2.0) for strand in strands)
-        name = f"belt-{loop.first.link}-{loop.second.link}"
-        parts.append(Part((MarkGroup(name, "", tuple(strands), "belt"),), soft))
+        name, carriers = f"belt-{loop.first.link}-{loop.second.link}", _carriers(scene, loop)
+        follows = tuple(("turn", link) for link in carriers[:1])
+        parts.append(Part((MarkGroup(name, "", tuple(strands), "belt", follows=follows),), soft))
     return parts
+
+
+def _carriers(scene: Scene, loop: BeltLoop) -> list[str]:
+    """The moving links about whose pins both wheels turn."""
+
+    def pinned(link: str, wheel: Wheel) -> bool:
+        return any(scene.known.points.get(p) == wheel.centre for p in scene.case.pivots(link, wheel.link))
+
+    links = (link for link in scene.case.links if link != scene.case.ground)
+    return [link for link in links if pinned(link, loop.first) and pinned(link, loop.second)]
 
 
 def _strands(scene: Scene, loop: BeltLoop) -> Iterable[tuple[Point, Point]]:

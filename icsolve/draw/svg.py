@@ -189,14 +189,15 @@ def document(marks: Iterable[Mark], view: Box, title: str, description: str) -> 
             f"<desc>{escaped(description)}</desc>",
             f"<style>{sheet(used, painted=False)}</style>",
             f'<rect class="paper" x="{corner[0]}" y="{corner[1]}" width="{size[0]}" height="{size[1]}"/>',
-            *(element(mark, halo=True) for mark in marks),
+            *(element(mark, alone=True) for mark in marks),
             "</svg>\n",
         )
     )
 
 
-def element(mark: Mark, *, halo: bool = False) -> str:
-    """One mark; with ``halo`` a label's letters stand on a stroke of the paper's colour."""
+def element(mark: Mark, *, alone: bool = False) -> str:
+    """One mark; in a document ``alone`` a label's letters stand on a stroke of the paper's colour, and
+    nothing moves."""
     match mark:
         case AreaMark():
             rings = " ".join(f"M{_chain(ring)}Z" for ring in mark.rings)
@@ -209,11 +210,11 @@ def element(mark: Mark, *, halo: bool = False) -> str:
         case ArcMark():
             return _arc(mark)
         case TextMark():
-            set_out = _from_its_start(mark) if halo and len(mark.runs) > 1 else mark
-            under = _text(set_out, " halo") + "\n" if halo and mark.kind in _HALOED else ""
+            set_out = _from_its_start(mark) if alone and len(mark.runs) > 1 else mark
+            under = _text(set_out, " halo") + "\n" if alone and mark.kind in _HALOED else ""
             return under + _text(set_out)
         case MarkGroup():
-            return _group(mark, halo)
+            return _group(mark, alone)
 
 
 def _chain(points: Iterable[tuple[float, float]]) -> str:
@@ -254,13 +255,16 @@ def _runs(text: TextMark) -> str:
     return "".join(parts)
 
 
-def _group(group: MarkGroup, halo: bool) -> str:
+def _group(group: MarkGroup, alone: bool) -> str:
+    """A group; where there is nothing to say of it, its marks."""
     name = f' id="{escaped(identifier(group.name))}"' if group.name else ""
     kind = f' class="{group.kind}"' if group.kind else ""
-    data = "".join(f' {key}="{escaped(value)}"' for key, value in group.data)
+    follows = () if alone else ((f"data-{key}", value) for key, value in group.follows)
+    data = "".join(f' {key}="{escaped(value)}"' for key, value in (*group.data, *follows))
     title = f"<title>{escaped(group.title)}</title>" if group.title else ""
-    body = "".join(f"\n{element(mark, halo=halo)}" for mark in group.marks)
-    return f"<g{name}{kind}{data}>{title}{body}\n</g>"
+    body = "".join(f"\n{element(mark, alone=alone)}" for mark in group.marks)
+    said = name or kind or data or title
+    return f"<g{name}{kind}{data}>{title}{body}\n</g>" if said else body[1:]
 
 
 def runs_of(text: str) -> tuple[TextRun, ...]:
