@@ -36,7 +36,6 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     if not FULL:
         monkeypatch.setattr("icsolve.assembly.exclusion.MOST_BOXES", 10_000)
         monkeypatch.setattr("icsolve.page.motion.COARSE", 15.0)  # rows that are solved one by one
-    monkeypatch.setenv("ICSOLVE_DEBUG", "1")
     return tmp_path
 
 
