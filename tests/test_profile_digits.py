@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable
 from random import Random
 
+import numpy as np
 import pytest
 from mpmath import cos, findroot, lu_solve, matrix, mp, mpc, mpf, pi, sin, sqrt
 
@@ -18,6 +19,7 @@ from icsolve.case import Case
 from icsolve.errors import SceneError
 from icsolve.read import load
 from icsolve.solve import solve
+from icsolve.sweep import sweep
 from sizes import MORE
 
 Vector = tuple[mpf, mpf]
@@ -206,6 +208,17 @@ def beside(kind: Callable[[mpf], object], low: mpf, rng: Random) -> list[float]:
     return [float(low) + sign * 10.0 ** -rng.uniform(2, 12.5) for sign in (1, -1, 1, -1)]
 
 
+def swept(case: Case, rows: list[float], truth: Callable[[float], mpf]) -> None:
+    """Rows are within their bounds; those in doubles, of some thousands, within 1e-8."""
+    told = sweep(case, {"angles.AC": np.array(rows)}, ("answers", "status", "error"))
+    found = sweep(case, {"angles.AC": np.array(rows)}, ("answers", "status"))
+    assert set(found.status) == set(told.status) == {"ok"}
+    for n, row in enumerate(rows):
+        true = truth(row)
+        assert abs(mpf(found.answers["T12"][n]) - true) <= 1e-8, row
+        assert abs(mpf(told.answers["T12"][n]) - true) <= told.error["T12"][n] or not true, row
+
+
 @pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize("lean", [0, 5, -12])
 def test_a_face_rests_on_the_end_of_a_flank_that_it_meets_first(lean: int, side: int) -> None:
@@ -222,22 +235,31 @@ def test_a_face_rests_on_the_end_of_a_flank_that_it_meets_first(lean: int, side:
         dwells = k == 4 and out.real < up.real
         return dwells, ends[k] * turn(degrees)
 
-    for degrees in beside(lambda x: rests(x)[0], mpf(90 + lean - side * 60) - mpf("0.6"), Random(lean)):
-        case = load(ENDS.strip() % (30, 30, repr(degrees), ARCS, lean))
+    rng = Random(lean)
+    rows = beside(lambda x: rests(x)[0], mpf(90 + lean - side * 60) - mpf("0.6"), rng)
+    case = load(ENDS.strip() % (30, 30, repr(rows[0]), ARCS, lean))
+
+    def truth(degrees: float) -> mpf:
         dwells, at = rests(exactly(degrees))
-        found = solve(case).answers["T12"]
-        if dwells:
-            assert found.value == 0.0
+        return mpf(0) if dwells else torque(at, n)
+
+    swept(case, rows + [round(row + rng.uniform(-0.01, 0.01), 6) for row in rows], truth)
+    for degrees in rows:
+        case = load(ENDS.strip() % (30, 30, repr(degrees), ARCS, lean))
+        true, found = truth(degrees), solve(case).answers["T12"]
+        if true:
+            held(found, true)
         else:
-            held(found, torque(at, n))
+            assert found.value == 0.0
 
 
-@pytest.mark.parametrize("seed", range(3 * MORE))
-def test_a_roller_goes_over_from_an_edge_to_the_corner(seed: int) -> None:
-    """Of a triangle A, P, Q whose corners it rounds."""
+@pytest.mark.parametrize("seed", range(2 * MORE))
+@pytest.mark.parametrize("follower", ["roller", "knife"])
+def test_a_roller_or_a_knife_edge_goes_over_from_an_edge_to_the_next(follower: str, seed: int) -> None:
+    """Of a triangle C, P, Q, about whose corners the roller turns."""
     rng = Random(400 + seed)
-    size, r = decimal(rng, 20, 40), exactly(decimal(rng, 2, 12))
-    corners = [mpc(0), exactly(size) * turn(-mpf("60.001")), exactly(size) * turn(mpf("60.001"))]
+    size, r = decimal(rng, 20, 40), exactly(decimal(rng, 2, 12)) * (follower == "roller")
+    corners = [mpc(40), exactly(size) * turn(mpf("130.001")), exactly(size) * turn(-mpf("130.001"))]
 
     def rests(degrees: mpf) -> tuple[int, mpc, mpc]:
         met = []
@@ -254,9 +276,13 @@ def test_a_roller_goes_over_from_an_edge_to_the_corner(seed: int) -> None:
 
     places = (k + mpf("0.3") for k in range(rng.randint(-170, 0), 180))
     low = next(x for x in places if rests(x)[0] != rests(x + 1)[0])
-    for degrees in beside(lambda x: rests(x)[0], low, rng):
-        text = ENDS.strip() % (repr(size), repr(size), repr(degrees), "{polygon: [A, Q, P]}", 0)
-        case = load(text.replace("{flat: B, along: 0}", f"{{roller: B, radius: {float(r)!r}}}"))
+    rows, shape = beside(lambda x: rests(x)[0], low, rng), "{knife: B}"
+    if r:
+        shape = f"{{roller: B, radius: {float(r)!r}}}"
+    text = ENDS.strip().replace("{flat: B, along: %s}", shape).replace("60.001", "130.001")
+    cases = [load(text % (repr(size), repr(size), repr(row), "{polygon: [C, P, Q]}")) for row in rows]
+    swept(cases[0], rows, lambda row: torque(*rests(exactly(row))[1:]))
+    for case, degrees in zip(cases, rows, strict=True):
         held(solve(case).answers["T12"], torque(*rests(exactly(degrees))[1:]))
 
 

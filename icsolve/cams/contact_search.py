@@ -23,10 +23,9 @@ from icsolve.cams.contact_candidates import (
     gap_of,
     meeting_of,
 )
-from icsolve.cams.curve import AT_END, Body, Curve, Foot, body_of, placed
+from icsolve.cams.curve import Body, Curve, Foot, body_of, placed
 from icsolve.cams.enclosed_contact import (
     DIGITS,
-    NEARBY,
     EnclosedContact,
     FollowerPlaces,
     LocusFinder,
@@ -62,6 +61,8 @@ FITS = 2e-3
 """A follower whose place is given may miss the profile by this fraction of the profile's size."""
 ROUNDED = 1e-14
 """A pressure angle of this sine is rounding."""
+BESIDE = 1e-6
+"""So near to the end of a piece (of its length), and to its normal, both end and piece are looked at."""
 CLEARLY = 0.9
 """A way is meant where it is nearer to `near` than this fraction of the distance of the next."""
 
@@ -182,25 +183,30 @@ class ContactSearch:
         feet = [(meeting.foot, meeting.normals[0]), *meeting.ties]
         spots: dict[Point | int, tuple[Foot, Point]] = {}
         for foot, normal in feet:
-            for spot in self._spots(curve, foot, normal):
-                spots.setdefault(spot.point if spot.is_corner else spot.piece, (spot, normal))
+            for spot, way in self._spots(curve, foot, normal, meeting.gap):
+                spots.setdefault(spot.point if spot.is_corner else spot.piece, (spot, way))
         senses = {self._sense(spot, normal, guide) for spot, normal in spots.values()}
         outer: tuple[EnclosedContact, Foot] | None = None
         try:
             for spot, normal in spots.values():
                 one = self._enclosed_on(curve, meeting._replace(foot=spot, normals=(normal,)), guide)
-                if one and (outer is None or self._ahead(one, outer[0], min(senses))):
+                if one and (outer is None or self._ahead(one, outer[0], min(senses), guide)):
                     outer = one, spot
         except (MoreDigits, BelowZero, ZeroDivisionError):
             return None
         return outer if len(senses) == 1 else None
 
-    def _ahead(self, one: EnclosedContact, other: EnclosedContact, sense: float) -> bool:
+    def _ahead(
+        self, one: EnclosedContact, other: EnclosedContact, sense: float, guide: FollowerGuide | None
+    ) -> bool:
         """Whether a contact is met before another; MoreDigits where they are one, but for their normals.
 
         Raises SceneError where both are met at once.
         """
-        ahead = (one.change - other.change) * sense
+        a, b = one.change, other.change
+        if isinstance(self.follower, Knife) and (guide or self.freed) is None:  # a gap on either side
+            a, b = a * a, b * b
+        ahead = (a - b) * sense
         if not (at_least(ahead) and at_least(0.0 - ahead)):
             return at_least(ahead)
         if not all(at_least(p - q) and at_least(q - p) for p, q in zip(one.at, other.at, strict=True)):
@@ -211,16 +217,23 @@ class ContactSearch:
             raise MoreDigits
         return False
 
-    def _spots(self, curve: Curve, foot: Foot, normal: Point) -> Iterator[Foot]:
-        """What may be touched about a foot: its piece, where that is square to the normal, and the end of it
-        there, be it a corner or not.
+    def _spots(self, curve: Curve, foot: Foot, normal: Point, gap: float) -> Iterator[tuple[Foot, Point]]:
+        """What may be touched about a foot, with the normals there: its piece, where that is square to the
+        normal, and the end of it there, be it a corner or not.
         """
         piece, own, end = curve.pieces[foot.piece], curve.normal(foot.piece, foot.u), float(round(foot.u))
         face, knife = isinstance(self.follower, Flat), isinstance(self.follower, Knife)
-        if math.dist(own, normal) <= NEARBY and not (face and isinstance(piece, Straight)):
-            yield foot._replace(normals=(own,))
-        if abs(foot.u - end) <= AT_END and not (knife or isinstance(self.shape, Circle | Radii)):
-            yield Foot(piece.at(end), foot.piece, end, (own, own))
+        if math.dist(own, normal) <= BESIDE and not (face and isinstance(piece, Straight)):
+            yield foot._replace(normals=(own,)), normal
+        if abs(foot.u - end) <= BESIDE and not (knife or isinstance(self.shape, Circle | Radii)):
+            at, out = (
+                piece.at(end),
+                gap + (self.follower.radius.value if isinstance(self.follower, Roller) else 0.0),
+            )
+            if not face:
+                (px, py), (nx, ny), (x, y) = foot.point, normal, at
+                normal = unit(px + out * nx - x, py + out * ny - y)
+            yield Foot(at, foot.piece, end, (own, own)), normal
 
     def _sense(self, foot: Foot, normal: Point, guide: FollowerGuide | None) -> float:
         """1 where a follower is the farther out the more it is moved, else -1; a gap is the widest that it

@@ -31,7 +31,7 @@ DIGITS = 160
 """More than any scene is evaluated with."""
 KEPT = 145
 """Digits of what is found that are handed on: the rest is less than a scene's own rounding."""
-NEARBY = 1e-9
+NEARBY = 1e-5
 """The solution lies within this fraction of the profile's size of where doubles put it."""
 Vector = tuple[Scalar, Scalar]
 
