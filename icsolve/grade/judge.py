@@ -8,7 +8,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from icsolve.grade.keys import AGAINST, NEITHER, AnyKey, ChoiceKey, NumberKey, PlaceKey, RangeKey, unit_factor
+from icsolve.grade.keys import AGAINST, NEITHER, AnyKey, ChoiceKey, NumberKey, PlaceKey, RangeKey, numbers_of
 from icsolve.grade.mistakes import Wrong, message, together
 from icsolve.grade.mistakes.lookup import near_miss
 from icsolve.grade.tolerance import SLACK
@@ -300,8 +300,7 @@ def _asked_parts(key: AnyKey) -> tuple[bool, bool, bool]:
     """Whether a question has a number, a unit and a direction: a ratio has but the first."""
     if isinstance(key, PlaceKey):
         return True, True, False
-    one = key.keys[0] if isinstance(key, ChoiceKey) else key
-    end = one.end if isinstance(one, RangeKey) else one
+    end = numbers_of(key)[0]
     directed = end.expected.any and key.policy.direction != "ignored"
     return True, bool(key.unit_name) and key.policy.unit != "ignored", directed and bool(end.value)
 
@@ -321,9 +320,6 @@ def _codes(mistakes: tuple[Wrong, ...]) -> str:
     return mistakes[0].code if len(mistakes) == 1 else " ".join(mistake.code for mistake in mistakes)
 
 
-_KINDS: dict[type, str] = {PlaceKey: "place", ChoiceKey: "position"}
-
-
 def feedback(key: AnyKey, judged: Judgement, reveal: bool = False) -> str:
     """What the student is told; never the answer, unless it is right or the course reveals it."""
     if judged.verdict == RIGHT:
@@ -331,10 +327,9 @@ def feedback(key: AnyKey, judged: Judgement, reveal: bool = False) -> str:
         return f"Right: {key.accepted} is accepted.{noted}"
     band = f" Accepted is {key.accepted}." if reveal else f" Accepted is an answer {key.rule}."
     if judged.mistakes:
-        kind = key.kind if isinstance(key, NumberKey) else _KINDS.get(type(key), "load")
-        said = " Or: ".join(message(m.code, m.where, kind) for m in judged.mistakes)
+        said = " Or: ".join(message(m.code, m.where, key.kind) for m in judged.mistakes)
         if judged.both:
-            said = together(judged.mistakes[0], judged.mistakes[1], kind)
+            said = together(judged.mistakes[0], judged.mistakes[1], key.kind)
         return said + (band if reveal or judged.mistakes[0].code == "near-miss" else "")
     if judged.verdict == WRONG:
         return f"Not right.{band}"
@@ -368,7 +363,7 @@ def judge_place(key: PlaceKey, written: WrittenPlace) -> Judgement:
         return _unjudged(written.flag)
     if key.toward is not None or written.toward is not None:
         return _far(key, written)
-    factor = unit_factor(key, written.unit.unit) if written.unit is not None else 1.0
+    factor = key.factor(written.unit)
     unit = key.policy.unit == "ignored" or factor is not None
     if written.unit is None and key.policy.unit == "required":
         unit = False

@@ -11,7 +11,7 @@ from icsolve.grade.carried_forward import CarriedForward
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.importing import Issues
 from icsolve.grade.judge import IN_REVIEW, RIGHT, WRONG, Judgement, feedback, judge_answer
-from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey, unit_factor
+from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey
 from icsolve.grade.mistakes import Wrong
 from icsolve.grade.results import OVERRIDE, Marked, Overrides, Result
 from icsolve.grade.statistics import Counts, Tally
@@ -240,8 +240,8 @@ class Marker:
             marked.written = read
         elif isinstance(read, WrittenPlace) and not read.flag and read.toward is None:
             assert isinstance(key, PlaceKey)
-            factor = unit_factor(key, read.unit.unit) if read.unit is not None else 1.0
-            marked.place = (read.x * (factor or 1.0), read.y * (factor or 1.0))
+            factor = key.factor(read.unit) or 1.0
+            marked.place = (read.x * factor, read.y * factor)
             marked.place_unit = read.unit
         return marked
 

@@ -18,8 +18,6 @@ from icsolve.grade.keys import (
     position_key,
     range_key,
     scalar_key,
-    scaled_key,
-    scaled_range,
 )
 from icsolve.grade.mistakes import WrongAnswers, solved_for
 from icsolve.grade.tolerance import NoKeyError
@@ -148,7 +146,8 @@ class SolvedCase:
         target = self.target(question)
         if self._base is not None:
             key = self._base.key(question)
-            return self._with_scale(key, target)
+            grows = isinstance(target, LoadIs | ReactionIs | TensionIs)  # ratios and places do not
+            return key.scaled(self.scale) if grows and isinstance(key, NumberKey | RangeKey) else key
         policy = self.course.policy_of(question, self.case.tolerance)
         if isinstance(target, CentreIs):
             return place_key(question, target, self.answer, policy, self.wrongs.places(target))
@@ -169,12 +168,6 @@ class SolvedCase:
     def wrongs(self) -> WrongAnswers:
         """The wrong answers to whatever is asked of the case."""
         return WrongAnswers(self.answer)
-
-    def _with_scale(self, key: AnyKey, target: Target) -> AnyKey:
-        """Loads and reactions grow with the loads; ratios and places do not."""
-        if isinstance(key, NumberKey) and isinstance(target, LoadIs | ReactionIs | TensionIs):
-            return scaled_key(key, self.scale)
-        return scaled_range(key, self.scale) if isinstance(key, RangeKey) else key
 
 
 def solved_plainly(case: Case) -> Answer:

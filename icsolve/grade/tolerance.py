@@ -187,27 +187,22 @@ def from_middle(place: tuple[float, float], answer: Answer) -> float:
     return math.dist(place, ((max(xs) + min(xs)) / 2.0, (max(ys) + min(ys)) / 2.0))
 
 
-def own_width(tolerance: Tolerance, target: Target, answer: Answer, unit: Unit, unit_name: str) -> float:
-    """The widest of a tolerance's absolute width and what its drawing allows, in the answer's unit.
+def own_width(tolerance: Tolerance, target: Target, answer: Answer, drawn: bool = True) -> float:
+    """The widest of a tolerance's absolute width and (``drawn``) what its drawing allows, in its unit.
 
     Raises NoKeyError where the width is in a unit of another kind, or the drawing says nothing of the target.
     """
-    width = width_of(tolerance, unit, unit_name)
-    if not tolerance.drawing:
-        return width
-    return max(width, drawn_width(tolerance.drawing, target, answer))
-
-
-def width_of(tolerance: Tolerance, unit: Unit, unit_name: str) -> float:
-    """A tolerance's absolute width in the answer's unit. Raises NoKeyError where it is of another kind."""
-    if not tolerance.unit:
-        return tolerance.absolute
-    found = unit_word(tolerance.unit)
-    factor = factors_between(found.unit, unit) if found is not None else None
-    if factor is None:
-        said = f"the tolerance {tolerance.absolute:g} {tolerance.unit}"
-        raise NoKeyError(f"{said} does not fit an answer in {unit_name or 'no unit'}")
-    return tolerance.absolute * factor
+    width = tolerance.absolute
+    if tolerance.unit:
+        name, found = unit_of_target(target, answer), unit_word(tolerance.unit)
+        factor = factors_between(found.unit, parsed_unit(name)) if found is not None else None
+        if factor is None:
+            said = f"the tolerance {tolerance.absolute:g} {tolerance.unit}"
+            raise NoKeyError(f"{said} does not fit an answer in {name or 'no unit'}")
+        width *= factor
+    return (
+        max(width, drawn_width(tolerance.drawing, target, answer)) if drawn and tolerance.drawing else width
+    )
 
 
 _STEP = 1e-5

@@ -184,8 +184,8 @@ def _of_case(solved: SolvedCase, case: Case, name: str, order: ExportOrder, titl
             raise NoKeyError(f"{what} is {least:.3g} {key.unit_name}, and Canvas keeps four decimals")
         text = asked(key, solved.target(own))
         shown = name if len(names) == 1 else f"{name}:{what}"
-        first = first._replace(accepted=key.accepted)
-        yield Question(shown, tuple(Statement(case).rows()), text, first, picture, title, tuple(others))
+        given, accepted = tuple(Statement(case).rows()), key.accepted
+        yield Question(shown, given, text, first, accepted, picture, title, tuple(others))
 
 
 def export(kind: str, order: ExportOrder, complain: Complain) -> int:
