@@ -23,6 +23,7 @@ from icsolve.grade.results import Marked
 from icsolve.grade.solved import SolvedCase, unknowns
 from icsolve.grade.tables.columns import StoredAnswer
 from icsolve.grade.tolerance import NoKeyError
+from icsolve.grade.written.two_numbers import WrittenPlace
 from icsolve.scene.parts import scene_of
 from icsolve.screws.plane import Triple
 from icsolve.tuples import NamedTuple
@@ -228,8 +229,8 @@ class CarriedForward:
         off = {}
         for other, marked in before:
             key = solved.key(other.item)
-            if isinstance(key, NumberKey) and len(marked.given) == 1:
-                off[getattr(solved.target(other.item), "load", "")] = marked.given[0] - key.value
+            if isinstance(key, NumberKey) and marked.judged.value is not None:
+                off[getattr(solved.target(other.item), "load", "")] = marked.judged.value - key.value
         key = solved.key(entry.item)
         if off and isinstance(key, NumberKey):
             for by in coupled(solved.answer, off, getattr(solved.target(entry.item), "load", "")):
@@ -258,7 +259,7 @@ class CarriedForward:
             share=max(share_of(key, before.judged.parts, mistakes), before.judged.share),
         )
         told = feedback(key, judged, self._reveal)
-        return Marked(before.item, before.raw, judged, before.points, told, before.written)
+        return Marked(before.item, before.raw, judged, before.points, told, before.read)
 
 
 def _steps(solved: SolvedCase, wrong: list[Found]) -> Iterator[Intermediate]:
@@ -268,9 +269,9 @@ def _steps(solved: SolvedCase, wrong: list[Found]) -> Iterator[Intermediate]:
             key = solved.key(entry.item)
         except NoKeyError:
             continue
-        if not isinstance(key, NumberKey | PlaceKey):
-            continue
-        right = key.place if isinstance(key, PlaceKey) else (key.value,)
-        if len(marked.given) == len(right):
-            what = entry.item.partition(":")[2]
-            yield Intermediate(what, solved.target(entry.item), right, marked.given)
+        what, target, read = entry.item.partition(":")[2], solved.target(entry.item), marked.read
+        if isinstance(key, NumberKey) and marked.judged.value is not None:
+            yield Intermediate(what, target, (key.value,), (marked.judged.value,))
+        elif isinstance(key, PlaceKey) and isinstance(read, WrittenPlace):
+            factor = key.factor(read.unit) or 1.0
+            yield Intermediate(what, target, key.place, (read.x * factor, read.y * factor))

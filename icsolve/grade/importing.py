@@ -5,16 +5,19 @@ be graded, matched or read, by reason, each with its lines.
 from __future__ import annotations
 
 import io
+import marshal
 import os
 import sys
 from array import array
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
+from heapq import merge
 from itertools import islice, pairwise
 from operator import itemgetter
-from typing import IO, TYPE_CHECKING
+from tempfile import TemporaryFile
+from typing import IO
 
-from icsolve.files import is_plain, reading, scratch
+from icsolve.files import is_plain, reading
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Roster
 from icsolve.grade.results import HEADER
@@ -31,9 +34,6 @@ from icsolve.grade.tables.columns import (
 from icsolve.grade.tables.platforms import METADATA, exported, recognise, submissions
 from icsolve.grade.tables.text import AnswerTable
 from icsolve.tuples import NamedTuple
-
-if TYPE_CHECKING:
-    import sqlite3
 
 _LONGEST = 500
 """Characters of an answer that are kept; the reader takes far fewer."""
@@ -309,24 +309,18 @@ def ranges(lines: tuple[int, ...]) -> str:
     return f"{word} {shown}" + (f" and {more} more" if more else "")
 
 
-_CREATE = (
-    "create table s (student text, item text, line integer, answer text, unit text, direction text,"
-    " attempt text, variant text, time text, trouble text)"
-)
-_INSERT = "insert into s values (?,?,?,?,?,?,?,?,?,?)"
-_SELECT = "select * from s order by student, item, rowid"
 _BATCH = 5000
 IN_MEMORY = 110_000
 """Submissions that are sorted in memory; more go to disk."""
 
 
 class Store:
-    """Entries; many are in a temporary file, which is gone when closed."""
+    """Entries; of many each part that memory holds is sorted into a temporary file, and all are merged."""
 
     def __init__(self) -> None:
         self._few: list[StoredAnswer] = []
-        self._disk: sqlite3.Connection | None = None
-        self._own = ExitStack()
+        self._files = ExitStack()
+        self._parts: list[Iterator[StoredAnswer]] = []
 
     def add(self, entries: Iterable[StoredAnswer]) -> int:
         """Store entries; how many there were."""
@@ -335,37 +329,35 @@ class Store:
         while batch := list(islice(source, _BATCH)):
             count += len(batch)
             self._few += batch
-            if self._disk is not None or len(self._few) > IN_MEMORY:
+            if len(self._few) > IN_MEMORY:
                 self._to_disk()
         return count
 
     def _to_disk(self) -> None:
-        """Put what is in memory into the temporary file."""
-        if self._disk is None:
-            import sqlite3
-
-            path = os.path.join(self._own.enter_context(scratch()), "answers.sqlite")
-            self._disk = sqlite3.connect(path, isolation_level=None)
-            for pragma in ("journal_mode=off", "synchronous=off", "cache_size=-20000", "temp_store=file"):
-                self._disk.execute(f"pragma {pragma}")
-            self._disk.execute(_CREATE)
-        self._disk.execute("begin")
-        self._disk.executemany(_INSERT, self._few)
-        self._disk.execute("commit")
+        """Put what is in memory, sorted, into a file of its own."""
+        file = self._files.enter_context(TemporaryFile())  # noqa: SIM115
+        self._few.sort(key=_ORDER)
+        for start in range(0, len(self._few), _BATCH):
+            marshal.dump([*map(tuple, self._few[start : start + _BATCH])], file)
+        file.seek(0)
+        self._parts.append(_entries_of(file))
         self._few = []
 
     def sorted(self) -> Iterator[StoredAnswer]:
         """Entries by student and question, of those the ones that were added first."""
-        if self._disk is None:
-            self._few.sort(key=itemgetter(0, 1))
-            yield from self._few
-            return
-        cursor = self._disk.execute(_SELECT)
-        while batch := cursor.fetchmany(_BATCH):
-            yield from map(StoredAnswer._make, batch)
+        self._few.sort(key=_ORDER)
+        return merge(*self._parts, iter(self._few), key=_ORDER) if self._parts else iter(self._few)
 
     def close(self) -> None:
-        """Forget all, and delete the file."""
-        if self._disk is not None:
-            self._disk.close()
-        self._own.close()
+        """Forget all, and delete the files."""
+        self._files.close()
+
+
+_ORDER = itemgetter(0, 1)
+
+
+def _entries_of(file: IO[bytes]) -> Iterator[StoredAnswer]:
+    """The entries of a temporary file."""
+    with suppress(EOFError):
+        while True:
+            yield from map(StoredAnswer._make, marshal.load(file))

@@ -11,7 +11,7 @@ from icsolve.grade.carried_forward import CarriedForward
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.importing import Issues
 from icsolve.grade.judge import IN_REVIEW, RIGHT, WRONG, Judgement, feedback, judge_answer
-from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey
+from icsolve.grade.keys import AnyKey, NumberKey
 from icsolve.grade.mistakes import Wrong
 from icsolve.grade.results import OVERRIDE, Marked, Overrides, Result
 from icsolve.grade.statistics import Counts, Tally
@@ -19,7 +19,7 @@ from icsolve.grade.tables.columns import NEVER, StoredAnswer, attempt_number, re
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import GivenValue, Neighbours
 from icsolve.grade.written.answer import MISSING, Reader, WrittenAnswer
-from icsolve.grade.written.two_numbers import WrittenPlace
+from icsolve.grade.written.two_numbers import WrittenPlace, WrittenRange
 
 _MEMORY = 40_000
 """Different answers that are remembered with their verdicts; a class repeats itself."""
@@ -138,9 +138,7 @@ class Marker:
         cause = Wrong(OVERRIDE, judged.value or 0.0)
         again = judged._replace(verdict=verdict, share=share, code=OVERRIDE, mistakes=(cause,))
         told = f"Marked by hand: {override.comment}" if override.comment else "Marked by hand."
-        found = Marked(marked.item, marked.raw, again, points, told, marked.written)
-        found.place, found.place_unit = marked.place, marked.place_unit
-        return found
+        return Marked(marked.item, marked.raw, again, points, told, marked.read)
 
     def _result(self, entry: StoredAnswer, marked: Marked, variant: str = "") -> Result:
         """Counted, as the line of the variant that is the student's own, or that the answer names."""
@@ -235,15 +233,9 @@ class Marker:
         if self._neighbours is not None and isinstance(key, NumberKey) and isinstance(read, WrittenAnswer):
             judged = self._beside_others(entry, judged, read)
         told = feedback(key, judged, self.course.reveal)
-        marked = Marked(entry.item, entry.answer, judged, key.policy.points, told)
-        if isinstance(read, WrittenAnswer) and not read.flag:
-            marked.written = read
-        elif isinstance(read, WrittenPlace) and not read.flag and read.toward is None:
-            assert isinstance(key, PlaceKey)
-            factor = key.factor(read.unit) or 1.0
-            marked.place = (read.x * factor, read.y * factor)
-            marked.place_unit = read.unit
-        return marked
+        far = isinstance(read, WrittenPlace) and read.toward is not None
+        seen = None if read.flag or far or isinstance(read, WrittenRange) else read
+        return Marked(entry.item, entry.answer, judged, key.policy.points, told, seen)
 
     def _beside_others(self, entry: StoredAnswer, judged: Judgement, written: WrittenAnswer) -> Judgement:
         """The verdict on an answer to a question with variables: it may be right for another's numbers."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from operator import add
 
 from icsolve.grade.course import Person
 from icsolve.grade.results import Marked, ResultRow, by_student, marks_of
@@ -37,33 +38,16 @@ class Statistics(NamedTuple):
     sections: dict[str, tuple[int, float]]
 
 
-class _Sums:
-    """The sums from which a correlation follows."""
-
-    def __init__(self) -> None:
-        self.n = 0
-        self.x = self.y = self.xx = self.yy = self.xy = 0.0
-
-    def add(self, x: float, y: float) -> None:
-        """A student's share of this question, and of all others."""
-        self.n += 1
-        self.x += x
-        self.y += y
-        self.xx += x * x
-        self.yy += y * y
-        self.xy += x * y
-
-    def correlation(self) -> float | None:
-        """What follows from the sums."""
-        n = self.n
-        spread = (n * self.xx - self.x**2) * (n * self.yy - self.y**2)
-        known = n >= _LEAST and spread > 1e-9 * n**4
-        return (n * self.xy - self.x * self.y) / math.sqrt(spread) if known else None
+def _correlation(n: float, x: float, y: float, xx: float, yy: float, xy: float) -> float | None:
+    """What follows from the sums over students of 1, x, y, their squares and their product."""
+    spread = (n * xx - x**2) * (n * yy - y**2)
+    known = n >= _LEAST and spread > 1e-9 * n**4
+    return (n * xy - x * y) / math.sqrt(spread) if known else None
 
 
 def statistics(results: str, people: Mapping[str, Person]) -> Statistics:
     """The statistics of a file of results, read once."""
-    sums: dict[str, _Sums] = {}
+    sums: dict[str, list[float]] = {}
     totals: list[Total] = []
     for student, rows in by_student(results):
         if student and rows:
@@ -71,16 +55,18 @@ def statistics(results: str, people: Mapping[str, Person]) -> Statistics:
             section = people[student].section if student in people else ""
             totals.append(Total(student, section, score, most, waiting))
             _count(sums, [row for row in rows if row.score is not None and row.max_score])
-    return Statistics({name: own.correlation() for name, own in sums.items()}, totals, _sections(totals))
+    return Statistics({name: _correlation(*own) for name, own in sums.items()}, totals, _sections(totals))
 
 
-def _count(sums: dict[str, _Sums], rows: Sequence[ResultRow]) -> None:
+def _count(sums: dict[str, list[float]], rows: Sequence[ResultRow]) -> None:
+    """Add a student's share of each question, and of all others."""
     score, most = sum(row.score or 0.0 for row in rows), sum(row.max_score for row in rows)
     for row in rows:
         others = most - row.max_score
         if others:
-            rest = (score - (row.score or 0.0)) / others
-            sums.setdefault(row.case, _Sums()).add((row.score or 0.0) / row.max_score, rest)
+            x, y = (row.score or 0.0) / row.max_score, (score - (row.score or 0.0)) / others
+            before = sums.get(row.case, [0.0] * 6)
+            sums[row.case] = [*map(add, before, (1.0, x, y, x * x, y * y, x * y))]
 
 
 def _sections(totals: Sequence[Total]) -> dict[str, tuple[int, float]]:
@@ -139,7 +125,7 @@ class Counts:
             _count_text(self.texts, " ".join(m.raw.split())[:_LONGEST], n)
         if value is not None and band is not None:
             self.bins[bin_of(value, *band)] += n
-        if not m.is_open:
+        if m.score is not None:
             self.score += n * share * m.points
             self.max_score += n * m.points
         m.count = 0
