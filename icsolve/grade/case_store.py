@@ -179,6 +179,13 @@ class CaseStore:
         varied = self.variation(name)
         return varied.key(question, student) if varied is not None else self.solved(name).key(question)
 
+    def common_key(self, question: str) -> AnyKey | None:
+        """The key of a question that asks the same of all; None where there is none."""
+        try:
+            return self.key(question) if self.variation(question.partition(":")[0]) is None else None
+        except NoKeyError:
+            return None
+
     def variant_of(self, question: str, student: str) -> str:
         """The label of the student's values; '' for a case without variables."""
         name = question.partition(":")[0]

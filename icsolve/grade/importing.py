@@ -69,18 +69,30 @@ class Import:
         self._dates = dates
         self._order = ""
 
-    def read(self, path: str, mapping: Iterable[tuple[str, str]], student: str = "") -> None:
+    def read(self, path: str, mapping: Iterable[tuple[str, str]], student: str = "") -> Exception | None:
         """Take in one file; all of it is of ``student``, if one is given.
 
-        Raises HeaderError where the file can't be used, with its name and a sentence; OSError.
+        Where it can't be used that is noted, and it has a line in the results, for a person; the error comes
+        back, unless the file is one student's alone. Raises FileNotFoundError.
         """
         try:
             self._read(path, mapping, student)
-        except (HeaderError, ValueError) as error:
+        except FileNotFoundError:
+            raise
+        except OSError as error:
+            return self._unusable(path, error.strerror or str(error), student, error)
+        except ValueError as error:
             if not student:
-                raise HeaderError(f"{path}: {error}") from None
+                return self._unusable(path, str(error), student, HeaderError(f"{path}: {error}"))
             self._matched((student,))
             self.issues.note(path, 0, f"what {student} handed in can't be used: {error}", serious=True)
+        return None
+
+    def _unusable(self, path: str, why: str, student: str, error: Exception) -> Exception:
+        self.issues.note(path, 0, why, serious=True)
+        whose = self._matched((student,)) if student else ""
+        self.store.add([StoredAnswer(whose, "", 0, trouble=f"{os.path.basename(path)}: {why}")])
+        return error
 
     def _read(self, path: str, mapping: Iterable[tuple[str, str]], student: str) -> None:
         self._path = path
@@ -107,12 +119,6 @@ class Import:
         if not count:
             raise HeaderError("there is no answer in it, only a header")
 
-    def unusable(self, path: str, why: str, student: str) -> None:
-        """Note a file without a readable answer; it has a line in the results, for a person."""
-        self.issues.note(path, 0, why, serious=True)
-        whose = self._matched((student,)) if student else ""
-        self.store.add([StoredAnswer(whose, "", 0, trouble=f"{os.path.basename(path)}: {why}")])
-
     def _told(self, entries: Iterator[StoredAnswer], file: IO[bytes], path: str) -> Iterator[StoredAnswer]:
         """The entries, with a report of how much of the file is read."""
         try:
@@ -125,21 +131,11 @@ class Import:
                 self._progress(f"reading {path}", file.tell() / size)
 
     def _entries(self, table: AnswerTable, layout: TableLayout) -> Iterator[StoredAnswer]:
-        if layout.cells_of is not None:
-            yield from self._long_entries(table, layout, layout.cells_of)
-            return
-        for row in table.rows():
-            for submission in layout.read(row):
-                yield self._entry(submission)
-
-    def _long_entries(
-        self, table: AnswerTable, layout: TableLayout, cells_of: Callable[[list[str]], tuple[str, ...]]
-    ) -> Iterator[StoredAnswer]:
-        """Of a long table: quickly where student and question were met before and the row is whole."""
-        people, items, width = self._people, self._items, len(table.header)
+        """Of a long table quickly where student and question were met before and the row is whole."""
+        people, items, cells_of, width = self._people, self._items, layout.cells_of, len(table.header)
         for row in table.rows():
             line, cells, trouble = row
-            if len(cells) == width and not trouble:
+            if cells_of is not None and len(cells) == width and not trouble:
                 cells.append("")
                 student, question, answer, unit, direction, attempt, variant, time = cells_of(cells)
                 known, found = people.get((student,)), items.get(question)
