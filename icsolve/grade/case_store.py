@@ -64,8 +64,8 @@ class CaseStore:
         """
         if os.path.isfile(self.folder):
             return
-        own = []
-        for text, fields in self.course.own:
+        own = {}
+        for text, fields in self.course.own.items():
             question = self.find(text)
             if question is None:
                 why = self.no_case(text)
@@ -74,9 +74,9 @@ class CaseStore:
                 question = self.canonical(question)
                 why = self._why_not_asked(name, what)
             if why:
-                raise ValueError(f"{dict(self.course.places).get(text, 'course')}: {why}")
-            own.append((question or text, fields))
-        self.course = self.course._replace(own=tuple(own))
+                raise ValueError(f"{self.course.places.get(text, 'course')}: {why}")
+            own[question or text] = fields
+        self.course = self.course._replace(own=own)
 
     def _why_not_asked(self, name: str, what: str) -> str:
         """Why a course can't ask this of a case; '' where it can, or the case itself can't be read."""

@@ -292,8 +292,7 @@ def share_of(key: AnyKey, parts: tuple[bool, bool, bool], mistakes: tuple[Wrong,
     if policy.credit is not None and whole:
         good = (part and has for part, has in zip(parts, asked, strict=True))
         earned = sum(share for share, right in zip(policy.credit, good, strict=True) if right) / whole
-    known = dict(policy.mistakes)
-    return min(1.0, max([earned, *(known.get(mistake.code, 0.0) for mistake in mistakes[:1])]))
+    return min(1.0, max([earned, *(policy.mistakes.get(mistake.code, 0.0) for mistake in mistakes[:1])]))
 
 
 def _asked_parts(key: AnyKey) -> tuple[bool, bool, bool]:

@@ -116,7 +116,7 @@ def grade(
         errors = [imported.read(path, job.course.columns, who or job.student) for path, who in paths]
         if not imported.count and any(errors):
             raise next(filter(None, errors))
-        questions = tuple(sorted(set(job.course.questions) or _asked(imported)))
+        questions = tuple(sorted(set(job.course.own) or _asked(imported)))
         owing = () if roster is None or job.student else roster.people  # all answers may be one student's
         students = sorted({*imported.students, *owing})
         if not imported.count:

@@ -168,7 +168,6 @@ def wrong_rows(key: NumberKey) -> Iterator[tuple[Wrong, float, float]]:
 
     Moodle takes the first row that matches, so the right answer stands before them.
     """
-    known = dict(key.policy.mistakes)
     ordered = sorted(key.wrongs.all, key=lambda w: (ORDER[w.code], _decades(w.value, key.value), w.value))
     seen: list[float] = []
     counts: Counter[str] = Counter()
@@ -177,7 +176,7 @@ def wrong_rows(key: NumberKey) -> Iterator[tuple[Wrong, float, float]]:
         if counts[wrong.code] < _MOST_OF_ONE and all(abs(wrong.value - other) > reach for other in seen):
             seen.append(wrong.value)
             counts[wrong.code] += 1
-            share = 100.0 * known.get(wrong.code, 0.0)
+            share = 100.0 * key.policy.mistakes.get(wrong.code, 0.0)
             yield wrong, min(_FRACTIONS, key=lambda f: abs(f - share)), reach
 
 

@@ -198,6 +198,12 @@ class TableColumns:
         found = [i for i, text in enumerate(self.names) if text in FIELDS[name] and i not in self.questions]
         return found[0] if found else None
 
+    def places(self, *names: str) -> list[int]:
+        """The columns of fields, or of other names, that there are, in this order."""
+        at = {name: index for index, name in reversed([*enumerate(self.names)])}
+        found = (self.field(name) if name in FIELDS else at.get(name) for name in names)
+        return list(dict.fromkeys(index for index in found if index is not None))
+
     def check_once(self, index: int) -> None:
         """Raises HeaderError where two columns of the table have the name of one that is to be read."""
         if self.names.count(self.names[index]) > 1:
