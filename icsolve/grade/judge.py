@@ -182,9 +182,9 @@ def _wrong_size(
     earned = policy.credit is not None or policy.mistakes
     share = share_of(key, parts, mistakes) if earned else 0.0
     if mistakes:
-        return _made((WRONG, share, parts, value, relative(off, size), _codes(mistakes), mistakes, False))
+        return _made((WRONG, share, parts, value, relative(off, size), codes(mistakes), mistakes, False))
     both = wrongs.two(value, digits)
-    code = _codes(both) if both else ""
+    code = codes(both) if both else ""
     return _made((WRONG, share, parts, value, relative(off, size), code, both, bool(both)))
 
 
@@ -312,10 +312,11 @@ def _wrong(
     off: float | None = None,
 ) -> Judgement:
     """A wrong answer with its causes."""
-    return Judgement(WRONG, share_of(key, parts, mistakes), parts, value, off, _codes(mistakes), mistakes)
+    return Judgement(WRONG, share_of(key, parts, mistakes), parts, value, off, codes(mistakes), mistakes)
 
 
-def _codes(mistakes: tuple[Wrong, ...]) -> str:
+def codes(mistakes: tuple[Wrong, ...]) -> str:
+    """The codes of causes that fit, as they stand in the results."""
     return mistakes[0].code if len(mistakes) == 1 else " ".join(mistake.code for mistake in mistakes)
 
 

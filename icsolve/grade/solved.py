@@ -42,6 +42,12 @@ def unknowns(case: Case) -> tuple[str, ...]:
     return (free.path,) if free is not None else ()
 
 
+def final_questions(case: Case, name: str) -> dict[str, str]:
+    """The questions for the unknowns of a case, by their one names, each with its unknown."""
+    names = unknowns(case)
+    return {name if len(names) == 1 else f"{name}:{unknown}": unknown for unknown in names}
+
+
 def asked_of(case: Case, what: str) -> Target:
     """The target of ``T12``, ``I24``, ``w4/w2``; of '' the only unknown.
 
