@@ -13,7 +13,7 @@ import yaml
 
 from icsolve.grade.course import _COURSE, _POLICY, read_course
 from icsolve.grade.judge import VERDICTS
-from icsolve.grade.mistakes import CODES
+from icsolve.grade.mistakes.lookup import CODES
 from icsolve.grade.platforms.export import KINDS as QUESTIONS
 from icsolve.grade.platforms.write import KINDS as OUTPUTS
 from icsolve.grade.results import HEADER

@@ -17,8 +17,8 @@ from icsolve.case.expected import CentreIs, DistanceIs, RateIs, RatioIs, SpeedIs
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.judge import WRONG, codes, feedback, share_of
 from icsolve.grade.keys import NumberKey, PlaceKey
-from icsolve.grade.mistakes import Wrong, WrongAnswers
-from icsolve.grade.mistakes.engine import centres_of, quotient
+from icsolve.grade.mistakes.engine import WrongAnswers, centres_of, quotient
+from icsolve.grade.mistakes.lookup import Wrong
 from icsolve.grade.results import Marked
 from icsolve.grade.solved import SolvedCase, final_questions
 from icsolve.grade.tables.columns import StoredAnswer

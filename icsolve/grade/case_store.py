@@ -144,7 +144,7 @@ class CaseStore:
     def variation(self, name: str) -> Varied | None:
         """The case as one with variables; None where it has none, or can't be read."""
         found = self._found(name)
-        return found if not isinstance(found, SolvedCase | NoKeyError) else None
+        return found if isinstance(found, Varied) else None
 
     def keep_to(self, records: dict[str, VariantRecord]) -> None:
         """Take the numbers that were handed out for those of the students."""
@@ -175,9 +175,7 @@ class CaseStore:
 
         Raises NoKeyError.
         """
-        name = question.partition(":")[0]
-        varied = self.variation(name)
-        return varied.key(question, student) if varied is not None else self.solved(name).key(question)
+        return self.solved(question.partition(":")[0], student).key(question)
 
     def common_key(self, question: str) -> AnyKey | None:
         """The key of a question that asks the same of all; None where there is none."""

@@ -9,8 +9,7 @@ from functools import partial
 from typing import Any
 
 from icsolve.grade.keys import AGAINST, NEITHER, AnyKey, ChoiceKey, NumberKey, PlaceKey, RangeKey, numbers_of
-from icsolve.grade.mistakes import Wrong, message, together
-from icsolve.grade.mistakes.lookup import near_miss
+from icsolve.grade.mistakes.lookup import Wrong, message, near_miss, together
 from icsolve.grade.tolerance import SLACK
 from icsolve.grade.written.answer import MISSING, NO_NUMBER, TWO_VALUES, Reader, WrittenAnswer, flagged
 from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, figures, plain

@@ -19,8 +19,8 @@ from icsolve.case.expected import (
     TensionIs,
 )
 from icsolve.grade.course import Policy
-from icsolve.grade.mistakes import Wrong, Wrongs
 from icsolve.grade.mistakes.changed import Place, heading_of, place_of
+from icsolve.grade.mistakes.lookup import Wrong, Wrongs
 from icsolve.grade.tolerance import (
     OF_LOADS,
     TRUE_ZERO,

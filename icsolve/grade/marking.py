@@ -1,8 +1,12 @@
-"""Entries in order of student to results: attempts chosen, answers judged, errors carried forward."""
+"""Entries in order of student to results: attempts chosen, answers judged, errors carried forward, and what a
+class answered counted.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import math
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
 from functools import reduce
 from itertools import chain, groupby, islice, pairwise
 from operator import itemgetter
@@ -12,9 +16,8 @@ from icsolve.grade.case_store import CaseStore
 from icsolve.grade.importing import Issues
 from icsolve.grade.judge import IN_REVIEW, RIGHT, WRONG, Judgement, feedback, judge_answer
 from icsolve.grade.keys import AnyKey, NumberKey
-from icsolve.grade.mistakes import Wrong
+from icsolve.grade.mistakes.lookup import Wrong
 from icsolve.grade.results import OVERRIDE, Marked, Overrides, Result
-from icsolve.grade.statistics import Counts, Tally
 from icsolve.grade.tables.columns import NEVER, StoredAnswer, attempt_number, readings
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import GivenValue, Neighbours
@@ -29,6 +32,100 @@ _SAMPLE = 300
 """Answers by which it is told whether another seed was meant."""
 _AT_ONCE = 5000
 """Answers of one student that are looked at together."""
+
+
+BINS = 20
+"""Bins of the histogram to each side of zero, up to twice the right answer; one more for what lies beyond.
+
+The right answer, its half and its double lie in the middle of bins, so that rounding does not divide them."""
+_SPAN = 2.0
+
+
+OTHERS = "(other names that are no case)"
+_MOST_STRANGE = 200
+"""Names that are no case which are counted one by one."""
+_MOST_TEXTS = 4000
+"""Texts of a question that are counted one by one; of more the commonest half is kept."""
+_LONGEST = 80
+
+
+class Counts:
+    """What a class answered to one question."""
+
+    def __init__(self) -> None:
+        self.verdicts: Counter[str] = Counter()
+        self.mistakes: Counter[str] = Counter()
+        """by the first cause; '' for those of no known cause"""
+        self.bins: Counter[int] = Counter()
+        """answers by `bin_of` their ratio to the right one"""
+        self.unread: Counter[str] = Counter()
+        """invalid answers and those for review, by their flag"""
+        self.score = self.max_score = 0.0
+        """marks, and the most that there were, of what was judged"""
+        self.texts: Counter[str] = Counter()
+        """the texts that wait for a person"""
+        self.unexplained: Counter[str] = Counter()
+        """the wrong values of no known cause, to four figures"""
+
+    def add(self, m: Marked, band: tuple[float, float] | None) -> None:
+        """Count an answer as often as it was given; its own count starts again."""
+        judged, n = m.judged, m.count
+        verdict, share, _, value, _, code, causes, _ = judged
+        self.verdicts[verdict] += n
+        if verdict == "wrong":
+            self.mistakes[causes[0].code if causes else ""] += n
+            if not causes and value is not None:
+                _count_text(self.unexplained, f"{value:.4g}", n)
+        elif verdict in ("invalid", "review"):
+            self.unread[code] += n
+            _count_text(self.texts, " ".join(m.raw.split())[:_LONGEST], n)
+        if value is not None and band is not None:
+            self.bins[bin_of(value, *band)] += n
+        if m.score is not None:
+            self.score += n * share * m.points
+            self.max_score += n * m.points
+        m.count = 0
+
+
+def _count_text(texts: Counter[str], text: str, n: int) -> None:
+    """Count a text; of too many the commonest half is kept."""
+    texts[text] += n
+    if len(texts) > _MOST_TEXTS:
+        common = texts.most_common(_MOST_TEXTS // 2)
+        texts.clear()
+        texts.update(dict(common))
+
+
+def bin_of(value: float, right: float, half: float) -> int:
+    """The bin of an answer: of its ratio to the right one, of a zero by half-widths."""
+    ratio = value / right if right else (value / half if half else 0.0)
+    if not math.isfinite(ratio) or abs(ratio) > _SPAN * (1.0 + 0.5 / BINS):
+        return (BINS + 1) * (1 if ratio > 0 else -1)
+    return round(ratio / _SPAN * BINS)
+
+
+class Tally:
+    """Counts that grow: what was judged is counted and forgotten."""
+
+    def __init__(self, band: Callable[[str], tuple[float, float] | None]) -> None:
+        self._band = band
+        self._strange = 0
+        self.counts: dict[str, Counts] = {}
+
+    def add(self, marked: Iterable[Marked]) -> None:
+        """Count answers, each as often as it was given."""
+        for m in marked:
+            item = self._item_of(m)
+            if item not in self.counts:
+                self.counts[item] = Counts()
+            self.counts[item].add(m, self._band(item))
+
+    def _item_of(self, m: Marked) -> str:
+        """The question under which an answer is counted; of names that are no case only so many are kept."""
+        strange = m.judged.code == "not-graded" and m.item not in self.counts
+        if strange:
+            self._strange += 1
+        return OTHERS if strange and self._strange > _MOST_STRANGE else m.item
 
 
 class Marker:

@@ -9,10 +9,9 @@ from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course, Roster, read_roster
 from icsolve.grade.importing import Import, Issue, Issues, Store, expand
 from icsolve.grade.keys import AnyKey, NumberKey
-from icsolve.grade.marking import Marker
+from icsolve.grade.marking import Counts, Marker
 from icsolve.grade.results import HEADER, Override, Overrides, json_line, line, read_overrides
 from icsolve.grade.solved import unknowns
-from icsolve.grade.statistics import Counts
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import GivenValue, Neighbours, changes, other_seed, read_records
 from icsolve.tuples import NamedTuple

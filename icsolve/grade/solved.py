@@ -19,7 +19,7 @@ from icsolve.grade.keys import (
     range_key,
     scalar_key,
 )
-from icsolve.grade.mistakes import WrongAnswers, solved_for
+from icsolve.grade.mistakes.engine import WrongAnswers, solved_for
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.read.expect import target_of
 from icsolve.read.names import Problems

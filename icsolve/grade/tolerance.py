@@ -30,7 +30,7 @@ from icsolve.case.expected import (
     dimension_of,
 )
 from icsolve.errors import IcsolveError, SceneError
-from icsolve.grade.mistakes import solved_for
+from icsolve.grade.mistakes.engine import solved_for
 from icsolve.grade.written.words import factors_between, unit_word
 from icsolve.numbers.units import DIMENSIONS, Unit, nearest, numbers_in, parse_unit, split_quantity
 from icsolve.read.reading import unit_names

@@ -21,8 +21,7 @@ from html import escape
 from icsolve.case import Case
 from icsolve.case.expected import LoadIs, PositionIs, Target
 from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey, RangeKey
-from icsolve.grade.mistakes import Wrong, message
-from icsolve.grade.mistakes.lookup import ORDER
+from icsolve.grade.mistakes.lookup import ORDER, Wrong, message
 from icsolve.grade.written.words import factors_between
 from icsolve.numbers.units import parse_unit
 from icsolve.tuples import NamedTuple

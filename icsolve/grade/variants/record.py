@@ -153,7 +153,7 @@ def _changed_keys(varied: Varied, record: VariantRecord) -> Iterator[str]:
             continue
         counts[question] = counts.get(question, 0) + 1
         try:
-            now = getattr(varied.key(question, student), "value", None)
+            now = getattr(varied.solved(student).key(question), "value", None)
         except NoKeyError:
             moved.setdefault(question, []).append(f"{student}: {before:.6g} {unit}, now none")
             continue
@@ -227,7 +227,7 @@ class Neighbours:
                 if draw.label in found or (figure not in figures and len(figures) >= _FEW):
                     continue
                 figures.add(figure)
-                key = varied.key(question, student)
+                key = varied.solved(student).key(question)
             except NoKeyError:
                 continue
             if isinstance(key, NumberKey):
@@ -251,7 +251,7 @@ def other_seed(varied: Varied, given: list[GivenValue], seeds: Iterable[str]) ->
 
 def _is_right(varied: Varied, one: GivenValue) -> bool:
     try:
-        key = varied.key(one.question, one.student)
+        key = varied.solved(one.student).key(one.question)
     except NoKeyError:
         return False
     return isinstance(key, NumberKey) and abs(one.value - key.value) <= key.half
@@ -295,7 +295,7 @@ def key_csv(varied: Varied, found: Iterable[VariantTask]) -> str:
     rows = []
     for person, draw in found:
         for question in final_questions(varied.case, varied.name):
-            for key in numbers_of(varied.key(question, person.student_id)):
+            for key in numbers_of(varied.solved(person.student_id).key(question)):
                 size = key.value if key.kind == "position" else abs(key.value)
                 low, high = size - key.half if size < 0.0 else max(size - key.half, 0.0), size + key.half
                 cells = (draw.label, question, f"{key.value:.12g}", key.unit_name, sense(varied, draw, key))

@@ -14,9 +14,7 @@ from icsolve.case import Case
 from icsolve.case.expected import LoadIs, Variable
 from icsolve.errors import CaseError, IcsolveError, SceneError
 from icsolve.grade.course import Course
-from icsolve.grade.keys import AnyKey
-from icsolve.grade.mistakes import WrongAnswers
-from icsolve.grade.mistakes.engine import Known
+from icsolve.grade.mistakes.engine import Known, WrongAnswers
 from icsolve.grade.solved import SolvedCase
 from icsolve.grade.tolerance import NoKeyError, drawn_band, size_of
 from icsolve.grade.variants.at_once import VariedNumbers, solved_at_once, together
@@ -238,14 +236,6 @@ class Varied:
         Raises NoKeyError.
         """
         return self.task(self.draw(student))
-
-    def key(self, question: str, student: str) -> AnyKey:
-        """The key of a student's own task.
-
-        Raises NoKeyError.
-        """
-        draw = self.draw(student)
-        return self.task(draw).key(question)
 
     def task(self, draw: Draw) -> SolvedCase:
         """A variant, solved.
