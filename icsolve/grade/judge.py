@@ -180,11 +180,9 @@ def _wrong_size(
     parts = (False, unit, direction)
     earned = policy.credit is not None or policy.mistakes
     share = share_of(key, parts, mistakes) if earned else 0.0
-    if mistakes:
-        return _made((WRONG, share, parts, value, relative(off, size), codes(mistakes), mistakes, False))
-    both = wrongs.two(value, digits)
-    code = codes(both) if both else ""
-    return _made((WRONG, share, parts, value, relative(off, size), code, both, bool(both)))
+    both = () if mistakes else wrongs.two(value, digits)
+    causes = mistakes or both
+    return _made((WRONG, share, parts, value, relative(off, size), codes(causes), causes, bool(both)))
 
 
 def relative(off: float, size: float) -> float | None:
@@ -366,18 +364,10 @@ def judge_place(key: PlaceKey, written: WrittenPlace) -> Judgement:
     unit = key.policy.unit == "ignored" or factor is not None
     if written.unit is None and key.policy.unit == "required":
         unit = False
-    x, y = written.x * (factor or 1.0), written.y * (factor or 1.0)
-    off = math.dist((x, y), key.place)
-    if (
-        off > key.half
-        and factor not in (None, 1.0)
-        and math.dist((written.x, written.y), key.place) <= key.half
-    ):
+    at = (written.x * (factor or 1.0), written.y * (factor or 1.0))
+    off, bare = math.dist(at, key.place), math.dist((written.x, written.y), key.place)
+    if factor not in (None, 1.0) and bare <= key.half < off:
         off, unit = 0.0, key.policy.unit == "ignored"
-    return _judged(key, (x, y), off, unit)
-
-
-def _judged(key: PlaceKey, at: tuple[float, float], off: float, unit: bool) -> Judgement:
     number = off <= key.half
     parts = (number, unit, True)
     part = relative(off * (key.policy.tolerance.relative or 0.01), key.half)

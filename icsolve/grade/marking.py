@@ -67,7 +67,7 @@ class Counts:
         self.unexplained: Counter[str] = Counter()
         """the wrong values of no known cause, to four figures"""
 
-    def add(self, m: Marked, band: tuple[float, float] | None) -> None:
+    def add(self, m: Marked, key: AnyKey | None) -> None:
         """Count an answer as often as it was given; its own count starts again."""
         judged, n = m.judged, m.count
         verdict, share, _, value, _, code, causes, _ = judged
@@ -79,8 +79,8 @@ class Counts:
         elif verdict in ("invalid", "review"):
             self.unread[code] += n
             _count_text(self.texts, " ".join(m.raw.split())[:_LONGEST], n)
-        if value is not None and band is not None:
-            self.bins[bin_of(value, *band)] += n
+        if value is not None and isinstance(key, NumberKey):
+            self.bins[bin_of(value, key.value, key.half)] += n
         if m.score is not None:
             self.score += n * share * m.points
             self.max_score += n * m.points
@@ -105,10 +105,10 @@ def bin_of(value: float, right: float, half: float) -> int:
 
 
 class Tally:
-    """Counts that grow: what was judged is counted and forgotten."""
+    """Counts that grow: what was judged is counted and forgotten; ``key`` tells the key of a question."""
 
-    def __init__(self, band: Callable[[str], tuple[float, float] | None]) -> None:
-        self._band = band
+    def __init__(self, key: Callable[[str], AnyKey | None]) -> None:
+        self._key = key
         self._strange = 0
         self.counts: dict[str, Counts] = {}
 
@@ -118,7 +118,7 @@ class Tally:
             item = self._item_of(m)
             if item not in self.counts:
                 self.counts[item] = Counts()
-            self.counts[item].add(m, self._band(item))
+            self.counts[item].add(m, self._key(item))
 
     def _item_of(self, m: Marked) -> str:
         """The question under which an answer is counted; of names that are no case only so many are kept."""
@@ -154,13 +154,12 @@ class Marker:
         self._reader = Reader(self.course.decimal)
         self._memory: dict[tuple[str, str, str, str, str], Marked] = {}
         self._missing: dict[str, Marked] = {}
-        self._keys: dict[str, AnyKey] = {}
         self._uncounted: list[Marked] = []
         self.owing: dict[str, list[str]] = {}
         """of each question the first students who gave no answer"""
         self.silent = 0
         """students who gave no answer at all"""
-        self.tally = Tally(self._band)
+        self.tally = Tally(case_store.common_key)
         self._carried_forward = CarriedForward(case_store, self.course.reveal)
 
     def results(self, entries: Iterable[StoredAnswer], students: Iterable[str] = ()) -> Iterator[Result]:
@@ -313,14 +312,9 @@ class Marker:
         self._uncounted.clear()
         return self.tally.counts
 
-    def _band(self, item: str) -> tuple[float, float] | None:
-        """The right value and half-width of a question that has one for all students."""
-        key = self._keys.get(item)
-        return (key.value, key.half) if isinstance(key, NumberKey) else None
-
     def _judged(self, entry: StoredAnswer) -> Marked:
         try:
-            key = self._key(entry)
+            key = self.case_store.key(entry.item, entry.student)
         except NoKeyError as error:
             self.issues.note(self.path, entry.line, f"not graded: {error}", serious=True)
             return self._troubled(entry, error.told)
@@ -347,15 +341,6 @@ class Marker:
         label = self._neighbours.variant(entry.item, judged.value, written.digits)
         found = (Wrong("neighbour", judged.value, label),) if label else ()
         return judged._replace(code="neighbour", mistakes=found) if found else judged
-
-    def _key(self, entry: StoredAnswer) -> AnyKey:
-        """The key of a question: the student's own, where the case has variables."""
-        found = self._keys.get(entry.item)
-        if found is None:
-            found = self.case_store.key(entry.item, entry.student)
-            if not self.case_store.variant_of(entry.item, entry.student):
-                self._keys[entry.item] = found
-        return found
 
     def _troubled(self, entry: StoredAnswer, why: str) -> Marked:
         """A row that can't be graded: for a person to look at."""

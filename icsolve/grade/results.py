@@ -422,17 +422,13 @@ def changes_csv(changes: Iterable[Change]) -> str:
     """The changes as a table."""
     lines = []
     for one in changes:
-        old_verdict, old_score, old_answer = _fields(one.before)
-        verdict, score, answer = _fields(one.now)
-        cells = (old_verdict, verdict, old_score, score, one.why, safe(old_answer), safe(answer))
-        lines.append((safe(one.student), one.case, *cells))
+        cells = []
+        for row in (one.before, one.now):
+            score = shown(row.score) if row is not None and row.score is not None else ""
+            cells.append((row.verdict, score, safe(row.raw_answer)) if row is not None else ("", "", ""))
+        verdicts, scores, answers = zip(*cells, strict=True)
+        lines.append((safe(one.student), one.case, *verdicts, *scores, one.why, *answers))
     return csv_text(CHANGES_HEADER, lines)
-
-
-def _fields(row: ResultRow | None) -> tuple[str, str, str]:
-    if row is None:
-        return "", "", ""
-    return row.verdict, shown(row.score) if row.score is not None else "", row.raw_answer
 
 
 def changes_text(changes: list[Change], old: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from typing import IO
 
 from icsolve.grade.case_store import CaseStore
@@ -11,7 +12,7 @@ from icsolve.grade.importing import Import, Issue, Issues, Store, expand
 from icsolve.grade.keys import AnyKey, NumberKey
 from icsolve.grade.marking import Counts, Marker
 from icsolve.grade.results import HEADER, Override, Overrides, json_line, line, read_overrides
-from icsolve.grade.solved import unknowns
+from icsolve.grade.solved import final_questions
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import GivenValue, Neighbours, changes, other_seed, read_records
 from icsolve.tuples import NamedTuple
@@ -203,23 +204,12 @@ def _marks(key: AnyKey, counts: Counts) -> Iterator[tuple[str, float]]:
 def _asked(imported: Import) -> set[str]:
     """The questions to which each student owes an answer: those with a column of their own, and the cases
     that someone answered; an intermediate answer is owed where the course, or a column, asks for it."""
-    asked = set()
+    asked, store = set(), imported.case_store
     for question in imported.questions:
-        own = question in imported.columns or ":" not in question
-        if not own and not _is_final(imported.case_store, question):
-            continue
-        try:
-            imported.case_store.key(question, next(iter(imported.students), ""))
-        except NoKeyError:
-            continue
-        asked.add(question)
+        name = question.partition(":")[0]
+        with suppress(NoKeyError):
+            own = question in imported.columns or ":" not in question
+            if own or question in final_questions(store.read(name), name):
+                store.key(question, next(iter(imported.students), ""))
+                asked.add(question)
     return asked
-
-
-def _is_final(case_store: CaseStore, question: str) -> bool:
-    """Whether it asks for one of several unknown loads."""
-    name, _, what = question.partition(":")
-    try:
-        return what in unknowns(case_store.read(name))
-    except NoKeyError:
-        return False

@@ -135,8 +135,12 @@ def zero_width(target: Target, answer: Answer) -> float:
             return OF_LOADS * largest_load(answer) * (_torque_scale(answer) if turning else 1.0)
         case RatioIs():
             return OF_LOADS
-        case RateIs() | SpeedIs():
-            return OF_LOADS * _fastest(target, answer)
+        case SpeedIs():
+            speeds = (math.hypot(*v) for v in (answer.velocities or {}).values() if not isinstance(v, str))
+            return OF_LOADS * (max(speeds, default=1.0) or 1.0)
+        case RateIs():
+            rates = (abs(w) for w in (answer.rates or {}).values() if not isinstance(w, str))
+            return OF_LOADS * (max(rates, default=1.0) or 1.0)
     return OF_LOADS * size_of(answer)
 
 
@@ -146,14 +150,13 @@ def _torque_scale(answer: Answer) -> float:
 
 def largest_load(answer: Answer) -> float:
     """The largest known load as a force: a torque is divided by the mechanism's size."""
-    values = [_as_force(load, answer) for load in answer.case.loads]
-    return max((abs(value) for value in values), default=0.0) or 1.0
-
-
-def _as_force(load: Load, answer: Answer) -> float:
-    if isinstance(load, ForceVector):
-        return math.hypot(load.x.value, load.y.value)
-    return load.value.value * _forces_per(load, answer) if isinstance(load.value, Number) else 0.0
+    largest = 0.0
+    for load in answer.case.loads:
+        if isinstance(load, ForceVector):
+            largest = max(largest, math.hypot(load.x.value, load.y.value))
+        elif isinstance(load.value, Number):
+            largest = max(largest, abs(load.value.value * _forces_per(load, answer)))
+    return largest or 1.0
 
 
 def _forces_per(load: Load, answer: Answer) -> float:
@@ -170,13 +173,6 @@ def _forces_per(load: Load, answer: Answer) -> float:
             size = area.area.value if area.area is not None else widths[0] ** 2 - widths[1] ** 2
             return nearest(area.per) * size
     return 1.0
-
-
-def _fastest(target: Target, answer: Answer) -> float:
-    if isinstance(target, SpeedIs):
-        speeds = [math.hypot(*v) for v in (answer.velocities or {}).values() if not isinstance(v, str)]
-        return max(speeds, default=1.0) or 1.0
-    return max((abs(w) for w in (answer.rates or {}).values() if not isinstance(w, str)), default=1.0) or 1.0
 
 
 def from_middle(place: tuple[float, float], answer: Answer) -> float:
