@@ -432,7 +432,6 @@ def campaign(count: int, seed: int, apart: bool = False, done: Counter[str] | No
     """Faults of ``count`` mutated cases; ``done`` counts, and is told every 500 cases."""
     done = Counter() if done is None else done
     texts = bases()
-    os.environ["ICSOLVE_DEBUG"] = "1"
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
         for n in range(count):
             dice = random.Random(f"{seed} {n}")
@@ -463,6 +462,7 @@ def main_campaign(many: int, first: int, apart: bool) -> None:
     """Tell each fault of another kind as it comes, and keep its files in ``$FUZZ_OUT``."""
     seen: Counter[str] = Counter()
     done: Counter[str] = Counter()
+    os.environ["ICSOLVE_DEBUG"] = "1"
     keep = Path(os.environ.get("FUZZ_OUT", "/tmp/fuzz"))
     keep.mkdir(exist_ok=True)
     for fault in campaign(many, first, apart, done):

@@ -210,3 +210,23 @@ def test_teeth_that_do_not_fit_are_refused_where_only_the_torque_is_asked_too() 
     case = icsolve.load("icsolve: 1\n" + pair(2.8))
     with pytest.raises(icsolve.SceneError, match="do not fit"):
         icsolve.solve(case)
+
+
+@pytest.mark.parametrize("angle", [0, 30, 90, 215])
+def test_helical_gears_load_their_bearings_alike_wherever_one_stands_about_the_other(angle: int) -> None:
+    """The axial force W tan(helix) acts at the pitch radius: r W tan(h) on either wheel, over the span of its
+    bearings on each (K. J. Waldron, G. L. Kinzel and S. K. Agrawal, ch. 11)."""
+    x, y = 21.0 * math.cos(math.radians(angle)), 21.0 * math.sin(math.radians(angle))
+    answer = solved(f"""
+points: {{A: [0, 0], B: [{x}, {y}]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [1, 3], at: B}}
+  - {{gears: [2, 3], teeth: [9, 12], normal pressure angle: 20, helix angle: 30, bearing span: 2}}
+loads: {{T2: {{torque: 18, link: 2}}, T3: {{torque: unknown, link: 3}}}}
+""")
+    shares = dict(force(answer, "F23").parts)
+    axial = 18.0 / 9.0 * math.tan(math.radians(30.0))
+    assert shares["axial"] == exactly(axial)
+    assert (shares["couple 2"], shares["couple 3"]) == (exactly(9.0 * axial), exactly(12.0 * axial))
+    assert (shares["bearing 2"], shares["bearing 3"]) == (exactly(4.5 * axial), exactly(6.0 * axial))

@@ -237,7 +237,18 @@ def test_check_as_json(icsolve: Shell) -> None:
     Path("known.yaml").write_text(LEVER + "expect:\n  T: 200\n")
     (entry,) = icsolve("check", "--json", "known.yaml").objects()
     assert entry["schema"] == "icsolve/check/1"
+    assert entry["status"] == "ok"
     assert entry["values"][0]["verdict"] == "agrees"
+
+
+def test_check_as_json_has_an_object_for_a_case_without_an_answer(icsolve: Shell) -> None:
+    Path("known.yaml").write_text(LEVER + "expect:\n  T: 200\n")
+    ran = icsolve("check", "--json", "dead.yaml", "known.yaml")
+    assert ran.code == 1
+    refused, known = ran.objects()
+    assert (refused["schema"], refused["case"], refused["values"]) == ("icsolve/check/1", "dead", [])
+    assert refused["status"] == icsolve("solve", "--json", "dead.yaml").objects()[0]["status"] != "ok"
+    assert known["status"] == "ok"
 
 
 def test_validate_examines_the_whole_case(icsolve: Shell) -> None:

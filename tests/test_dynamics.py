@@ -480,6 +480,87 @@ motion: {link: 2, speed: 0.3, acceleration: 0.2}
     assert answer.notes == ()
 
 
+NEARLY_BALANCED = """icsolve: 1
+units: {{length: m, force: N}}
+points: {{A: [0, 0], D: [{d}, 0]}}
+lengths: {{AB: {a}, BC: {b}, CD: {c}, BG: {g}}}
+angles: {{AB: {t}, CBG: {u}}}
+near: {{C: [{x}, {y}]}}
+links:
+  2: {{mass: 0.81 kg, centre: B, inertia: 1.53 kg*m^2}}
+  3: {{mass: 4.52 kg, centre: G, inertia: 2.49 kg*m^2}}
+  4: {{mass: 0.64 kg, centre: C, inertia: 2.19 kg*m^2}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+loads:
+  P: {{force: {P}, link: 3, at: G, angle: 185.6}}
+  T: {{torque: unknown, link: 2}}
+motion: {{link: 2, speed: {w}, acceleration: {alpha}}}
+dynamic: yes
+"""
+
+
+def test_a_torque_that_nearly_vanishes_among_inertia_forces_has_all_its_digits() -> None:
+    """Four-bars on which the force P nearly balances the inertia forces, by complex numbers in 60 digits: the
+    torque within 1 ulp, its error within 2 (inertia forces rounded to doubles would lose ten digits)."""
+    rng = Random(169)
+    for _ in range(12 * MORE):
+        data = {name: round(rng.uniform(1.0, 2.0), 3) for name in "abcdg"}
+        data |= {"t": round(rng.uniform(0.0, 360.0), 2), "u": round(rng.uniform(0.0, 360.0), 1)}
+        data |= {"w": round(rng.uniform(1.0, 9.0), 2), "alpha": round(rng.uniform(-9.0, 9.0), 2)}
+        found = _by_complex_numbers(data)
+        if found is None:
+            continue
+        (x, y), unit, rest = found
+        force = many.nstr(-rest / unit, 9)
+        torque = -(many.mpf(force) * unit + rest) / many.mpf(str(data["w"]))
+        text = NEARLY_BALANCED.format(**data, x=x, y=y, P=force)
+        answer = icsolve.solve(icsolve.load(text)).answers["T"]
+        one = math.ulp(answer.value)
+        assert abs(many.mpf(answer.value) - torque) <= one
+        assert answer.error is not None
+        assert answer.error <= 2.0 * one
+
+
+def _by_complex_numbers(data: dict[str, float]) -> tuple[tuple[float, float], Any, Any] | None:
+    """Of `NEARLY_BALANCED`: where C is, the power of a unit of P, and that of the inertia forces; None where
+    it does not assemble. Positions, and by their derivatives speeds and accelerations, are complex."""
+    a, b, c, d, g, t, u, w, alpha = (many.mpf(str(x)) for x in data.values())
+    crank = a * many.expj(many.radians(t))
+    apart = d - crank
+    share = (b * b - c * c + abs(apart) ** 2) / (2 * abs(apart))
+    if abs(share) >= b:
+        return None
+    rod = (share + many.mpc(0, 1) * many.sqrt(b * b - share * share)) * apart / abs(apart)
+    lever, turn = crank + rod - d, many.mpc(0, 1)
+
+    def two(sum_: Any) -> tuple[Any, Any]:
+        """The rates p, q with i p rod - i q lever = sum_."""
+        rows = many.matrix([[-rod.imag, lever.imag], [rod.real, -lever.real]])
+        p, q = many.lu_solve(rows, many.matrix([sum_.real, sum_.imag]))
+        return p, q
+
+    w3, w4 = two(-turn * w * crank)
+    a3, a4 = two(-((turn * alpha - w * w) * crank - w3**2 * rod + w4**2 * lever))
+    arm = g * many.expj(many.radians(u)) * rod / b
+    at_b = turn * w * crank, (turn * alpha - w * w) * crank
+    at_g = at_b[0] + turn * w3 * arm, at_b[1] + (turn * a3 - w3**2) * arm
+    at_c = turn * w4 * lever, (turn * a4 - w4**2) * lever
+
+    def dot(p: Any, q: Any) -> Any:
+        return (many.conj(p) * q).real
+
+    masses = ("0.81", at_b), ("4.52", at_g), ("0.64", at_c)
+    moments = ("1.53", w * alpha), ("2.49", w3 * a3), ("2.19", w4 * a4)
+    rest = -sum(many.mpf(m) * dot(*at) for m, at in masses) - sum(many.mpf(m) * k for m, k in moments)
+    place = crank + rod
+    angle = many.expj(many.radians(many.mpf("185.6")))
+    return (float(place.real), float(place.imag)), dot(angle, at_g[0]), rest
+
+
 # --- sweeps ----------------------------------------------------------------------------------------
 
 FOUR_BAR = """

@@ -55,7 +55,8 @@ def test_tables_that_once_broke_something_are_graded(path: Path, here: Path) -> 
 
 
 @pytest.mark.parametrize("seed", [1, 2, 4, 5])  # 0 and 3 draw the ten-bar, which once broke something
-def test_mutated_cases_go_through_every_command(seed: int) -> None:
+def test_mutated_cases_go_through_every_command(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ICSOLVE_DEBUG", "1")
     found = list(campaign(SAMPLE // 4, seed))
     assert not found, found[0]
 

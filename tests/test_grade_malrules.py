@@ -16,11 +16,10 @@ from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.judge import judge_answer
 from icsolve.grade.keys import NumberKey
-from icsolve.grade.mistakes import CODES, Wrong, WrongAnswers, Wrongs, message
-from icsolve.grade.mistakes import solved_for as solved
 from icsolve.grade.mistakes.changed import changed_figures
-from icsolve.grade.mistakes.engine import shares
-from icsolve.grade.mistakes.lookup import near_miss
+from icsolve.grade.mistakes.engine import WrongAnswers, shares
+from icsolve.grade.mistakes.engine import solved_for as solved
+from icsolve.grade.mistakes.lookup import CODES, Wrong, Wrongs, message, near_miss
 from icsolve.grade.written.answer import Reader
 from library import FILES, sample
 

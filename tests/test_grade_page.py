@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 import pytest
 
 from grade_shell import Class
-from icsolve.grade.statistics import Counts, bin_of
+from icsolve.grade.marking import Counts, bin_of
 from icsolve.grade.summary import _STYLE, histogram
 
 SVG = "{http://www.w3.org/2000/svg}"

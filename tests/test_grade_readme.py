@@ -13,7 +13,7 @@ import yaml
 
 from icsolve.grade.course import _COURSE, _POLICY, read_course
 from icsolve.grade.judge import VERDICTS
-from icsolve.grade.mistakes import CODES
+from icsolve.grade.mistakes.lookup import CODES
 from icsolve.grade.platforms.export import KINDS as QUESTIONS
 from icsolve.grade.platforms.write import KINDS as OUTPUTS
 from icsolve.grade.results import HEADER
@@ -68,7 +68,7 @@ def test_the_columns_of_the_results_are_those_of_the_section() -> None:
 def test_the_course_of_the_section_is_read_and_has_every_key(tmp_path: Path) -> None:
     path = tmp_path / "course.yaml"
     path.write_text(COURSE, encoding="utf-8")
-    assert read_course(path).questions == ("press", "press:w4/w2")
+    assert tuple(read_course(path).own) == ("press", "press:w4/w2")
     keys = {line.partition(":")[0] for line in COURSE.splitlines()}
     assert keys == {*_COURSE, *_POLICY, "cases", "map"}
 

@@ -102,7 +102,7 @@ def test_a_class_gets_what_each_student_would_get_alone(
     together.ready(students)
     for student in students:
         assert together.draw(student) == alone.draw(student)
-        one, other = (numbers_of(v.key("press", student))[0].value for v in (together, alone))
+        one, other = (numbers_of(v.solved(student).key("press"))[0].value for v in (together, alone))
         assert one == pytest.approx(other, rel=1e-11)
 
 
@@ -164,7 +164,7 @@ def test_variants_of_what_has_no_derivatives_and_of_what_is_near_a_dead_centre_b
         values = found.draw(student).values
         settings = {f"variables.{name}": value for name, value in values.items()}
         ((_, one),) = icsolve.solve(icsolve.load(a_class.path("cases/press.yaml"), settings)).answers.items()
-        key = found.key("press", student)
+        key = found.solved(student).key("press")
         assert isinstance(key, NumberKey) and key.value == pytest.approx(one.value, rel=1e-12)
 
 

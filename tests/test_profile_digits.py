@@ -6,16 +6,20 @@ Closed forms: R. L. Norton, Design of Machinery, ch. 8; the spline is solved her
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from random import Random
 
+import numpy as np
 import pytest
-from mpmath import cos, findroot, lu_solve, matrix, mp, mpf, pi, sin, sqrt
+from mpmath import cos, findroot, lu_solve, matrix, mp, mpc, mpf, pi, sin, sqrt
 
 from cams import sliding, swinging, table
 from icsolve.answer import Found
 from icsolve.case import Case
+from icsolve.errors import SceneError
 from icsolve.read import load
 from icsolve.solve import solve
+from icsolve.sweep import sweep
 from sizes import MORE
 
 Vector = tuple[mpf, mpf]
@@ -179,6 +183,119 @@ def test_faces_on_arcs_and_on_corners() -> None:
     held(solve(flat("60", TWO_ARCS, "10")).answers["T12"], pressed((c[0] + 15 * n[0], c[1] + 15 * n[1]), n))
     corner = flat("60", "{polygon: [[-30, -30], [40, -30], [5, 40]]}", "10")
     held(solve(corner).answers["T12"], pressed((mpf(5), mpf(40)), n))
+
+
+ENDS = FLAT.replace("lengths: {AC: 50}", "lengths: {AC: 40, AP: %s, AQ: %s, CU: 10, CV: 10}")
+ENDS = ENDS.replace("{AC: %s}", "{AC: %s, CAP: 60.001, CAQ: -60.001, ACU: 119.999, ACV: -119.999}")
+ENDS = ENDS.replace("{2: [C]}", "{2: [C, P, Q, U, V]}")
+ARCS = "{arcs: [{centre: A, radius: 30, from: P, to: Q}, {centre: C, radius: 10, from: U, to: V}]}"
+
+
+def turn(degrees: mpf | int) -> mpc:
+    return mpc(cos(degrees * pi / 180), sin(degrees * pi / 180))
+
+
+def torque(at: mpc, normal: mpc) -> mpf:
+    return pressed((at.real, at.imag), (normal.real, normal.imag))
+
+
+def beside(kind: Callable[[mpf], object], low: mpf, rng: Random) -> list[float]:
+    """Places about the one, within a degree, where what is touched changes."""
+    first, high = kind(low), low + 1
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if kind(middle) == first else (low, middle)
+    return [float(low) + sign * 10.0 ** -rng.uniform(2, 12.5) for sign in (1, -1, 1, -1)]
+
+
+def swept(case: Case, rows: list[float], truth: Callable[[float], mpf]) -> None:
+    """Rows are within their bounds; those in doubles, of some thousands, within 1e-8."""
+    told = sweep(case, {"angles.AC": np.array(rows)}, ("answers", "status", "error"))
+    found = sweep(case, {"angles.AC": np.array(rows)}, ("answers", "status"))
+    assert set(found.status) == set(told.status) == {"ok"}
+    for n, row in enumerate(rows):
+        true = truth(row)
+        assert abs(mpf(found.answers["T12"][n]) - true) <= 1e-8, row
+        assert abs(mpf(told.answers["T12"][n]) - true) <= told.error["T12"][n] or not true, row
+
+
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize("lean", [0, 5, -12])
+def test_a_face_rests_on_the_end_of_a_flank_that_it_meets_first(lean: int, side: int) -> None:
+    """Flanks join arcs that go on a thousandth of a degree beyond their tangents: between the arcs a face
+    rests on their ends, which lie 1e-9 of the size beyond one another."""
+    n, up, down = turn(90 + lean), turn(mpf("60.001")), turn(-mpf("60.001"))
+
+    def rests(degrees: mpf) -> tuple[bool, mpc]:
+        """Whether on the base circle, and where."""
+        out = n / turn(degrees)
+        ends = [30 * up, 30 * down, 40 + 10 * up, 40 + 10 * down]
+        ends.append(30 * out if out.real < up.real else 40 + 10 * out)
+        k = max(range(5), key=lambda k: (ends[k] / out).real)
+        dwells = k == 4 and out.real < up.real
+        return dwells, ends[k] * turn(degrees)
+
+    rng = Random(lean)
+    rows = beside(lambda x: rests(x)[0], mpf(90 + lean - side * 60) - mpf("0.6"), rng)
+    case = load(ENDS.strip() % (30, 30, repr(rows[0]), ARCS, lean))
+
+    def truth(degrees: float) -> mpf:
+        dwells, at = rests(exactly(degrees))
+        return mpf(0) if dwells else torque(at, n)
+
+    swept(case, rows + [round(row + rng.uniform(-0.01, 0.01), 6) for row in rows], truth)
+    for degrees in rows:
+        case = load(ENDS.strip() % (30, 30, repr(degrees), ARCS, lean))
+        true, found = truth(degrees), solve(case).answers["T12"]
+        if true:
+            held(found, true)
+        else:
+            assert found.value == 0.0
+
+
+@pytest.mark.parametrize("seed", range(2 * MORE))
+@pytest.mark.parametrize("follower", ["roller", "knife"])
+def test_a_roller_or_a_knife_edge_goes_over_from_an_edge_to_the_next(follower: str, seed: int) -> None:
+    """Of a triangle C, P, Q, about whose corners the roller turns."""
+    rng = Random(400 + seed)
+    size, r = decimal(rng, 20, 40), exactly(decimal(rng, 2, 12)) * (follower == "roller")
+    corners = [mpc(40), exactly(size) * turn(mpf("130.001")), exactly(size) * turn(-mpf("130.001"))]
+
+    def rests(degrees: mpf) -> tuple[int, mpc, mpc]:
+        met = []
+        for k, (p, q) in enumerate(
+            (c * turn(degrees), corners[k - 2] * turn(degrees)) for k, c in enumerate(corners)
+        ):
+            if abs(p.real) < r:
+                met.append((k, p, mpc(-p.real, sqrt(r * r - p.real**2)) / r))
+            n = mpc(0, -1) * (q - p) / abs(q - p)
+            share = -(p + r * n).real / (q - p).real
+            if 0 < share < 1:
+                met.append((3 + k, p + share * (q - p), n))
+        return max(met, key=lambda one: (one[1] + r * one[2]).imag)
+
+    places = (k + mpf("0.3") for k in range(rng.randint(-170, 0), 180))
+    low = next(x for x in places if rests(x)[0] != rests(x + 1)[0])
+    rows, shape = beside(lambda x: rests(x)[0], low, rng), "{knife: B}"
+    if r:
+        shape = f"{{roller: B, radius: {float(r)!r}}}"
+    text = ENDS.strip().replace("{flat: B, along: %s}", shape).replace("60.001", "130.001")
+    cases = [load(text % (repr(size), repr(size), repr(row), "{polygon: [C, P, Q]}")) for row in rows]
+    swept(cases[0], rows, lambda row: torque(*rests(exactly(row))[1:]))
+    for case, degrees in zip(cases, rows, strict=True):
+        held(solve(case).answers["T12"], torque(*rests(exactly(degrees))[1:]))
+
+
+@pytest.mark.parametrize("off", [9.1e-13, -4e-13, 2e-11])
+def test_a_knife_edge_over_an_end_that_is_hardly_hollow_is_outside(off: float) -> None:
+    """Where the base circle ends a thousandth of a degree before its tangent; or it is refused there."""
+    text = ENDS.strip() % (30, 30, repr(90 + 60.001 + off), ARCS, 0)
+    case = load(text.replace("{flat: B, along: 0}", "{knife: B}"))
+    try:
+        places = solve(case).points
+    except SceneError:
+        return
+    assert places["B"][1] == pytest.approx(30.0, abs=1e-6)
 
 
 def test_where_pieces_meet_no_bound_is_told() -> None:

@@ -415,3 +415,37 @@ loads:
     (one,) = find(case, {"angles.AB": np.array([0.0, 100.0])}, Query("value", load, 3.0))
     assert one.answer == 3.0
     assert held(np.radians(one.at))["xy".index(load[-1])] == pytest.approx(3.0, abs=1e-12)
+
+
+RACK = """icsolve: 1
+points: {A: [0, 0], C: [unknown, 0.405], O: [15.231, 1.863], P: [15.231, -0.095]}
+lengths: {AB: 2.33, BC: 8.759}
+angles: {AB: 77.8}
+near: {C: [9.049, 0.405]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0}
+  - {pin: [1, 5], at: O}
+  - {roll: [5, 4], at: P, radii: [1.958, 0]}
+loads: {M: {torque: 52.7, link: 2}, T: {torque: unknown, link: 5}}
+"""
+
+
+def test_dead_centres_and_values_of_a_rack_that_a_crank_drives() -> None:
+    """The pinion is held at both dead centres of the crank, whatever is divided by on the way to its torque;
+    where that is 180.17 is told of the decimal, not of the double."""
+    case = icsolve.load(RACK)
+    rise = mpf("0.405")
+    exact = [mp.degrees(mp.asin(rise / mpf("11.089"))), 180 + mp.degrees(mp.asin(rise / mpf("6.429")))]
+    spots = find(case, {"angles.AB": [0.0, 300.0]}, Query("dead"))
+    assert [(spot.kind, spot.at) for spot in spots] == [("dead", float(at)) for at in exact]
+
+    def miss(degrees: mpf) -> mpf:
+        x, y = (mpf("2.33") * f(mp.radians(degrees)) for f in (mp.cos, mp.sin))
+        run = mp.sqrt(mpf("8.759") ** 2 - (rise - y) ** 2)
+        return mpf("52.7") * mpf("1.958") / (y - (rise - y) * x / run) - mpf("180.17")
+
+    spots = find(case, {"angles.AB": [5.0, 170.0]}, Query("value", "T", 180.17))
+    assert [spot.at for spot in spots] == [float(mp.findroot(miss, mpf(guess))) for guess in (13.4, 164.3)]

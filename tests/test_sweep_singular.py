@@ -182,6 +182,49 @@ def test_beside_the_dead_centres_of_a_slider_crank(offset: str, unknown: str) ->
             assert sweep.error[unknown][n] <= 1e-6 * abs(truth) or unknown == "T"
 
 
+WHEELS = """icsolve: 1
+points: {{A: [0, 0], D: [6, 0], C: [unknown, 0.5]}}
+lengths: {{AB: 1, DE: 1.5, EC: 5}}
+angles: {{{path}: 24.3, DE: 61.7}}
+near: {{C: [11.5, 0.5]}}
+links: {{2: [B]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [1, 3], at: D}}
+  - {{{wheels}}}
+  - {{pin: [3, 4], at: E}}
+  - {{pin: [4, 5], at: C}}
+  - {{slide: [5, 1], at: C, along: 0}}
+loads: {{P: {{force: 10, link: 5, at: C, angle: 180}}, T12: {{torque: unknown, link: 2}}}}
+"""
+
+
+@pytest.mark.parametrize("path", ["AB", "DAB"])
+@pytest.mark.parametrize(
+    ("wheels", "first", "second"),
+    [
+        ("gears: [2, 3], teeth: [17, 31]", "-17", "31"),
+        ("belt: [2, 3], radii: [1.1, 1.1]", "1.1", "1.1"),
+        ("belt: [2, 3], radii: [0.7, 1.5], crossed: true", "-0.7", "1.5"),
+    ],
+)
+def test_beside_the_dead_centres_of_a_crank_that_wheels_turn(
+    path: str, wheels: str, first: str, second: str
+) -> None:
+    """The wheels carry their turning on from the angle as written, 24.3 and not the double nearest to it."""
+    ratio = mpf(first) / mpf(second)
+
+    def at(degrees: Any) -> Any:
+        pin = mpf("1.5") * turned(mpf("61.7") + ratio * (degrees - mpf("24.3")))
+        rise = mpf("0.5") - pin.imag
+        return 10 * ratio * (-pin.imag + rise / mp.sqrt(25 - rise * rise) * pin.real)
+
+    for reach, turn in (("6.5", 0), ("3.5", 180)):
+        crank = mp.degrees(mp.asin(mpf("0.5") / mpf(reach))) + turn
+        place = mpf("24.3") + (crank - mpf("61.7")) / ratio
+        checked(WHEELS.format(path=path, wheels=wheels), f"angles.{path}", float(place), at)
+
+
 # --- as `solve` has it ------------------------------------------------------------------------------
 
 CASES = Path(__file__).parent.parent / "cases"

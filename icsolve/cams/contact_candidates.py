@@ -179,7 +179,7 @@ class Meeting(NamedTuple):
     foot : where it is least
     normals : the unit normal from the profile into the follower; at a corner on which a knife edge stands
         two, and any between them will do
-    ties : feet elsewhere that are as near to the follower as far as doubles tell, with the ways to it
+    ties : other feet that are as near to the follower as far as doubles tell, with the ways to it
     shared : what is said where these touch as well; empty where none of them seems to
     """
 
@@ -209,25 +209,27 @@ def gap_of(curve: Curve, body: Body, side: float) -> tuple[float, Foot]:
 def meeting_of(curve: Curve, body: Body, side: float) -> Meeting:
     """The meeting of a profile and a follower that (nearly) touch.
 
-    Of the ties those touch that are corners, or whose normal leads to the follower, too: beside the end of a
-    piece that of the next is nearly as near.
+    Of the ties elsewhere those touch that are corners, or whose normal leads to the follower, too.
     """
     gap, foot = gap_of(curve, body, side)
     if body.kind == "flat face":
         way = (-side * body.face[1], side * body.face[0])
         first, *others = curve.farthest(way)
-        reach = way[0] * first.point[0] + way[1] * first.point[1]
-        ties = [o for o in others if abs(dot(way, o.point) - reach) <= AT_ONE * curve.size]
-        return _shared(Meeting(gap, foot, (way,)), curve, ties, [way] * len(ties), ALONG)
+        reach = dot(way, first.point)
+        ties = [(o, way) for o in others if abs(dot(way, o.point) - reach) <= AT_ONE * curve.size]
+        return _shared(Meeting(gap, foot, (way,), tuple(ties)), curve, ALONG)
     if foot.is_corner and math.dist(foot.point, body.at) <= AT_ONE * curve.size:
         return Meeting(gap, foot, foot.normals)
-    met = Meeting(gap, foot, (_toward(foot, body),))
+    toward, near = (
+        _toward(foot, body, gap + body.radius),
+        math.dist(foot.point, body.at) + AT_ONE * curve.size,
+    )
+    feet = [o for o in curve.nearest(body.at)[1:] if math.dist(o.point, body.at) <= near]
     if body.kind != "roller":
-        return met
-    near = math.dist(foot.point, body.at) + AT_ONE * curve.size
-    ties = [o for o in curve.nearest(body.at)[1:] if math.dist(o.point, body.at) <= near]
-    ways = [unit(body.at[0] - o.point[0], body.at[1] - o.point[1]) for o in ties]
-    return _shared(met, curve, ties, ways, TWICE)
+        knives = tuple((o, curve.normal(o.piece, o.u)) for o in feet)
+        return Meeting(gap, foot, (toward,), knives)
+    ways = tuple((o, unit(body.at[0] - o.point[0], body.at[1] - o.point[1])) for o in feet)
+    return _shared(Meeting(gap, foot, (toward,), ways), curve, TWICE)
 
 
 ALONG = (
@@ -240,24 +242,18 @@ TWICE = (
 )
 
 
-def _shared(met: Meeting, curve: Curve, feet: list[Foot], ways: list[Point], said: str) -> Meeting:
-    """A meeting with its ties: those of some feet, with the ways to the follower, that lie elsewhere."""
-    away = [
-        (foot, way)
-        for foot, way in zip(feet, ways, strict=True)
-        if math.dist(foot.point, met.foot.point) > AT_ONE * curve.size
-    ]
+def _shared(met: Meeting, curve: Curve, said: str) -> Meeting:
+    """A meeting of which it is said where its ties that lie elsewhere seem to touch as well."""
     touch = [
         foot.is_corner or abs(foot.normals[0][0] * y - foot.normals[0][1] * x) <= AT_ONE
-        for foot, (x, y) in away
+        for foot, (x, y) in met.ties
+        if math.dist(foot.point, met.foot.point) > AT_ONE * curve.size
     ]
-    return met._replace(ties=tuple(away), shared=said if any(touch) else "")
+    return met._replace(shared=said if any(touch) else "")
 
 
-def _toward(foot: Foot, body: Body) -> Point:
-    """The normal of a smooth place; at a corner the direction to the follower's point."""
+def _toward(foot: Foot, body: Body, height: float) -> Point:
+    """The normal of a smooth place; at a corner the direction to the follower's point, so far outside."""
     if not foot.is_corner:
         return foot.normals[0]
-    x, y = body.at[0] - foot.point[0], body.at[1] - foot.point[1]
-    length = math.hypot(x, y) * (1.0 if foot.is_convex else -1.0)
-    return (x / length, y / length)
+    return ((body.at[0] - foot.point[0]) / height, (body.at[1] - foot.point[1]) / height)

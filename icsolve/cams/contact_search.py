@@ -6,14 +6,13 @@ How the joints of a follower let it move against a link that stands, and the dat
 from __future__ import annotations
 
 import math
-from contextlib import suppress
+from collections.abc import Iterator
 from decimal import Decimal
 
 from icsolve.answer.bodies import Touching
 from icsolve.assembly import case_point, solve_figure
 from icsolve.cams.contact_candidates import (
     ALONG,
-    AT_ONE,
     TWICE,
     Candidate,
     Freedom,
@@ -24,7 +23,7 @@ from icsolve.cams.contact_candidates import (
     gap_of,
     meeting_of,
 )
-from icsolve.cams.curve import Body, Curve, body_of, placed
+from icsolve.cams.curve import Body, Curve, Foot, body_of, placed
 from icsolve.cams.enclosed_contact import (
     DIGITS,
     EnclosedContact,
@@ -38,10 +37,21 @@ from icsolve.cams.enclosed_contact import (
     exact_number,
 )
 from icsolve.cams.enclosed_contact import direction as direction_in_balls
-from icsolve.cams.pieces import Point, unit
+from icsolve.cams.pieces import Point, Straight, unit
 from icsolve.cams.words import corner_refusal, left_open, never_meets, piece_words, several_ways
 from icsolve.case import Case, Contact, Coordinates, Direction, Joint, Number
-from icsolve.case.profiles import Flat, Follower, Knife, Profiles, Roller, Shape, Touch, points_of
+from icsolve.case.profiles import (
+    Circle,
+    Flat,
+    Follower,
+    Knife,
+    Profiles,
+    Radii,
+    Roller,
+    Shape,
+    Touch,
+    points_of,
+)
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar, turn_of
 from icsolve.numbers.balls import Balls, BelowZero, MoreDigits
@@ -51,6 +61,8 @@ FITS = 2e-3
 """A follower whose place is given may miss the profile by this fraction of the profile's size."""
 ROUNDED = 1e-14
 """A pressure angle of this sine is rounding."""
+BESIDE = 1e-6
+"""So near to the end of a piece (of its length), and to its normal, both end and piece are looked at."""
 CLEARLY = 0.9
 """A way is meant where it is nearer to `near` than this fraction of the distance of the next."""
 
@@ -110,8 +122,8 @@ class ContactSearch:
         """The case with this contact, and what was found of it; ``enclosed`` where that can be shown."""
         curve = self.curve()
         meeting = self._meeting(curve)
-        if enclosed:
-            self.enclosed = self._enclosed(curve, meeting)
+        if enclosed and (shown := self._enclosed(curve, meeting)):
+            self.enclosed, meeting = shown[0], meeting._replace(foot=shown[1])
         if self.enclosed is None:
             self.refuse_shared(meeting)
         freed = self.freed
@@ -129,7 +141,7 @@ class ContactSearch:
         """
         curve, guide = self.curve(), guided(self.case, self.guided)
         found = self._enclosed(curve, self._meeting(curve), guide) if guide is not None else None
-        return found and Decimal(exact_number(found.change, curve.size, "").digits)
+        return found and Decimal(exact_number(found[0].change, curve.size, "").digits)
 
     def curve(self) -> Curve:
         """The profile where its link is."""
@@ -159,43 +171,84 @@ class ContactSearch:
 
     def _enclosed(
         self, curve: Curve, meeting: Meeting, guide: FollowerGuide | None = None
-    ) -> EnclosedContact | None:
-        """The contact with all digits: on the piece on which doubles see it, on the next beside its end, or
-        where another is as near; None where no one place is shown. A follower whose place is given moves by
-        a ``guide``, where one is named.
+    ) -> tuple[EnclosedContact, Foot] | None:
+        """The contact with all digits and what is touched: of all that doubles see as near, what is met
+        first; None where that is not shown. A follower whose place is given moves by a ``guide``, where one
+        is named.
 
         Raises SceneError where it touches at several places.
         """
-        found: list[EnclosedContact] = []
-        feet = [(meeting.foot, meeting.normals[0]), *meeting.ties] if len(meeting.normals) == 1 else []
-        for foot, normal in ((one, normal) for own, normal in feet for one in curve.beside(own)):
-            known = found and math.dist(foot.point, tuple(map(float, found[-1].at))) <= AT_ONE * curve.size
-            if not known:
-                with suppress(MoreDigits, BelowZero, ZeroDivisionError):
-                    here = meeting._replace(foot=foot, normals=(normal,))
-                    found.append(self._enclosed_on(curve, here, guide))
-        outer = found[0] if found else None
-        for other in found[1:]:
-            assert outer is not None
-            ahead = (other.change - outer.change) * self._sense(meeting, guide)
-            if at_least(ahead) and at_least(0.0 - ahead):
-                said = ALONG if isinstance(self.follower, Flat) else TWICE
-                self.refuse_shared(meeting._replace(shared=said))
-            outer = other if at_least(ahead) else outer
-        return outer
+        if len(meeting.normals) > 1:
+            return None
+        feet = [(meeting.foot, meeting.normals[0]), *meeting.ties]
+        spots: dict[Point | int, tuple[Foot, Point]] = {}
+        for foot, normal in feet:
+            for spot, way in self._spots(curve, foot, normal, meeting.gap):
+                spots.setdefault(spot.point if spot.is_corner else spot.piece, (spot, way))
+        senses = {self._sense(spot, normal, guide) for spot, normal in spots.values()}
+        outer: tuple[EnclosedContact, Foot] | None = None
+        try:
+            for spot, normal in spots.values():
+                one = self._enclosed_on(curve, meeting._replace(foot=spot, normals=(normal,)), guide)
+                if one and (outer is None or self._ahead(one, outer[0], min(senses), guide)):
+                    outer = one, spot
+        except (MoreDigits, BelowZero, ZeroDivisionError):
+            return None
+        return outer if len(senses) == 1 else None
 
-    def _sense(self, meeting: Meeting, guide: FollowerGuide | None) -> float:
+    def _ahead(
+        self, one: EnclosedContact, other: EnclosedContact, sense: float, guide: FollowerGuide | None
+    ) -> bool:
+        """Whether a contact is met before another; MoreDigits where they are one, but for their normals.
+
+        Raises SceneError where both are met at once.
+        """
+        a, b = one.change, other.change
+        if isinstance(self.follower, Knife) and (guide or self.freed) is None:  # a gap on either side
+            a, b = a * a, b * b
+        ahead = (a - b) * sense
+        if not (at_least(ahead) and at_least(0.0 - ahead)):
+            return at_least(ahead)
+        if not all(at_least(p - q) and at_least(q - p) for p, q in zip(one.at, other.at, strict=True)):
+            raise SceneError(
+                Status.UNSUPPORTED, f"{self.what}: {ALONG if isinstance(self.follower, Flat) else TWICE}"
+            )
+        if isinstance(self.follower, Knife):
+            raise MoreDigits
+        return False
+
+    def _spots(self, curve: Curve, foot: Foot, normal: Point, gap: float) -> Iterator[tuple[Foot, Point]]:
+        """What may be touched about a foot, with the normals there: its piece, where that is square to the
+        normal, and the end of it there, be it a corner or not.
+        """
+        piece, own, end = curve.pieces[foot.piece], curve.normal(foot.piece, foot.u), float(round(foot.u))
+        face, knife = isinstance(self.follower, Flat), isinstance(self.follower, Knife)
+        if math.dist(own, normal) <= BESIDE and not (face and isinstance(piece, Straight)):
+            yield foot._replace(normals=(own,)), normal
+        if abs(foot.u - end) <= BESIDE and not (knife or isinstance(self.shape, Circle | Radii)):
+            at, out = (
+                piece.at(end),
+                gap + (self.follower.radius.value if isinstance(self.follower, Roller) else 0.0),
+            )
+            if not face:
+                (px, py), (nx, ny), (x, y) = foot.point, normal, at
+                normal = unit(px + out * nx - x, py + out * ny - y)
+            yield Foot(at, foot.piece, end, (own, own)), normal
+
+    def _sense(self, foot: Foot, normal: Point, guide: FollowerGuide | None) -> float:
         """1 where a follower is the farther out the more it is moved, else -1; a gap is the widest that it
         can be."""
         moves = guide or self.freed
         if moves is None:
             return -1.0
-        nx, ny = meeting.normals[0]
-        x, y = moves.freedom.velocity(self.trace(meeting.foot.point, (nx, ny)))
-        return math.copysign(1.0, x * nx + y * ny)
+        x, y = moves.freedom.velocity(self.trace(foot.point, normal))
+        return math.copysign(1.0, x * normal[0] + y * normal[1])
 
-    def _enclosed_on(self, curve: Curve, meeting: Meeting, guide: FollowerGuide | None) -> EnclosedContact:
-        """The contact on the piece of the meeting's foot; MoreDigits where no one place is shown."""
+    def _enclosed_on(
+        self, curve: Curve, meeting: Meeting, guide: FollowerGuide | None
+    ) -> EnclosedContact | None:
+        """The contact on what the meeting's foot is; None where that does not reach so far, MoreDigits where
+        no one place is shown."""
         balls, freed, follower = Balls(DIGITS), self.freed, self.follower
         case = self.case if freed is None else freed.moved(0.0)
         own = points_of(follower)

@@ -103,15 +103,6 @@ class Curve(NamedTuple):
             return Foot(at, piece, u, (own,))
         return Foot(at, piece, u, (beside, own) if u <= 0.0 else (own, beside))
 
-    def beside(self, foot: Foot) -> Iterator[Foot]:
-        """A foot, and the end of the next piece where it lies at (or rounding beside) the end of its own."""
-        yield foot
-        if not foot.is_corner and not isinstance(self.pieces[foot.piece], PolarPiece):
-            if foot.u < AT_END:
-                yield self.foot((foot.piece - 1) % len(self.pieces), 1.0)
-            if foot.u > 1.0 - AT_END:
-                yield self.foot((foot.piece + 1) % len(self.pieces), 0.0)
-
     def normal(self, piece: int, u: float) -> Point:
         """Outward unit normal of a piece."""
         tx, ty = self.pieces[piece].tangent(u)
@@ -155,7 +146,7 @@ class Curve(NamedTuple):
         x, y = p[0] - foot.point[0], p[1] - foot.point[1]
         if not foot.is_corner:
             return x * foot.normals[0][0] + y * foot.normals[0][1], foot
-        return math.hypot(x, y) * (1.0 if foot.is_convex else -1.0), foot
+        return math.copysign(math.hypot(x, y), sum(dot((x, y), normal) for normal in foot.normals)), foot
 
 
 def curve_of(pieces: Sequence[Piece]) -> Curve | None:

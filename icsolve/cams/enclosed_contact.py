@@ -31,7 +31,7 @@ DIGITS = 160
 """More than any scene is evaluated with."""
 KEPT = 145
 """Digits of what is found that are handed on: the rest is less than a scene's own rounding."""
-NEARBY = 1e-9
+NEARBY = 1e-5
 """The solution lies within this fraction of the profile's size of where doubles put it."""
 Vector = tuple[Scalar, Scalar]
 
@@ -80,7 +80,7 @@ class Locus(NamedTuple):
     ----------
     equations : of P, n and the unknown of its own, as values that vanish
     start : of that unknown; None where it has none
-    within : whether P and n do not lie beyond an end of it
+    within : whether P and n do not lie beyond an end of it, as far as the digits tell
     radius : the radius of curvature there [case length], by its own unknown; None where straight
     """
 
@@ -147,8 +147,8 @@ def unit(v: Vector, balls: Balls) -> Vector:
 
 def enclosed_contact(
     locus: Locus, body: FollowerPlaces, start: TouchingAbout, size: float, balls: Balls
-) -> EnclosedContact:
-    """The contact near where doubles put it.
+) -> EnclosedContact | None:
+    """The contact near where doubles put it; None where it lies beyond the end of the piece.
 
     Parameters
     ----------
@@ -161,7 +161,7 @@ def enclosed_contact(
     Raises
     ------
     MoreDigits
-        Where no single solution is shown near there, or it lies beyond the end of the piece.
+        Where no single solution is shown near there.
     """
     scale, turns = 1.0 / size, body.about is not None
     begin = [start.at[0] * scale, start.at[1] * scale, *start.normal]
@@ -195,8 +195,10 @@ def enclosed_contact(
     found = enclosed_root(system, begin, balls)
     point, normal = (found[0], found[1]), (found[2], found[3])
     far = any(abs(float(x) - b) > NEARBY for x, b in zip(found, begin, strict=True))
-    if far or not locus.within(point, normal):
+    if far:
         raise MoreDigits
+    if not locus.within(point, normal):
+        return None
     change = balls.angle(*found[first:]) if turns else found[first] * size
     return EnclosedContact(_times(point, size), normal, locus.radius(found[4]), change)
 
@@ -257,16 +259,11 @@ class LocusFinder:
         return min(self.ends, key=lambda end: math.dist(at, (float(end[0]), float(end[1]))))
 
     def _corner(self, foot: Foot) -> Locus:
-        """A corner: the normal turns freely about it."""
+        """An end of a piece: the normal turns freely about it."""
         (x, y), balls = _times(self._end(foot.point), 1.0 / self.size), self.balls
-        before, after = foot.normals
-
-        def within(p: Vector, n: Vector) -> bool:
-            nx, ny = float(n[0]), float(n[1])
-            first, last = before[0] * ny - before[1] * nx, nx * after[1] - ny * after[0]
-            return foot.is_convex and min(first, last) > NEARBY
-
-        return Locus(lambda p, n, own: [p[0] - x, p[1] - y], None, within, lambda own: balls.ball(0.0))
+        return Locus(
+            lambda p, n, own: [p[0] - x, p[1] - y], None, lambda p, n: True, lambda own: balls.ball(0.0)
+        )
 
     def _line(self, a: Vector, b: Vector) -> Locus:
         """A straight edge."""
@@ -288,12 +285,12 @@ class LocusFinder:
         r, centre = self._radius(arc), _times(self.places[arc.centre], 1.0 / self.size)
 
         def within(p: Vector, n: Vector) -> bool:
-            if isinstance(arc, Circle) or NEARBY < foot.u < 1.0 - NEARBY:
+            if isinstance(arc, Circle) or 0.25 < foot.u < 0.75:
                 return True
             ends = [self._bearing(arc, end) for end in (arc.start, arc.stop)]
             (ax, ay), (bx, by) = ends if arc.turns == "ccw" else ends[::-1]
             x, y = n[0] * side, n[1] * side
-            near_first = (foot.u <= NEARBY) is (piece.sweep > 0.0)
+            near_first = (foot.u < 0.5) is (piece.sweep > 0.0)
             return at_least(ax * y - ay * x if near_first else x * by - y * bx)
 
         def equations(p: Sequence[Derived], n: Sequence[Derived], own: Derived) -> list[Derived]:

@@ -57,6 +57,7 @@ def validate_command(cases: tuple[str, ...], settings: dict[str, str]) -> int:
     return for_each(cases, _validate, settings=settings)
 
 
+CHECK = "icsolve/check/1"
 Shown = Callable[["Case", str, list[Row]], str]
 
 
@@ -79,11 +80,13 @@ def check_cases(cases: tuple[str, ...], shown: Shown, settings: Mapping[str, str
         click.echo(text)
         return NO_ANSWER if DISAGREES in verdicts else DONE
 
+    tell = in_json(CHECK, values=[]) if shown is _json else on_stderr
+
     def refuse(case: Case, path: str, error: SceneError) -> None:
         nonlocal files
         files += 1
         tally["without an answer"] += 1
-        on_stderr(case, path, error)
+        tell(case, path, error)
 
     code = for_each(cases, work, refuse, settings, show=show, jobs=jobs)
     complain(_summary(files, tally))
@@ -101,7 +104,8 @@ def _json(case: Case, path: str, rows: list[Row]) -> str:
     import json
 
     values = [row._asdict() for row in rows]
-    return json.dumps({"schema": "icsolve/check/1", "case": case.name, "values": values}, allow_nan=False)
+    entry = {"schema": CHECK, "case": case.name, "status": "ok", "values": values}
+    return json.dumps(entry, allow_nan=False)
 
 
 def _table_row(case: Case, path: str, rows: list[Row]) -> str:

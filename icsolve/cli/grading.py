@@ -278,8 +278,7 @@ def _pages(graded: Graded, job: Job, results: str, options: dict[str, Any]) -> N
     """The page for the teacher, and one for each student."""
     from icsolve.grade.course import read_roster
     from icsolve.grade.results import by_student
-    from icsolve.grade.statistics import statistics
-    from icsolve.grade.summary import page, student_page
+    from icsolve.grade.summary import page, statistics, student_page
     from icsolve.grade.variants.record import file_name
 
     if options["html"]:

@@ -41,6 +41,8 @@ LEAST = 13.0
 """An arrow is never drawn shorter."""
 BESIDE = 12.0
 """A force that acts farther from its link than this is tied to it by a dashed line."""
+WIDEST = 10.0
+"""A friction circle wider than so many figures is not drawn: its force stands at the pin, with a couple."""
 GAP = 26.0
 ROUND = 30.0
 """Room for labels around a link with its forces."""
@@ -171,11 +173,12 @@ def _reaction(scene: Scene, name: str, reaction: Reaction) -> DrawnPush:
 
 def _off_pin(scene: Scene, reaction: Reaction, size: float) -> Point | None:
     """From a pin that rubs to where its force touches the friction circle, case lengths: there it has the
-    moment of the friction. None where the pin does not rub."""
+    moment of the friction. None where the pin does not rub, or the circle is far beyond the figure."""
     pins = (pin for pin in scene.case.joints if pin.pivot and pin.friction is not None)
     rubbed = any(pin.at == reaction.where and {reaction.by, reaction.on} <= {*pin.links} for pin in pins)
     moment = (reaction.moment or 0.0) / scene.case.units.torque_per_force_length
-    if not rubbed or not moment or size * scene.known.size * NOTHING >= abs(moment):
+    whole = size * scene.known.size
+    if not rubbed or not NOTHING * whole < abs(moment) < WIDEST * whole:
         return None
     assert reaction.x is not None and reaction.y is not None
     return (moment / size * (reaction.y / size), -moment / size * (reaction.x / size))

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 
 from icsolve.answer.equilibrium import EquilibriumPosition
 from icsolve.case import Case, Spring, TorsionSpring
-from icsolve.case.figure import Corner, Direction
+from icsolve.case.figure import Corner, Direction, Length
 from icsolve.explain.document import Block, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, product
 from icsolve.explain.given import Figures, load_name
@@ -60,10 +60,15 @@ def _position(known: Known, figures: Figures, position: EquilibriumPosition) -> 
     if position.stability is None or position.answer.scene is None:
         return []
     here = known_at(known, position.answer)
+    place = f"In the position {place_text(here.case, position, figures.digits)}"
+    for path in position.at:
+        loose = [name for name in _ends(known.case, path) if name not in here.points]
+        if loose:
+            return [words(f"{place} no motion is told by {path}: no link carries {loose[0]}.")]
     motions = _by_unknowns(here, known.case, list(position.at))
     if not motions:  # a change point, which has more of them
         return []
-    blocks: list[Block] = [words(f"In the position {place_text(here.case, position, figures.digits)}:")]
+    blocks: list[Block] = [words(f"{place}:")]
     blocks += torque_words(here.case.units)
     loads = []
     least = (
@@ -171,13 +176,24 @@ def _mixed(motions: Sequence[OneMotion], weights: Sequence[float]) -> OneMotion:
     return motions[0]._replace(twists={link: twist(link) for link in motions[0].twists})
 
 
+def _datum(written: Case, path: str) -> Corner | Direction | Length:
+    return next(one for one in (*written.angles, *written.lengths) if one.value.path == path)
+
+
+def _ends(written: Case, path: str) -> tuple[str, ...]:
+    """The points between which a datum is measured."""
+    if path.startswith("points."):
+        return (path.split(".")[1],)
+    datum = _datum(written, path)
+    return (datum.a, datum.at, datum.b) if isinstance(datum, Corner) else (datum.a, datum.b)
+
+
 def _rate(known: Known, written: Case, path: str, motion: OneMotion) -> float:
     """How fast a datum grows in a motion [rad/s for an angle, length/s]."""
     if path.startswith("points."):
         along: float = _velocity(known, path.split(".")[1], motion)["xy".index(path[-1])]
         return along
-    data = (*written.angles, *written.lengths)
-    datum = next(one for one in data if one.value.path == path)
+    datum = _datum(written, path)
     if isinstance(datum, Corner):
         return _turning(known, datum.at, datum.b, motion) - _turning(known, datum.at, datum.a, motion)
     if isinstance(datum, Direction):

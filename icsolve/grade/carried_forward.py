@@ -15,14 +15,15 @@ from operator import mul
 from icsolve.answer import Answer
 from icsolve.case.expected import CentreIs, DistanceIs, RateIs, RatioIs, SpeedIs, Target
 from icsolve.grade.case_store import CaseStore
-from icsolve.grade.judge import WRONG, feedback, share_of
+from icsolve.grade.judge import WRONG, codes, feedback, share_of
 from icsolve.grade.keys import NumberKey, PlaceKey
-from icsolve.grade.mistakes import Wrong, WrongAnswers
-from icsolve.grade.mistakes.engine import centres_of, quotient
+from icsolve.grade.mistakes.engine import WrongAnswers, centres_of, quotient
+from icsolve.grade.mistakes.lookup import Wrong
 from icsolve.grade.results import Marked
-from icsolve.grade.solved import SolvedCase, unknowns
+from icsolve.grade.solved import SolvedCase, final_questions
 from icsolve.grade.tables.columns import StoredAnswer
 from icsolve.grade.tolerance import NoKeyError
+from icsolve.grade.written.two_numbers import WrittenPlace
 from icsolve.scene.parts import scene_of
 from icsolve.screws.plane import Triple
 from icsolve.tuples import NamedTuple
@@ -195,70 +196,60 @@ class CarriedForward:
         marked = {entry.item: (entry, m) for entry, m in found}
         wrong = [item for item, (_, m) in marked.items() if ":" in item and m.judged.verdict == WRONG]
         for case in dict.fromkeys(item.partition(":")[0] for item in wrong):
-            finals = self._finals(case)
-            own = [marked[item] for item in wrong if item.startswith(f"{case}:") and item not in finals]
+            try:
+                finals = final_questions(self._case_store.read(case), case)
+            except NoKeyError:
+                continue
             given = [item for item in finals if item in marked and marked[item][1].judged.value is not None]
             last = [item for item in given if marked[item][1].judged.verdict == WRONG]
+            if not last:
+                continue
+            solved = self._case_store.solved(case, marked[last[0]][0].student)
+            steps = [marked[item] for item in wrong if item.startswith(f"{case}:") and item not in finals]
             for item in last:
-                marked[item] = self._again(marked[item], self._from_steps(marked[item][0], own))
+                marked[item] = self._again(solved, marked[item], _from_steps(solved, finals[item], steps))
             last.sort(key=lambda item: not marked[item][1].judged.mistakes)
             for n, item in enumerate(last[1:], 1):
-                before = [marked[other] for other in last[:n]]
-                marked[item] = self._again(marked[item], self._from_others(before, marked[item][0]))
+                before = {finals[other]: marked[other] for other in last[:n]}
+                marked[item] = self._again(solved, marked[item], _from_others(solved, item, finals, before))
         return list(marked.values())
 
-    def _finals(self, case: str) -> list[str]:
-        """The questions for the unknown loads of a case."""
-        try:
-            names = unknowns(self._case_store.read(case))
-        except NoKeyError:
-            return []
-        return [case] if len(names) == 1 else [f"{case}:{name}" for name in names]
-
-    def _from_steps(self, entry: StoredAnswer, wrong: list[Found]) -> Iterator[Wrong]:
-        """What a final answer is by the right method from wrong steps."""
-        solved = self._solved(entry)
-        name = getattr(solved.target(entry.item), "load", "")
-        for unscaled in carried(solved.wrongs, name, list(_steps(solved, wrong))) if wrong else ():
-            yield unscaled._replace(value=unscaled.value * solved.scale)
-
-    def _from_others(self, before: list[Found], entry: StoredAnswer) -> Iterator[Wrong]:
-        """What an unknown is by a sum of power with the student's wrong ones in it."""
-        solved = self._solved(entry)
-        off = {}
-        for other, marked in before:
-            key = solved.key(other.item)
-            if isinstance(key, NumberKey) and len(marked.given) == 1:
-                off[getattr(solved.target(other.item), "load", "")] = marked.given[0] - key.value
-        key = solved.key(entry.item)
-        if off and isinstance(key, NumberKey):
-            for by in coupled(solved.answer, off, getattr(solved.target(entry.item), "load", "")):
-                yield Wrong("carried", key.value + by, ", ".join(off))
-
-    def _solved(self, entry: StoredAnswer) -> SolvedCase:
-        return self._case_store.solved(entry.item.partition(":")[0], entry.student)
-
-    def _again(self, final: Found, causes: Iterable[Wrong]) -> Found:
+    def _again(self, solved: SolvedCase, final: Found, causes: Iterable[Wrong]) -> Found:
         """The final answer with the first of these causes that it follows from."""
         entry, before = final
-        key, value = self._solved(entry).key(entry.item), before.judged.value
+        key, value = solved.key(entry.item), before.judged.value
         for cause in causes if isinstance(key, NumberKey) and value is not None else ():
             assert isinstance(key, NumberKey) and value is not None
             close = abs(value - cause.value) <= key.wrongs.width(cause.code) * abs(cause.value)
             if close and abs(cause.value - key.value) > key.half:
-                return entry, self._with_cause(key, before, cause)
+                others = (m for m in before.judged.mistakes if m.code != "near-miss")
+                mistakes = (cause, *others)[:3]
+                share = max(share_of(key, before.judged.parts, mistakes), before.judged.share)
+                judged = before.judged._replace(mistakes=mistakes, code=codes(mistakes), share=share)
+                told = feedback(key, judged, self._reveal)
+                return entry, Marked(before.item, before.raw, judged, before.points, told, before.read)
         return final
 
-    def _with_cause(self, key: NumberKey, before: Marked, cause: Wrong) -> Marked:
-        others = (m for m in before.judged.mistakes if m.code != "near-miss")
-        mistakes = (cause, *others)[:3]
-        judged = before.judged._replace(
-            mistakes=mistakes,
-            code=" ".join(m.code for m in mistakes),
-            share=max(share_of(key, before.judged.parts, mistakes), before.judged.share),
-        )
-        told = feedback(key, judged, self._reveal)
-        return Marked(before.item, before.raw, judged, before.points, told, before.written)
+
+def _from_steps(solved: SolvedCase, unknown: str, wrong: list[Found]) -> Iterator[Wrong]:
+    """What a final answer is by the right method from wrong steps."""
+    for cause in carried(solved.wrongs, unknown, list(_steps(solved, wrong))) if wrong else ():
+        yield cause._replace(value=cause.value * solved.scale)
+
+
+def _from_others(
+    solved: SolvedCase, item: str, finals: Mapping[str, str], before: Mapping[str, Found]
+) -> Iterator[Wrong]:
+    """What an unknown is by a sum of power with the student's wrong ones in it."""
+    off = {}
+    for unknown, (entry, marked) in before.items():
+        key = solved.key(entry.item)
+        if isinstance(key, NumberKey) and marked.judged.value is not None:
+            off[unknown] = marked.judged.value - key.value
+    key = solved.key(item)
+    for by in coupled(solved.answer, off, finals[item]) if off and isinstance(key, NumberKey) else ():
+        assert isinstance(key, NumberKey)
+        yield Wrong("carried", key.value + by, ", ".join(off))
 
 
 def _steps(solved: SolvedCase, wrong: list[Found]) -> Iterator[Intermediate]:
@@ -268,9 +259,9 @@ def _steps(solved: SolvedCase, wrong: list[Found]) -> Iterator[Intermediate]:
             key = solved.key(entry.item)
         except NoKeyError:
             continue
-        if not isinstance(key, NumberKey | PlaceKey):
-            continue
-        right = key.place if isinstance(key, PlaceKey) else (key.value,)
-        if len(marked.given) == len(right):
-            what = entry.item.partition(":")[2]
-            yield Intermediate(what, solved.target(entry.item), right, marked.given)
+        what, target, read = entry.item.partition(":")[2], solved.target(entry.item), marked.read
+        if isinstance(key, NumberKey) and marked.judged.value is not None:
+            yield Intermediate(what, target, (key.value,), (marked.judged.value,))
+        elif isinstance(key, PlaceKey) and isinstance(read, WrittenPlace):
+            factor = key.factor(read.unit) or 1.0
+            yield Intermediate(what, target, key.place, (read.x * factor, read.y * factor))

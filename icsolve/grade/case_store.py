@@ -64,8 +64,8 @@ class CaseStore:
         """
         if os.path.isfile(self.folder):
             return
-        own = []
-        for text, fields in self.course.own:
+        own = {}
+        for text, fields in self.course.own.items():
             question = self.find(text)
             if question is None:
                 why = self.no_case(text)
@@ -74,9 +74,9 @@ class CaseStore:
                 question = self.canonical(question)
                 why = self._why_not_asked(name, what)
             if why:
-                raise ValueError(f"{dict(self.course.places).get(text, 'course')}: {why}")
-            own.append((question or text, fields))
-        self.course = self.course._replace(own=tuple(own))
+                raise ValueError(f"{self.course.places.get(text, 'course')}: {why}")
+            own[question or text] = fields
+        self.course = self.course._replace(own=own)
 
     def _why_not_asked(self, name: str, what: str) -> str:
         """Why a course can't ask this of a case; '' where it can, or the case itself can't be read."""
@@ -144,7 +144,7 @@ class CaseStore:
     def variation(self, name: str) -> Varied | None:
         """The case as one with variables; None where it has none, or can't be read."""
         found = self._found(name)
-        return found if not isinstance(found, SolvedCase | NoKeyError) else None
+        return found if isinstance(found, Varied) else None
 
     def keep_to(self, records: dict[str, VariantRecord]) -> None:
         """Take the numbers that were handed out for those of the students."""
@@ -175,9 +175,14 @@ class CaseStore:
 
         Raises NoKeyError.
         """
-        name = question.partition(":")[0]
-        varied = self.variation(name)
-        return varied.key(question, student) if varied is not None else self.solved(name).key(question)
+        return self.solved(question.partition(":")[0], student).key(question)
+
+    def common_key(self, question: str) -> AnyKey | None:
+        """The key of a question that asks the same of all; None where there is none."""
+        try:
+            return self.key(question) if self.variation(question.partition(":")[0]) is None else None
+        except NoKeyError:
+            return None
 
     def variant_of(self, question: str, student: str) -> str:
         """The label of the student's values; '' for a case without variables."""

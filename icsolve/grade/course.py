@@ -5,16 +5,17 @@ from a roster.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from icsolve.case.expected import Tolerance
 from icsolve.errors import CaseError
 from icsolve.grade.mistakes.lookup import CODES
-from icsolve.grade.tables.columns import HeaderError, TableColumns, identifier, read_table
+from icsolve.grade.tables.columns import HeaderError, identifier, read_table
 from icsolve.grade.tables.text import Report
 from icsolve.grade.tolerance import DEFAULT
-from icsolve.read.document import Mapping, Node, Scalar, checked, is_null, parse, text_of
+from icsolve.read.document import Mapping as Tree
+from icsolve.read.document import Node, Scalar, checked, is_null, parse, text_of
 from icsolve.read.expect import tolerance_of
 from icsolve.read.names import Problems, Stop, shown, suggestion
 from icsolve.tuples import NamedTuple
@@ -23,6 +24,8 @@ ATTEMPTS = ("last", "first", "best")
 DECIMALS = ("either", "point", "comma")
 UNITS = ("assumed", "required", "ignored")
 DIRECTIONS = ("signed", "required", "ignored")
+Fields = dict[str, Any]
+NONE: Mapping[str, Any] = {}
 
 
 class Credit(NamedTuple):
@@ -50,40 +53,34 @@ class Policy(NamedTuple):
     direction: str = "signed"
     within: float = 45.0
     credit: Credit | None = None
-    mistakes: tuple[tuple[str, float], ...] = ()
+    mistakes: Mapping[str, float] = NONE
     figures: int = 0
 
 
 class Course(NamedTuple):
-    """A course: the policy for all questions, what single questions have of their own, and the rest."""
+    """A course: the policy for all questions, what single questions have of their own (each student owes an
+    answer to each of these), and the rest."""
 
     title: str = ""
     policy: Policy = Policy()
-    own: tuple[tuple[str, tuple[tuple[str, Any], ...]], ...] = ()
+    own: Mapping[str, Fields] = NONE
     attempt: str = "last"
     decimal: str = "either"
     seed: str = "0"
     columns: tuple[tuple[str, str], ...] = ()
     reveal: bool = False
     """Whether the accepted range is told with a wrong answer too."""
-    places: tuple[tuple[str, str], ...] = ()
+    places: Mapping[str, str] = NONE
     """where each question is named: ``course.yaml:7:9``"""
-
-    @property
-    def questions(self) -> tuple[str, ...]:
-        """The questions that the course names: each student owes an answer to each."""
-        return tuple(question for question, _ in self.own)
 
     def policy_of(self, question: str, tolerance: Tolerance | None = None) -> Policy:
         """The policy of ``case`` or ``case:what``; ``tolerance`` is that of the case file."""
-        case = question.partition(":")[0]
-        own = dict(self.own)
-        fields: dict[str, Any] = {} if tolerance is None else {"tolerance": tolerance}
-        fields |= dict(own.get(case, ())) | dict(own.get(question, ()))
+        fields: Fields = {} if tolerance is None else {"tolerance": tolerance}
+        for name in (question.partition(":")[0], question):
+            fields |= self.own.get(name, {})
         return self.policy._replace(**fields)
 
 
-Fields = dict[str, Any]
 Readers = dict[str, tuple[str, Callable[[Node], Any]]]
 """Keys, each with its field and how its value is read."""
 
@@ -100,7 +97,7 @@ def read_course(path: str | os.PathLike[str]) -> Course:
     course = Course()
     try:
         root = parse(checked(text_of(path, problems), problems), problems)
-        if type(root) is Mapping:
+        if type(root) is Tree:
             course = _course(root, problems)
         elif root is not None:
             problems.refuse(root.mark, "a course is a mapping, as in {tolerance: 1%, unit: required}")
@@ -111,27 +108,37 @@ def read_course(path: str | os.PathLike[str]) -> Course:
     return course
 
 
-def _course(root: Mapping, problems: Problems) -> Course:
-    _only(root, (*_COURSE, *_POLICY, "cases", "map"), "a course", problems)
-    whole = _fields(root, _COURSE, problems)
-    policy = Policy(**_fields(root, _POLICY, problems))
-    own = _questions(root.items.get("cases"), problems)
-    columns = _columns(root.items.get("map"), problems)
-    cases = root.items.get("cases")
-    keys = cases.keys if type(cases) is Mapping else {}
-    places = tuple((name, f"{problems.path}:{line}:{column}") for name, (line, column) in keys.items())
-    return Course(**whole, policy=policy, own=own, columns=columns, places=places)
+def _course(root: Tree, problems: Problems) -> Course:
+    fields = _fields(root, _COURSE | _POLICY, "a course", problems, ("cases", "map"))
+    policy = Policy(**{name: fields.pop(name) for name in Policy._fields if name in fields})
+    cases = _tree(root, "cases", "{press: {points: 5}, bolt-cutter: {}}", problems)
+    own: dict[str, Fields] = {}
+    for question, node in cases.items.items():
+        own[question] = {}
+        if type(node) is Tree:
+            own[question] = _fields(node, _POLICY, f"the case {question}", problems)
+        elif not is_null(node):
+            problems.refuse(node.mark, f"{shown(question)} should have a mapping, as in {{points: 5}}")
+    places = {name: f"{problems.path}:{line}:{column}" for name, (line, column) in cases.keys.items()}
+    columns = []
+    mapped = _tree(root, "map", "{student_id: Email Address, Q3: bolt-cutter}", problems)
+    for key, node in mapped.items.items():
+        if type(node) is Scalar and node.text:
+            columns.append((key, node.text))
+        else:
+            problems.refuse(node.mark, f"'{key}' should name one column or one case")
+    return Course(**fields, policy=policy, own=own, columns=tuple(columns), places=places)
 
 
-def _only(node: Mapping, known: tuple[str, ...], what: str, problems: Problems) -> None:
+def _fields(
+    node: Tree, readers: Readers, what: str, problems: Problems, others: tuple[str, ...] = ()
+) -> Fields:
+    """The fields whose keys stand there; a reader's ValueError is noted at its value, and so is a key that
+    is neither a reader's nor one of the ``others``."""
+    known, found = (*readers, *others), {}
     for key in node.items:
         if key not in known:
             problems.refuse(node.keys[key], f"{what} has no key {shown(key)}{suggestion(key, known)}")
-
-
-def _fields(node: Mapping, readers: Readers, problems: Problems) -> Fields:
-    """The fields whose keys stand there; a reader's ValueError is noted at its value."""
-    found = {}
     for key, (field, read) in readers.items():
         value = node.items.get(key)
         if value is None or is_null(value):
@@ -143,39 +150,14 @@ def _fields(node: Mapping, readers: Readers, problems: Problems) -> Fields:
     return found
 
 
-def _mapping(node: Node | None, key: str, form: str, problems: Problems) -> Mapping:
+def _tree(root: Tree, key: str, form: str, problems: Problems) -> Tree:
     """The mapping under a key; an empty one where nothing, or something else, stands there."""
-    if type(node) is Mapping:
+    node = root.items.get(key)
+    if type(node) is Tree:
         return node
     if node is not None and not is_null(node):
         problems.refuse(node.mark, f"'{key}' should be a mapping, as in {form}")
-    return Mapping({}, {}, (1, 1))
-
-
-def _questions(node: Node | None, problems: Problems) -> tuple[tuple[str, tuple[tuple[str, Any], ...]], ...]:
-    """``cases``: what single questions have of their own; or a bare list of them."""
-    found = []
-    cases = _mapping(node, "cases", "{press: {points: 5}, bolt-cutter: {}}", problems)
-    for question, value in cases.items.items():
-        fields: Fields = {}
-        if type(value) is Mapping:
-            _only(value, tuple(_POLICY), f"the case {question}", problems)
-            fields = _fields(value, _POLICY, problems)
-        elif not is_null(value):
-            problems.refuse(value.mark, f"{shown(question)} should have a mapping, as in {{points: 5}}")
-        found.append((question, tuple(fields.items())))
-    return tuple(found)
-
-
-def _columns(node: Node | None, problems: Problems) -> tuple[tuple[str, str], ...]:
-    pairs = []
-    form = "{student_id: Email Address, Q3: bolt-cutter}"
-    for key, value in _mapping(node, "map", form, problems).items.items():
-        if type(value) is Scalar and value.text:
-            pairs.append((key, value.text))
-        else:
-            problems.refuse(value.mark, f"'{key}' should name one column or one case")
-    return tuple(pairs)
+    return Tree({}, {}, (1, 1))
 
 
 def _text(node: Node) -> str:
@@ -222,7 +204,7 @@ def share(text: str) -> float:
 def _credit(node: Node) -> Credit | None:
     if type(node) is Scalar and node.text in ("none", "all or nothing"):
         return None
-    if type(node) is not Mapping or set(node.items) - set(Credit._fields):
+    if type(node) is not Tree or set(node.items) - set(Credit._fields):
         raise ValueError("the shares are given as {number: 60%, unit: 20%, direction: 20%}")
     shares = Credit(
         *(share(_text(node.items[part])) if part in node.items else 0.0 for part in Credit._fields)
@@ -232,13 +214,13 @@ def _credit(node: Node) -> Credit | None:
     return shares
 
 
-def _mistakes(node: Node) -> tuple[tuple[str, float], ...]:
-    if type(node) is not Mapping:
+def _mistakes(node: Node) -> dict[str, float]:
+    if type(node) is not Tree:
         raise ValueError("the credit for known mistakes is given as {sign: 50%, carried: 100%}")
     for code in node.items:
         if code not in CODES:
             raise ValueError(f"there is no mistake {shown(code)}{suggestion(code, CODES)}")
-    return tuple((code, share(_text(value))) for code, value in node.items.items())
+    return {code: share(_text(value)) for code, value in node.items.items()}
 
 
 def _figures(node: Node) -> int:
@@ -354,39 +336,22 @@ def read_roster(path: str | os.PathLike[str], report: Report) -> Roster:
 
 def _read(path: str | os.PathLike[str], report: Report) -> Roster:
     columns, rows = read_table(path, report)
-    at = _id_columns(columns)
+    at = columns.places("student_id", "sid", "sis user id", "id_number", "id", "email")
+    if columns.names[0] == "student" and len(at) > 1:
+        at.remove(0)  # in a gradebook the first column has names
+    if not at:
+        raise HeaderError(f"no column of the roster has a student's id; its columns are {columns.listed()}")
     rest = [columns.field(name) for name in ("email", "first_name", "last_name", "section")]
     people: dict[str, Person] = {}
-    for row in rows:
-        person = _person(row.cells, at, rest)
-        if row.trouble:
-            report(row.line, row.trouble)
-        if person is None:
-            report(row.line, "this row of the roster has no student's id and is passed over")
-        elif person.student_id in people:
-            said = f"the student {person.student_id!r} is in the roster twice; the first row counts"
-            report(row.line, said)
-        elif not person.student_id.startswith(("Student, Test", "    Points")):
-            people[person.student_id] = person
+    for line, cells, trouble in rows:
+        if trouble:
+            report(line, trouble)
+        ids = [identifier(cells[i]) for i in at if i < len(cells) and cells[i].strip()]
+        about = ["" if i is None or i >= len(cells) else cells[i].strip() for i in rest]
+        if not ids:
+            report(line, "this row of the roster has no student's id and is passed over")
+        elif ids[0] in people:
+            report(line, f"the student {ids[0]!r} is in the roster twice; the first row counts")
+        elif not ids[0].startswith(("Student, Test", "    Points")):
+            people[ids[0]] = Person._make((ids[0], *about, tuple(ids[1:])))
     return Roster(people.values())
-
-
-def _id_columns(columns: TableColumns) -> list[int]:
-    """The columns that may hold an id, best first."""
-    named = {name: index for index, name in reversed(list(enumerate(columns.names)))}
-    found = [columns.field("student_id"), named.get("sid"), named.get("sis user id")]
-    found += [columns.field("id_number"), named.get("id"), columns.field("email")]
-    usable = list(dict.fromkeys(i for i in found if i is not None))
-    if columns.names[0] == "student" and len(usable) > 1:
-        usable.remove(0)  # in a gradebook the first column has names
-    if not usable:
-        raise HeaderError(f"no column of the roster has a student's id; its columns are {columns.listed()}")
-    return usable
-
-
-def _person(cells: list[str], at: list[int], rest: list[int | None]) -> Person | None:
-    ids = [identifier(cells[i]) for i in at if i < len(cells) and cells[i].strip()]
-    if not ids:
-        return None
-    email, first, last, section = ("" if i is None or i >= len(cells) else cells[i].strip() for i in rest)
-    return Person(ids[0], email, first, last, section, tuple(ids[1:]))

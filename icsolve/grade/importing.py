@@ -5,16 +5,19 @@ be graded, matched or read, by reason, each with its lines.
 from __future__ import annotations
 
 import io
+import marshal
 import os
 import sys
 from array import array
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
+from heapq import merge
 from itertools import islice, pairwise
 from operator import itemgetter
-from typing import IO, TYPE_CHECKING
+from tempfile import TemporaryFile
+from typing import IO
 
-from icsolve.files import is_plain, reading, scratch
+from icsolve.files import is_plain, reading
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Roster
 from icsolve.grade.results import HEADER
@@ -31,9 +34,6 @@ from icsolve.grade.tables.columns import (
 from icsolve.grade.tables.platforms import METADATA, exported, recognise, submissions
 from icsolve.grade.tables.text import AnswerTable
 from icsolve.tuples import NamedTuple
-
-if TYPE_CHECKING:
-    import sqlite3
 
 _LONGEST = 500
 """Characters of an answer that are kept; the reader takes far fewer."""
@@ -69,18 +69,30 @@ class Import:
         self._dates = dates
         self._order = ""
 
-    def read(self, path: str, mapping: Iterable[tuple[str, str]], student: str = "") -> None:
+    def read(self, path: str, mapping: Iterable[tuple[str, str]], student: str = "") -> Exception | None:
         """Take in one file; all of it is of ``student``, if one is given.
 
-        Raises HeaderError where the file can't be used, with its name and a sentence; OSError.
+        Where it can't be used that is noted, and it has a line in the results, for a person; the error comes
+        back, unless the file is one student's alone. Raises FileNotFoundError.
         """
         try:
             self._read(path, mapping, student)
-        except (HeaderError, ValueError) as error:
+        except FileNotFoundError:
+            raise
+        except OSError as error:
+            return self._unusable(path, error.strerror or str(error), student, error)
+        except ValueError as error:
             if not student:
-                raise HeaderError(f"{path}: {error}") from None
+                return self._unusable(path, str(error), student, HeaderError(f"{path}: {error}"))
             self._matched((student,))
             self.issues.note(path, 0, f"what {student} handed in can't be used: {error}", serious=True)
+        return None
+
+    def _unusable(self, path: str, why: str, student: str, error: Exception) -> Exception:
+        self.issues.note(path, 0, why, serious=True)
+        whose = self._matched((student,)) if student else ""
+        self.store.add([StoredAnswer(whose, "", 0, trouble=f"{os.path.basename(path)}: {why}")])
+        return error
 
     def _read(self, path: str, mapping: Iterable[tuple[str, str]], student: str) -> None:
         self._path = path
@@ -107,12 +119,6 @@ class Import:
         if not count:
             raise HeaderError("there is no answer in it, only a header")
 
-    def unusable(self, path: str, why: str, student: str) -> None:
-        """Note a file without a readable answer; it has a line in the results, for a person."""
-        self.issues.note(path, 0, why, serious=True)
-        whose = self._matched((student,)) if student else ""
-        self.store.add([StoredAnswer(whose, "", 0, trouble=f"{os.path.basename(path)}: {why}")])
-
     def _told(self, entries: Iterator[StoredAnswer], file: IO[bytes], path: str) -> Iterator[StoredAnswer]:
         """The entries, with a report of how much of the file is read."""
         try:
@@ -125,21 +131,11 @@ class Import:
                 self._progress(f"reading {path}", file.tell() / size)
 
     def _entries(self, table: AnswerTable, layout: TableLayout) -> Iterator[StoredAnswer]:
-        if layout.cells_of is not None:
-            yield from self._long_entries(table, layout, layout.cells_of)
-            return
-        for row in table.rows():
-            for submission in layout.read(row):
-                yield self._entry(submission)
-
-    def _long_entries(
-        self, table: AnswerTable, layout: TableLayout, cells_of: Callable[[list[str]], tuple[str, ...]]
-    ) -> Iterator[StoredAnswer]:
-        """Of a long table: quickly where student and question were met before and the row is whole."""
-        people, items, width = self._people, self._items, len(table.header)
+        """Of a long table quickly where student and question were met before and the row is whole."""
+        people, items, cells_of, width = self._people, self._items, layout.cells_of, len(table.header)
         for row in table.rows():
             line, cells, trouble = row
-            if len(cells) == width and not trouble:
+            if cells_of is not None and len(cells) == width and not trouble:
                 cells.append("")
                 student, question, answer, unit, direction, attempt, variant, time = cells_of(cells)
                 known, found = people.get((student,)), items.get(question)
@@ -309,24 +305,18 @@ def ranges(lines: tuple[int, ...]) -> str:
     return f"{word} {shown}" + (f" and {more} more" if more else "")
 
 
-_CREATE = (
-    "create table s (student text, item text, line integer, answer text, unit text, direction text,"
-    " attempt text, variant text, time text, trouble text)"
-)
-_INSERT = "insert into s values (?,?,?,?,?,?,?,?,?,?)"
-_SELECT = "select * from s order by student, item, rowid"
 _BATCH = 5000
 IN_MEMORY = 110_000
 """Submissions that are sorted in memory; more go to disk."""
 
 
 class Store:
-    """Entries; many are in a temporary file, which is gone when closed."""
+    """Entries; of many each part that memory holds is sorted into a temporary file, and all are merged."""
 
     def __init__(self) -> None:
         self._few: list[StoredAnswer] = []
-        self._disk: sqlite3.Connection | None = None
-        self._own = ExitStack()
+        self._files = ExitStack()
+        self._parts: list[Iterator[StoredAnswer]] = []
 
     def add(self, entries: Iterable[StoredAnswer]) -> int:
         """Store entries; how many there were."""
@@ -335,37 +325,35 @@ class Store:
         while batch := list(islice(source, _BATCH)):
             count += len(batch)
             self._few += batch
-            if self._disk is not None or len(self._few) > IN_MEMORY:
+            if len(self._few) > IN_MEMORY:
                 self._to_disk()
         return count
 
     def _to_disk(self) -> None:
-        """Put what is in memory into the temporary file."""
-        if self._disk is None:
-            import sqlite3
-
-            path = os.path.join(self._own.enter_context(scratch()), "answers.sqlite")
-            self._disk = sqlite3.connect(path, isolation_level=None)
-            for pragma in ("journal_mode=off", "synchronous=off", "cache_size=-20000", "temp_store=file"):
-                self._disk.execute(f"pragma {pragma}")
-            self._disk.execute(_CREATE)
-        self._disk.execute("begin")
-        self._disk.executemany(_INSERT, self._few)
-        self._disk.execute("commit")
+        """Put what is in memory, sorted, into a file of its own."""
+        file = self._files.enter_context(TemporaryFile())  # noqa: SIM115
+        self._few.sort(key=_ORDER)
+        for start in range(0, len(self._few), _BATCH):
+            marshal.dump([*map(tuple, self._few[start : start + _BATCH])], file)
+        file.seek(0)
+        self._parts.append(_entries_of(file))
         self._few = []
 
     def sorted(self) -> Iterator[StoredAnswer]:
         """Entries by student and question, of those the ones that were added first."""
-        if self._disk is None:
-            self._few.sort(key=itemgetter(0, 1))
-            yield from self._few
-            return
-        cursor = self._disk.execute(_SELECT)
-        while batch := cursor.fetchmany(_BATCH):
-            yield from map(StoredAnswer._make, batch)
+        self._few.sort(key=_ORDER)
+        return merge(*self._parts, iter(self._few), key=_ORDER) if self._parts else iter(self._few)
 
     def close(self) -> None:
-        """Forget all, and delete the file."""
-        if self._disk is not None:
-            self._disk.close()
-        self._own.close()
+        """Forget all, and delete the files."""
+        self._files.close()
+
+
+_ORDER = itemgetter(0, 1)
+
+
+def _entries_of(file: IO[bytes]) -> Iterator[StoredAnswer]:
+    """The entries of a temporary file."""
+    with suppress(EOFError):
+        while True:
+            yield from map(StoredAnswer._make, marshal.load(file))

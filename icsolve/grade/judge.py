@@ -8,9 +8,8 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from icsolve.grade.keys import AGAINST, NEITHER, AnyKey, ChoiceKey, NumberKey, PlaceKey, RangeKey, unit_factor
-from icsolve.grade.mistakes import Wrong, message, together
-from icsolve.grade.mistakes.lookup import near_miss
+from icsolve.grade.keys import AGAINST, NEITHER, AnyKey, ChoiceKey, NumberKey, PlaceKey, RangeKey, numbers_of
+from icsolve.grade.mistakes.lookup import Wrong, message, near_miss, together
 from icsolve.grade.tolerance import SLACK
 from icsolve.grade.written.answer import MISSING, NO_NUMBER, TWO_VALUES, Reader, WrittenAnswer, flagged
 from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, figures, plain
@@ -181,11 +180,9 @@ def _wrong_size(
     parts = (False, unit, direction)
     earned = policy.credit is not None or policy.mistakes
     share = share_of(key, parts, mistakes) if earned else 0.0
-    if mistakes:
-        return _made((WRONG, share, parts, value, relative(off, size), _codes(mistakes), mistakes, False))
-    both = wrongs.two(value, digits)
-    code = _codes(both) if both else ""
-    return _made((WRONG, share, parts, value, relative(off, size), code, both, bool(both)))
+    both = () if mistakes else wrongs.two(value, digits)
+    causes = mistakes or both
+    return _made((WRONG, share, parts, value, relative(off, size), codes(causes), causes, bool(both)))
 
 
 def relative(off: float, size: float) -> float | None:
@@ -292,16 +289,14 @@ def share_of(key: AnyKey, parts: tuple[bool, bool, bool], mistakes: tuple[Wrong,
     if policy.credit is not None and whole:
         good = (part and has for part, has in zip(parts, asked, strict=True))
         earned = sum(share for share, right in zip(policy.credit, good, strict=True) if right) / whole
-    known = dict(policy.mistakes)
-    return min(1.0, max([earned, *(known.get(mistake.code, 0.0) for mistake in mistakes[:1])]))
+    return min(1.0, max([earned, *(policy.mistakes.get(mistake.code, 0.0) for mistake in mistakes[:1])]))
 
 
 def _asked_parts(key: AnyKey) -> tuple[bool, bool, bool]:
     """Whether a question has a number, a unit and a direction: a ratio has but the first."""
     if isinstance(key, PlaceKey):
         return True, True, False
-    one = key.keys[0] if isinstance(key, ChoiceKey) else key
-    end = one.end if isinstance(one, RangeKey) else one
+    end = numbers_of(key)[0]
     directed = end.expected.any and key.policy.direction != "ignored"
     return True, bool(key.unit_name) and key.policy.unit != "ignored", directed and bool(end.value)
 
@@ -314,14 +309,12 @@ def _wrong(
     off: float | None = None,
 ) -> Judgement:
     """A wrong answer with its causes."""
-    return Judgement(WRONG, share_of(key, parts, mistakes), parts, value, off, _codes(mistakes), mistakes)
+    return Judgement(WRONG, share_of(key, parts, mistakes), parts, value, off, codes(mistakes), mistakes)
 
 
-def _codes(mistakes: tuple[Wrong, ...]) -> str:
+def codes(mistakes: tuple[Wrong, ...]) -> str:
+    """The codes of causes that fit, as they stand in the results."""
     return mistakes[0].code if len(mistakes) == 1 else " ".join(mistake.code for mistake in mistakes)
-
-
-_KINDS: dict[type, str] = {PlaceKey: "place", ChoiceKey: "position"}
 
 
 def feedback(key: AnyKey, judged: Judgement, reveal: bool = False) -> str:
@@ -331,10 +324,9 @@ def feedback(key: AnyKey, judged: Judgement, reveal: bool = False) -> str:
         return f"Right: {key.accepted} is accepted.{noted}"
     band = f" Accepted is {key.accepted}." if reveal else f" Accepted is an answer {key.rule}."
     if judged.mistakes:
-        kind = key.kind if isinstance(key, NumberKey) else _KINDS.get(type(key), "load")
-        said = " Or: ".join(message(m.code, m.where, kind) for m in judged.mistakes)
+        said = " Or: ".join(message(m.code, m.where, key.kind) for m in judged.mistakes)
         if judged.both:
-            said = together(judged.mistakes[0], judged.mistakes[1], kind)
+            said = together(judged.mistakes[0], judged.mistakes[1], key.kind)
         return said + (band if reveal or judged.mistakes[0].code == "near-miss" else "")
     if judged.verdict == WRONG:
         return f"Not right.{band}"
@@ -368,22 +360,14 @@ def judge_place(key: PlaceKey, written: WrittenPlace) -> Judgement:
         return _unjudged(written.flag)
     if key.toward is not None or written.toward is not None:
         return _far(key, written)
-    factor = unit_factor(key, written.unit.unit) if written.unit is not None else 1.0
+    factor = key.factor(written.unit)
     unit = key.policy.unit == "ignored" or factor is not None
     if written.unit is None and key.policy.unit == "required":
         unit = False
-    x, y = written.x * (factor or 1.0), written.y * (factor or 1.0)
-    off = math.dist((x, y), key.place)
-    if (
-        off > key.half
-        and factor not in (None, 1.0)
-        and math.dist((written.x, written.y), key.place) <= key.half
-    ):
+    at = (written.x * (factor or 1.0), written.y * (factor or 1.0))
+    off, bare = math.dist(at, key.place), math.dist((written.x, written.y), key.place)
+    if factor not in (None, 1.0) and bare <= key.half < off:
         off, unit = 0.0, key.policy.unit == "ignored"
-    return _judged(key, (x, y), off, unit)
-
-
-def _judged(key: PlaceKey, at: tuple[float, float], off: float, unit: bool) -> Judgement:
     number = off <= key.half
     parts = (number, unit, True)
     part = relative(off * (key.policy.tolerance.relative or 0.01), key.half)

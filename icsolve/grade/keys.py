@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from icsolve.answer import Answer
 from icsolve.case import Force, ForceVector, Load, Spring, Torque, TorsionSpring, Toward, Weight
@@ -19,8 +19,8 @@ from icsolve.case.expected import (
     TensionIs,
 )
 from icsolve.grade.course import Policy
-from icsolve.grade.mistakes import Wrong, Wrongs
 from icsolve.grade.mistakes.changed import Place, heading_of, place_of
+from icsolve.grade.mistakes.lookup import Wrong, Wrongs
 from icsolve.grade.tolerance import (
     OF_LOADS,
     TRUE_ZERO,
@@ -33,13 +33,12 @@ from icsolve.grade.tolerance import (
     range_in_words,
     size_of,
     unit_of_target,
-    width_of,
     zero_width,
 )
 from icsolve.grade.written.words import UnitWord, WrittenDirection, direction, factors_between
 from icsolve.numbers.units import Unit, UnitError
 from icsolve.report.check import value_of
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, cached_property, dataclass, replace
 
 _SQUARE = 5.0
 """Degrees: words this near to square to the answer say neither way."""
@@ -49,6 +48,12 @@ _PLAIN = ("assumed", "signed", False, 0)
 """Unit, direction, capitals and figures where nothing of them is asked."""
 _DEGREE = 1.0
 """Degrees within which a direction that is asked for is right."""
+
+_KINDS: dict[type, str] = {
+    LoadIs: "load", RatioIs: "ratio", RateIs: "rate", SpeedIs: "rate", ReactionIs: "reaction",
+    TensionIs: "reaction", CentreIs: "place", PositionIs: "position",
+}  # fmt: skip
+"""What is asked for, for messages; anything else is a ``length``."""
 
 Places = tuple[Place | None, Mapping[str, Place]]
 
@@ -116,7 +121,38 @@ def _compared(difference: float, within: float) -> int | None:
     return None if abs(off - 90.0) <= _SQUARE + _ROUNDING else NEITHER
 
 
-def expected_direction(load: Load, answer: Answer) -> ExpectedDirection:
+def expected_of(target: Target, answer: Answer) -> ExpectedDirection:
+    """What a positive value of a target means in words."""
+    match target:
+        case LoadIs(name) if name in answer.case.directed:
+            return ExpectedDirection(heading=_heading(answer.answers[name].components), asked=True)
+        case LoadIs(name):
+            return _of_load(next(load for load in answer.case.loads if load.name == name), answer)
+        case PositionIs(path):
+            return ExpectedDirection(turn=float(path.startswith("angles.")))
+        case RateIs() | ReactionIs(part="moment"):
+            return ExpectedDirection(turn=1.0)
+        case ReactionIs(part="x" | "y"):
+            return ExpectedDirection(heading=0.0 if target.part == "x" else 90.0)
+        case ReactionIs(part=""):
+            try:
+                force = [value_of(answer, target._replace(part=part))[0] for part in ("x", "y")]
+            except LookupError:
+                force = []
+            return ExpectedDirection(heading=_heading(force), by_angle=True)
+        case SpeedIs(point, link):
+            velocity = (answer.velocities or {}).get((point, link))
+            heading = None if isinstance(velocity, str) else _heading(velocity)
+            return ExpectedDirection(heading=heading, by_angle=not answer.case.motion)
+    return ExpectedDirection()
+
+
+def _heading(vector: Sequence[float] | None) -> float | None:
+    """The direction of a vector in degrees ccw from +x; None of none."""
+    return math.degrees(math.atan2(vector[1], vector[0])) if vector and any(vector) else None
+
+
+def _of_load(load: Load, answer: Answer) -> ExpectedDirection:
     """The senses of a load's positive value."""
     if isinstance(load, Torque):
         return ExpectedDirection(turn=-1.0 if load.positive == "cw" else 1.0)
@@ -137,35 +173,77 @@ def expected_direction(load: Load, answer: Answer) -> ExpectedDirection:
     return ExpectedDirection(0.0, heading, axial, lambda: (place_of(load.at, answer), answer.points))
 
 
-class NumberKey(NamedTuple):
+class _Key:
+    """What all keys have: the unit, and how wide the accepted band is, in words."""
+
+    unit_name: str
+    policy: Policy
+    kind = "load"
+    """what is asked for, for messages"""
+
+    @cached_property
+    def unit(self) -> Unit:
+        """The unit of the right answer."""
+        return parsed_unit(self.unit_name)
+
+    @property
+    def rule(self) -> str:
+        """What a student may know of the band before the answer."""
+        return in_words(self.policy.tolerance)
+
+    @cached_property
+    def factors(self) -> dict[str, float | None]:
+        """How many of its unit make one of a name that was met; None for another kind."""
+        return {}
+
+    def factor(self, unit: UnitWord | None) -> float | None:
+        """How many units of the key make one of the answer's; None for another kind."""
+        if unit is None:
+            return 1.0
+        if unit.name not in self.factors:
+            try:
+                self.factors[unit.name] = factors_between(unit.unit, self.unit)
+            except UnitError:
+                self.factors[unit.name] = None
+        return self.factors[unit.name]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class NumberKey(_Key):
     """A right answer that is one number.
 
-    ``value`` is signed as the case signs it, in ``unit``; ``half`` half the width of the accepted band;
-    ``wrongs`` the known wrong answers; ``accepted`` and ``rule`` tell a student the band and how it is made.
+    ``value`` is signed as the case signs it, in the unit; ``half`` half the width of the accepted band,
+    ``fixed`` the tolerance's own; ``wrongs`` the known wrong answers; ``period`` a whole turn of an angle,
+    which may be added to it, or 0.
     """
 
     question: str
     value: float
     unit_name: str
-    unit: Unit
     half: float
-    expected: ExpectedDirection
-    wrongs: Wrongs
-    policy: Policy
-    accepted: str
-    rule: str
-    factors: dict[str, float | None]
-    """how many of its unit make one of a name that was met; None for another kind"""
-    signs: dict[str, int | None]
-    """what words of direction that were met say of the positive sense"""
     fixed: float
-    """the tolerance's own width, in the unit"""
-    kind: str
-    """what is asked for: `kind_of`"""
-    plain: bool
-    """whether nothing is asked but a right size, sense and unit, where one is given"""
+    expected: ExpectedDirection
+    policy: Policy
+    wrongs: Wrongs
+    kind: str = "load"
     period: float = 0.0
-    """of an angle a whole turn, which may be added to it; 0 for none"""
+
+    @cached_property
+    def accepted(self) -> str:
+        """The accepted band, in words."""
+        return range_in_words(self.value, self.half, self.unit_name)
+
+    @cached_property
+    def plain(self) -> bool:
+        """Whether nothing is asked but a right size, sense and unit, where one is given."""
+        policy = self.policy
+        asked = (policy.unit, policy.direction, policy.strict_case, policy.figures) != _PLAIN
+        return not (asked or self.expected.asked or self.kind == "position") and self.value != 0.0
+
+    @cached_property
+    def _signs(self) -> dict[str, int | None]:
+        """What words of direction that were met say of the positive sense."""
+        return {}
 
     def nearest(self, value: float) -> float:
         """A value of the same meaning, less than half a period from the right one."""
@@ -173,71 +251,109 @@ class NumberKey(NamedTuple):
             return value
         return self.value + math.remainder(value - self.value, self.period)
 
-    def factor(self, unit: UnitWord | None) -> float | None:
-        """How many units of the key make one of the answer's; None for another kind."""
-        if unit is None:
-            return 1.0
-        if unit.name not in self.factors:
-            self.factors[unit.name] = unit_factor(self, unit.unit)
-        return self.factors[unit.name]
-
     def sign(self, words: WrittenDirection | None) -> int | None:
         """+1 or -1 for words with or against the positive sense, 0 for neither; None: a person must look."""
         if words is None:
             return 1
         name = f"{words.words} deg" if words.measured else words.words
-        if name not in self.signs:
-            self.signs[name] = self.expected.sign(words, self.policy.within)
-        return self.signs[name]
+        if name not in self._signs:
+            self._signs[name] = self.expected.sign(words, self.policy.within)
+        return self._signs[name]
+
+    def scaled(self, factor: float) -> NumberKey:
+        """The key where all loads are ``factor`` times as large [case units]; a width in units stays."""
+        value = self.value * factor
+        fixed = self.fixed if not self.policy.tolerance.drawing else abs(factor) * self.fixed
+        half = half_width(self.policy.tolerance, value, fixed, abs(factor) * self.half)
+        wrongs = Wrongs(lambda: [w._replace(value=w.value * factor) for w in self.wrongs.all], value, half)
+        return replace(self, value=value, half=half, fixed=fixed, wrongs=wrongs)
 
 
-class PlaceKey(NamedTuple):
+@dataclass(frozen=True, eq=False, repr=False)
+class PlaceKey(_Key):
     """A right answer that is a place, or (``toward``) a direction in which a centre lies at infinity."""
 
     question: str
     place: tuple[float, float]
     toward: float | None
     unit_name: str
-    unit: Unit
     half: float
     wrongs: tuple[tuple[float, float, Wrong], ...]
     policy: Policy
-    accepted: str
-    rule: str
+    kind = "place"
+
+    @property
+    def accepted(self) -> str:
+        """The accepted disc, in words."""
+        return f"within {self.half:.3g} {self.unit_name} of the place"
 
 
-class RangeKey(NamedTuple):
+@dataclass(frozen=True, eq=False, repr=False)
+class RangeKey(_Key):
     """A right answer that is a range: a key for each end, None for an open one."""
 
     question: str
     low: NumberKey | None
     high: NumberKey | None
     unit_name: str
-    unit: Unit
     policy: Policy
-    accepted: str
-    rule: str
 
-    @property
+    @cached_property
     def end(self) -> NumberKey:
         """An end that there is: it tells units and directions."""
-        found = self.low or self.high
-        assert found is not None
-        return found
+        return next(end for end in (self.low, self.high) if end is not None)
+
+    @property
+    def accepted(self) -> str:
+        """The right range, one end of which may be open."""
+        low, high = self.low, self.high
+        said = f"{self.end.value:.6g} or {'more' if low else 'less'}"
+        if low and high:
+            said = f"from {low.value:.6g} to {high.value:.6g}"
+        return f"{said} {self.unit_name}".strip()
+
+    @property
+    def rule(self) -> str:
+        """That of each end, with the form of an answer."""
+        return f"{self.end.rule} at each end, as in '113 N to 287 N'"
+
+    def scaled(self, factor: float) -> RangeKey:
+        """The same where all loads are ``factor`` times as large."""
+        low, high = (None if end is None else end.scaled(factor) for end in (self.low, self.high))
+        return replace(self, low=low, high=high)
 
 
-class ChoiceKey(NamedTuple):
+@dataclass(frozen=True, eq=False, repr=False)
+class ChoiceKey(_Key):
     """A right answer that is one of several: a key for each position of equilibrium."""
 
     question: str
     keys: tuple[NumberKey | RangeKey, ...]
     unit_name: str
     policy: Policy
-    accepted: str
-    rule: str
+    kind = "position"
+
+    @property
+    def accepted(self) -> str:
+        """What is accepted of each."""
+        return " or ".join(key.accepted for key in self.keys)
+
+    @property
+    def rule(self) -> str:
+        """That of the first."""
+        return self.keys[0].rule
 
 
 AnyKey = NumberKey | PlaceKey | RangeKey | ChoiceKey
+
+
+def numbers_of(key: AnyKey) -> list[NumberKey]:
+    """The numbers of a right answer: one, the ends of a range, or those of which one will do."""
+    if isinstance(key, ChoiceKey):
+        return [number for one in key.keys for number in numbers_of(one)]
+    if isinstance(key, RangeKey):
+        return [end for end in (key.low, key.high) if end is not None]
+    return [key] if isinstance(key, NumberKey) else []
 
 
 def scalar_key(
@@ -262,30 +378,31 @@ def scalar_key(
         (value,) = value_of(answer, target)
     except LookupError as error:
         raise NoKeyError(str(error)) from None
-    unit_name = unit_of_target(target, answer)
-    unit = parsed_unit(unit_name)
-    zero = zero_width(target, answer)
-    if abs(value) <= TRUE_ZERO / OF_LOADS * zero:
-        value = 0.0
-    width = own_width(policy.tolerance, target, answer, unit, unit_name)
-    half = half_width(policy.tolerance, value, width, zero)
-    if policy.tolerance.drawing and half >= abs(value) > 0.0:
+    key = _number(question, value, target, answer, policy, own_width(policy.tolerance, target, answer))
+    if policy.tolerance.drawing and key.half >= abs(key.value) > 0.0:
         raise NoKeyError(
             f"a drawing accurate to {policy.tolerance.drawing} leaves this answer open, even its sense; give "
             "it a tolerance such as 2%"
         )
-    expected = _expected(target, answer)
-    kind = kind_of(target)
-    return _key(question, value, (unit_name, unit), (half, width), expected, policy, wrongs, kind)
+    return replace(key, wrongs=Wrongs(wrongs, key.value, key.half))
 
 
-def numbers_of(key: AnyKey) -> list[NumberKey]:
-    """The numbers of a right answer: one, the ends of a range, or those of which one will do."""
-    if isinstance(key, ChoiceKey):
-        return [number for one in key.keys for number in numbers_of(one)]
-    if isinstance(key, RangeKey):
-        return [end for end in (key.low, key.high) if end is not None]
-    return [key] if isinstance(key, NumberKey) else []
+def range_key(question: str, target: LoadIs, answer: Answer, policy: Policy) -> RangeKey | None:
+    """The key of a load that holds over a range; None of one that has one value.
+
+    Raises NoKeyError where every value holds.
+    """
+    found = answer.answers.get(target.load)
+    if found is None or found.holds is None:
+        return None
+    width = own_width(policy.tolerance, target, answer, drawn=False)
+    low, high = (
+        _number(question, end, target, answer, policy, width) if math.isfinite(end) else None
+        for end in found.holds
+    )
+    if low is None and high is None:
+        raise NoKeyError(f"{answer.case.name} holds with any value of {target.load}, so nothing can be asked")
+    return RangeKey(question, low, high, found.unit, policy)
 
 
 def position_key(
@@ -302,170 +419,40 @@ def position_key(
     """
     if policy.tolerance.drawing:
         raise NoKeyError("a drawing says nothing of a position of rest; give it a tolerance such as 2%")
-    angle = target.path.startswith("angles.")
-    unit_name = unit_of_target(target, answer)
-    unit, period = parsed_unit(unit_name), 360.0 if angle else 0.0
-    expected = ExpectedDirection(turn=1.0) if angle else ExpectedDirection()
-    width = width_of(policy.tolerance, unit, unit_name)
+    width, others = own_width(policy.tolerance, target, answer), len(answer.positions or ()) - 1
 
-    def key(value: float, pose: Answer, own: Callable[[float], Iterable[Wrong]]) -> NumberKey:
-        widths = (half_width(policy.tolerance, value, width, zero_width(target, pose)), width)
-        found = _key(question, value, (unit_name, unit), widths, expected, policy, tuple, "position")
-        found = found._replace(period=period, plain=False)
+    def key(value: float, pose: Answer) -> NumberKey:
+        found = _number(question, value, target, pose, policy, width)
+        period = 360.0 if target.path.startswith("angles.") else 0.0
+        found = replace(found, period=period)
 
         def within_a_turn() -> list[Wrong]:
             wide = 2.0 * period or math.inf
-            return [w._replace(value=found.nearest(w.value)) for w in own(value) if abs(w.value) <= wide]
+            return [w._replace(value=found.nearest(w.value)) for w in wrongs(value) if abs(w.value) <= wide]
 
-        others = len(answer.positions or ()) - 1
-        return found._replace(wrongs=Wrongs(within_a_turn, value, found.half, period, others))
+        return replace(found, wrongs=Wrongs(within_a_turn, value, found.half, period, others))
 
     keys: list[NumberKey | RangeKey] = []
     for position in answer.positions or ():
         held = position.at[target.path]
         if isinstance(held, float):
-            keys.append(key(held, position.answer, wrongs))
+            keys.append(key(held, position.answer))
         else:
-            low, high = (key(end, position.answer, lambda value: ())._replace(period=0.0) for end in held)
-            keys.append(_range(question, low, high, policy))
-    accepted, rule = " or ".join(key.accepted for key in keys), keys[0].rule
-    return keys[0] if len(keys) == 1 else ChoiceKey(question, tuple(keys), unit_name, policy, accepted, rule)
+            low, high = (_number(question, end, target, position.answer, policy, width) for end in held)
+            keys.append(RangeKey(question, low, high, low.unit_name, policy))
+    return keys[0] if len(keys) == 1 else ChoiceKey(question, tuple(keys), keys[0].unit_name, policy)
 
 
-def kind_of(target: Target) -> str:
-    """What a target asks for, for messages: ``load``, ``ratio``, ``rate``, ``reaction``, ``place`` or
-    ``length``.
-    """
-    match target:
-        case LoadIs():
-            return "load"
-        case RatioIs():
-            return "ratio"
-        case RateIs() | SpeedIs():
-            return "rate"
-        case ReactionIs() | TensionIs():
-            return "reaction"
-        case CentreIs():
-            return "place"
-    return "length"
-
-
-def _key(
-    question: str,
-    value: float,
-    unit: tuple[str, Unit],
-    widths: tuple[float, float],
-    expected: ExpectedDirection,
-    policy: Policy,
-    wrongs: Callable[[], Iterable[Wrong]],
-    kind: str = "load",
+def _number(
+    question: str, value: float, target: Target, answer: Answer, policy: Policy, width: float
 ) -> NumberKey:
-    """A key with what follows from its value, unit, and half and own width."""
-    half, width = widths
-    accepted, rule = range_in_words(value, half, unit[0]), in_words(policy.tolerance)
-    plain = (policy.unit, policy.direction, policy.strict_case, policy.figures) == _PLAIN
-    plain = plain and value != 0.0 and not expected.asked
-    foreseen = Wrongs(wrongs, value, half)
-    return NumberKey(
-        question, value, *unit, half, expected, foreseen, policy, accepted, rule, {}, {}, width, kind, plain
-    )
-
-
-def range_key(question: str, target: LoadIs, answer: Answer, policy: Policy) -> RangeKey | None:
-    """The key of a load that holds over a range; None of one that has one value.
-
-    Raises NoKeyError where every value holds.
-    """
-    found = answer.answers.get(target.load)
-    if found is None or found.holds is None:
-        return None
-    expected, zero = _expected(target, answer), zero_width(target, answer)
-    unit = parsed_unit(found.unit)
-    width = width_of(policy.tolerance, unit, found.unit)
-
-    def end(value: float) -> NumberKey | None:
-        if not math.isfinite(value):
-            return None
-        value = 0.0 if abs(value) <= TRUE_ZERO / OF_LOADS * zero else value
-        widths = (half_width(policy.tolerance, value, width, zero), width)
-        return _key(question, value, (found.unit, unit), widths, expected, policy, tuple)
-
-    low, high = map(end, found.holds)
-    if low is None and high is None:
-        raise NoKeyError(f"{answer.case.name} holds with any value of {target.load}, so nothing can be asked")
-    return _range(question, low, high, policy)
-
-
-def _range(question: str, low: NumberKey | None, high: NumberKey | None, policy: Policy) -> RangeKey:
-    """The key of a range, one end of which may be open."""
-    said = [f"from {low.value:.6g} to {high.value:.6g}"] if low and high else []
-    said += [f"{low.value:.6g} or more"] if low and not high else []
-    said += [f"{high.value:.6g} or less"] if high and not low else []
-    rule = f"{in_words(policy.tolerance)} at each end, as in '113 N to 287 N'"
-    end = low or high
-    assert end is not None
-    accepted = f"{said[0]} {end.unit_name}".strip()
-    return RangeKey(question, low, high, end.unit_name, end.unit, policy, accepted, rule)
-
-
-def scaled_key(key: NumberKey, factor: float) -> NumberKey:
-    """The key where all loads are ``factor`` times as large [case units]; a width in units stays."""
-    value = key.value * factor
-    tolerance = key.policy.tolerance
-    fixed = key.fixed if not tolerance.drawing else abs(factor) * key.fixed
-    half = half_width(tolerance, value, fixed, abs(factor) * key.half)
-
-    def wrongs() -> list[Wrong]:
-        return [Wrong(code, wrong * factor, where, load) for code, wrong, where, load in key.wrongs.all]
-
-    return key._replace(
-        value=value,
-        half=half,
-        fixed=fixed,
-        wrongs=Wrongs(wrongs, value, half),
-        accepted=range_in_words(value, half, key.unit_name),
-    )
-
-
-def scaled_range(key: RangeKey, factor: float) -> RangeKey:
-    """The same of a load that holds over a range."""
-    low, high = (None if end is None else scaled_key(end, factor) for end in (key.low, key.high))
-    return _range(key.question, low, high, key.policy)
-
-
-def _expected(target: Target, answer: Answer) -> ExpectedDirection:
-    if isinstance(target, LoadIs) and target.load in answer.case.directed:
-        parts = answer.answers[target.load].components
-        heading = math.degrees(math.atan2(parts[1], parts[0])) if parts is not None and any(parts) else None
-        return ExpectedDirection(heading=heading, asked=True)
-    if isinstance(target, LoadIs):
-        load = next(load for load in answer.case.loads if load.name == target.load)
-        return expected_direction(load, answer)
-    turning = isinstance(target, RateIs) or (isinstance(target, ReactionIs) and target.part == "moment")
-    if isinstance(target, ReactionIs) and target.part in ("x", "y"):
-        return ExpectedDirection(heading=0.0 if target.part == "x" else 90.0)
-    if isinstance(target, ReactionIs) and not target.part:
-        return ExpectedDirection(heading=_reaction_heading(target, answer), by_angle=True)
-    if isinstance(target, SpeedIs):
-        return ExpectedDirection(heading=_speed_heading(target, answer), by_angle=not answer.case.motion)
-    return ExpectedDirection(turn=1.0) if turning else ExpectedDirection()
-
-
-def _reaction_heading(target: ReactionIs, answer: Answer) -> float | None:
-    """The direction of a force in a joint, in degrees."""
-    try:
-        x, y = (value_of(answer, target._replace(part=part))[0] for part in ("x", "y"))
-    except LookupError:
-        return None
-    return math.degrees(math.atan2(y, x)) if x or y else None
-
-
-def _speed_heading(target: SpeedIs, answer: Answer) -> float | None:
-    """The direction of a point's velocity, in degrees."""
-    found = (answer.velocities or {}).get((target.point, target.link))
-    if found is None or isinstance(found, str) or not any(found):
-        return None
-    return math.degrees(math.atan2(found[1], found[0]))
+    """A key without wrong answers; ``width`` is the tolerance's own. Zero but for rounding is zero."""
+    zero = zero_width(target, answer)
+    if abs(value) <= TRUE_ZERO / OF_LOADS * zero and not isinstance(target, PositionIs):
+        value = 0.0
+    half, expected = half_width(policy.tolerance, value, width, zero), expected_of(target, answer)
+    unit, kind = unit_of_target(target, answer), _KINDS.get(type(target), "length")
+    return NumberKey(question, value, unit, half, width, expected, policy, Wrongs(tuple, value, half), kind)
 
 
 def place_key(
@@ -479,33 +466,11 @@ def place_key(
     centre = answer.centres.get(pair) or answer.centres.get((pair[1], pair[0]))
     if centre is None or centre.kind not in ("at", "toward"):
         raise NoKeyError(centre.why if centre is not None and centre.why else "there is no such centre")
-    unit = parsed_unit(answer.case.units.length)
     size = size_of(answer)
     toward = centre.place[0] if centre.kind == "toward" else None
     place = (centre.place[0], centre.place[1]) if toward is None else (0.0, 0.0)
     distance = max(size, from_middle(place, answer))
-    tolerance = policy.tolerance if toward is None else policy.tolerance._replace(drawing="")
-    absolute = own_width(tolerance, target, answer, unit, answer.case.units.length)
-    half = half_width(policy.tolerance, distance, absolute, OF_LOADS * size)
+    width = own_width(policy.tolerance, target, answer, drawn=toward is None)
+    half = half_width(policy.tolerance, distance, width, OF_LOADS * size)
     kept = tuple(w for w in wrongs if math.dist(w[:2], place) > half or toward is not None)
-    accepted = f"within {half:.3g} {answer.case.units.length} of the place"
-    return PlaceKey(
-        question,
-        place,
-        toward,
-        answer.case.units.length,
-        unit,
-        half,
-        kept,
-        policy,
-        accepted,
-        in_words(policy.tolerance),
-    )
-
-
-def unit_factor(key: NumberKey | PlaceKey | RangeKey, unit: Unit) -> float | None:
-    """How many units of the key make one of the answer's; None for another kind."""
-    try:
-        return factors_between(unit, key.unit)
-    except UnitError:
-        return None
+    return PlaceKey(question, place, toward, answer.case.units.length, half, kept, policy)

@@ -1,8 +1,12 @@
-"""Entries in order of student to results: attempts chosen, answers judged, errors carried forward."""
+"""Entries in order of student to results: attempts chosen, answers judged, errors carried forward, and what a
+class answered counted.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import math
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
 from functools import reduce
 from itertools import chain, groupby, islice, pairwise
 from operator import itemgetter
@@ -11,15 +15,14 @@ from icsolve.grade.carried_forward import CarriedForward
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.importing import Issues
 from icsolve.grade.judge import IN_REVIEW, RIGHT, WRONG, Judgement, feedback, judge_answer
-from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey, unit_factor
-from icsolve.grade.mistakes import Wrong
+from icsolve.grade.keys import AnyKey, NumberKey
+from icsolve.grade.mistakes.lookup import Wrong
 from icsolve.grade.results import OVERRIDE, Marked, Overrides, Result
-from icsolve.grade.statistics import Counts, Tally
 from icsolve.grade.tables.columns import NEVER, StoredAnswer, attempt_number, readings
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import GivenValue, Neighbours
 from icsolve.grade.written.answer import MISSING, Reader, WrittenAnswer
-from icsolve.grade.written.two_numbers import WrittenPlace
+from icsolve.grade.written.two_numbers import WrittenPlace, WrittenRange
 
 _MEMORY = 40_000
 """Different answers that are remembered with their verdicts; a class repeats itself."""
@@ -29,6 +32,100 @@ _SAMPLE = 300
 """Answers by which it is told whether another seed was meant."""
 _AT_ONCE = 5000
 """Answers of one student that are looked at together."""
+
+
+BINS = 20
+"""Bins of the histogram to each side of zero, up to twice the right answer; one more for what lies beyond.
+
+The right answer, its half and its double lie in the middle of bins, so that rounding does not divide them."""
+_SPAN = 2.0
+
+
+OTHERS = "(other names that are no case)"
+_MOST_STRANGE = 200
+"""Names that are no case which are counted one by one."""
+_MOST_TEXTS = 4000
+"""Texts of a question that are counted one by one; of more the commonest half is kept."""
+_LONGEST = 80
+
+
+class Counts:
+    """What a class answered to one question."""
+
+    def __init__(self) -> None:
+        self.verdicts: Counter[str] = Counter()
+        self.mistakes: Counter[str] = Counter()
+        """by the first cause; '' for those of no known cause"""
+        self.bins: Counter[int] = Counter()
+        """answers by `bin_of` their ratio to the right one"""
+        self.unread: Counter[str] = Counter()
+        """invalid answers and those for review, by their flag"""
+        self.score = self.max_score = 0.0
+        """marks, and the most that there were, of what was judged"""
+        self.texts: Counter[str] = Counter()
+        """the texts that wait for a person"""
+        self.unexplained: Counter[str] = Counter()
+        """the wrong values of no known cause, to four figures"""
+
+    def add(self, m: Marked, key: AnyKey | None) -> None:
+        """Count an answer as often as it was given; its own count starts again."""
+        judged, n = m.judged, m.count
+        verdict, share, _, value, _, code, causes, _ = judged
+        self.verdicts[verdict] += n
+        if verdict == "wrong":
+            self.mistakes[causes[0].code if causes else ""] += n
+            if not causes and value is not None:
+                _count_text(self.unexplained, f"{value:.4g}", n)
+        elif verdict in ("invalid", "review"):
+            self.unread[code] += n
+            _count_text(self.texts, " ".join(m.raw.split())[:_LONGEST], n)
+        if value is not None and isinstance(key, NumberKey):
+            self.bins[bin_of(value, key.value, key.half)] += n
+        if m.score is not None:
+            self.score += n * share * m.points
+            self.max_score += n * m.points
+        m.count = 0
+
+
+def _count_text(texts: Counter[str], text: str, n: int) -> None:
+    """Count a text; of too many the commonest half is kept."""
+    texts[text] += n
+    if len(texts) > _MOST_TEXTS:
+        common = texts.most_common(_MOST_TEXTS // 2)
+        texts.clear()
+        texts.update(dict(common))
+
+
+def bin_of(value: float, right: float, half: float) -> int:
+    """The bin of an answer: of its ratio to the right one, of a zero by half-widths."""
+    ratio = value / right if right else (value / half if half else 0.0)
+    if not math.isfinite(ratio) or abs(ratio) > _SPAN * (1.0 + 0.5 / BINS):
+        return (BINS + 1) * (1 if ratio > 0 else -1)
+    return round(ratio / _SPAN * BINS)
+
+
+class Tally:
+    """Counts that grow: what was judged is counted and forgotten; ``key`` tells the key of a question."""
+
+    def __init__(self, key: Callable[[str], AnyKey | None]) -> None:
+        self._key = key
+        self._strange = 0
+        self.counts: dict[str, Counts] = {}
+
+    def add(self, marked: Iterable[Marked]) -> None:
+        """Count answers, each as often as it was given."""
+        for m in marked:
+            item = self._item_of(m)
+            if item not in self.counts:
+                self.counts[item] = Counts()
+            self.counts[item].add(m, self._key(item))
+
+    def _item_of(self, m: Marked) -> str:
+        """The question under which an answer is counted; of names that are no case only so many are kept."""
+        strange = m.judged.code == "not-graded" and m.item not in self.counts
+        if strange:
+            self._strange += 1
+        return OTHERS if strange and self._strange > _MOST_STRANGE else m.item
 
 
 class Marker:
@@ -57,13 +154,12 @@ class Marker:
         self._reader = Reader(self.course.decimal)
         self._memory: dict[tuple[str, str, str, str, str], Marked] = {}
         self._missing: dict[str, Marked] = {}
-        self._keys: dict[str, AnyKey] = {}
         self._uncounted: list[Marked] = []
         self.owing: dict[str, list[str]] = {}
         """of each question the first students who gave no answer"""
         self.silent = 0
         """students who gave no answer at all"""
-        self.tally = Tally(self._band)
+        self.tally = Tally(case_store.common_key)
         self._carried_forward = CarriedForward(case_store, self.course.reveal)
 
     def results(self, entries: Iterable[StoredAnswer], students: Iterable[str] = ()) -> Iterator[Result]:
@@ -138,9 +234,7 @@ class Marker:
         cause = Wrong(OVERRIDE, judged.value or 0.0)
         again = judged._replace(verdict=verdict, share=share, code=OVERRIDE, mistakes=(cause,))
         told = f"Marked by hand: {override.comment}" if override.comment else "Marked by hand."
-        found = Marked(marked.item, marked.raw, again, points, told, marked.written)
-        found.place, found.place_unit = marked.place, marked.place_unit
-        return found
+        return Marked(marked.item, marked.raw, again, points, told, marked.read)
 
     def _result(self, entry: StoredAnswer, marked: Marked, variant: str = "") -> Result:
         """Counted, as the line of the variant that is the student's own, or that the answer names."""
@@ -218,14 +312,9 @@ class Marker:
         self._uncounted.clear()
         return self.tally.counts
 
-    def _band(self, item: str) -> tuple[float, float] | None:
-        """The right value and half-width of a question that has one for all students."""
-        key = self._keys.get(item)
-        return (key.value, key.half) if isinstance(key, NumberKey) else None
-
     def _judged(self, entry: StoredAnswer) -> Marked:
         try:
-            key = self._key(entry)
+            key = self.case_store.key(entry.item, entry.student)
         except NoKeyError as error:
             self.issues.note(self.path, entry.line, f"not graded: {error}", serious=True)
             return self._troubled(entry, error.told)
@@ -235,15 +324,9 @@ class Marker:
         if self._neighbours is not None and isinstance(key, NumberKey) and isinstance(read, WrittenAnswer):
             judged = self._beside_others(entry, judged, read)
         told = feedback(key, judged, self.course.reveal)
-        marked = Marked(entry.item, entry.answer, judged, key.policy.points, told)
-        if isinstance(read, WrittenAnswer) and not read.flag:
-            marked.written = read
-        elif isinstance(read, WrittenPlace) and not read.flag and read.toward is None:
-            assert isinstance(key, PlaceKey)
-            factor = unit_factor(key, read.unit.unit) if read.unit is not None else 1.0
-            marked.place = (read.x * (factor or 1.0), read.y * (factor or 1.0))
-            marked.place_unit = read.unit
-        return marked
+        far = isinstance(read, WrittenPlace) and read.toward is not None
+        seen = None if read.flag or far or isinstance(read, WrittenRange) else read
+        return Marked(entry.item, entry.answer, judged, key.policy.points, told, seen)
 
     def _beside_others(self, entry: StoredAnswer, judged: Judgement, written: WrittenAnswer) -> Judgement:
         """The verdict on an answer to a question with variables: it may be right for another's numbers."""
@@ -258,15 +341,6 @@ class Marker:
         label = self._neighbours.variant(entry.item, judged.value, written.digits)
         found = (Wrong("neighbour", judged.value, label),) if label else ()
         return judged._replace(code="neighbour", mistakes=found) if found else judged
-
-    def _key(self, entry: StoredAnswer) -> AnyKey:
-        """The key of a question: the student's own, where the case has variables."""
-        found = self._keys.get(entry.item)
-        if found is None:
-            found = self.case_store.key(entry.item, entry.student)
-            if not self.case_store.variant_of(entry.item, entry.student):
-                self._keys[entry.item] = found
-        return found
 
     def _troubled(self, entry: StoredAnswer, why: str) -> Marked:
         """A row that can't be graded: for a person to look at."""

@@ -15,68 +15,53 @@ from typing import Any
 
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Roster, student_named
-from icsolve.grade.judge import OPEN, Judgement
+from icsolve.grade.judge import OPEN, Judgement, Read
 from icsolve.grade.tables.columns import read_table, without_apostrophe
 from icsolve.grade.written.answer import WrittenAnswer
-from icsolve.grade.written.words import UnitWord
 from icsolve.tuples import NamedTuple
 
 
 class Marked:
     """An answer judged: the same for every student who writes the same to the same question.
 
-    ``written`` is its reading, None where there is none, or it is of a ``place`` (in the question's
-    unit; ``place_unit`` as written); ``text`` what the student is told; ``count`` how often it was given.
+    ``read`` is how it was read, None where it was not; ``text`` what the student is told; ``count`` how often
+    it was given.
     """
 
-    __slots__ = ("count", "item", "judged", "place", "place_unit", "points", "raw", "tail", "text", "written")
+    __slots__ = ("count", "item", "judged", "points", "raw", "read", "tail", "text")
 
     def __init__(
-        self,
-        item: str,
-        raw: str,
-        judged: Judgement,
-        points: float,
-        text: str,
-        written: WrittenAnswer | None = None,
+        self, item: str, raw: str, judged: Judgement, points: float, text: str, read: Read | None = None
     ) -> None:
         self.item = item
         self.raw = raw
         self.judged = judged
         self.points = points
         self.text = text
-        self.written = written
-        self.place: tuple[float, ...] = ()
-        self.place_unit: UnitWord | None = None
+        self.read = read
         self.tail = ""
         self.count = 0
 
     @property
-    def value(self) -> float | None:
-        """The number as written."""
-        return self.written.number if self.written is not None else None
+    def score(self) -> float | None:
+        """The mark; None while a person has still to judge it: then it is in no mean either."""
+        return None if self.judged.verdict in OPEN else self.judged.share * self.points
 
     @property
-    def is_open(self) -> bool:
-        """Whether a person has still to judge it: it has no mark, and is in no mean."""
-        return self.judged.verdict in OPEN
+    def value(self) -> float | None:
+        """The number as written."""
+        return self.read.number if isinstance(self.read, WrittenAnswer) else None
 
     @property
     def unit(self) -> str:
         """The unit as written, in plain spelling."""
-        unit = self.written.unit if self.written is not None else self.place_unit
-        return unit.name if unit is not None else ""
+        return self.read.unit.name if self.read is not None and self.read.unit is not None else ""
 
     @property
     def direction(self) -> str:
         """The direction in words, in plain spelling."""
-        way = self.written.direction if self.written is not None else None
+        way = self.read.direction if isinstance(self.read, WrittenAnswer) else None
         return way.words if way is not None else ""
-
-    @property
-    def given(self) -> tuple[float, ...]:
-        """The answer in the question's unit: one number, or the place."""
-        return self.place if self.judged.value is None else (self.judged.value,)
 
 
 class Result(NamedTuple):
@@ -135,29 +120,16 @@ def number(value: float | None) -> str:
     return text[:-2] if text.endswith(".0") else text
 
 
-@lru_cache(maxsize=1024)
-def _score(value: float) -> str:
-    return f"{value:.10g}"
-
-
 def tail(marked: Marked) -> str:
     """From the raw answer to the feedback, with the line's end."""
     if not marked.tail:
         judged = marked.judged
         off = "" if judged.off is None else f"{judged.off:.3g}"
-        score = "" if marked.is_open else "0" if not judged.share else _score(judged.share * marked.points)
-        read = _read(marked)
-        marks = f"{judged.verdict},{score},{_score(marked.points)},{off},{judged.code}"
+        score = "" if marked.score is None else shown(marked.score)
+        read = f"{number(marked.value)},{_cached(marked.unit)},{_cached(marked.direction)}"
+        marks = f"{judged.verdict},{score},{shown(marked.points)},{off},{judged.code}"
         marked.tail = f"{cell(marked.raw)},{read},{marks},{_cached(marked.text)}\n"
     return marked.tail
-
-
-def _read(marked: Marked) -> str:
-    """Value, unit and direction as they were read."""
-    if marked.written is None:
-        return f",{_cached(marked.unit)},"
-    value, unit, way, _, _, _ = marked.written
-    return f"{number(value)},{_cached(unit.name) if unit else ''},{_cached(way.words) if way else ''}"
 
 
 def line(result: Result) -> str:
@@ -173,8 +145,7 @@ def record(result: Result) -> dict[str, Any]:
     """One object of the JSON Lines: as the table, with the parts and every cause that fits."""
     marked = result.marked
     judged = marked.judged
-    number_right, unit_right, direction_right = judged.parts
-    judged_at_all = judged.verdict in ("right", "wrong")
+    parts = dict(zip(("number", "unit", "direction"), judged.parts, strict=True))
     return {
         "schema": "icsolve/grade/1",
         "student_id": result.student,
@@ -187,10 +158,8 @@ def record(result: Result) -> dict[str, Any]:
         "unit": marked.unit,
         "direction": marked.direction,
         "verdict": judged.verdict,
-        "parts": {"number": number_right, "unit": unit_right, "direction": direction_right}
-        if judged_at_all
-        else None,
-        "score": None if marked.is_open else judged.share * marked.points,
+        "parts": parts if judged.verdict in ("right", "wrong") else None,
+        "score": marked.score,
         "max_score": marked.points,
         "rel_error": judged.off,
         "code": judged.code,
@@ -333,7 +302,7 @@ def read_overrides(path: str, store: CaseStore, roster: Roster | None) -> dict[t
         question = store.canonical(question)
         points = store.course.policy_of(question).points
         said = without_apostrophe(row.cells[comment_at]) if comment_at is not None else ""
-        override = Override(_given_score(score, points, where), said, row.line)
+        override = Override(_givenshown(score, points, where), said, row.line)
         for text in students.split(";"):
             student = student_named(text, roster)
             before = found.get((student, question))
@@ -344,7 +313,7 @@ def read_overrides(path: str, store: CaseStore, roster: Roster | None) -> dict[t
     return found
 
 
-def _given_score(text: str, points: float, where: str) -> float:
+def _givenshown(text: str, points: float, where: str) -> float:
     """``2.5``, ``2,5`` or ``50%`` of the points."""
     try:
         share = text.endswith("%")
@@ -453,17 +422,13 @@ def changes_csv(changes: Iterable[Change]) -> str:
     """The changes as a table."""
     lines = []
     for one in changes:
-        old_verdict, old_score, old_answer = _fields(one.before)
-        verdict, score, answer = _fields(one.now)
-        cells = (old_verdict, verdict, old_score, score, one.why, safe(old_answer), safe(answer))
-        lines.append((safe(one.student), one.case, *cells))
+        cells = []
+        for row in (one.before, one.now):
+            score = shown(row.score) if row is not None and row.score is not None else ""
+            cells.append((row.verdict, score, safe(row.raw_answer)) if row is not None else ("", "", ""))
+        verdicts, scores, answers = zip(*cells, strict=True)
+        lines.append((safe(one.student), one.case, *verdicts, *scores, one.why, *answers))
     return csv_text(CHANGES_HEADER, lines)
-
-
-def _fields(row: ResultRow | None) -> tuple[str, str, str]:
-    if row is None:
-        return "", "", ""
-    return row.verdict, shown(row.score) if row.score is not None else "", row.raw_answer
 
 
 def changes_text(changes: list[Change], old: str) -> str:

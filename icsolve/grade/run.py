@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from typing import IO
 
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course, Roster, read_roster
 from icsolve.grade.importing import Import, Issue, Issues, Store, expand
-from icsolve.grade.keys import NumberKey
-from icsolve.grade.marking import Marker
+from icsolve.grade.keys import AnyKey, NumberKey
+from icsolve.grade.marking import Counts, Marker
 from icsolve.grade.results import HEADER, Override, Overrides, json_line, line, read_overrides
-from icsolve.grade.solved import unknowns
-from icsolve.grade.statistics import Counts
-from icsolve.grade.tables.columns import HeaderError
+from icsolve.grade.solved import final_questions
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import GivenValue, Neighbours, changes, other_seed, read_records
 from icsolve.tuples import NamedTuple
@@ -114,8 +113,10 @@ def grade(
     try:
         imported = Import(store, case_store, issues, roster, progress, job.dates)
         paths = expand(job.submissions)
-        _take_in(imported, paths, job)
-        questions = tuple(sorted(set(job.course.questions) or _asked(imported)))
+        errors = [imported.read(path, job.course.columns, who or job.student) for path, who in paths]
+        if not imported.count and any(errors):
+            raise next(filter(None, errors))
+        questions = tuple(sorted(set(job.course.own) or _asked(imported)))
         owing = () if roster is None or job.student else roster.people  # all answers may be one student's
         students = sorted({*imported.students, *owing})
         if not imported.count:
@@ -146,25 +147,6 @@ def _note_unmet(overrides: Overrides, marker: Marker, job: Job, issues: Issues) 
         if (student, item) not in marker.overruled:
             why = f"{student} owes and gave no answer to {item}, so this mark is for nobody"
             issues.note(job.overrides[-1], override.line, why, serious=True)
-
-
-def _take_in(imported: Import, paths: Iterable[tuple[str, str]], job: Job) -> None:
-    """Read every file; one that can't be used is told, and leaves the others alone.
-
-    Raises the first trouble where no file has an answer, and FileNotFoundError.
-    """
-    first: Exception | None = None
-    for path, student in paths:
-        try:
-            imported.read(path, job.course.columns, student or job.student)
-        except FileNotFoundError:
-            raise
-        except (HeaderError, OSError) as error:
-            first = first or error
-            why = str(error).removeprefix(f"{path}: ") if isinstance(error, HeaderError) else error.strerror
-            imported.unusable(path, why or str(error), student or job.student)
-    if first is not None and not imported.count:
-        raise first
 
 
 def _note_other_seeds(job: Job, case_store: CaseStore, given: list[GivenValue], issues: Issues) -> None:
@@ -202,28 +184,17 @@ def _shown(paths: list[tuple[str, str]]) -> str:
 def _graded(marker: Marker, issues: Issues, case_store: CaseStore, rows: int, students: int) -> Graded:
     """What the marker found, with what the keys tell of it."""
     counts = dict(sorted(marker.counted().items()))
-    marks = {item: tuple(_marks(case_store, item, c)) for item, c in counts.items()}
+    keys = {item: key for item in counts if (key := case_store.common_key(item)) is not None}
+    marks = {item: tuple(_marks(key, counts[item])) for item, key in keys.items()}
     owing = {item: tuple(names) for item, names in sorted(marker.owing.items())}
-    accepted = {item: words for item in counts if (words := _accepted(case_store, item))}
+    accepted = {item: key.accepted for item, key in keys.items()}
     notes, silent = tuple(issues.entries()), marker.silent
     return Graded(counts, notes, issues.serious, rows, students, silent, marks, owing, accepted)
 
 
-def _accepted(case_store: CaseStore, item: str) -> str:
-    try:
-        varied = case_store.variation(item.partition(":")[0]) is not None
-        return "" if varied else case_store.key(item).accepted
-    except NoKeyError:
-        return ""
-
-
-def _marks(case_store: CaseStore, item: str, counts: Counts) -> Iterator[tuple[str, float]]:
+def _marks(key: AnyKey, counts: Counts) -> Iterator[tuple[str, float]]:
     """The nearest wrong answer of each mistake that was made."""
-    try:
-        key = case_store.key(item)
-    except NoKeyError:
-        return
-    if isinstance(key, NumberKey) and key.value and not case_store.variant_of(item, ""):
+    if isinstance(key, NumberKey) and key.value:
         for code, _ in counts.mistakes.most_common():
             found = [w.value / key.value for w in key.wrongs.all if w.code == code]
             if found:
@@ -233,23 +204,12 @@ def _marks(case_store: CaseStore, item: str, counts: Counts) -> Iterator[tuple[s
 def _asked(imported: Import) -> set[str]:
     """The questions to which each student owes an answer: those with a column of their own, and the cases
     that someone answered; an intermediate answer is owed where the course, or a column, asks for it."""
-    asked = set()
+    asked, store = set(), imported.case_store
     for question in imported.questions:
-        own = question in imported.columns or ":" not in question
-        if not own and not _is_final(imported.case_store, question):
-            continue
-        try:
-            imported.case_store.key(question, next(iter(imported.students), ""))
-        except NoKeyError:
-            continue
-        asked.add(question)
+        name = question.partition(":")[0]
+        with suppress(NoKeyError):
+            own = question in imported.columns or ":" not in question
+            if own or question in final_questions(store.read(name), name):
+                store.key(question, next(iter(imported.students), ""))
+                asked.add(question)
     return asked
-
-
-def _is_final(case_store: CaseStore, question: str) -> bool:
-    """Whether it asks for one of several unknown loads."""
-    name, _, what = question.partition(":")
-    try:
-        return what in unknowns(case_store.read(name))
-    except NoKeyError:
-        return False

@@ -18,10 +18,8 @@ from icsolve.grade.keys import (
     position_key,
     range_key,
     scalar_key,
-    scaled_key,
-    scaled_range,
 )
-from icsolve.grade.mistakes import WrongAnswers, solved_for
+from icsolve.grade.mistakes.engine import WrongAnswers, solved_for
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.read.expect import target_of
 from icsolve.read.names import Problems
@@ -42,6 +40,12 @@ def unknowns(case: Case) -> tuple[str, ...]:
         return tuple(loads) or tuple(unknown.path for unknown in case.unknowns)
     free = free_coordinate(case)
     return (free.path,) if free is not None else ()
+
+
+def final_questions(case: Case, name: str) -> dict[str, str]:
+    """The questions for the unknowns of a case, by their one names, each with its unknown."""
+    names = unknowns(case)
+    return {name if len(names) == 1 else f"{name}:{unknown}": unknown for unknown in names}
 
 
 def asked_of(case: Case, what: str) -> Target:
@@ -148,7 +152,8 @@ class SolvedCase:
         target = self.target(question)
         if self._base is not None:
             key = self._base.key(question)
-            return self._with_scale(key, target)
+            grows = isinstance(target, LoadIs | ReactionIs | TensionIs)  # ratios and places do not
+            return key.scaled(self.scale) if grows and isinstance(key, NumberKey | RangeKey) else key
         policy = self.course.policy_of(question, self.case.tolerance)
         if isinstance(target, CentreIs):
             return place_key(question, target, self.answer, policy, self.wrongs.places(target))
@@ -169,12 +174,6 @@ class SolvedCase:
     def wrongs(self) -> WrongAnswers:
         """The wrong answers to whatever is asked of the case."""
         return WrongAnswers(self.answer)
-
-    def _with_scale(self, key: AnyKey, target: Target) -> AnyKey:
-        """Loads and reactions grow with the loads; ratios and places do not."""
-        if isinstance(key, NumberKey) and isinstance(target, LoadIs | ReactionIs | TensionIs):
-            return scaled_key(key, self.scale)
-        return scaled_range(key, self.scale) if isinstance(key, RangeKey) else key
 
 
 def solved_plainly(case: Case) -> Answer:

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from html import escape
+from operator import add
 
+from icsolve.grade.course import Person
 from icsolve.grade.judge import VERDICTS
-from icsolve.grade.mistakes import CODES
-from icsolve.grade.results import ResultRow, marks_of
+from icsolve.grade.marking import BINS, Counts
+from icsolve.grade.mistakes.lookup import CODES
+from icsolve.grade.results import ResultRow, by_student, marks_of
 from icsolve.grade.run import Graded
-from icsolve.grade.statistics import BINS, Counts, Statistics
+from icsolve.tuples import NamedTuple
 
 _MANY = 3
 """Answers from which it is told that most could not be read."""
@@ -104,6 +108,65 @@ def _owing(graded: Graded, item: str) -> str:
     count = graded.counts[item].verdicts["missing"] if item in graded.counts else 0
     more = count - len(students)
     return ", ".join(students) + (f" and {more} more" if students and more > 0 else "")
+
+
+_LEAST = 10
+"""Students from whom it is told how telling a question is."""
+
+
+class Total(NamedTuple):
+    """One student's marks of all that was judged, and how many answers wait for a person."""
+
+    student: str
+    section: str
+    score: float
+    most: float
+    waiting: int
+
+
+class Statistics(NamedTuple):
+    """Of a class: how telling its questions are, by name, its students in order, and the mean share of each
+    section."""
+
+    discriminations: dict[str, float | None]
+    """the correlation of the share of a question's points with the share of all other points; None where
+    students are too few or all alike"""
+    totals: list[Total]
+    sections: dict[str, tuple[int, float]]
+
+
+def _correlation(n: float, x: float, y: float, xx: float, yy: float, xy: float) -> float | None:
+    """What follows from the sums over students of 1, x, y, their squares and their product."""
+    spread = (n * xx - x**2) * (n * yy - y**2)
+    known = n >= _LEAST and spread > 1e-9 * n**4
+    return (n * xy - x * y) / math.sqrt(spread) if known else None
+
+
+def statistics(results: str, people: Mapping[str, Person]) -> Statistics:
+    """The statistics of a file of results, read once."""
+    sums: dict[str, list[float]] = {}
+    totals: list[Total] = []
+    for student, rows in by_student(results):
+        if not student or not rows:
+            continue
+        score, most, _, waiting = marks_of(rows)
+        section = people[student].section if student in people else ""
+        totals.append(Total(student, section, score, most, waiting))
+        for row in rows:
+            if row.score is not None and row.max_score and most != row.max_score:
+                x, y = row.score / row.max_score, (score - row.score) / (most - row.max_score)
+                before = sums.get(row.case, [0.0] * 6)
+                sums[row.case] = [*map(add, before, (1.0, x, y, x * x, y * y, x * y))]
+    return Statistics({name: _correlation(*own) for name, own in sums.items()}, totals, _sections(totals))
+
+
+def _sections(totals: Sequence[Total]) -> dict[str, tuple[int, float]]:
+    """How many students each section has, and the mean of their shares."""
+    shares: dict[str, list[float]] = {}
+    for total in totals:
+        if total.section and total.most:
+            shares.setdefault(total.section, []).append(total.score / total.most)
+    return {name: (len(found), sum(found) / len(found)) for name, found in sorted(shares.items())}
 
 
 _WIDTH, _HEIGHT, _HEAD, _FOOT = 720.0, 160.0, 16.0, 20.0

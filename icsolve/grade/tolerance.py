@@ -30,7 +30,7 @@ from icsolve.case.expected import (
     dimension_of,
 )
 from icsolve.errors import IcsolveError, SceneError
-from icsolve.grade.mistakes import solved_for
+from icsolve.grade.mistakes.engine import solved_for
 from icsolve.grade.written.words import factors_between, unit_word
 from icsolve.numbers.units import DIMENSIONS, Unit, nearest, numbers_in, parse_unit, split_quantity
 from icsolve.read.reading import unit_names
@@ -135,8 +135,12 @@ def zero_width(target: Target, answer: Answer) -> float:
             return OF_LOADS * largest_load(answer) * (_torque_scale(answer) if turning else 1.0)
         case RatioIs():
             return OF_LOADS
-        case RateIs() | SpeedIs():
-            return OF_LOADS * _fastest(target, answer)
+        case SpeedIs():
+            speeds = (math.hypot(*v) for v in (answer.velocities or {}).values() if not isinstance(v, str))
+            return OF_LOADS * (max(speeds, default=1.0) or 1.0)
+        case RateIs():
+            rates = (abs(w) for w in (answer.rates or {}).values() if not isinstance(w, str))
+            return OF_LOADS * (max(rates, default=1.0) or 1.0)
     return OF_LOADS * size_of(answer)
 
 
@@ -146,14 +150,13 @@ def _torque_scale(answer: Answer) -> float:
 
 def largest_load(answer: Answer) -> float:
     """The largest known load as a force: a torque is divided by the mechanism's size."""
-    values = [_as_force(load, answer) for load in answer.case.loads]
-    return max((abs(value) for value in values), default=0.0) or 1.0
-
-
-def _as_force(load: Load, answer: Answer) -> float:
-    if isinstance(load, ForceVector):
-        return math.hypot(load.x.value, load.y.value)
-    return load.value.value * _forces_per(load, answer) if isinstance(load.value, Number) else 0.0
+    largest = 0.0
+    for load in answer.case.loads:
+        if isinstance(load, ForceVector):
+            largest = max(largest, math.hypot(load.x.value, load.y.value))
+        elif isinstance(load.value, Number):
+            largest = max(largest, abs(load.value.value * _forces_per(load, answer)))
+    return largest or 1.0
 
 
 def _forces_per(load: Load, answer: Answer) -> float:
@@ -172,13 +175,6 @@ def _forces_per(load: Load, answer: Answer) -> float:
     return 1.0
 
 
-def _fastest(target: Target, answer: Answer) -> float:
-    if isinstance(target, SpeedIs):
-        speeds = [math.hypot(*v) for v in (answer.velocities or {}).values() if not isinstance(v, str)]
-        return max(speeds, default=1.0) or 1.0
-    return max((abs(w) for w in (answer.rates or {}).values() if not isinstance(w, str)), default=1.0) or 1.0
-
-
 def from_middle(place: tuple[float, float], answer: Answer) -> float:
     """How far a place lies from the middle of the mechanism."""
     if not answer.points:
@@ -187,27 +183,22 @@ def from_middle(place: tuple[float, float], answer: Answer) -> float:
     return math.dist(place, ((max(xs) + min(xs)) / 2.0, (max(ys) + min(ys)) / 2.0))
 
 
-def own_width(tolerance: Tolerance, target: Target, answer: Answer, unit: Unit, unit_name: str) -> float:
-    """The widest of a tolerance's absolute width and what its drawing allows, in the answer's unit.
+def own_width(tolerance: Tolerance, target: Target, answer: Answer, drawn: bool = True) -> float:
+    """The widest of a tolerance's absolute width and (``drawn``) what its drawing allows, in its unit.
 
     Raises NoKeyError where the width is in a unit of another kind, or the drawing says nothing of the target.
     """
-    width = width_of(tolerance, unit, unit_name)
-    if not tolerance.drawing:
-        return width
-    return max(width, drawn_width(tolerance.drawing, target, answer))
-
-
-def width_of(tolerance: Tolerance, unit: Unit, unit_name: str) -> float:
-    """A tolerance's absolute width in the answer's unit. Raises NoKeyError where it is of another kind."""
-    if not tolerance.unit:
-        return tolerance.absolute
-    found = unit_word(tolerance.unit)
-    factor = factors_between(found.unit, unit) if found is not None else None
-    if factor is None:
-        said = f"the tolerance {tolerance.absolute:g} {tolerance.unit}"
-        raise NoKeyError(f"{said} does not fit an answer in {unit_name or 'no unit'}")
-    return tolerance.absolute * factor
+    width = tolerance.absolute
+    if tolerance.unit:
+        name, found = unit_of_target(target, answer), unit_word(tolerance.unit)
+        factor = factors_between(found.unit, parsed_unit(name)) if found is not None else None
+        if factor is None:
+            said = f"the tolerance {tolerance.absolute:g} {tolerance.unit}"
+            raise NoKeyError(f"{said} does not fit an answer in {name or 'no unit'}")
+        width *= factor
+    return (
+        max(width, drawn_width(tolerance.drawing, target, answer)) if drawn and tolerance.drawing else width
+    )
 
 
 _STEP = 1e-5

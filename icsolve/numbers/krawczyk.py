@@ -114,6 +114,8 @@ def _enclosed(
 ) -> list[Ball] | None:
     """The root, with what is near the inverse of the Jacobian; None where it is not shown."""
     middle, off, inverse = _refined(system, middle, inverse, balls)
+    if not all(x < WIDEST for x in off):
+        return None
     rough = [[float(c) for c in row] for row in inverse]
     radius = 4.0 * max(off) + 4.0 * balls.unit * (1.0 + max(abs(float(x)) for x in middle))
     for _ in range(WIDENINGS):
@@ -146,6 +148,8 @@ def _refined(
         step = [_product(row, values, balls) for row in inverse]
         off = [abs(float(x)) + r for x, r in step]  # how they are rounded, `_left` has room for
         longest = max(off)
+        if not all(map(math.isfinite, off)):
+            break
         if n > 1 and best is not None and longest > 0.25 * best:
             break  # not sooner: where a rub turns over, the first step may lead to the wrong side of zero
         best = longest

@@ -200,6 +200,11 @@ class Record:
             return number.value
         return self._constant(number.value, noise, number.path)
 
+    def written(self, number: Number) -> Scalar:
+        """A number as the case has it, from which a varied one is counted."""
+        noise = decimal_noise(number)
+        return self._constant(number.value, noise, number.path) if noise else number.value
+
     def turn(self, number: Number) -> tuple[Scalar, Scalar]:
         """Cosine and sine of an angle of the case (degrees)."""
         moved = self.directions.get(id(number))

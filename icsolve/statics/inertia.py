@@ -11,8 +11,8 @@ from icsolve.kinematics.motion import Motions
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.units import exact_ratio, parse_unit
 from icsolve.screws.plane import Point, force_wrench
-from icsolve.statics.load_wrenches import Wrench, vector_size
-from icsolve.statics.power import known_value
+from icsolve.statics.load_wrenches import Wrench
+from icsolve.statics.power import number_of
 from icsolve.tuples import replace
 
 FORCE = "inertia force {}"
@@ -54,14 +54,14 @@ def exactly(place: PlacedCase, motions: Motions, wrenches: Sequence[Wrench]) -> 
         if load.name == FORCE.format(load.link) and isinstance(load, ForceVector):
             _, force, _ = forces[load.link]
             assert force is not None
-            size = vector_size(load.parts) or 1.0
+            size = number_of(w, place.arithmetic) or 1.0
             found.append(
                 w._replace(unit=force_wrench((force[0] / size, force[1] / size), place.points[load.at]))
             )
         elif load.name == COUPLE.format(load.link) and isinstance(load, Torque):
             couple = forces[load.link][2]
             assert couple is not None
-            size = known_value(w) or 1.0
+            size = number_of(w, place.arithmetic) or 1.0
             found.append(w._replace(unit=(0.0, 0.0, couple / size)))
         else:
             found.append(w)

@@ -240,7 +240,7 @@ def condition(mechanism: Mechanism, pose: Pose, value: Scalar) -> Constraint:
     if datum.kind == CORNER:
         arms = _arms(mechanism, datum)
         if arms is not None:
-            written = number_of(mechanism.case, datum).value
+            written = mechanism.shape.record.written(number_of(mechanism.case, datum))
             return Turning(((arms[1], 1.0), (arms[0], -1.0)), value - written)
     if datum.kind == RAY and spots[0][0] == mechanism.top.ground:
         line = BodyLine(mechanism.top.ground, mechanism.shape.ref[datum.points[0]], _turned(mechanism, value))
@@ -262,7 +262,8 @@ def _pointed(mechanism: Mechanism, spots: Sequence[Spot], number: Number, value:
         raise SceneError(Status.UNSUPPORTED, said)
     found = math.degrees(math.atan2(float(y), float(x)))
     off = math.remainder(found - number.value, 360.0)
-    written = number.value if abs(off) <= ALIGNED else number.value + off
+    written = shape.record.written(number)
+    written = written if abs(off) <= ALIGNED else written + off
     rotation = Rotation(_turned(mechanism, value), (x / length, y / length), value - written, (p, q, length))
     return Pointed(p[0], rotation)
 

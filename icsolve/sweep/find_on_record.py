@@ -23,7 +23,7 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.jets import BallArray, Cells, Jet
-from icsolve.numbers.record import Op, Record, Traced, terms_of
+from icsolve.numbers.record import Op, Record, Traced, live, terms_of
 from icsolve.numbers.replay import Array
 from icsolve.numbers.tape import UNIT
 from icsolve.scene import solve_scene
@@ -165,7 +165,8 @@ class RangeSearch:
     def _values(self, answer: Scalar, load: str) -> Iterator[FoundPosition]:
         """Where the answer takes a value: its numerator less so many times its denominator vanishes."""
         top, bottom = fraction(self.record, answer)
-        miss = top - self.query.value * bottom
+        value = self.record.ratio((*as_written(self.query.value).as_integer_ratio(), 0))
+        miss = top - value * bottom
         limits = [s for s, _ in self._limits()]
         for s in [*self._zeros(miss), *(s for s in limits if self._is_nothing(miss, s))]:
             if not self._is_nothing(bottom, s):
@@ -175,13 +176,23 @@ class RangeSearch:
     def _dead(self, answer: Scalar, load: str) -> Iterator[FoundPosition]:
         """Where the unknown does no work, where the links reach their limit, where branches meet. Where the
         known loads do none either, any value balances, or the quotient goes through: no dead centre."""
-        _, bottom = fraction(self.record, answer)
         yield from (self._spot(s, "change-point", None) for s in self.touches)
-        for s in self._zeros(bottom):
-            if self._is_pole(answer, s) and all(abs(s - touch) > NEAR for touch in self.touches):
-                yield self._spot(s, "dead", None)
+        seen = list(self.touches)
+        for bottom in self._divisors(answer):
+            for s in self._zeros(bottom):
+                if self._is_pole(answer, s) and all(abs(s - other) > NEAR for other in seen):
+                    seen.append(s)
+                    yield self._spot(s, "dead", None)
         for s, error in self._limits():
             yield self._spot(s, "limit", load, error)
+
+    def _divisors(self, answer: Scalar) -> Iterator[Traced]:
+        """What is divided by on the way to the answer: without its zeros that is bounded."""
+        nodes = self.record.nodes
+        wanted = [answer.index] if isinstance(answer, Traced) else []
+        quotients = (nodes[k] for k in live(self.record, wanted) if nodes[k].op == Op.DIV)
+        for k in dict.fromkeys(node.b for node in quotients if nodes[node.b].row):
+            yield nodes[k]
 
     def _peaks(self, answer: Scalar) -> Iterator[Decimal]:
         """Where the size of the answer is larger than on both sides."""

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.cams.contact_candidates import Freedom, Shift
-from icsolve.cams.curve import AT_END, CORNER, Body, Curve
+from icsolve.cams.curve import AT_END, MEETING, Body, Curve
 from icsolve.cams.pieces import TURN, CircularArc, Piece, PolarPiece, Spline, Straight
 from icsolve.numbers.replay import Array
 from icsolve.tuples import NamedTuple
@@ -162,7 +162,7 @@ class FirstContact:
         lines = np.where(place >= 0, by[place], np.nan)
         outer = (place >= 0) & (sense[place] == self.sense)
         if self.shifts:
-            rank, near = self.sense * lines, CLOSE * self.size
+            rank, near = self.sense * lines, CLOSE * self.size + 2.0 * self.line.rise
         else:
             apart = np.where(
                 np.eye(most, dtype=bool)[None],
@@ -230,7 +230,8 @@ def _wrapped(by: Array) -> Array:
 
 class _Line:
     """A profile moved out by a radius: its pieces, samples of each (with their normals) in order, and the
-    samples at which chords begin. A sample is ``good`` where the profile is no nearer than the radius."""
+    samples at which chords begin; ``rise`` is how far it lies from its chords. A sample is ``good`` where the
+    profile is no nearer than the radius."""
 
     def __init__(self, curve: Curve, radius: float) -> None:
         self.radius, self.size = radius, curve.size
@@ -243,10 +244,9 @@ class _Line:
         self.square = self.x**2 + self.y**2
         self.step = 1.0 / np.array(counts)
         self.whole = np.array([isinstance(piece, PolarPiece) for piece in self.pieces])
-        self.ends = (self.u == 0.0) | (self.u == 1.0)
-        self.beside = (np.arange(len(self.u)) + np.where(self.u == 0.0, -1, 1)) % len(self.u)
-        turned = np.abs(self.nx * self.ny[self.beside] - self.ny * self.nx[self.beside])
-        self.joined = self.ends & (turned < CORNER)
+        middle = self.at(self.piece[self.first], (self.u[self.first] + self.u[self.first + 1]) / 2.0)
+        chord = [(v[self.first] + v[self.first + 1]) / 2.0 for v in (self.x, self.y)]
+        self.rise = float(np.hypot(middle[0] - chord[0], middle[1] - chord[1]).max())
         self.good = np.ones(len(self.x), dtype=bool)
         if radius:
             import shapely
@@ -291,17 +291,32 @@ class _Line:
         """Where the profile reaches farthest in a direction, x and y [frame], and in which rows at one place
         only, (rows,) each; and the centres of the arcs there, (rows, 2).
         """
+        if not self.whole.any():
+            return self._farthest_of_pieces(wx, wy)
         reach = _outer(wx, self.x) + _outer(wy, self.y)
         best = reach.argmax(axis=1)
-        u, there = self._turned(best, wx, wy)
-        late = np.flatnonzero(~there & self.joined[best])  # it lies on the piece beside
-        best[late] = self.beside[best[late]]
-        u[late], there[late] = self._turned(best[late], wx[late], wy[late])
+        u, sure = self._turned(best, wx, wy)
         x, y, _, _ = self.at(self.piece[best], u)
-        sure = there | (self.ends[best] & ~self.joined[best] & (self._aside(best, u, wx, wy) > CLOSE))
         far = (self.x - x[:, None]) ** 2 + (self.y - y[:, None]) ** 2 > (0.05 * self.size) ** 2
-        level = reach > (reach.max(axis=1) - CLOSE**1.5 * self.size)[:, None]
+        level = reach > (reach.max(axis=1) - self.rise - CLOSE**1.5 * self.size)[:, None]
         return x, y, sure & ~(far & level).any(axis=1), self.centres(self.piece[best], u)
+
+    def _farthest_of_pieces(self, wx: Array, wy: Array) -> tuple[Array, Array, Mask, Array]:
+        """The same for straight lines and arcs, of each the farthest place."""
+        every = np.empty((4, len(self.pieces), len(wx)))
+        for k, piece in enumerate(self.pieces):
+            ends = [wx * x + wy * y for x, y in (piece.at(0.0), piece.at(1.0))]
+            u = np.where(ends[1] > ends[0], 1.0, 0.0)
+            if isinstance(piece, CircularArc):
+                turn = (np.arctan2(wy, wx) - piece.start) * math.copysign(1.0, piece.sweep) % TURN
+                u = np.where(turn <= abs(piece.sweep), turn / abs(piece.sweep), u)
+            every[:2, k], every[2, k] = _at(piece, u, 0.0)[:2], u
+        every[3] = wx * every[0] + wy * every[1]
+        best, rows = every[3].argmax(axis=0), np.arange(len(wx))
+        x, y, u, reach = every[:, best, rows]
+        apart = np.hypot(every[0] - x, every[1] - y) > MEETING * self.size
+        level = every[3] > reach - CLOSE**2 * self.size
+        return x, y, ~(apart & level).any(axis=0), self.centres(best, u)
 
     def _turned(self, best: Which, wx: Array, wy: Array) -> tuple[Array, Mask]:
         """Where the normal has a direction, near a sample of each row; the sample where it has not."""
@@ -316,11 +331,6 @@ class _Line:
 
         u, there = _zero(aside, low, high)
         return np.where(there, u, self.u[best]), there
-
-    def _aside(self, best: Which, u: Array, wx: Array, wy: Array) -> Array:
-        """How far a direction is from the normal of a place (its sine)."""
-        _, _, nx, ny = self.at(self.piece[best], u)
-        return np.abs(nx * wy - ny * wx)
 
 
 def _pieces(curve: Curve, corners: bool) -> list[Piece]:

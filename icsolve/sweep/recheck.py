@@ -54,20 +54,21 @@ class Recheck:
         return self.last[1]
 
     def _given(self, row: int) -> dict[int, Decimal]:
-        at = np.flatnonzero(self.part.rows == row)
-        floats, good = self.parts.given(self.part.some(at))
-        if not good.all():
-            raise SceneError(Status.CANNOT_ASSEMBLE, APART)
-        arrays = self.parts.arrays
-        inputs = self.compiled.inputs
+        arrays, inputs = self.parts.arrays, self.compiled.inputs
         varied = {k: as_written(arrays[n][row]) for n, k in inputs.items() if n in arrays}
         varied |= {inputs[n]: value for n, value in self.exact.items()}
-        given = {k: Decimal(float(np.ravel(v)[0])) for k, v in floats.items()} | varied
-        if self.tracker is not None:
-            (main,) = self.tracker.line.slope
-            given |= self._signs(as_written(arrays[main][row]))
-            given |= self._states(row, float(arrays[main][row]))
-        return given
+        if self.tracker is None:
+            return varied
+        floats, good = self.parts.given(self.part.some(np.flatnonzero(self.part.rows == row)))
+        if not good.all():
+            raise SceneError(Status.CANNOT_ASSEMBLE, APART)
+        (main,) = self.tracker.line.slope
+        return {
+            **{k: Decimal(float(np.ravel(v)[0])) for k, v in floats.items()},
+            **varied,
+            **self._signs(as_written(arrays[main][row])),
+            **self._states(row, float(arrays[main][row])),
+        }
 
     def refuse_apart(self, row: int) -> None:
         """Raise SceneError where the links do not reach one another."""

@@ -141,8 +141,8 @@ class Runner:
 
     def apart(self, given: Mapping[int, Array], rows: int) -> Mask:
         """Rows whose links clearly do not reach one another, (rows,); the others may still be in doubt."""
-        found = self.reaching.run(given, rows)
         out = np.zeros(rows, dtype=bool)
+        found = self.reaching.run(given, rows) if self.reaching.wanted else ()
         for margin, size in zip(found[::2], found[1::2], strict=True):
             out |= margin < -SHALLOW * size
         return out
@@ -229,15 +229,15 @@ class Runner:
     def _watch(self, found: list[Array], rows: int) -> Rows:
         """Rows of a block to look at again, from what is watched."""
         scratch = self.code.bound(rows)[1][-1][:rows]
-        bad: list[Rows] = []
+        sure: Mask | None = None
         with np.errstate(all="ignore"):
             for (_, low, high, sized), values in zip(self.watched, found, strict=False):
                 size = np.abs(values, scratch) if sized else values
                 if not np.minimum.reduce(size) > low:
-                    bad.append(np.flatnonzero(~(size > low)))
+                    sure = size > low if sure is None else sure & (size > low)
                 if high < math.inf and not np.maximum.reduce(size) < high:
-                    bad.append(np.flatnonzero(~(size < high)))
-        return np.unique(np.concatenate(bad)) if bad else np.empty(0, np.int64)
+                    sure = size < high if sure is None else sure & (size < high)
+        return np.empty(0, np.int64) if sure is None else np.flatnonzero(~sure)
 
 
 class Watched(NamedTuple):

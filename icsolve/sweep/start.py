@@ -117,6 +117,7 @@ def start_of(case: Case, columns: Columns, asked: RowRequest) -> Start:
         return _elsewhere(start, columns, error)
 
 
+@lru_cache(maxsize=16)
 def _checked(start: Start) -> Start:
     """The start, with how its rows are run."""
     if is_hard(start.setting):

@@ -97,7 +97,7 @@ _OTHERWISE = {
 
 
 def message(code: str, where: str = "", kind: str = "load") -> str:
-    """The line for a mistake in an answer of a ``kind`` (`icsolve.grade.keys.kind_of`).
+    """The line for a mistake in an answer of a ``kind``: what was asked for.
 
     It names the cause and the load, link or centre, never the answer.
     """

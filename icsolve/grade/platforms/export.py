@@ -24,7 +24,7 @@ from icsolve.grade.platforms.questions import (
     qti_zip,
     zipped,
 )
-from icsolve.grade.solved import SolvedCase, unknowns
+from icsolve.grade.solved import SolvedCase, final_questions
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import KEYS, VALUES, read_records
 from icsolve.tuples import NamedTuple
@@ -165,13 +165,12 @@ def questions(order: ExportOrder, complain: Complain) -> Iterator[Question]:
 
 
 def _of_case(solved: SolvedCase, case: Case, name: str, order: ExportOrder, title: str) -> Iterator[Question]:
-    names = unknowns(case)
-    if not names:
+    asked_for = final_questions(case, case.name)
+    if not asked_for:
         kind = "a case in space" if case.space is not None else "no unknown load"
         raise NoKeyError(f"{kind}, so no question")
     picture = figure(case) if order.figures else ""
-    for what in names:
-        own = case.name if len(names) == 1 else f"{case.name}:{what}"
+    for own, what in asked_for.items():
         key = solved.key(own)
         first, *others = numbers_of(key)
         choices = key.keys if isinstance(key, ChoiceKey) else (key,)
@@ -183,9 +182,9 @@ def _of_case(solved: SolvedCase, case: Case, name: str, order: ExportOrder, titl
         if 0.0 < least < order.smallest:
             raise NoKeyError(f"{what} is {least:.3g} {key.unit_name}, and Canvas keeps four decimals")
         text = asked(key, solved.target(own))
-        shown = name if len(names) == 1 else f"{name}:{what}"
-        first = first._replace(accepted=key.accepted)
-        yield Question(shown, tuple(Statement(case).rows()), text, first, picture, title, tuple(others))
+        shown = name if len(asked_for) == 1 else f"{name}:{what}"
+        given, accepted = tuple(Statement(case).rows()), key.accepted
+        yield Question(shown, given, text, first, accepted, picture, title, tuple(others))
 
 
 def export(kind: str, order: ExportOrder, complain: Complain) -> int:

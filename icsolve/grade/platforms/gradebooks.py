@@ -9,7 +9,7 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from icsolve.grade.course import Person
 from icsolve.grade.results import ResultRow, csv_text, marks_of, safe, shown
@@ -156,33 +156,40 @@ def gradebook_filled(template: str, students: Students, people: dict[str, Person
             f"(it has {', '.join(book.header[:8])})"
         )
     marks = {student: rows for student, rows in students if student}
-    known, points = aliases(marks, people), _points([*marks.values()], total)
+    points = _points([*marks.values()], total)
     places = {name: _place(book, name, new=not total) for name in points}
     possible = _possible(book, places, points)
-    placed = set()
+
+    def put(row: list[str], own: list[ResultRow]) -> None:
+        for name, (score, most) in _marks(own, total).items():
+            scaled = score * possible[name] / most if score is not None and most else score
+            row[places[name]] = book.number(scaled)
+
+    return _filled(book, marks, people, ids, pairs, put)
+
+
+def _filled(
+    book: Template,
+    marks: dict[str, list[ResultRow]],
+    people: dict[str, Person],
+    ids: list[int],
+    pairs: list[tuple[str, str]],
+    put: Callable[[list[str], list[ResultRow]], None],
+) -> Filled:
+    """The file with what ``put`` writes into each student's row: known by an id, without one by a name."""
+    known, placed = aliases(marks, people), set()
     for row in book.rows:
-        student = _student(book, row, ids, pairs, known)
+        texts = [row[i].strip().lower().lstrip("#") for i in ids]
+        for last, first in pairs:
+            names = (row[book.names.index(name)].strip() for name in (first, last))
+            texts.append(" ".join(names).lower())
+        if "student" in book.names:
+            texts.append(row[book.names.index("student")].strip().lower())
+        student = next((known[text] for text in texts if text in known), None)
         if student is not None:
             placed.add(student)
-            for name, (score, most) in _marks(marks[student], total).items():
-                scaled = score * possible[name] / most if score is not None and most else score
-                row[places[name]] = book.number(scaled)
+            put(row, marks[student])
     return Filled(book.text(), frozenset(placed))
-
-
-def _student(
-    book: Template, row: list[str], ids: list[int], pairs: list[tuple[str, str]], known: dict[str, str]
-) -> str | None:
-    """Whose row it is: by an id, where it has none by its name."""
-    texts = [row[i].strip().lower().lstrip("#") for i in ids]
-    for text in texts:
-        if text in known:
-            return known[text]
-    for last, first in pairs:
-        name = f"{row[book.names.index(first)].strip()} {row[book.names.index(last)].strip()}".lower()
-        if name in known:
-            return known[name]
-    return known.get(row[book.names.index("student")].strip().lower()) if "student" in book.names else None
 
 
 def _possible(book: Template, places: dict[str, int], points: dict[str, float]) -> dict[str, float]:
@@ -260,18 +267,14 @@ def moodle_filled(template: str, students: Students, people: dict[str, Person]) 
             "the worksheet needs the columns Grade, Feedback comments and Email address or ID number"
         )
     marks = {student: rows for student, rows in students if student}
-    known = aliases(marks, people)
-    placed = set()
-    for row in book.rows:
-        student = _student(book, row, ids, [], known)
-        if student is None:
-            continue
-        placed.add(student)
-        score, total = total_of(marks[student])
+
+    def put(row: list[str], own: list[ResultRow]) -> None:
+        score, total = total_of(own)
         if score is not None:
             possible = book.points(row[most]) if most is not None else None
             comma = book.comma or (most is not None and "," in row[most])
             text = f"{score / total * possible if possible and total else score:.2f}"
             row[grade] = text.replace(".", ",") if comma else text
-            row[comments] = safe(comment(marks[student]))
-    return Filled(book.text(), frozenset(placed))
+            row[comments] = safe(comment(own))
+
+    return _filled(book, marks, people, ids, [], put)

@@ -21,8 +21,7 @@ from html import escape
 from icsolve.case import Case
 from icsolve.case.expected import LoadIs, PositionIs, Target
 from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey, RangeKey
-from icsolve.grade.mistakes import Wrong, message
-from icsolve.grade.mistakes.lookup import ORDER
+from icsolve.grade.mistakes.lookup import ORDER, Wrong, message
 from icsolve.grade.written.words import factors_between
 from icsolve.numbers.units import parse_unit
 from icsolve.tuples import NamedTuple
@@ -81,7 +80,8 @@ _UNITS = {
 
 
 class Question(NamedTuple):
-    """One question: its name, what is given and asked, the key, and a picture (SVG text) if there is one.
+    """One question: its name, what is given and asked, the key, what is accepted in words, and a picture (SVG
+    text) if there is one.
 
     ``others`` are the keys of further right answers: other positions of equilibrium.
     """
@@ -90,6 +90,7 @@ class Question(NamedTuple):
     given: tuple[tuple[str, str], ...]
     asked: str
     key: NumberKey
+    accepted: str
     picture: str = ""
     title: str = ""
     others: tuple[NumberKey, ...] = ()
@@ -117,7 +118,7 @@ def _xml_question(question: Question) -> str:
         f"<defaultgrade>{key.policy.points:.10g}</defaultgrade><penalty>0.3333333</penalty>",
         "<hidden>0</hidden>",
         *(
-            _answer(100.0, right, _half(own), f"Right: {key.accepted} is accepted.")
+            _answer(100.0, right, _half(own), f"Right: {question.accepted} is accepted.")
             for own, right in rights(question)
         ),
         *(
@@ -166,7 +167,6 @@ def wrong_rows(key: NumberKey) -> Iterator[tuple[Wrong, float, float]]:
 
     Moodle takes the first row that matches, so the right answer stands before them.
     """
-    known = dict(key.policy.mistakes)
     ordered = sorted(key.wrongs.all, key=lambda w: (ORDER[w.code], _decades(w.value, key.value), w.value))
     seen: list[float] = []
     counts: Counter[str] = Counter()
@@ -175,7 +175,7 @@ def wrong_rows(key: NumberKey) -> Iterator[tuple[Wrong, float, float]]:
         if counts[wrong.code] < _MOST_OF_ONE and all(abs(wrong.value - other) > reach for other in seen):
             seen.append(wrong.value)
             counts[wrong.code] += 1
-            share = 100.0 * known.get(wrong.code, 0.0)
+            share = 100.0 * key.policy.mistakes.get(wrong.code, 0.0)
             yield wrong, min(_FRACTIONS, key=lambda f: abs(f - share)), reach
 
 
@@ -223,7 +223,7 @@ def _gift_question(question: Question) -> str:
     values = "; ".join(f"{name} = {value}" for name, value in question.given)
     title = f"{question.title.rstrip('. ')}. " if question.title else ""
     text = _gift(f"{title}Given: {values}. {question.asked}")
-    told = _gift(f"Right: {key.accepted} is accepted.")
+    told = _gift(f"Right: {question.accepted} is accepted.")
     rows = [f"=%100%{number(right)}:{number(own.half)}#{told}" for own, right in rights(question)]
     for wrong, share, reach in wrong_rows(key):
         said = _gift(message(wrong.code, wrong.where, key.kind))
@@ -403,7 +403,7 @@ def _item(question: Question) -> str:
         '<respcondition continue="Yes"><conditionvar><other/></conditionvar>'
         '<displayfeedback feedbacktype="Response" linkrefid="general_incorrect_fb"/></respcondition>'
         "</resprocessing>"
-        f"{_feedback('correct_fb', f'Right: {key.accepted} is accepted.')}"
+        f"{_feedback('correct_fb', f'Right: {question.accepted} is accepted.')}"
         f"{_feedback('general_incorrect_fb', otherwise)}"
         + "".join(
             _feedback(f"wrong{n}_fb", message(wrong.code, wrong.where, key.kind))

@@ -7,6 +7,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from datetime import UTC, datetime
 from typing import IO
 
@@ -198,6 +199,12 @@ class TableColumns:
         found = [i for i, text in enumerate(self.names) if text in FIELDS[name] and i not in self.questions]
         return found[0] if found else None
 
+    def places(self, *names: str) -> list[int]:
+        """The columns of fields, or of other names, that there are, in this order."""
+        at = {name: index for index, name in reversed([*enumerate(self.names)])}
+        found = (self.field(name) if name in FIELDS else at.get(name) for name in names)
+        return list(dict.fromkeys(index for index in found if index is not None))
+
     def check_once(self, index: int) -> None:
         """Raises HeaderError where two columns of the table have the name of one that is to be read."""
         if self.names.count(self.names[index]) > 1:
@@ -334,43 +341,30 @@ def timestamp(text: str) -> float | None:
     text = " ".join(text.split())
     if not text:
         return NEVER
-    try:
+    with suppress(ValueError):
         return _seconds(datetime.fromisoformat(text))
-    except ValueError:
-        return _with_zone(text)
-
-
-def _with_zone(text: str) -> float | None:
-    """A time that ends with its zone, or with none."""
     before, _, name = text.rpartition(" ")
     if name in _NAMED:
         text = f"{before} GMT{_NAMED[name]:+d}"
-    zone = _ZONE.search(text)
-    found = _otherwise(text[: zone.start()] if zone is not None else text)
-    if zone is None or zone.group(1) is None or found is None:
-        return found
-    sign, hours, minutes = zone.groups()
-    return found - float(f"{sign}1") * (3600.0 * int(hours) + 60.0 * int(minutes or 0))
-
-
-def _seconds(time: datetime) -> float:
-    return (time if time.tzinfo is not None else time.replace(tzinfo=UTC)).timestamp()
-
-
-def _otherwise(text: str) -> float | None:
+    zone, off = _ZONE.search(text), 0.0
+    if zone is not None:
+        text = text[: zone.start()]
+        sign, hours, minutes = zone.groups()
+        off = float(f"{sign}1") * (3600.0 * int(hours) + 60.0 * int(minutes or 0)) if sign else 0.0
     plain = re.sub(r"(?<=\d)(?:st|nd|rd|th)\b|, (?=\d+:)|^[A-Za-z]+, ", " ", text).replace(". ", " ")
     plain = _FOREIGN.sub(lambda found: _MONTHS[found.group().lower()], re.sub(r"\b(?:de|del)\b", " ", plain))
     plain = re.sub(r"^[^\W\d]+\.?,? (?=\d{1,2}\.? +[^\W\d])", "", " ".join(plain.split()))
     plain = re.sub(r"(?<=\d), (?=\d+:)", " ", year_first(plain, "month"))
     for form in _FORMATS:
-        try:
-            return _seconds(datetime.strptime(plain, form))
-        except ValueError:
-            continue
-    try:
-        return _seconds(datetime.fromisoformat(text))
-    except ValueError:
-        return None
+        with suppress(ValueError):
+            return _seconds(datetime.strptime(plain, form)) - off
+    with suppress(ValueError):
+        return _seconds(datetime.fromisoformat(text)) - off
+    return None
+
+
+def _seconds(time: datetime) -> float:
+    return (time if time.tzinfo is not None else time.replace(tzinfo=UTC)).timestamp()
 
 
 def year_first(text: str, order: str) -> str:

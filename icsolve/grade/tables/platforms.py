@@ -118,9 +118,7 @@ def _ids(columns: TableColumns, kind: str) -> list[int]:
 
     Raises HeaderError where there is none, or two have one name.
     """
-    at = {name: index for index, name in reversed([*enumerate(columns.names)])}
-    by_name = (columns.field(n) if n in FIELDS else at.get(n) for n in _IDS.get(kind, _ANY_ID))
-    ids = [i for i in by_name if i is not None]
+    ids = columns.places(*_IDS.get(kind, _ANY_ID))
     if not ids:
         raise HeaderError(
             f'no column holds the student\'s id: {columns.listed()}; name it with --map student_id="..."'

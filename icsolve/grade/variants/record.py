@@ -18,7 +18,7 @@ from icsolve.grade.course import Person, Roster, student_named
 from icsolve.grade.keys import NumberKey, numbers_of
 from icsolve.grade.platforms.questions import asked
 from icsolve.grade.results import csv_text, safe
-from icsolve.grade.solved import unknowns
+from icsolve.grade.solved import final_questions
 from icsolve.grade.tables.columns import TableColumns, read_whole_table, without_apostrophe
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import Draw, VariantRecord, Varied
@@ -153,7 +153,7 @@ def _changed_keys(varied: Varied, record: VariantRecord) -> Iterator[str]:
             continue
         counts[question] = counts.get(question, 0) + 1
         try:
-            now = getattr(varied.key(question, student), "value", None)
+            now = getattr(varied.solved(student).key(question), "value", None)
         except NoKeyError:
             moved.setdefault(question, []).append(f"{student}: {before:.6g} {unit}, now none")
             continue
@@ -227,7 +227,7 @@ class Neighbours:
                 if draw.label in found or (figure not in figures and len(figures) >= _FEW):
                     continue
                 figures.add(figure)
-                key = varied.key(question, student)
+                key = varied.solved(student).key(question)
             except NoKeyError:
                 continue
             if isinstance(key, NumberKey):
@@ -251,7 +251,7 @@ def other_seed(varied: Varied, given: list[GivenValue], seeds: Iterable[str]) ->
 
 def _is_right(varied: Varied, one: GivenValue) -> bool:
     try:
-        key = varied.key(one.question, one.student)
+        key = varied.solved(one.student).key(one.question)
     except NoKeyError:
         return False
     return isinstance(key, NumberKey) and abs(one.value - key.value) <= key.half
@@ -294,19 +294,13 @@ def key_csv(varied: Varied, found: Iterable[VariantTask]) -> str:
     """The right answers: ``student_id,variant,case,value,unit,sense,from,to``."""
     rows = []
     for person, draw in found:
-        for question in questions(varied):
-            for key in numbers_of(varied.key(question, person.student_id)):
+        for question in final_questions(varied.case, varied.name):
+            for key in numbers_of(varied.solved(person.student_id).key(question)):
                 size = key.value if key.kind == "position" else abs(key.value)
                 low, high = size - key.half if size < 0.0 else max(size - key.half, 0.0), size + key.half
                 cells = (draw.label, question, f"{key.value:.12g}", key.unit_name, sense(varied, draw, key))
                 rows.append([safe(person.student_id), *cells, f"{low:.10g}", f"{high:.10g}"])
     return csv_text(["student_id", "variant", "case", "value", "unit", "sense", "from", "to"], rows)
-
-
-def questions(varied: Varied) -> list[str]:
-    """The questions of a case with variables: its unknown loads."""
-    names = unknowns(varied.case)
-    return [varied.name] if len(names) == 1 else [f"{varied.name}:{name}" for name in names]
 
 
 def sense(varied: Varied, draw: Draw, key: NumberKey) -> str:
@@ -330,7 +324,7 @@ def sheet(varied: Varied, task: VariantTask, picture: str) -> str:
     rows = "".join(f"<tr><td>{escape(n)}</td><td>{escape(v)}</td></tr>" for n, v in Statement(case).rows())
     lines = "".join(
         f"<p>{escape(asked(solved.key(question), solved.target(question)))}</p>"
-        for question in questions(varied)
+        for question in final_questions(varied.case, varied.name)
     )
     return (
         f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(varied.name)}</title>'

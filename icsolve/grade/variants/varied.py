@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import math
 import re
-from collections import OrderedDict
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from typing import TypeVar
@@ -15,9 +14,7 @@ from icsolve.case import Case
 from icsolve.case.expected import LoadIs, Variable
 from icsolve.errors import CaseError, IcsolveError, SceneError
 from icsolve.grade.course import Course
-from icsolve.grade.keys import AnyKey
-from icsolve.grade.mistakes import WrongAnswers
-from icsolve.grade.mistakes.engine import Known
+from icsolve.grade.mistakes.engine import Known, WrongAnswers
 from icsolve.grade.solved import SolvedCase
 from icsolve.grade.tolerance import NoKeyError, drawn_band, size_of
 from icsolve.grade.variants.at_once import VariedNumbers, solved_at_once, together
@@ -132,6 +129,22 @@ class VariantRecord(NamedTuple):
     keys: dict[tuple[str, str], tuple[float, str]]
 
 
+K = TypeVar("K")
+V = TypeVar("V")
+
+
+class Latest(dict[K, V]):
+    """What is remembered; the oldest of too many is forgotten."""
+
+    def __init__(self, most: int) -> None:
+        self._most = most
+
+    def __setitem__(self, key: K, value: V) -> None:
+        if len(self) >= self._most:
+            del self[next(iter(self))]
+        super().__setitem__(key, value)
+
+
 class Varied:
     """One case with variables; ``text`` is its file. With a ``record`` the numbers handed out count."""
 
@@ -144,11 +157,11 @@ class Varied:
         self.numbers = VariedNumbers(text, self.case)
         self.record: VariantRecord | None = None
         self._first = first_values(self.case.variables)
-        self._solved: OrderedDict[tuple[str, ...], SolvedCase | None] = OrderedDict()
-        self._tasks: OrderedDict[tuple[str, ...], SolvedCase] = OrderedDict()
-        self._draws: OrderedDict[str, Draw] = OrderedDict()
-        self._seen: OrderedDict[tuple[str, ...], Seen | None] = OrderedDict()
-        self._rows: OrderedDict[tuple[str, ...], Answer] = OrderedDict()
+        self._solved: Latest[tuple[str, ...], SolvedCase | None] = Latest(_KEPT)
+        self._tasks: Latest[tuple[str, ...], SolvedCase] = Latest(_KEPT)
+        self._draws: Latest[str, Draw] = Latest(_KNOWN)
+        self._seen: Latest[tuple[str, ...], Seen] = Latest(_KNOWN)
+        self._rows: Latest[tuple[str, ...], Answer] = Latest(_KNOWN_ROWS)
 
     def draw(self, student: str) -> Draw:
         """The student's values: the first draw that suits.
@@ -179,7 +192,7 @@ class Varied:
             cases = self._new_cases(map(self._base, drawn))
             for key, answer in zip(cases, together(list(cases.values())), strict=True):
                 if answer is not None:
-                    _keep(self._rows, key, answer, _KNOWN_ROWS)
+                    self._rows[key] = answer
 
     def _handed(self, student: str, record: VariantRecord) -> Draw:
         """What was handed out to a student."""
@@ -224,25 +237,15 @@ class Varied:
         """
         return self.task(self.draw(student))
 
-    def key(self, question: str, student: str) -> AnyKey:
-        """The key of a student's own task.
-
-        Raises NoKeyError.
-        """
-        draw = self.draw(student)
-        return self.task(draw).key(question)
-
     def task(self, draw: Draw) -> SolvedCase:
         """A variant, solved.
 
         Raises NoKeyError.
         """
         values = tuple(draw.values.values())
-        found = self._tasks.get(values)
-        if found is None:
-            found = self._task(draw.values)
-            _keep(self._tasks, values, found, _KEPT)
-        return found
+        if values not in self._tasks:
+            self._tasks[values] = self._task(draw.values)
+        return self._tasks[values]
 
     def figure(self, draw: Draw) -> tuple[str, ...]:
         """The values of a draw that its figure hangs on; draws of one figure are solved once."""
@@ -278,7 +281,7 @@ class Varied:
         """The case with these values; None where it has no answer."""
         key = tuple(values.values())
         if key not in self._solved:
-            _keep(self._solved, key, self._made(values, full), _KEPT)
+            self._solved[key] = self._made(values, full)
         return self._solved[key]
 
     def _made(self, values: Texts, full: bool) -> SolvedCase | None:
@@ -300,7 +303,7 @@ class Varied:
             self._look_at(draws.values())
             for student, values in draws.items():
                 if self._suits(values):
-                    _keep(self._draws, student, Draw(label(self.name, values), values), _KNOWN)
+                    self._draws[student] = Draw(label(self.name, values), values)
             left = [student for student in left if student not in self._draws]
             if not left:
                 return
@@ -310,9 +313,8 @@ class Varied:
         cases = self._new_cases(v for values in draws for v in (self._figure(values), self._base(values)))
         for key, solved in zip(cases, solved_at_once(list(cases.values())), strict=True):
             if solved is not None:
-                seen = Seen(True, swallowed(*solved)) if swing(solved[0]) <= self._limit else _UNFIT
-                _keep(self._seen, key, seen, _KNOWN)
-                _keep(self._rows, key, solved[0], _KNOWN_ROWS)
+                self._seen[key] = self._judged(*solved)
+                self._rows[key] = solved[0]
 
     def _new_cases(self, some: Iterable[Texts]) -> dict[tuple[str, ...], Case]:
         """The cases that are not known, by their values, where they are enough for a record."""
@@ -356,13 +358,13 @@ class Varied:
     def _looked_at(self, values: Texts) -> Seen:
         """A variant by what is known of it, or as a scene of its own."""
         key = tuple(values.values())
-        seen = self._seen.get(key)
-        if seen is None:
+        if key not in self._seen:
             solved = self._exactly(values, full=True)
-            far = solved is not None and swing(solved.answer) <= self._limit
-            seen = Seen(True, swallowed(solved.answer)) if solved is not None and far else _UNFIT
-            _keep(self._seen, key, seen, _KNOWN)
-        return seen
+            self._seen[key] = self._judged(solved.answer) if solved is not None else _UNFIT
+        return self._seen[key]
+
+    def _judged(self, answer: Answer, known: Known | None = None) -> Seen:
+        return Seen(True, swallowed(answer, known)) if swing(answer) <= self._limit else _UNFIT
 
     @cached_property
     def _always_swallowed(self) -> frozenset[Mistake]:
@@ -389,14 +391,3 @@ class Varied:
         """A few variants, by which it is told what lies in the task and not in its numbers."""
         draws = (drawn(self.name, self.case.variables, "", "", trial) for trial in range(_REFERENCES))
         return list(map(self._figure, draws))
-
-
-K = TypeVar("K")
-V = TypeVar("V")
-
-
-def _keep(store: OrderedDict[K, V], key: K, value: V, most: int) -> None:
-    """Remember, and forget the oldest of too many."""
-    if len(store) >= most:
-        store.popitem(last=False)
-    store[key] = value

@@ -193,7 +193,10 @@ def _answer(text: str, decimal: str) -> WrittenAnswer:
         return flagged(TWO_VALUES)
     sign, before = _sign(before)
     angle = _SEXAGESIMAL.fullmatch(text[start:])
-    found = _sexagesimal(angle) if angle else numeral(text, start, decimal)
+    found = numeral(text, start, decimal)
+    if angle:
+        degrees, minutes, seconds = (float(part or 0) for part in angle.groups())
+        found = WrittenNumber(degrees + minutes / 60.0 + seconds / 3600.0, len(text) - start, "")
     if found is None:
         return flagged(UNREAD)
     if found.flag:
@@ -210,12 +213,6 @@ def _answer(text: str, decimal: str) -> WrittenAnswer:
 def holds_digits(text: str) -> bool:
     """Whether digits stand in a text that are not those of a name, as in T12."""
     return any(c.isdigit() for c in _LABEL.sub("", text))
-
-
-def _sexagesimal(parts: re.Match[str]) -> WrittenNumber:
-    """Degrees, minutes and seconds."""
-    degrees, minutes, seconds = (float(part or 0) for part in parts.groups())
-    return WrittenNumber(degrees + minutes / 60.0 + seconds / 3600.0, parts.end(), "")
 
 
 def unwrapped(text: str) -> str:
@@ -293,18 +290,14 @@ def tail(text: str, read: WrittenAnswer) -> WrittenAnswer:
     inside = text.strip("[](){} ")
     whole = _unit(inside) or _unit(text)
     if whole is not None and not inside.endswith(_LETTERS):
-        return _doubted(whole.note) or read._replace(unit=whole, note=whole.note)
+        doubted = whole.note == AMBIGUOUS_UNIT
+        return flagged(AMBIGUOUS_UNIT) if doubted else read._replace(unit=whole, note=whole.note)
     bare = _WHERE.sub(" ", _ASIDE.sub(" ", text))
     bare = _DASH.sub(" ", bare)
     bare = " ".join(bare.split()).strip(" ,;")
     if bare != text:
         return tail(bare, read)
     return _parted(text, read)
-
-
-def _doubted(note: str) -> WrittenAnswer | None:
-    """A reading that is flagged for a unit of two meanings."""
-    return flagged(AMBIGUOUS_UNIT) if note == AMBIGUOUS_UNIT else None
 
 
 def _parted(text: str, read: WrittenAnswer) -> WrittenAnswer:
@@ -354,7 +347,7 @@ def _checked(read: WrittenAnswer) -> WrittenAnswer:
         return flagged(way.flag)
     if way is not None and way.measured and unit is not None and unit.unit.dims == DIMENSIONS["angle"]:
         return flagged(TWO_VALUES)
-    return _doubted(read.note) or read
+    return flagged(AMBIGUOUS_UNIT) if read.note == AMBIGUOUS_UNIT else read
 
 
 def _joined(

@@ -79,61 +79,37 @@ def _simple(text: str, start: int, decimal: str) -> WrittenNumber | None:
 
 
 def _classified(run: str, end: int, decimal: str) -> WrittenNumber:
-    """The value of a run of digits and marks."""
+    """The value of a run of digits and marks: of a point and a comma the last is the decimal mark, and one
+    alone may be either."""
     if run.isdigit() or (run.replace(".", "", 1).isdigit() and decimal != "comma"):
         return WrittenNumber(float(run), end, run)
-    marks = {c for c in run if not c.isdigit()}
-    grouping = marks & {" ", "'", "_"}
-    if len(grouping) > 1:
-        return WrittenNumber(0.0, end, run, UNREAD)
-    whole, mark, part, flag = _split(run, marks & {".", ","}, decimal)
-    for group in grouping:
-        whole, part, good = _ungrouped(whole, part, group)
-        flag = flag or ("" if good else UNREAD)
-    if flag or not (whole + part).isdigit():
-        return WrittenNumber(0.0, end, run, flag or UNREAD)
-    digits = whole + ("." if mark else "") + part
-    return WrittenNumber(float(digits), end, digits)
-
-
-def _split(run: str, marks: set[str], decimal: str) -> tuple[str, str, str, str]:
-    """Whole part, decimal mark, decimals and flag of a run with at most both of point and comma."""
-    if not marks:
-        return run, "", "", ""
+    marks, spaces = set(run) & set(".,"), set(run) & set(" '_")
+    mark, group = max(marks, key=run.rfind, default=""), ""
     if len(marks) == 2:
-        mark = run[max(run.rfind("."), run.rfind(","))]
-        other = "," if mark == "." else "."
-        whole, _, part = run.partition(mark)
-        good = mark not in part and other not in part and _is_grouped(whole, other)
-        return whole.replace(other, ""), mark, part, "" if good else UNREAD
-    (mark,) = marks
-    if run.count(mark) > 1:
-        return run.replace(mark, ""), "", "", "" if _is_grouped(run, mark) else UNREAD
-    return _one_mark(run, mark, decimal)
-
-
-def _one_mark(run: str, mark: str, decimal: str) -> tuple[str, str, str, str]:
-    """A single comma or point: decimal, or thousands, or both are possible."""
-    whole, _, part = run.partition(mark)
-    if mark == ("," if decimal == "comma" else ".") or not _is_grouped(run, mark):
-        return whole, mark, part, ""
-    if decimal == "either":
-        return whole, mark, part, AMBIGUOUS
-    return whole + part, "", "", ""
+        group = "," if mark == "." else "."
+    elif mark and (mark != ("," if decimal == "comma" else ".") or run.count(mark) > 1):
+        if run.count(mark) == 1 and decimal == "either" and len(spaces) < 2 and _is_grouped(run, mark):
+            return WrittenNumber(0.0, end, run, AMBIGUOUS)
+        if run.count(mark) > 1 or _is_grouped(run, mark):
+            mark, group = "", mark
+    whole, _, part = run.partition(mark) if mark else (run, "", "")
+    good = len(spaces) < 2 and (not group or _is_grouped(whole, group))
+    whole = whole.replace(group, "")
+    for space in spaces:
+        *full, last = part.split(space)
+        good = good and all(len(one) == 3 for one in full) and (not full or len(last) <= 3)
+        good = good and (space not in whole or _is_grouped(whole, space))
+        whole, part = whole.replace(space, ""), part.replace(space, "")
+    if not good or not (whole + part).isdigit():
+        return WrittenNumber(0.0, end, run, UNREAD)
+    digits = f"{whole}{'.' if mark else ''}{part}"
+    return WrittenNumber(float(digits), end, digits)
 
 
 def _is_grouped(text: str, mark: str) -> bool:
     """Whether the marks stand where thousands are divided: ``1,234,567``."""
     first, *rest = text.split(mark)
     return 1 <= len(first) <= 3 and first[0] != "0" and all(len(group) == 3 for group in rest)
-
-
-def _ungrouped(whole: str, part: str, mark: str) -> tuple[str, str, bool]:
-    """Without the spaces or apostrophes that divide thousands; whether they stood where they may."""
-    *full, last = part.split(mark)
-    good = all(len(group) == 3 for group in full) and (not full or len(last) <= 3)
-    good = good and (mark not in whole or _is_grouped(whole, mark))
-    return whole.replace(mark, ""), part.replace(mark, ""), good
 
 
 def _exponent(text: str, found: WrittenNumber) -> WrittenNumber | None:

@@ -60,15 +60,15 @@ def read_place(text: str) -> WrittenPlace:
         return WrittenPlace(flag=flag)
     far = _FAR.search(words)
     if far is not None and not _PLACE_WORDS.sub("", words[: far.start()]).strip():
-        return _far(far.group(1))
-    return _near(words) or WrittenPlace(flag=_why_not(words))
-
-
-def _far(rest: str) -> WrittenPlace:
-    if not rest:
-        return WrittenPlace(toward=float("nan"))
-    found = _TOWARD.match(rest)
-    return WrittenPlace(toward=float(found.group(1).replace(" ", ""))) if found else WrittenPlace(flag=UNREAD)
+        rest, toward = far.group(1), _TOWARD.match(far.group(1))
+        if toward is None:
+            return WrittenPlace(flag=UNREAD) if rest else WrittenPlace(toward=float("nan"))
+        return WrittenPlace(toward=float(toward.group(1).replace(" ", "")))
+    place = _near(words)
+    if place is not None or not holds_digits(words):
+        return place or WrittenPlace(flag=NO_NUMBER)
+    count = len(re.findall(r"(?<![A-Za-z_\d])\d+(?:[.,]\d+)*", words))
+    return WrittenPlace(flag=AMBIGUOUS if "," in words else TWO_VALUES if count > 2 else UNREAD)
 
 
 def _near(words: str) -> WrittenPlace | None:
@@ -84,8 +84,11 @@ def _near(words: str) -> WrittenPlace | None:
             continue
         if x.flag or y.flag:
             return WrittenPlace(flag=AMBIGUOUS)
-        place = _with_unit(x.value, y.value, glue.group("unit"), end.group("own") or end.group("after"))
-        return place._replace(doubtful=any("," in match.group() for match in found))
+        names = set(filter(None, (glue.group("unit"), end.group("own") or end.group("after"))))
+        unit = unit_word(min(names)) if names else None
+        if len(names) > 1 or (names and unit is None):
+            return WrittenPlace(flag=UNREAD)
+        return WrittenPlace(x.value, y.value, unit, doubtful=any("," in match.group() for match in found))
     return None
 
 
@@ -93,22 +96,6 @@ def _value(text: str, decimal: str) -> WrittenNumber | None:
     """A number with its sign."""
     found = numeral(text.lstrip("-+ "), 0, decimal)
     return found._replace(value=-found.value) if found is not None and text.startswith("-") else found
-
-
-def _why_not(words: str) -> str:
-    """Why a text is no place."""
-    if not holds_digits(words):
-        return NO_NUMBER
-    count = len(re.findall(r"(?<![A-Za-z_\d])\d+(?:[.,]\d+)*", words))
-    return TWO_VALUES if count > 2 and "," not in words else AMBIGUOUS if "," in words else UNREAD
-
-
-def _with_unit(x: float, y: float, first: str | None, second: str | None) -> WrittenPlace:
-    if first and second and first != second:
-        return WrittenPlace(flag=UNREAD)
-    name = first or second
-    unit = unit_word(name) if name else None
-    return WrittenPlace(flag=UNREAD) if name and unit is None else WrittenPlace(x, y, unit)
 
 
 # --- ranges -----------------------------------------------------------------------------------------
