@@ -220,10 +220,8 @@ def meeting_of(curve: Curve, body: Body, side: float) -> Meeting:
         return _shared(Meeting(gap, foot, (way,), tuple(ties)), curve, ALONG)
     if foot.is_corner and math.dist(foot.point, body.at) <= AT_ONE * curve.size:
         return Meeting(gap, foot, foot.normals)
-    toward, near = (
-        _toward(foot, body, gap + body.radius),
-        math.dist(foot.point, body.at) + AT_ONE * curve.size,
-    )
+    toward = _toward(foot, body, gap + body.radius)
+    near = math.dist(foot.point, body.at) + AT_ONE * curve.size
     feet = [o for o in curve.nearest(body.at)[1:] if math.dist(o.point, body.at) <= near]
     if body.kind != "roller":
         knives = tuple((o, curve.normal(o.piece, o.u)) for o in feet)

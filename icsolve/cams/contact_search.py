@@ -226,10 +226,8 @@ class ContactSearch:
         if math.dist(own, normal) <= BESIDE and not (face and isinstance(piece, Straight)):
             yield foot._replace(normals=(own,)), normal
         if abs(foot.u - end) <= BESIDE and not (knife or isinstance(self.shape, Circle | Radii)):
-            at, out = (
-                piece.at(end),
-                gap + (self.follower.radius.value if isinstance(self.follower, Roller) else 0.0),
-            )
+            at = piece.at(end)
+            out = gap + (self.follower.radius.value if isinstance(self.follower, Roller) else 0.0)
             if not face:
                 (px, py), (nx, ny), (x, y) = foot.point, normal, at
                 normal = unit(px + out * nx - x, py + out * ny - y)
