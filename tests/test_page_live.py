@@ -19,9 +19,13 @@ import icsolve
 from browser import Browser
 from icsolve.errors import CaseError, SceneError
 from icsolve.explain import explain
+from icsolve.numbers.units import BOUNDS
 from icsolve.page import motion, page_html
+from icsolve.page.fields import lines_of
 from icsolve.page.motion import motion_of
+from icsolve.sweep.numbers import numbers_of
 from icsolve.tuples import replace
+from library import FILES, sample
 from sizes import FULL
 
 ROOT = Path(__file__).parent.parent / "cases"
@@ -522,6 +526,33 @@ def test_a_link_leads_to_the_way_of_assembling_that_was_dragged_to(shown: Any) -
     page.run("location.hash = ''")
     page.send("/url", {"url": address})
     assert float(page.run(answer)[0]) == pytest.approx(float(value), rel=1e-9)
+
+
+@pytest.mark.parametrize("name", sample(FILES, 3, "fields"))
+def test_a_field_has_the_unit_and_the_bound_of_the_reader(name: str) -> None:
+    """A number reads the same with the unit that stands behind its field, and a page refuses of others what
+    the reader refuses for its bound."""
+    case = icsolve.load(FILES[name])
+    lines = [] if case.space else lines_of(case, {unknown.path for unknown in case.unknowns})
+    for field in (field for _, some in lines for line in some for field in line.fields):
+        unit = field.unit.replace("°", "deg").replace("²", "^2").replace("·", "*")
+        written = numbers_of(case)[field.path].value
+        again = icsolve.load(FILES[name], {field.path: f"{written!r} {unit}".strip()})
+        assert numbers_of(again)[field.path].value == pytest.approx(written, rel=1e-15), field
+        for probe in (-3.0, 0.0, 0.5, 45.0, 90.0, 100.0):
+            said = refusal(FILES[name], {field.path: f"{probe} {unit}"}).partition("one of the")[0]
+            limits = {limit for limits in BOUNDS.values() for limit in limits if limit.says in said}
+            broken = {limit for limit in BOUNDS[field.bound] if not limit.holds(probe)}
+            assert limits <= broken and bool(said) >= bool(broken), (field, probe, said)
+
+
+def refusal(path: Path, numbers: dict[str, str]) -> str:
+    """Why a case is not read with other numbers; "" where it is."""
+    try:
+        icsolve.load(path, numbers)
+    except CaseError as refused:
+        return str(refused)
+    return ""
 
 
 def test_what_is_no_number_is_said_and_changes_nothing(shown: Any) -> None:

@@ -136,7 +136,7 @@ class Case:
     motion: tuple[Motion, ...] = ()
     expect: tuple[Expected, ...] = ()
     carries: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    gravity: Number = Number(9.81, 0.005, "gravity", "9.81", bound="not negative")
+    gravity: Number = Number(9.81, 0.005, "gravity", "9.81", bound="not negative", dimension="acceleration")
     """m/s^2, along -y"""
     inertia: dict[str, Inertia] = field(default_factory=dict)
     """by link"""

@@ -9,6 +9,7 @@ revolutions). A numeral is converted by one division of integers, which Python r
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from operator import ge, gt, lt
 from typing import Any
 
 from icsolve.tuples import NamedTuple
@@ -368,7 +369,8 @@ class Number(NamedTuple):
     that was written (case units), ``path`` its place (``lengths.AB``, ``loads.P.angle``),
     ``digits`` the numeral as written and ``factor`` case units per written unit. ``exact`` is the value as
     it was meant, where that is not the decimal ``digits``: a unit was converted, or arithmetic gave it.
-    ``bound`` names what any number in its place keeps to (`BOUNDS`).
+    ``bound`` names what any number in its place keeps to (`BOUNDS`), ``dimension`` what it is a number of
+    (``angle``, ``length``, ...), which has a unit in each case.
     """
 
     value: float
@@ -378,23 +380,40 @@ class Number(NamedTuple):
     factor: float = 1.0
     exact: ExactRatio | None = None
     bound: str = ""
+    dimension: str = ""
 
 
-BOUNDS: dict[str, tuple[tuple[Callable[[Any], Any], str], ...]] = {
-    "": (),
-    "positive": ((lambda v: v > 0.0, "should be greater than zero"),),
-    "not negative": ((lambda v: v >= 0.0, "should not be negative"),),
-    "acute": (
-        (lambda v: v > 0.0, "should be greater than zero"),
-        (lambda v: v < 90.0, "should be less than 90 degrees"),
-    ),
-    "acute or zero": (
-        (lambda v: v >= 0.0, "should not be negative"),
-        (lambda v: v < 90.0, "should be less than 90 degrees"),
-    ),
-    "teeth": ((lambda v: (v % 1.0 == 0.0) & (v != 0.0), "should be whole numbers other than 0"),),
+class Limit(NamedTuple):
+    """What a number keeps to: it is ``than`` (``>``, ``>=``, ``<``) a value, or ``whole`` and another; and
+    what is said of one that does not."""
+
+    than: str
+    value: float
+    says: str
+
+    def holds(self, number: Any) -> Any:
+        """Whether a number, or each of an array (n,), keeps to it."""
+        return COMPARISONS[self.than](number, self.value)
+
+
+COMPARISONS: dict[str, Callable[[Any, float], Any]] = {
+    ">": gt,
+    ">=": ge,
+    "<": lt,
+    "whole": lambda number, other: (number % 1.0 == 0.0) & (number != other),
 }
-"""What bounds a number (or all in an array), and what is said of one that is out of it."""
+_RIGHT = Limit("<", 90.0, "should be less than 90 degrees")
+_SOME = Limit(">", 0.0, "should be greater than zero")
+_NOT_LESS = Limit(">=", 0.0, "should not be negative")
+BOUNDS = {
+    "": (),
+    "positive": (_SOME,),
+    "not negative": (_NOT_LESS,),
+    "acute": (_SOME, _RIGHT),
+    "acute or zero": (_NOT_LESS, _RIGHT),
+    "teeth": (Limit("whole", 0.0, "should be whole numbers other than 0"),),
+}
+"""The limits of a number by the name of what bounds it."""
 
 
 def numbers_in(*values: object) -> Iterator[Number]:

@@ -11,28 +11,18 @@ from typing import Any
 from icsolve.assembly.loci import Axis, CircleLocus, Locus
 from icsolve.assembly.steps import Given, Meet, Polar, Step
 from icsolve.assembly.workspace import LENGTH, RAY, Datum, X, number_of
-from icsolve.case import Area, Case, Force, Load, Number, TorsionSpring, Weight, pair_name
+from icsolve.case import Area, Case, Force, Load, Number, Weight, pair_name
 from icsolve.draw.words import unit_word
 from icsolve.errors import CaseError
 from icsolve.numbers.units import numbers_in
 from icsolve.read import load
-from icsolve.read.joints import JOINTS
-from icsolve.read.keys import LOADS
+from icsolve.read.reading import unit_names
 from icsolve.read.settings import places
 from icsolve.report.derivation.known import Known
 from icsolve.statics.inertia import is_loaded
 from icsolve.sweep.numbers import numbers_of
 from icsolve.tuples import NamedTuple
 from icsolve.wording.senses import unit_of
-
-DEGREES = "°"
-_BOUNDS = {
-    key: form.bound
-    for kinds in (JOINTS, LOADS)
-    for kind in kinds.values()
-    for key, form in kind.keys.items()
-    if form.bound
-}
 
 
 class Field(NamedTuple):
@@ -44,7 +34,7 @@ class Field(NamedTuple):
     unit: str
     said: str
     """its name for who does not see the page"""
-    bound: str
+    bound: str = ""
 
 
 class FieldLine(NamedTuple):
@@ -59,8 +49,8 @@ def lines_of(case: Case, asked: Collection[str]) -> list[tuple[str, list[FieldLi
     held = {path: number for path, number in numbers_of(case).items() if path not in asked}
     sections = (
         ("Points", _points(case, held)),
-        ("Lengths", _plain(case, held, "lengths", unit_word(case.units.length))),
-        ("Angles", _plain(case, held, "angles", DEGREES)),
+        ("Lengths", _plain(case, held, "lengths")),
+        ("Angles", _plain(case, held, "angles")),
         ("Links", _masses(case)),
         ("Joints", _joints(case, held)),
         ("Loads", _loads(case, held)),
@@ -69,34 +59,32 @@ def lines_of(case: Case, asked: Collection[str]) -> list[tuple[str, list[FieldLi
     return [(title, lines) for title, found in sections if (lines := list(found))]
 
 
-def _field(number: Number, before: str, unit: str, said: str, bound: str = "") -> Field:
+def _field(case: Case, number: Number, before: str, said: str) -> Field:
     text = number.digits if number.factor == 1.0 and number.exact is None else f"{number.value:.12g}"
-    return Field(number.path, text, before, unit, said, bound)
+    unit = unit_names(case.units).get(number.dimension, "").replace("deg", "°").replace("^2", "²")
+    return Field(number.path, text, before, unit_word(unit), said, number.bound)
 
 
 def _points(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
-    unit = unit_word(case.units.length)
     for name in case.points:
         axes = [axis for axis in "xy" if f"points.{name}.{axis}" in held]
-        fields = [_field(held[f"points.{name}.{axis}"], axis, unit, f"{axis} of {name}") for axis in axes]
+        fields = [_field(case, held[f"points.{name}.{axis}"], axis, f"{axis} of {name}") for axis in axes]
         if fields:
             yield FieldLine(name.lstrip("@"), tuple(fields))
 
 
-def _plain(case: Case, held: Mapping[str, Number], section: str, unit: str) -> Iterable[FieldLine]:
-    bound = "not negative" if section == "lengths" else ""
+def _plain(case: Case, held: Mapping[str, Number], section: str) -> Iterable[FieldLine]:
     for path, number in held.items():
         if path.startswith(f"{section}."):
             name = path.partition(".")[2]
-            yield FieldLine("", (_field(number, f"{name} =", unit, name, bound),))
+            yield FieldLine("", (_field(case, number, f"{name} =", name),))
 
 
 def _masses(case: Case) -> Iterable[FieldLine]:
     for link, inertia in case.inertia.items() if is_loaded(case) else ():
-        units = {"mass": "kg", "inertia": "kg·m²"}
+        said = f"link {link}"
         own = [(n, n.path.rpartition(".")[2]) for n in numbers_in(inertia)]
-        fields = (_field(n, key, units[key], f"{key} of link {link}", "not negative") for n, key in own)
-        yield FieldLine(f"link {link}", tuple(fields))
+        yield FieldLine(said, tuple(_field(case, n, key, f"{key} of {said}") for n, key in own))
 
 
 def _joints(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
@@ -110,27 +98,19 @@ def _joints(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
             yield FieldLine(words, tuple(_of_joint(case, n, words) for n in own))
 
     for rope in case.ropes:
-        words, unit = f"rope {rope.name}", unit_word(case.units.length)
-        fields = []
+        words, fields = f"rope {rope.name}", []
         for number in numbers_in(rope.radii, rope.length):
             key, at = (*number.path.split(".")[2:], "")[:2]
             shown = f"radius at {at}" if at else key
-            fields.append(_field(number, shown, unit, f"{shown} of the {words}", "not negative"))
+            fields.append(_field(case, number, shown, f"{shown} of the {words}"))
         if fields:
             yield FieldLine(words, tuple(fields))
 
 
 def _of_joint(case: Case, number: Number, words: str) -> Field:
     key, place = _key(number.path, 2)
-    unit = ""
-    if key in ("along", "normal", "toward", "pressure angle"):
-        unit = DEGREES
-    elif key in ("radii", "radius", "length", "module", "at", "lead"):
-        unit = unit_word(case.units.length)
-    elif key == "diametral pitch":
-        unit = f"1/{unit_word(case.units.length)}"
     shown = f"{key} {'xy'[int(place)] if key == 'at' else int(place) + 1}" if place else key
-    return _field(number, shown, unit, f"{shown} of the {words}", _BOUNDS.get(key, ""))
+    return _field(case, number, shown, f"{shown} of the {words}")
 
 
 def _key(path: str, after: int) -> tuple[str, str]:
@@ -145,39 +125,26 @@ def _loads(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
         if own:
             yield FieldLine(one.name, tuple(_of_load(case, one, n) for n in own))
     if "gravity" in held and any(getattr(one, "mass", False) for one in case.loads):
-        yield FieldLine("", (_field(held["gravity"], "gravity", "m/s²", "gravity", "not negative"),))
-
-
-_LOAD_UNITS = {"angle": DEGREES, "slope": "", "times": "", "mass": "kg"}
+        yield FieldLine("", (_field(case, held["gravity"], "gravity", "gravity"),))
 
 
 def _of_load(case: Case, one: Load, number: Number) -> Field:
-    parts = number.path.split(".")[2:]
-    name = parts[0] if parts else ""
+    name, *rest = number.path.split(".")[2:] or [""]
     if name in ("", "x", "y", "0", "1"):
         before = {"": "=", "0": "from", "1": "to"}.get(name, f"{name} =")
-        return _field(number, before, unit_word(unit_of(one, case)), f"{one.name} {name}".strip())
-    length = unit_word(case.units.length)
-    unit = _LOAD_UNITS.get(name, f"{length}²" if name == "area" else length)
-    if name == "free" and isinstance(one, TorsionSpring):
-        unit = DEGREES
-    shown = " ".join(parts)
-    return _field(number, shown, unit, f"{shown} of {one.name}", _BOUNDS.get(name, ""))
+        return _field(case, number, before, f"{one.name} {name}".strip())
+    shown = " ".join((name, *rest))
+    return _field(case, number, shown, f"{shown} of {one.name}")
 
 
 def _motion(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
     for given in case.motion:
-        fields = []
-        numbers = {"speed": given.speed, "angle": given.angle, "acceleration": given.acceleration}
-        for name, number in numbers.items():
-            if number is not None and number.path in held:
-                speed = "rad/s" if given.point is None else f"{unit_word(case.units.length)}/s"
-                unit = {"angle": DEGREES, "acceleration": f"{speed}²"}.get(name, speed)
-                bound = "positive" if name == "speed" else ""
-                fields.append(_field(number, name, unit, f"{name} of link {given.link}", bound))
+        own = [n for n in (given.speed, given.angle, given.acceleration) if n is not None and n.path in held]
+        keys = [n.path.rpartition(".")[2] for n in own]
+        said = f"link {given.link}"
+        fields = [_field(case, n, key, f"{key} of {said}") for n, key in zip(own, keys, strict=True)]
         if fields:
-            point = f", point {given.point}" if given.point else ""
-            yield FieldLine(f"link {given.link}{point}", tuple(fields))
+            yield FieldLine(f"{said}, point {given.point}" if given.point else said, tuple(fields))
 
 
 # --- handles ---------------------------------------------------------------------------------------------

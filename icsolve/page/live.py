@@ -37,6 +37,7 @@ from icsolve.kinematics.twists import ORIGIN, Bases, Tree, loop_rows, rope_row, 
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
 from icsolve.numbers.source import JAVASCRIPT, JAVASCRIPT_FUNCTIONS, straight_line
+from icsolve.numbers.units import BOUNDS
 from icsolve.page.fields import handles_of, text_data, units_to_write
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ratios import independent_motions
@@ -339,6 +340,7 @@ class _ProgramWriter:
             "freedoms": top.freedoms_by_count,
             "checks": list(self._checks(place)),
             "paths": self.paths,
+            "bounds": BOUNDS,
             "numbers": [numbers[path].value for path in self.paths],
             "halves": [numbers[path].half for path in self.paths],
             "handles": handles_of(case, self.figure.steps, self.paths),

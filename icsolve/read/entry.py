@@ -161,9 +161,9 @@ class Entry:
     def value(self, node: Node, dimension: str, path: str, key: str, bound: str = "") -> Number | None:
         """The number of a node, within its bound."""
         found = number(self.reading, node, dimension, path)
-        for holds, said in BOUNDS[bound]:
-            if found is not None and not holds(found.value):
-                self.refuse(node.mark, f"the {key} {found.digits} of {self.what} {said}")
+        for limit in BOUNDS[bound]:
+            if found is not None and not limit.holds(found.value):
+                self.refuse(node.mark, f"the {key} {found.digits} of {self.what} {limit.says}")
                 return None
         return found._replace(bound=bound) if found is not None and bound else found
 
@@ -362,7 +362,8 @@ class Entry:
         value = nearest(exact)
         per_power = value / power.value if power.value else 1.0
         half = abs(per_power) * power.half
-        return Number(value, half, self.path, power.digits, per_power * power.factor, exact)
+        factor = per_power * power.factor
+        return Number(value, half, self.path, power.digits, factor, exact, dimension="torque")
 
 
 WANTED = (

@@ -164,7 +164,7 @@ def _datum(reading: Reading, node: Node, dimension: str, path: str) -> Number | 
         value = 0.5 * (found.low.value + found.high.value)
     else:
         value = math.nan
-    return Number(value, 0.0, path, "unknown")
+    return Number(value, 0.0, path, "unknown", dimension=dimension)
 
 
 def _unknown(reading: Reading, node: Node, dimension: str, path: str) -> Unknown | None:

@@ -259,7 +259,7 @@ def _valued(
                 f"{path} is {numeral.digits} degrees; if radians are meant, write {numeral.digits} rad."
             )
         exact = None if worked is None else (worked.numerator, worked.denominator, 0)
-        return Number(value, places, path, numeral.digits, 1.0, exact)
+        return Number(value, places, path, numeral.digits, 1.0, exact, "", dimension)
     target = reading.unit(dimension)
     unit = _fitting(reading, rest, dimension)
     scale = factor(unit, target)
@@ -268,7 +268,7 @@ def _valued(
         exact = exactly(numeral, exact)
     else:
         exact = (worked.numerator * exact[0], worked.denominator * exact[1], exact[2])
-    return Number(nearest(exact), places * scale, path, numeral.digits, scale, exact)
+    return Number(nearest(exact), places * scale, path, numeral.digits, scale, exact, "", dimension)
 
 
 def _is_of_radians(value: float, numeral: Numeral) -> bool:

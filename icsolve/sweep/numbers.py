@@ -29,7 +29,7 @@ def with_numbers(case: Case, values: Mapping[str, float | Number]) -> Case:
             new = values.get(value.path)
             if new is None or isinstance(new, Number):
                 return new or value
-            return Number(new, 0.0, value.path, repr(new))
+            return value._replace(value=new, half=0.0, digits=repr(new), factor=1.0, exact=None)
         if isinstance(value, dict):
             return {key: changed(item) for key, item in value.items()}
         if isinstance(value, tuple):

@@ -139,9 +139,9 @@ def _column(name: str, values: npt.ArrayLike) -> Array:
 
 def _refuse_values(name: str, bound: str, array: Array, turns: bool) -> None:
     """Refuse numbers that no case may have there, and turns that nobody would count."""
-    for holds, said in BOUNDS[bound]:
-        if not np.all(holds(array)):
-            raise RequestError(f"the values of {shown(name)} {said}")
+    for limit in BOUNDS[bound]:
+        if not np.all(limit.holds(array)):
+            raise RequestError(f"the values of {shown(name)} {limit.says}")
     if turns and np.abs(array).max() > FARTHEST:
         raise RequestError(f"the values of {shown(name)} lie beyond {FARTHEST:.0f} degrees; take turns off")
 

@@ -10,9 +10,15 @@ function numberIn(text, bound) {
   const plain = text.trim().replace("−", "-").replace(/^(-?\d*),(\d+)$/, "$1.$2");
   const value = plain === "" ? NaN : Number(plain);
   if (!Number.isFinite(value)) return null;
-  if ((bound === "positive" && value <= 0) || (bound === "not negative" && value < 0)) return null;
+  if (!live.bounds[bound].every(([than, limit]) => keeps[than](value, limit))) return null;
   return { value, half: halfOf(plain) };
 }
+const keeps = {
+  ">": (value, limit) => value > limit,
+  ">=": (value, limit) => value >= limit,
+  "<": (value, limit) => value < limit,
+  whole: (value, other) => Number.isInteger(value) && value !== other,
+};
 /* Back to the positions that were solved beforehand. */
 function leave() {
   if (!live || !scene.changed) return;
@@ -207,7 +213,7 @@ function grip(name, moves) {
 /* --- the case with the numbers as they are ------------------------------------------------------------ */
 
 const differing = () => numbers.map((value, n) => n).filter((n) => numbers[n] !== live.numbers[n] || live.text.set.includes(n));
-const textOf = (n) => (fieldOf(n) && numberIn(fieldOf(n).value) ? fieldOf(n).value.trim().replace("−", "-").replace(",", ".") : String(numbers[n]));
+const textOf = (n) => (fieldOf(n) && numberIn(fieldOf(n).value, fieldOf(n).dataset.bound) ? fieldOf(n).value.trim().replace("−", "-").replace(",", ".") : String(numbers[n]));
 /* What `near` has to be so that the numbers alone lead here: nothing, where the way as typed is this one. */
 function nearHere() {
   const here = laboratory.points.map((p) => [...p]);
@@ -272,7 +278,8 @@ if (live) {
       const found = numberIn(field.value, field.dataset.bound);
       if (!found) {
         set(field, "aria-invalid", "true");
-        liveHint.textContent = field.dataset.bound ? `${path}: a number that is ${field.dataset.bound}.` : `${path}: a number.`;
+        const limits = live.bounds[field.dataset.bound].map(([, , says]) => ` that ${says}`);
+        liveHint.textContent = `${path}: a number${limits.join(" and")}.`;
         return;
       }
       field.removeAttribute("aria-invalid");
@@ -283,11 +290,17 @@ if (live) {
     field.addEventListener("focus", () => {
       const angle = field.nextElementSibling && field.nextElementSibling.textContent === "°";
       const reach = angle ? 90 : Math.abs(live.numbers[n]) || (path.startsWith("points.") ? 1 / live.frame[2] / 4 : 1);
-      const unit = angle ? 0.5 : 10 ** (Math.floor(Math.log10(reach)) - 2);
-      const low = field.dataset.bound && !angle ? unit : -Infinity;
+      const limits = live.bounds[field.dataset.bound];
+      const whole = limits.some(([than]) => than === "whole");
+      const unit = whole ? 1 : angle ? 0.5 : 10 ** (Math.floor(Math.log10(reach)) - 2);
+      const within = [tidy(numbers[n] - reach, unit), tidy(numbers[n] + reach, unit)];
+      for (const [than, limit] of limits) {
+        if (than === "<" || (whole && numbers[n] < limit)) within[1] = Math.min(within[1], limit - unit);
+        else within[0] = Math.max(within[0], limit + unit);
+      }
       set(fine, "step", unit);
-      set(fine, "min", Math.max(tidy(numbers[n] - reach, unit), low));
-      set(fine, "max", tidy(numbers[n] + reach, unit));
+      set(fine, "min", within[0]);
+      set(fine, "max", within[1]);
       fine.value = String(numbers[n]);
       byId("fine-name").textContent = field.getAttribute("aria-label");
       fine.dataset.n = n;
