@@ -432,6 +432,25 @@ def same(length: float, written: float, rope: Rope) -> bool:
     return min(abs(way - written) for way in ways) < 1e-9
 
 
+def test_where_a_part_of_a_rope_has_no_length_nothing_assembles_however_large_the_figure_is() -> None:
+    """A lever pivoted on a brake's drum: turned far enough, its end comes to lie within the drum, where the
+    band can't leave it. How far out the lever is loaded says nothing about that."""
+    turns = np.linspace(-90.0, 0.0, 10)
+    statuses = set()
+    for far in (-0.9, -90.0, -9000.0):
+        case = icsolve.load(f"""icsolve: 1
+points: {{O: [0, 0], A: [-0.2, -0.3], C: [0.2, -0.3], L: [{far}, -0.3]}}
+joints:
+  - {{pin: [1, 2], at: O}}
+  - {{pin: [3, 2], at: A}}
+  - {{rope: [A, O, C], on: [1, 2, 3], radii: {{O: 0.2}}, wraps: {{O: cw}}, mu: {{O: 0.3}}}}
+loads: {{M: {{torque: 20, link: 2}}, P: {{force: unknown, link: 3, at: L, angle: -90}}}}
+motion: {{link: 2, turns: ccw}}
+""")
+        statuses.add(tuple(icsolve.sweep(case, drive={"2": turns}).status))
+    assert statuses == {("cannot-assemble",) * 5 + ("ok",) * 5}
+
+
 def test_in_a_sweep_ropes_keep_their_length_and_the_loads_do_no_work() -> None:
     """A drum or crank is turned; the torque on it by the differences of where the other loads went."""
     compared = kept = 0

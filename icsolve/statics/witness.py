@@ -29,9 +29,16 @@ Terms = dict[str, tuple[Components, tuple[tuple[float, float], ...]]]
 
 
 def terms_of(statics: Equilibrium[T], parameters: Mapping[int, Scalar]) -> Terms:
-    """What the equations of every link are summed from, in the solution with these parameters."""
+    """What the equations of every link are summed from, in the solution with these parameters.
+
+    Raises SceneError (``unsupported``) where that is beyond the range of doubles.
+    """
     x = statics.filled(parameters)
-    return {link: (about, _summed(rows, x)) for link, (about, rows) in statics.equations.items()}
+    try:
+        found = {link: (about, _summed(rows, x)) for link, (about, rows) in statics.equations.items()}
+    except (OverflowError, ValueError):  # of `fsum`: beyond the largest number, or inf - inf
+        raise SceneError(Status.UNSUPPORTED, overflow("a force between the links")) from None
+    return found
 
 
 def _summed(rows: tuple[Row, ...], x: Mapping[int, Scalar]) -> tuple[tuple[float, float], ...]:

@@ -267,7 +267,7 @@ def exact_record(compiled: CompiledSweep) -> ExactRecord:
 
 
 def _result(op: int, a: Decimal, b: Decimal) -> Decimal:
-    """An operation; NaN of what is NaN."""
+    """An operation; NaN of what is NaN, and the root of what is less than zero."""
     if a.is_nan() or b.is_nan():
         return Decimal("NaN")
     match op:
@@ -282,7 +282,7 @@ def _result(op: int, a: Decimal, b: Decimal) -> Decimal:
         case Op.NEG:
             return -a
         case Op.SQRT:
-            return a.sqrt() if a > 0 else Decimal(0)
+            return a.sqrt() if a >= 0 else Decimal("NaN")
         case Op.ANGLE:
             return angle(a, b)
         case Op.NEAREST:
