@@ -10,7 +10,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from icsolve.case.figure import Centroid, Coordinates, Corner, Direction, Guide, Length, Mark, Units, Unknown
+from icsolve.case.figure import (
+    Centroid,
+    Coordinates,
+    Corner,
+    Direction,
+    Guide,
+    Length,
+    Mark,
+    Units,
+    Unknown,
+    is_angle,
+)
 from icsolve.case.joints import (
     Belt,
     Contact,
@@ -103,6 +114,7 @@ __all__ = [
     "Unknown",
     "Weight",
     "Weld",
+    "is_angle",
 ]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from icsolve.case.figure import is_angle
 from icsolve.case.joints import Pair
 from icsolve.numbers.units import Number
 from icsolve.tuples import NamedTuple
@@ -104,7 +105,7 @@ def dimension_of(target: Target) -> str:
             return "angular speed"
         case SpeedIs():
             return "speed"
-        case PositionIs(path) if path.startswith("angles."):
+        case PositionIs(path) if is_angle(path):
             return "angle"
         case ReactionIs(part=part):
             return "torque" if part.partition(" ")[0] in ("moment", "couple") else "force"

@@ -73,6 +73,11 @@ class Corner(NamedTuple):
     value: Number
 
 
+def is_angle(path: str) -> bool:
+    """Whether a datum of the figure is an angle, by its path: it is the same again after a whole turn."""
+    return path.startswith("angles.")
+
+
 class Unknown(NamedTuple):
     """A datum of the figure that is to find: in which of its positions the mechanism rests.
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer.bodies import Reaction
-from icsolve.case import pair_name
+from icsolve.case import is_angle, pair_name
 from icsolve.draw.marks import Mark, MarkGroup, TextMark, TextRun, bounds, text_width
 from icsolve.draw.svg import runs_of
 from icsolve.report.derivation.known import Known
@@ -169,7 +169,7 @@ def datum_name(path: str) -> str:
 
 def datum_unit(known: Known, path: str) -> str:
     """Its unit as a figure has it."""
-    return "\N{DEGREE SIGN}" if path.startswith("angles.") else unit_word(known.case.units.length)
+    return "\N{DEGREE SIGN}" if is_angle(path) else unit_word(known.case.units.length)
 
 
 def position_sentences(known: Known) -> list[str]:

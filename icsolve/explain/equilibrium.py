@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer.equilibrium import EquilibriumPosition
-from icsolve.case import Case, Spring, TorsionSpring
+from icsolve.case import Case, Spring, TorsionSpring, is_angle
 from icsolve.case.figure import Corner, Direction, Length
 from icsolve.explain.document import Block, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, product
@@ -79,7 +79,7 @@ def _position(known: Known, figures: Figures, position: EquilibriumPosition) -> 
         loads.append(exerted)
         blocks += said
     for n, ((told, motion), path) in enumerate(zip(motions, position.at, strict=True), 1):
-        per = here.case.units.torque_per_force_length if path.startswith("angles.") else 1.0
+        per = here.case.units.torque_per_force_length if is_angle(path) else 1.0
         low = str(n) if len(motions) > 1 else ""
         blocks.append(words(f"While {told}:"))
         terms: list[tuple[int, Expr]] = []

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from icsolve.answer import Answer
-from icsolve.case import Force, ForceVector, Load, Spring, Torque, TorsionSpring, Toward, Weight
+from icsolve.case import Force, ForceVector, Load, Spring, Torque, TorsionSpring, Toward, Weight, is_angle
 from icsolve.case.expected import (
     CentreIs,
     LoadIs,
@@ -129,7 +129,7 @@ def expected_of(target: Target, answer: Answer) -> ExpectedDirection:
         case LoadIs(name):
             return _of_load(next(load for load in answer.case.loads if load.name == name), answer)
         case PositionIs(path):
-            return ExpectedDirection(turn=float(path.startswith("angles.")))
+            return ExpectedDirection(turn=float(is_angle(path)))
         case RateIs() | ReactionIs(part="moment"):
             return ExpectedDirection(turn=1.0)
         case ReactionIs(part="x" | "y"):
@@ -423,7 +423,7 @@ def position_key(
 
     def key(value: float, pose: Answer) -> NumberKey:
         found = _number(question, value, target, pose, policy, width)
-        period = 360.0 if target.path.startswith("angles.") else 0.0
+        period = 360.0 if is_angle(target.path) else 0.0
         found = replace(found, period=period)
 
         def within_a_turn() -> list[Wrong]:

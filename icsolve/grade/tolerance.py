@@ -16,6 +16,7 @@ from icsolve.case import (
     Torque,
     TorsionSpring,
     Weight,
+    is_angle,
 )
 from icsolve.case.expected import (
     LoadIs,
@@ -128,7 +129,7 @@ def zero_width(target: Target, answer: Answer) -> float:
         case LoadIs(name):
             load = next((load for load in answer.case.loads if load.name == name), None)
             return OF_LOADS * largest_load(answer) / ((load and _forces_per(load, answer)) or 1.0)
-        case PositionIs(path) if path.startswith("angles."):
+        case PositionIs(path) if is_angle(path):
             return OF_LOADS * 180.0
         case ReactionIs() | TensionIs():
             turning = dimension_of(target) == "torque"
@@ -259,7 +260,7 @@ def _differences(target: Target, answer: Answer) -> dict[str, float]:
 
 
 def _slope(target: Target, answer: Answer, path: str, value: float) -> float:
-    step = math.degrees(_STEP) if path.startswith("angles.") else _STEP * size_of(answer)
+    step = math.degrees(_STEP) if is_angle(path) else _STEP * size_of(answer)
     ends = [_changed(target, answer, path, value + side) for side in (-step, step)]
     places = [end for end in ends if end is not None]
     if len(places) < 2:

@@ -383,7 +383,7 @@ class Number(NamedTuple):
     dimension: str = ""
 
 
-class Limit(NamedTuple):
+class NumberLimit(NamedTuple):
     """What a number keeps to: it is ``than`` (``>``, ``>=``, ``<``) a value, or ``whole`` and another; and
     what is said of one that does not."""
 
@@ -402,16 +402,16 @@ COMPARISONS: dict[str, Callable[[Any, float], Any]] = {
     "<": lt,
     "whole": lambda number, other: (number % 1.0 == 0.0) & (number != other),
 }
-_RIGHT = Limit("<", 90.0, "should be less than 90 degrees")
-_SOME = Limit(">", 0.0, "should be greater than zero")
-_NOT_LESS = Limit(">=", 0.0, "should not be negative")
+_RIGHT = NumberLimit("<", 90.0, "should be less than 90 degrees")
+_SOME = NumberLimit(">", 0.0, "should be greater than zero")
+_NOT_LESS = NumberLimit(">=", 0.0, "should not be negative")
 BOUNDS = {
     "": (),
     "positive": (_SOME,),
     "not negative": (_NOT_LESS,),
     "acute": (_SOME, _RIGHT),
     "acute or zero": (_NOT_LESS, _RIGHT),
-    "teeth": (Limit("whole", 0.0, "should be whole numbers other than 0"),),
+    "teeth": (NumberLimit("whole", 0.0, "should be whole numbers other than 0"),),
 }
 """The limits of a number by the name of what bounds it."""
 

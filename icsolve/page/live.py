@@ -26,7 +26,7 @@ from icsolve.assembly.workspace import (
     normalised,
     number_of,
 )
-from icsolve.case import Coordinates, Motion, Number, Rope, Screw
+from icsolve.case import Coordinates, Motion, Number, Rope, Screw, is_angle
 from icsolve.case.figure import Unknown
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.draw.words import unit_word
@@ -112,7 +112,7 @@ def _posed(data: dict[str, Any], unknown: Unknown) -> dict[str, Any]:
     turn; it can't be pulled."""
     number = data["paths"].index(unknown.path)
     ends = [None if end is None else end.value for end in (unknown.low, unknown.high)]
-    turns = unknown.path.startswith("angles.")
+    turns = is_angle(unknown.path)
     for name, moves in list(data["handles"].items()):
         data["handles"][name] = [move for move in moves if move[1] != number]
     data["handles"] = {name: moves for name, moves in data["handles"].items() if moves}

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from icsolve.answer import Answer, Centre, Found
-from icsolve.case import Case, Number, Pair, Torque, pair_name
+from icsolve.case import Case, Number, Pair, Torque, is_angle, pair_name
 from icsolve.case.expected import (
     ArmIs,
     CentreIs,
@@ -133,7 +133,7 @@ def _resting(answer: Answer, path: str, expected: Expected) -> float:
     if answer.positions is None:
         raise _NotAskedError("positions of equilibrium were not asked for")
     near = expected.value[0].value if expected.value else 0.0
-    turn = 360.0 if path.startswith("angles.") else math.inf
+    turn = 360.0 if is_angle(path) else math.inf
     found = []
     for position in answer.positions:
         held = position.at.get(path)

@@ -8,7 +8,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer, Centre, Found, Term
-from icsolve.case import Case, Coordinates, Pair, Torque, link_order, pair_name
+from icsolve.case import Case, Coordinates, Pair, Torque, is_angle, link_order, pair_name
 from icsolve.scene.parts import scene_of
 from icsolve.tuples import replace
 from icsolve.wording.senses import NOTHING, SPELT, holding, plain_vector, spelt
@@ -119,7 +119,7 @@ def place_text(case: Case, position: EquilibriumPosition, digits: int) -> str:
 
 def _held(case: Case, path: str, value: Any, error: Any, digits: int) -> str:
     """A datum's value, or the range in which friction holds, with its unit."""
-    unit = "deg" if path.startswith("angles.") else case.units.length
+    unit = "deg" if is_angle(path) else case.units.length
     values, errors = (value, error) if isinstance(value, tuple) else ((value,), (error,))
     shown = [_formatter(_certain(v, e, digits))(v) for v, e in zip(values, errors, strict=True)]
     return f"= {shown[0]} {unit}" if len(shown) == 1 else f"holds still from {shown[0]} to {shown[1]} {unit}"

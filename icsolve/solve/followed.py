@@ -16,7 +16,7 @@ import numpy as np
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
 from icsolve.assembly.modes import ways_of
-from icsolve.case import Case, Coordinates, Direction, Number, Torque
+from icsolve.case import Case, Coordinates, Direction, Number, Torque, is_angle
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import RADIAN
 from icsolve.numbers.replay import Array, Code
@@ -126,7 +126,7 @@ class LedMechanism:
         rate = rate_of(answer, self.along) / float((answer.rates or {})[self.links[0]])
         if not rate:
             return Rest(value, error, "neutral", None, AT_LIMIT, answer, case, self.links, self._size())
-        turns = self.along.startswith("angles.") or self.along in case.links
+        turns = is_angle(self.along) or self.along in case.links
         units = case.units
         _, slope = self.search.answer(as_written(value))
         stiffness = slope / rate * (1.0 / RADIAN if turns else 1.0 / units.torque_per_force_length)
@@ -221,7 +221,7 @@ def converted(rests: Sequence[Rest], path: str, span: tuple[float, float], other
     The stiffness is the other's times the square of the ratio of the rates.
     """
     found = []
-    turns = path.startswith("angles.")
+    turns = is_angle(path)
     for rest in rests:
         own, by = rate_of(rest.answer, path), rate_of(rest.answer, other)
         value = value_of(rest.answer, path)

@@ -23,7 +23,7 @@ from icsolve.assembly.order import Order, order_of
 from icsolve.assembly.refusals import compare
 from icsolve.assembly.steps import Meet, PointGroup, Step
 from icsolve.assembly.workspace import Workspace, frame_of
-from icsolve.case import Case, Coordinates, Number, TorsionSpring
+from icsolve.case import Case, Coordinates, Number, TorsionSpring, is_angle
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
@@ -100,7 +100,7 @@ class LoadFunction(NamedTuple):
     @property
     def turns_links(self) -> bool:
         """Whether the free number is an angle."""
-        return self.path.startswith("angles.") or self.path in self.case.links
+        return is_angle(self.path) or self.path in self.case.links
 
     def given(self, values: Array) -> dict[int, Array]:
         """The inputs, by node, for values (n,) of the free datum; turns go on from the record's own."""

@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 
 from icsolve.assembly.modes import ways_of
-from icsolve.case import Case, Coordinates, TorsionSpring
+from icsolve.case import Case, Coordinates, TorsionSpring, is_angle
 from icsolve.case.joints import Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Code
@@ -109,7 +109,7 @@ def _find_in_modes(
     if balanced:
         notes.append(_balanced(balanced, balanced + len(found_open)))
     stretches = [(branches, kept if found_open == meant else found_open)]
-    if span is None and not path.startswith("angles."):
+    if span is None and not is_angle(path):
         stretches += _beyond(*stretches[0])
         notes += _unbounded(path, stretches)
     found = [
@@ -218,7 +218,7 @@ def _exchanged(case: Case, path: str, span: tuple[float, float]) -> Search | Non
 
 def _settled_turns(rests: Sequence[Rest], path: str, whole: bool) -> list[Rest]:
     """Positions by rising value, each once; angles of a whole turn within it."""
-    if whole and path.startswith("angles."):
+    if whole and is_angle(path):
         rests = [rest._replace(value=within_a_turn(rest.value, rest.error)) for rest in rests]
     return distinct(sorted(rests, key=lambda rest: rest.value))
 
@@ -418,7 +418,7 @@ def search_modes(
 
 def whole_range(case: Case, path: str) -> tuple[float, float]:
     """A whole turn; of a length or a coordinate all that the sizes of the figure allow."""
-    if path.startswith("angles."):
+    if is_angle(path):
         return 0.0, 360.0
     lengths = [length.value.value for length in case.lengths if length.value.path != path]
     places = [at for at in case.points.values() if isinstance(at, Coordinates)]

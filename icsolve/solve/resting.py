@@ -10,7 +10,7 @@ from itertools import groupby
 
 import numpy as np
 
-from icsolve.case import Case
+from icsolve.case import Case, is_angle
 from icsolve.case.joints import with_friction, without_friction
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
@@ -68,7 +68,7 @@ def find_ranges(case: Case, path: str, span: tuple[float, float] | None, start: 
     except TogetherError:
         modes, complete = _led(smooth, path, (low, high), start, even, span is None)
         notes += [] if complete else [NOT_ALL]
-    turns = span is None and path.startswith("angles.")
+    turns = span is None and is_angle(path)
     found = [one for mode in modes for one in _runs(case, mode, turns)]
     return Ranges(tuple(_joined(sorted(found, key=lambda one: one.held))), tuple(notes))
 

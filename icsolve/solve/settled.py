@@ -11,7 +11,7 @@ from decimal import Decimal, localcontext
 import numpy as np
 
 from icsolve.answer.equilibrium import Stiffness
-from icsolve.case import Case, Coordinates, Torque
+from icsolve.case import Case, Coordinates, Torque, is_angle
 from icsolve.errors import SceneError
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.arithmetic import DEGREE
@@ -105,7 +105,7 @@ def in_range(
         return None
     value, error = closest
     low, high = span
-    if turns and function.path.startswith("angles."):
+    if turns and is_angle(function.path):
         value = within_a_turn(value, error)
     elif not low <= value <= high:
         end = low if abs(value - low) < abs(value - high) else high

@@ -15,7 +15,7 @@ import numpy as np
 
 from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
 from icsolve.assembly.modes import ways_of
-from icsolve.case import Case, Load, TorsionSpring
+from icsolve.case import Case, Load, TorsionSpring, is_angle
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.intervals import Interval, enclose
@@ -100,9 +100,7 @@ def find_pairs(
     does not tell its ways apart.
     """
     limits = [span or whole_range(case, path) for path, span in zip(paths, spans, strict=True)]
-    turned = any(
-        b - a > 360.0 for path, (a, b) in zip(paths, limits, strict=True) if path.startswith("angles.")
-    )
+    turned = any(b - a > 360.0 for path, (a, b) in zip(paths, limits, strict=True) if is_angle(path))
     if turned and any(isinstance(load, TorsionSpring) for load in case.loads):
         said = "two unknown angles with torsion springs are searched over one turn: shorten the ranges."
         raise SceneError(Status.UNSUPPORTED, said)
@@ -112,7 +110,7 @@ def find_pairs(
             refuse_unwritten(case, path, surfaces[0].links, span is not None)
     if case.near:
         surfaces = [surfaces[nearest(case, [_distance(surface, case, limits) for surface in surfaces])]]
-    turning = [span is None and path.startswith("angles.") for span, path in zip(spans, paths, strict=True)]
+    turning = [span is None and is_angle(path) for span, path in zip(spans, paths, strict=True)]
     found: list[EquilibriumPosition] = []
     for surface in surfaces:
         for values in _zeros(surface, limits, turning):
@@ -298,7 +296,7 @@ def _described(
     values = (x, y)
     loads, spread = _derivatives(surface, values, off)
     case, frame = surface.compiled.setting.case, surface.compiled.scene.frame
-    turns = [path.startswith("angles.") for path in paths]
+    turns = [is_angle(path) for path in paths]
     rows = np.array([DEGREES * case.units.torque_per_force_length if turn else 1.0 for turn in turns])
     scales = np.outer(rows, [DEGREES if turn else 1.0 for turn in turns]) / (
         surface.force_scale * frame.scale

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from icsolve.case import Case, Number
+from icsolve.case import Case, Number, is_angle
 from icsolve.errors import CaseError, Problem, SceneError, Status
 from icsolve.read.names import parts, shown, suggestion
 from icsolve.read.settings import like
@@ -111,7 +111,7 @@ def _missing(case: Case, known: Mapping[str, Number], path: str, section: str, r
     if section not in _SECTIONS:
         return like(path, known)
     if section == "angles":
-        turned = [own for own in known if own.startswith("angles.") and parts(own[7:]) == parts(rest)[::-1]]
+        turned = [own for own in known if is_angle(own) and parts(own[7:]) == parts(rest)[::-1]]
         if turned:
             return f"the case gives {turned[0]}, which is another angle; vary that"
     if section == "loads" and any(load.name == rest for load in case.loads):

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from icsolve.case import is_angle
 from icsolve.numbers.replay import BLOCK, Array, code_of
 from icsolve.sweep.branches import (
     MOST_CELLS,
@@ -214,7 +215,7 @@ class SweepParts:
         return 0.0 if name in self.start.links else numbers_of(self.start.case)[name].value
 
     def _is_angle(self, name: str) -> bool:
-        return name in self.start.links or name.startswith("angles.")
+        return name in self.start.links or is_angle(name)
 
     def _followed(self, compiled: CompiledSweep, main: str, others: list[str], rows: Rows) -> SweepPart:
         """Rows along one line: first the other inputs go to their values, then the main one."""

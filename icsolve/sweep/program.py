@@ -16,7 +16,7 @@ from icsolve.assembly.driven.mechanism import Mechanism, mechanism
 from icsolve.assembly.driven.motion import DrivenMotion, order_of, set_moving
 from icsolve.assembly.steps import Meet, Polar
 from icsolve.assembly.workspace import data_in, names_of, number_of
-from icsolve.case import Case, Pair, TorsionSpring
+from icsolve.case import Case, Pair, TorsionSpring, is_angle
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.numbers.record import Record, varies
@@ -309,7 +309,7 @@ def _motion(
         inputs[link] = node.index
         drivers.append(turning(held, link, node))
     for path in drive.moving:
-        size = 180.0 if path.startswith("angles.") else 1.0 / setting.figure.frame.scale
+        size = 180.0 if is_angle(path) else 1.0 / setting.figure.frame.scale
         node = record.input(path, numbers[path].value + size * nudge)
         record.vary[path], inputs[path] = node, node.index
         pose = pose_of(held, path)

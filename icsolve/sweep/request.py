@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.assembly.workspace import names_of
-from icsolve.case import Case, Pair
+from icsolve.case import Case, Pair, is_angle
 from icsolve.numbers.replay import Array
 from icsolve.numbers.units import BOUNDS
 from icsolve.read.names import pairs, shown, suggestion
@@ -93,7 +93,7 @@ def columns_of(
             raise RequestError(f"{shown(name)} and {shown(found.names[own])} are the same number")
         found.names[own] = name
         bound = "" if turned else numbers_of(case)[own].bound
-        _refuse_values(name, bound, array, turned or own.startswith("angles."))
+        _refuse_values(name, bound, array, turned or is_angle(own))
         column = np.ascontiguousarray(array).view() if array.ndim else np.full(rows, array)
         column.flags.writeable = False
         (found.links if turned else found.paths)[own] = column

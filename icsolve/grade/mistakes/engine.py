@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from icsolve.answer import Answer
-from icsolve.case import Case, Load, Torque, pair_name
+from icsolve.case import Case, Load, Torque, is_angle, pair_name
 from icsolve.case.expected import (
     CentreIs,
     DistanceIs,
@@ -117,7 +117,7 @@ class WrongAnswers:
             value = next(iter(_values(self.answer, target)), None)
         if value is None:
             return []
-        if isinstance(target, PositionIs) and target.path.startswith("angles."):
+        if isinstance(target, PositionIs) and is_angle(target.path):
             return [*_other_angles(value), *self._of_changed(target)]
         found = list(plain_wrongs(value, rate=isinstance(target, RateIs | SpeedIs)))
         if isinstance(target, LoadIs):

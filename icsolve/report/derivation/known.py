@@ -9,7 +9,7 @@ from icsolve.answer import Answer, Centre, by_load
 from icsolve.answer.equilibrium import EquilibriumPosition
 from icsolve.assembly import Frame, case_point, solve_figure
 from icsolve.assembly.workspace import PlacedCase
-from icsolve.case import Case, Coordinates, ForceVector, Joint, Like, Load, Pair, ordered_pair
+from icsolve.case import Case, Coordinates, ForceVector, Joint, Like, Load, Pair, is_angle, ordered_pair
 from icsolve.case.figure import Unknown
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS, turn_of
@@ -219,7 +219,7 @@ def _searched(unknown: Unknown, rests: Sequence[float]) -> Point:
     if unknown.low is not None and unknown.high is not None:
         return unknown.low.value, unknown.high.value
     middle = rests[0] if rests else 0.0
-    half = 90.0 if unknown.path.startswith("angles") else 0.5 * abs(middle) or 0.5
+    half = 90.0 if is_angle(unknown.path) else 0.5 * abs(middle) or 0.5
     return middle - half, middle + half
 
 
