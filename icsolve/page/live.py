@@ -340,7 +340,7 @@ class _ProgramWriter:
             "freedoms": top.freedoms_by_count,
             "checks": list(self._checks(place)),
             "paths": self.paths,
-            "bounds": BOUNDS,
+            "bounds": {own: BOUNDS[own] for own in sorted({"", *(numbers[p].bound for p in self.paths)})},
             "numbers": [numbers[path].value for path in self.paths],
             "halves": [numbers[path].half for path in self.paths],
             "handles": handles_of(case, self.figure.steps, self.paths),
@@ -500,10 +500,11 @@ class _ProgramWriter:
 
     def _motion(self, given: Motion, place: Mapping[Key, int]) -> dict[str, Any]:
         """What the case says of a speed; numbers by their place among the inputs."""
-        numbers = {"speed": given.speed, "angle": given.angle}
+        numbers = {"speed": given.speed, "angle": given.angle, "acceleration": given.acceleration}
         found = {key: self.paths.index(number.path) for key, number in numbers.items() if number is not None}
         point = {} if given.point is None else {"point": place[given.point]}
-        return {"link": given.link, "cw": given.turns == "cw", **point, **found}
+        back = given.speed is not None and given.speed.value < 0.0
+        return {"link": given.link, "cw": given.turns == "cw", "back": back, **point, **found}
 
     def _load(self, w: load_wrenches.Wrench) -> dict[str, Any]:
         load = w.load

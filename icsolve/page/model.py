@@ -176,6 +176,7 @@ HINTS = {
     Status.AMBIGUOUS: "The figure assembles in several ways, and nothing picks one.",
     Status.UNDERDETERMINED: "The figure leaves a point free.",
     Status.CONTRADICTORY: "No motion has all of the given centres.",
+    Status.UNSUPPORTED: "This page cannot tell that: copy the case and solve it.",
 }
 """What a position without an answer says."""
 

@@ -78,6 +78,17 @@ const line = (path) => {
   return out;
 };
 
+/* What the program gives with accelerations of links in the sense that their speeds have now: it was written
+   for that which they have in the case. (Those of points go as their points do.) */
+function inTheSenseOfSpeeds(told, x, work) {
+  const ofLinks = told.motion.filter((own) => own.acceleration !== undefined && own.point === undefined);
+  const back = ofLinks.filter((own) => x[own.speed] < 0 !== own.back);
+  const turn = () => back.forEach((own) => (x[own.acceleration] = -x[own.acceleration]));
+  turn();
+  const found = work();
+  turn();
+  return found;
+}
 function figureOf(program, told, x) {
   const points = [];
   const s = [];
@@ -372,7 +383,7 @@ function figureOf(program, told, x) {
     scene,
     near,
     /* What the rates of twists fulfil, and the wrenches of inertia forces by these. */
-    rates: (twists) => (t.splice(0, t.length, ...twists), rates()),
+    rates: (twists) => (t.splice(0, t.length, ...twists), inTheSenseOfSpeeds(told, x, rates)),
     inertia: (changes) => (r.splice(0, r.length, ...changes), inertia()),
     /* Branches, and where Newton's method stands. */
     state: () => [[...s], [...q]],
@@ -624,6 +635,8 @@ function rollsOn(told, x, { points }, [n, contact, centre]) {
 /* The inertia forces of the given motion among the loads. */
 function withInertia(told, x, figure, twists, loads) {
   if (told.rolls.some((wheel) => !rollsOn(told, x, figure, wheel))) throw new Refusal("unsupported");
+  const starts = (own) => own.point !== undefined && own.acceleration !== undefined && !x[own.speed];
+  if (told.motion.some(starts)) throw new Refusal("unsupported"); // the path of the point is told by its speed
   if (told.heavy.some((link) => !twists[told.body[link]])) throw new Refusal("mobility");
   const count = 3 * told.bodies;
   const rows = figure.rates(twists.slice(0, told.bodies).flatMap((t) => t || [0, 0, 0])).map((row) => {
