@@ -11,7 +11,7 @@ from mpmath import lu_solve, matrix, mp, mpf
 from icsolve import load, solve
 from sizes import MORE
 from space_statics import system
-from test_space_random import text_of, tree
+from test_space_random import text_of, tree, vector
 
 
 def held(value: float, error: float | None, true: mpf, size: float) -> None:
@@ -21,6 +21,28 @@ def held(value: float, error: float | None, true: mpf, size: float) -> None:
     assert off <= error + mpf(10) ** -50 * size, (value, true)
     assert error <= 2.0 * ulp or (value == 0.0 and error <= 1e-35 * size), (value, error)
     assert value == 0.0 or off <= ulp, (value, true)
+
+
+def tied(dice: Random) -> str:
+    """A tree, and a body on a hinge that nothing loads, held by a rod from ball to ball on one of the tree's.
+    What turns the rod about itself is an unknown torque, the first."""
+    points, joints, loads = tree(dice)
+    links = max(int(entry.split("link: ")[1].split(",")[0]) for entry in loads)
+    points |= {p: tuple(round(dice.uniform(-5.0, 5.0), 3) for _ in range(3)) for p in ("H", "A", "B")}
+    joints += [f"hinge: [1, {links + 1}], at: H, axis: {vector(dice)}"]
+    joints += [
+        f"ball: [{links + 2}, {links + 1}], at: A",
+        f"ball: [{links + 2}, {dice.randint(2, links)}], at: B",
+    ]
+    return text_of(points, joints, [f"torque: unknown, link: {links + 2}, along: [A, B]", *loads])
+
+
+@pytest.mark.parametrize("seed", [5, 33, 34, *range(50, 50 + 10 * MORE)])
+def test_a_rod_that_carries_nothing(seed: int) -> None:
+    """Both routes know a torque of zero as zero: it is not refused for what digits leave of it."""
+    found = solve(load(tied(Random(seed)))).answers["L0"]
+    assert found.error is not None
+    assert found.value == 0.0 and found.error < 1e-40
 
 
 @pytest.mark.parametrize("seed", range(8 * MORE))
