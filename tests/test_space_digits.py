@@ -45,6 +45,25 @@ def test_a_rod_that_carries_nothing(seed: int) -> None:
     assert found.value == 0.0 and found.error < 1e-40
 
 
+def test_a_torque_of_zero_beside_huge_forces() -> None:
+    """The rod's line passes the hinge's axis at 6e-13, and loads of 1e12 leave 1: nothing turns the rod."""
+    answer = solve(
+        load("""icsolve: 1
+points: {A: [2, 0.5, 1], B: [6, 1.25, 4], C: [-1.999999999999370092, -0.75, -2], D: [2.1, -1.923, 7.3]}
+joints:
+  - {hinge: [1, 2], at: A, axis: y}
+  - {ball: [3, 2], at: B}
+  - {ball: [3, 1], at: C}
+loads:
+  R: {torque: unknown, link: 3, along: [B, C]}
+  K: {torque: [41.786, -0.6, -27.2], link: 2}
+  L: {force: 1000000000000, link: 2, at: D, along: -x}
+  M: {force: -1000000000001, link: 2, at: D, along: -x}
+""")
+    )
+    assert answer.answers["R"].value == 0.0
+
+
 @pytest.mark.parametrize("seed", range(8 * MORE))
 def test_trees_of_all_joints(seed: int) -> None:
     """Also where the third of the axes lies within 1e-3 to 1e-12 of the plane of the others' forces."""

@@ -108,7 +108,7 @@ def told(
         if a is FLOATS and position.mobility:
             terms = terms_of(statics, parameters)
             roundings = bounds_of(statics, powers_of(statics, balance), position.twists, terms)
-        both = compared(power, solved.unknowns, roundings, position.slack, a)
+        both = compared(power, solved.unknowns, roundings, position.slack, statics, parameters, a)
     reactions = Reactions()
     if asked or statics.general.free or any(tie.joint.only_pushes for tie in statics.ties):
         reactions = reactions_of(position, statics, parameters, a)

@@ -168,6 +168,8 @@ def compared(
     bodies: Mapping[str, Scalar],
     roundings: Mapping[str, float] | None,
     slack: float,
+    statics: Equilibrium[T],
+    parameters: Mapping[int, Scalar],
     a: Showing,
 ) -> tuple[Witness, ...]:
     """Both values of each unknown beside each other, each rounded once: zero is zero in both.
@@ -178,14 +180,21 @@ def compared(
     bodies : value by the equilibrium of the links alone
     roundings : what rounding can make of the difference; None where the arithmetic knows its own errors
     slack : as `refuse_apart` has it, which raises SceneError where the two disagree
+    statics, parameters : the solution, beside whose largest force a load may vanish
     """
     found = []
     for q, x in bodies.items():
-        (by_power, bound), (by_bodies, error) = power[q], a.rounded(x)
+        size = _largest(statics, parameters) if getattr(x, "holds_zero", False) else 0.0
+        (by_power, bound), (by_bodies, error) = power[q], a.rounded(x, size)
         room = (roundings[q] if roundings else error) + bound
         found.append(Witness(q, by_power, by_bodies, by_bodies - by_power, room))
     refuse_apart(found, slack)
     return tuple(found)
+
+
+def _largest(statics: Equilibrium[T], parameters: Mapping[int, Scalar]) -> float:
+    """The largest of all loads and of what the joints carry [case units]."""
+    return max(abs(float(value)) for value in statics.filled(parameters).values()) / statics.scale
 
 
 def refuse_apart(found: Sequence[Witness], slack: float) -> None:

@@ -103,7 +103,8 @@ def _solve(case: Case, a: Showing) -> Answer:
     if unknowns is None:
         refuse_doubt(0, solved.mobility)
     by_power = {q: (a.rounded(x)[0], 0.0) for q, x in solved.balance.unknowns.items()}
-    found = compared(by_power, unknowns or {}, bounds if a is FLOATS else None, 0.0, a)
+    roundings = bounds if a is FLOATS else None
+    found = compared(by_power, unknowns or {}, roundings, 0.0, statics, solved.parameters, a)
     reactions = reactions_of(solved, a)
     shown = {name: tuple(map(float, p)) for name, p in figure.places.items() if not name.startswith("@")}
     places = {name: (x, y, z) for name, (x, y, z) in shown.items()}
