@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from random import Random
 
+import numpy as np
+
 from icsolve.case import (
     Case,
     Centroid,
@@ -163,6 +165,12 @@ def framework(seed: int, count: int, split: float, corners: float) -> Draft:
     with probability ``corners``.
     """
     draft = Draft(seed, count)
+    _with_corners(draft, _henneberg(draft, split), corners)
+    return draft
+
+
+def _henneberg(draft: Draft, split: float) -> set[frozenset[str]]:
+    """The bars of a framework, the first two points on the ground, the others with a `near`."""
     rng = draft.rng
     bars: set[frozenset[str]] = set()
     for i, p in enumerate(draft.names):
@@ -178,8 +186,60 @@ def framework(seed: int, count: int, split: float, corners: float) -> Draft:
             ends = rng.sample(before, 2)
         bars |= {frozenset((q, p)) for q in ends}
         draft.approximately(p, 0.02)
-    _with_corners(draft, bars, corners)
+    return bars
+
+
+Aligned = tuple[str, str, str]
+"""A point, and the two between which it lies."""
+
+
+def aligned(seed: int, count: int) -> Draft | None:
+    """A framework some of whose points lie between two others instead of having one of their bars: by a slot
+    along those two, or by an angle of 180 degrees. None where that leaves it loose.
+    """
+    draft = Draft(seed, count)
+    rng, at = draft.rng, draft.at
+    bars = _henneberg(draft, 0.9)
+    lines: list[Aligned] = []
+    still = set(draft.names[:2])
+    for p in draft.names[2:]:
+        held = sorted((bar for bar in bars if p in bar), key=sorted)
+        ends = [q for q in draft.names if q != p]
+        if p not in still and len(held) > 2 and rng.random() < 0.7:
+            a, b = rng.sample(ends, 2)
+            share = rng.uniform(0.3, 0.7)
+            at[p] = tuple(share * u + (1.0 - share) * v for u, v in zip(at[a], at[b], strict=True))
+            draft.approximately(p, 0.02)
+            bars.remove(rng.choice(held))
+            lines.append((p, a, b))
+            still |= {p, a, b}
+    if not lines or _loose(draft, bars, lines):
+        return None
+    for p, a, b in lines:
+        if rng.random() < 0.5:
+            draft.joints.append(Slot(("2", "3"), p, Guide(None, (a, b), a)))
+        else:
+            draft.angles.append(Corner(a, p, b, draft.number(180.0, f"angles.{a}-{p}-{b}")))
+    for a, b in sorted(sorted(bar) for bar in bars):
+        draft.length(a, b)
     return draft
+
+
+def _loose(draft: Draft, bars: set[frozenset[str]], lines: list[Aligned]) -> bool:
+    """Whether the points can move, or nearly, where bars keep their lengths and lines pass through points."""
+    at, free = draft.at, draft.names[2:]
+    slopes = []
+    for bar in bars:
+        a, b = bar
+        along = (at[a][0] - at[b][0], at[a][1] - at[b][1])
+        slopes.append({a: along, b: (-along[0], -along[1])})
+    for p, a, b in lines:
+        across = (at[a][1] - at[b][1], at[b][0] - at[a][0])
+        share = math.dist(at[p], at[b]) / math.dist(at[a], at[b])
+        parts = ((p, 1.0), (a, -share), (b, share - 1.0))
+        slopes.append({q: (part * across[0], part * across[1]) for q, part in parts})
+    rows = [[slope.get(p, (0.0, 0.0))[k] for p in free for k in (0, 1)] for slope in slopes]
+    return len(rows) != 2 * len(free) or bool(np.linalg.svd(np.array(rows), compute_uv=False)[-1] < 0.05)
 
 
 def _with_corners(draft: Draft, bars: set[frozenset[str]], share: float) -> None:

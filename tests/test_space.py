@@ -296,6 +296,21 @@ def test_loads_that_balance_but_for_rounded_data_are_said_to() -> None:
     assert "taken as balanced" in answer.notes[1]
 
 
+@pytest.mark.parametrize("part", ["", "00000000001", "00000000000000000000000000001"])
+def test_loads_that_balance_but_for_a_last_decimal_are_said_to(part: str) -> None:
+    """However far back that decimal stands; the same loads to the last decimal balance."""
+    answer = solve(
+        load(f"""icsolve: 1
+points: {{A: [0, 0, 0], B: [1, 2, 3]}}
+joints: [{{hinge: [1, 2], at: A, axis: z}}]
+loads:
+  P: {{torque: 100, link: 2, along: z}}
+  Q: {{torque: -100.0{part}, link: 2, along: z}}
+""")
+    )
+    assert ("taken as balanced" in " ".join(answer.notes)) == bool(part)
+
+
 # --- gears ---------------------------------------------------------------------------------------
 
 MESH = """\

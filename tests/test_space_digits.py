@@ -11,7 +11,7 @@ from mpmath import lu_solve, matrix, mp, mpf
 from icsolve import load, solve
 from sizes import MORE
 from space_statics import system
-from test_space_random import text_of, tree
+from test_space_random import text_of, tree, vector
 
 
 def held(value: float, error: float | None, true: mpf, size: float) -> None:
@@ -21,6 +21,47 @@ def held(value: float, error: float | None, true: mpf, size: float) -> None:
     assert off <= error + mpf(10) ** -50 * size, (value, true)
     assert error <= 2.0 * ulp or (value == 0.0 and error <= 1e-35 * size), (value, error)
     assert value == 0.0 or off <= ulp, (value, true)
+
+
+def tied(dice: Random) -> str:
+    """A tree, and a body on a hinge that nothing loads, held by a rod from ball to ball on one of the tree's.
+    What turns the rod about itself is an unknown torque, the first."""
+    points, joints, loads = tree(dice)
+    links = max(int(entry.split("link: ")[1].split(",")[0]) for entry in loads)
+    points |= {p: tuple(round(dice.uniform(-5.0, 5.0), 3) for _ in range(3)) for p in ("H", "A", "B")}
+    joints += [f"hinge: [1, {links + 1}], at: H, axis: {vector(dice)}"]
+    joints += [
+        f"ball: [{links + 2}, {links + 1}], at: A",
+        f"ball: [{links + 2}, {dice.randint(2, links)}], at: B",
+    ]
+    return text_of(points, joints, [f"torque: unknown, link: {links + 2}, along: [A, B]", *loads])
+
+
+@pytest.mark.parametrize("seed", [5, 33, 34, *range(50, 50 + 10 * MORE)])
+def test_a_rod_that_carries_nothing(seed: int) -> None:
+    """Both routes know a torque of zero as zero: it is not refused for what digits leave of it."""
+    found = solve(load(tied(Random(seed)))).answers["L0"]
+    assert found.error is not None
+    assert found.value == 0.0 and found.error < 1e-40
+
+
+def test_a_torque_of_zero_beside_huge_forces() -> None:
+    """The rod's line passes the hinge's axis at 6e-13, and loads of 1e12 leave 1: nothing turns the rod."""
+    answer = solve(
+        load("""icsolve: 1
+points: {A: [2, 0.5, 1], B: [6, 1.25, 4], C: [-1.999999999999370092, -0.75, -2], D: [2.1, -1.923, 7.3]}
+joints:
+  - {hinge: [1, 2], at: A, axis: y}
+  - {ball: [3, 2], at: B}
+  - {ball: [3, 1], at: C}
+loads:
+  R: {torque: unknown, link: 3, along: [B, C]}
+  K: {torque: [41.786, -0.6, -27.2], link: 2}
+  L: {force: 1000000000000, link: 2, at: D, along: -x}
+  M: {force: -1000000000001, link: 2, at: D, along: -x}
+""")
+    )
+    assert answer.answers["R"].value == 0.0
 
 
 @pytest.mark.parametrize("seed", range(8 * MORE))

@@ -299,7 +299,7 @@ def _seen(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
         return
     ends = cluster.key(a), cluster.key(b)
     if datum in cluster.drawing.facts.flat:
-        yield BY_ARC, LineLocus(ends[0], LineDirection(Apart(*ends)), False)
+        yield BY_ARC, LineLocus(ends[0], LineDirection(Apart(*ends)), False, datum)
     else:
         yield BY_ARC, ArcLocus(*ends, datum)
 
@@ -327,7 +327,7 @@ def _lined(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
         if direction is None and a in cluster.placed and b in cluster.placed:
             direction = LineDirection(Apart(cluster.key(a), cluster.key(b)))
         if direction is not None and base in cluster.placed:
-            yield EXACT, LineLocus(cluster.key(base), direction, False)
+            yield EXACT, LineLocus(cluster.key(base), direction, False, datum)
 
 
 def _tethered(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:

@@ -194,11 +194,15 @@ class ArcLocus(NamedTuple):
 
 
 class LineLocus(NamedTuple):
-    """A line through a point; with ``ray`` only the half of it that lies ahead."""
+    """A line through a point; with ``ray`` only the half of it that lies ahead.
+
+    ``datum`` puts the point there where the direction, one between points, does not name it.
+    """
 
     through: Key
     direction: LineDirection
     ray: bool
+    datum: Datum | None = None
 
     def placed(self, workspace: Workspace) -> PlacedLine:
         """The line where its points are."""

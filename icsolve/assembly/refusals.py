@@ -246,8 +246,8 @@ class Mirrored(Floats):
 
 Turning = Polar | Meet | Turned
 """The steps that an angle may turn."""
-ROUGH = 0.02
-"""What `near` may be off, over the figure's size, whatever it says."""
+ROUGH = 0.05
+"""What `near` may be off, over the figure's size: a mirrored place that is meant is nearer by more."""
 
 
 def mirrored(
@@ -258,8 +258,8 @@ def mirrored(
         angles = [d for d in data_in(step) if d.kind in (RAY, CORNER)]
         p = str(step.target)
         at, other = workspace.points[p], _opposite(step, workspace, near[p])
-        apart = math.dist(other, at)
-        if apart > 2.0 * ROUGH * size and math.dist(other, near[p]) < apart / 2.0:
+        off, beside = math.dist(at, near[p]), math.dist(other, near[p])
+        if beside + ROUGH * size < off and beside < math.dist(other, at) / 2.0:
             return Miss(Status.INCONSISTENT, _mirrored(workspace, p, at, angles))
     return None
 

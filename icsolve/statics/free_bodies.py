@@ -27,12 +27,11 @@ from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import names_by_tie, notes_of, reactions_of, tensions_of
 from icsolve.statics.witness import (
     bounds_of,
+    compared,
     powers_of,
-    refuse_apart,
     refuse_doubt,
     terms_of,
     unknowns_of,
-    witnesses,
 )
 from icsolve.tuples import NamedTuple, Protocol, replace
 from icsolve.wording.senses import direction_words
@@ -105,13 +104,11 @@ def told(
     statics, parameters = solved.statics, solved.parameters
     both: tuple[Witness, ...] = ()
     if power is not None:
-        shown = {root: a.rounded(value) for root, value in solved.unknowns.items()}
-        bounds = {root: error for root, (_, error) in shown.items()}
+        roundings = None
         if a is FLOATS and position.mobility:
             terms = terms_of(statics, parameters)
-            bounds = bounds_of(statics, powers_of(statics, balance), position.twists, terms)
-        both = witnesses(power, {root: value for root, (value, _) in shown.items()}, bounds)
-        refuse_apart(both, position.slack)
+            roundings = bounds_of(statics, powers_of(statics, balance), position.twists, terms)
+        both = compared(power, solved.unknowns, roundings, position.slack, statics, parameters, a)
     reactions = Reactions()
     if asked or statics.general.free or any(tie.joint.only_pushes for tie in statics.ties):
         reactions = reactions_of(position, statics, parameters, a)

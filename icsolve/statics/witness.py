@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from icsolve.answer.bodies import Witness
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Scalar, decider
+from icsolve.numbers.arithmetic import Scalar, Showing, decider
 from icsolve.numbers.linear import Row, inverse, solve_square
 from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Components, Equilibrium, T
@@ -170,14 +170,38 @@ def _speeds(twist: Components, at: Components) -> Components:
     return (*velocity((x, y, w), (at[0], at[1])), w)
 
 
-def witnesses(
-    power: Mapping[str, tuple[float, float]], bodies: Mapping[str, float], bounds: Mapping[str, float]
+def compared(
+    power: Mapping[str, tuple[float, float]],
+    bodies: Mapping[str, Scalar],
+    roundings: Mapping[str, float] | None,
+    slack: float,
+    statics: Equilibrium[T],
+    parameters: Mapping[int, Scalar],
+    a: Showing,
 ) -> tuple[Witness, ...]:
-    """Both values of each unknown beside each other; that of power comes with its own bound."""
-    return tuple(
-        Witness(q, power[q][0], value, value - power[q][0], bounds[q] + power[q][1])
-        for q, value in bodies.items()
-    )
+    """Both values of each unknown beside each other, each rounded once: zero is zero in both.
+
+    Parameters
+    ----------
+    power : value by power and the bound of that, by unknown load [case units]
+    bodies : value by the equilibrium of the links alone
+    roundings : what rounding can make of the difference; None where the arithmetic knows its own errors
+    slack : as `refuse_apart` has it, which raises SceneError where the two disagree
+    statics, parameters : the solution, beside whose largest force a load may vanish
+    """
+    found = []
+    for q, x in bodies.items():
+        size = _largest(statics, parameters) if getattr(x, "holds_zero", False) else 0.0
+        (by_power, bound), (by_bodies, error) = power[q], a.rounded(x, size)
+        room = (roundings[q] if roundings else error) + bound
+        found.append(Witness(q, by_power, by_bodies, by_bodies - by_power, room))
+    refuse_apart(found, slack)
+    return tuple(found)
+
+
+def _largest(statics: Equilibrium[T], parameters: Mapping[int, Scalar]) -> float:
+    """The largest of all loads and of what the joints carry [case units]."""
+    return max(abs(float(value)) for value in statics.filled(parameters).values()) / statics.scale
 
 
 def refuse_apart(found: Sequence[Witness], slack: float) -> None:

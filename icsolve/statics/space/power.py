@@ -151,8 +151,8 @@ def count_of(twists: Twists) -> int:
 class SpatialBalance(NamedTuple):
     """The unknown loads by power, in case units; ``free`` are those that it leaves open.
 
-    ``rows`` are the equations of power; ``left`` is, for each motion, the power that is not balanced, and
-    what it is summed from.
+    ``rows`` are the equations of power; ``left`` is, for each motion, the power that is not balanced (zero
+    where it is rounding), and what it is summed from.
     """
 
     unknowns: dict[str, Scalar]
@@ -161,15 +161,14 @@ class SpatialBalance(NamedTuple):
     left: tuple[tuple[float, float], ...]
 
     @property
-    def unbalanced(self) -> tuple[float, ...]:
-        """The power left on each motion; zero where it is rounding."""
-        return tuple(rest if abs(rest) > NOTHING * most else 0.0 for rest, most in self.left)
+    def shares(self) -> tuple[float, ...]:
+        """The power left on each motion, as a fraction of what it is summed from."""
+        return tuple(rest / most if rest else 0.0 for rest, most in self.left)
 
     @property
     def off(self) -> float:
-        """The largest power left, as a fraction of what it is summed from."""
-        rests = zip(self.unbalanced, self.left, strict=True)
-        return max((abs(rest) / most for rest, (_, most) in rests if rest), default=0.0)
+        """The largest of these fractions."""
+        return max(map(abs, self.shares), default=0.0)
 
 
 def balance_of(powers: SpatialFactors, arithmetic: Arithmetic) -> SpatialBalance:
@@ -181,12 +180,18 @@ def balance_of(powers: SpatialFactors, arithmetic: Arithmetic) -> SpatialBalance
     scaled = [general.of(n).get(count, 0.0) for n in range(count)]
     values = {w.root: x / (scale * w.measure) for w, x in zip(unknown, scaled, strict=True)}
     free = tuple(unknown[n].root for n in general.free)
-    return SpatialBalance(values, free, rows, tuple(_left(row, [*scaled, 1.0]) for row in rows))
+    return SpatialBalance(values, free, rows, tuple(_left(row, [*scaled, 1.0], arithmetic) for row in rows))
 
 
-def _left(row: PowerRow, numbers: Sequence[Scalar]) -> tuple[float, float]:
-    rest = math.fsum(float(value * n) for value, n in zip(row.values, numbers, strict=True))
-    return rest, math.fsum(size * abs(float(n)) for size, n in zip(row.sizes, numbers, strict=True))
+def _left(row: PowerRow, numbers: Sequence[Scalar], arithmetic: Arithmetic) -> tuple[float, float]:
+    most = math.fsum(size * abs(float(n)) for size, n in zip(row.sizes, numbers, strict=True))
+    parts = [value * n for value, n in zip(row.values, numbers, strict=True)]
+    vanishes = decider(arithmetic)
+    if vanishes is not None:
+        rest = sum(parts, 0.0)
+        return (0.0 if vanishes(rest, most) else float(rest)), most
+    rest = math.fsum(map(float, parts))
+    return (rest if abs(rest) > NOTHING * most else 0.0), most
 
 
 class SpatialSolution(NamedTuple):

@@ -362,9 +362,7 @@ def _undetermined(unknowns: Sequence[SpatialWrench], balance: SpatialBalance, un
 
 def driven_motion(solved: SpatialSolution) -> str:
     """The motion that the loads drive most, by that of the first loaded link that takes part."""
-    balance = solved.balance
-    rests = zip(balance.unbalanced, balance.left, strict=True)
-    shares = [rest / most if rest else 0.0 for rest, (_, most) in rests]
+    shares = solved.balance.shares
     most = max(range(len(shares)), key=lambda m: abs(shares[m]))
     back = shares[most] < 0.0
     motion = {q: [-float(a) if back else float(a) for a in each[most]] for q, each in solved.twists.items()}

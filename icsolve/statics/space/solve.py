@@ -42,13 +42,12 @@ from icsolve.statics.space.reactions import (
 )
 from icsolve.statics.witness import (
     bounds_of,
+    compared,
     powers_of,
-    refuse_apart,
     refuse_doubt,
     residual,
     terms_of,
     unknowns_of,
-    witnesses,
 )
 from icsolve.tuples import replace
 from icsolve.wording.sentences import EXPLAINED
@@ -103,9 +102,9 @@ def _solve(case: Case, a: Showing) -> Answer:
     unknowns = unknowns_of(statics)
     if unknowns is None:
         refuse_doubt(0, solved.mobility)
-    by_power = {q: (float(x), 0.0) for q, x in solved.balance.unknowns.items()}
-    found = witnesses(by_power, {q: float(x) for q, x in (unknowns or {}).items()}, bounds)
-    refuse_apart(found, 0.0)
+    by_power = {q: (a.rounded(x)[0], 0.0) for q, x in solved.balance.unknowns.items()}
+    roundings = bounds if a is FLOATS else None
+    found = compared(by_power, unknowns or {}, roundings, 0.0, statics, solved.parameters, a)
     reactions = reactions_of(solved, a)
     shown = {name: tuple(map(float, p)) for name, p in figure.places.items() if not name.startswith("@")}
     places = {name: (x, y, z) for name, (x, y, z) in shown.items()}
