@@ -231,9 +231,20 @@ def test_a_length_that_the_coordinates_contradict() -> None:
     ("angles: {AB: 240}", "angle AB is given as 240, the coordinates make it 59.9993"),
     ("angles: {BAD: 60}", "angle BAD is given as 60, the coordinates make it 300.001"),
     ("angles: {BAD: -50}", "angle BAD is given as -50, the coordinates make it -59.9993"),
+    ("angles: {BAD: -310}", "angle BAD is given as -310, the coordinates make it -59.9993"),
+    ("angles: {BA: -130}", "angle BA is given as -130, the coordinates make it -120.001"),
 ])  # fmt: skip
 def test_an_angle_that_the_coordinates_contradict(datum: str, said: str) -> None:
     assert_refused(COORDINATES + datum + "\n" + LOOP, Status.INCONSISTENT, said)
+
+
+@pytest.mark.parametrize(("datum", "made"), [("BAC: 30", "36.8699"), ("BAC: -320", "36.8699"),
+    ("CAB: -40", "-36.8699"), ("CAB: 320", "323.13"), ("CAB: 0", "323.13"), ("CAB: 0.5", "323.13")])  # fmt: skip
+def test_an_angle_over_the_negative_axis_is_told_within_a_turn(datum: str, made: str) -> None:
+    text = f"points: {{A: [1, 2], B: [-2, 3], C: [-2, 1], D: [5, 2]}}\nangles: {{{datum}}}\n" + LOOP
+    name, given = datum.split(": ")
+    said = f"angle {name} is given as {given}, the coordinates make it {made}"
+    assert_refused(text, Status.INCONSISTENT, said)
 
 
 def test_a_guide_that_misses_its_point() -> None:

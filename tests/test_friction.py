@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterator
 from random import Random
 from typing import Any
 
@@ -20,7 +21,7 @@ import transcribe
 from growth import random_mechanism
 from icsolve.answer import Answer, Found
 from icsolve.statics.friction import solutions as homotopy
-from icsolve.statics.friction.equations import Lengths, fixed_point
+from icsolve.statics.friction.equations import Lengths, contraction, fixed_point, misfits, scale_at
 from reference import frame_of, motions, points_of
 from sizes import MORE
 
@@ -702,6 +703,31 @@ def test_solutions_found_in_parts_are_those_of_the_whole() -> None:
         assert all(any(homotopy.near(y, other) for other in whole) for y in parts)
         several += len(parts) > 0
     assert several
+
+
+def followed_roots(seed: int) -> Iterator[tuple[Lengths, tuple[float, ...]]]:
+    """Random rubs that do not contract, with the solution that grows out of that without friction."""
+    rng = Random(seed)
+
+    def form(n: int) -> tuple[float, ...]:
+        return (rng.uniform(-1, 1), *(rng.uniform(-1, 1) for _ in range(n)))
+
+    for _ in range(30):
+        n = rng.choice([1, 2, 3])
+        equations = fixed_point([(form(n), form(n)) for _ in range(n)], (False,) * n)
+        end, share, grows = homotopy.followed(equations)
+        assert 0.0 <= share <= 1.0 and (end is None or (share == 1.0 and not grows))
+        if end is not None and contraction(equations) is None:
+            yield equations, end
+
+
+def test_a_solution_that_is_followed_is_one_of_full_friction() -> None:
+    found = list(followed_roots(5))
+    assert len(found) > 5
+    for equations, end in found:
+        assert max(map(abs, misfits(equations, end))) <= 1e-11 * scale_at(equations, end)
+        roots = homotopy.all_roots(equations)
+        assert roots is None or any(homotopy.near(end, root) for root in roots)
 
 
 def test_pins_of_an_unloaded_rod_are_one_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
