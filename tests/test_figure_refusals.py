@@ -239,7 +239,8 @@ def test_an_angle_that_the_coordinates_contradict(datum: str, said: str) -> None
 
 
 @pytest.mark.parametrize(("datum", "made"), [("BAC: 30", "36.8699"), ("BAC: -320", "36.8699"),
-    ("CAB: -40", "-36.8699"), ("CAB: 320", "323.13"), ("CAB: 0", "323.13"), ("CAB: 0.5", "323.13")])  # fmt: skip
+    ("CAB: -40", "-36.8699"), ("CAB: 320", "323.13"),
+    ("CAB: 0", "323.13"), ("CAB: 0.5", "323.13")])  # fmt: skip
 def test_an_angle_over_the_negative_axis_is_told_within_a_turn(datum: str, made: str) -> None:
     text = f"points: {{A: [1, 2], B: [-2, 3], C: [-2, 1], D: [5, 2]}}\nangles: {{{datum}}}\n" + LOOP
     name, given = datum.split(": ")
