@@ -257,7 +257,7 @@ def _as_it_moves(position: Position, bond: Bond, basis: tuple[Triple, ...]) -> t
     """The centre that the motion has, where given centres miss it by a few digits of the figure."""
     x, y, w = position.relative(*bond.links)
     size = max(abs(x), abs(y), abs(w))
-    if size <= 1e-9 or position.mobility != 1:
+    if size <= 1e-9:
         return basis
     return ((x / w, y / w, 1.0),) if abs(w) > 1e-9 * size else ((x / size, y / size, 0.0),)
 
