@@ -387,3 +387,15 @@ loads: {W: {force: 10, link: 4, at: P, angle: -70}, T: {torque: unknown, link: 2
         icsolve.solve(icsolve.load(text))
     assert refused.value.status == Status.NEAR_SINGULAR
     assert "one line" not in refused.value.message
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize("off", [7.0, 0.0])
+def test_a_point_next_to_nothing_beside_the_figure_is_refused_wherever_the_figure_lies(
+    axis: int, off: float
+) -> None:
+    """Seen from the first pin, of which one coordinate is not zero."""
+    places = {"A": [0.0, 0.0], "B": [1e-150, 0.0], "C": [3.0, 2.0], "D": [4.0, 1.0]}
+    turned = ((p, [x, y + off][:: 1 - 2 * axis]) for p, (x, y) in places.items())
+    text = f"points: {{{', '.join(f'{p}: {at}' for p, at in turned)}}}\n" + LOOP
+    assert_refused(text, Status.NEAR_SINGULAR, "point B, with 1e-150, cannot be told from nothing")
