@@ -202,6 +202,16 @@ def test_a_sign_that_is_open_asks_for_more_digits_and_a_root_below_zero_is_none(
         Balls(30).sqrt(-third)
 
 
+def test_balls_are_compared_as_the_numbers_that_they_are() -> None:
+    balls = Balls(30)
+    for x in (-0.5, 0.0, 0.25, 2.0):
+        for y in (-0.5, 0.0, 0.25, 2.0):
+            for one, two in ((balls.ball(x), y), (balls.ball(x), balls.ball(y))):
+                assert ((one < two), (one <= two), (one > two), (one >= two), (one == two)) == (
+                    (x < y), (x <= y), (x > y), (x >= y), (x == y)
+                )  # fmt: skip
+
+
 def test_at_the_highest_precision_what_lies_within_1e_40_of_its_terms_is_zero_and_says_how_far() -> None:
     balls = Balls(120, highest=True)
     nothing = (balls.ball(1.0) / 3.0) * 3.0 - 1.0

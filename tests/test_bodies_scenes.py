@@ -6,12 +6,14 @@ import json
 import re
 import subprocess
 import sys
+from random import Random
 from typing import Any
 
 import numpy as np
 import pytest
 
 import icsolve
+import mechanisms
 from equilibrium import push
 from icsolve.answer import Answer
 from icsolve.answer.bodies import Reaction
@@ -131,6 +133,33 @@ def test_a_joint_of_links_that_are_fixed_to_each_other_carries_what_the_fit_make
     assert all(None in (r.x, r.y, r.moment) and r.why for r in inner)
     assert "redundant" in answer.notes[-1] or "fit" in answer.notes[-1] or "given centre" in answer.notes[-1]
     json.dumps(answer.to_dict(), allow_nan=False)
+
+
+@pytest.mark.parametrize("third", ["at", "toward"])
+@pytest.mark.parametrize("seed", range(6))
+def test_free_bodies_agree_with_power_where_given_centres_miss_each_other_by_their_last_digits(
+    third: str, seed: int
+) -> None:
+    """What a joint passes goes by the centre that the motion has."""
+    rng = Random(seed)
+    start, line = mechanisms.spot(rng), mechanisms.heading(rng)
+    a, b, c = (mechanisms.polar(start, s, line) for s in (0.0, rng.uniform(1, 3), rng.uniform(4, 6)))
+    if third == "at":
+        last = f"at: [{c[0]:.4f}, {c[1]:.4f}]"
+    else:
+        last = f"toward: {line + 0.004:.3f}"
+    answer = solved(f"""
+joints:
+  - {{centre: [1, 2], at: [{a[0]:.4f}, {a[1]:.4f}]}}
+  - {{centre: [2, 3], at: [{b[0]:.4f}, {b[1]:.4f}]}}
+  - {{centre: [1, 3], {last}}}
+loads:
+  U: {{torque: unknown, link: 2}}
+  K: {{force: 10, link: 3, at: [{start[0] + 1:.3f}, {start[1]:.3f}], angle: {rng.uniform(0, 360):.2f}}}
+""")
+    assert any("agree with each other to" in note for note in answer.notes)
+    (one,) = answer.witnesses
+    assert one.bodies == pytest.approx(one.power, rel=1e-10)
 
 
 def test_nothing_determines_an_unknown_load_of_a_structure() -> None:

@@ -231,9 +231,21 @@ def test_a_length_that_the_coordinates_contradict() -> None:
     ("angles: {AB: 240}", "angle AB is given as 240, the coordinates make it 59.9993"),
     ("angles: {BAD: 60}", "angle BAD is given as 60, the coordinates make it 300.001"),
     ("angles: {BAD: -50}", "angle BAD is given as -50, the coordinates make it -59.9993"),
+    ("angles: {BAD: -310}", "angle BAD is given as -310, the coordinates make it -59.9993"),
+    ("angles: {BA: -130}", "angle BA is given as -130, the coordinates make it -120.001"),
 ])  # fmt: skip
 def test_an_angle_that_the_coordinates_contradict(datum: str, said: str) -> None:
     assert_refused(COORDINATES + datum + "\n" + LOOP, Status.INCONSISTENT, said)
+
+
+@pytest.mark.parametrize(("datum", "made"), [("BAC: 30", "36.8699"), ("BAC: -320", "36.8699"),
+    ("CAB: -40", "-36.8699"), ("CAB: 320", "323.13"),
+    ("CAB: 0", "323.13"), ("CAB: 0.5", "323.13")])  # fmt: skip
+def test_an_angle_over_the_negative_axis_is_told_within_a_turn(datum: str, made: str) -> None:
+    text = f"points: {{A: [1, 2], B: [-2, 3], C: [-2, 1], D: [5, 2]}}\nangles: {{{datum}}}\n" + LOOP
+    name, given = datum.split(": ")
+    said = f"angle {name} is given as {given}, the coordinates make it {made}"
+    assert_refused(text, Status.INCONSISTENT, said)
 
 
 def test_a_guide_that_misses_its_point() -> None:
@@ -375,3 +387,15 @@ loads: {W: {force: 10, link: 4, at: P, angle: -70}, T: {torque: unknown, link: 2
         icsolve.solve(icsolve.load(text))
     assert refused.value.status == Status.NEAR_SINGULAR
     assert "one line" not in refused.value.message
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize("off", [7.0, 0.0])
+def test_a_point_next_to_nothing_beside_the_figure_is_refused_wherever_the_figure_lies(
+    axis: int, off: float
+) -> None:
+    """Seen from the first pin, of which one coordinate is not zero."""
+    places = {"A": [0.0, 0.0], "B": [1e-150, 0.0], "C": [3.0, 2.0], "D": [4.0, 1.0]}
+    turned = ((p, [x, y + off][:: 1 - 2 * axis]) for p, (x, y) in places.items())
+    text = f"points: {{{', '.join(f'{p}: {at}' for p, at in turned)}}}\n" + LOOP
+    assert_refused(text, Status.NEAR_SINGULAR, "point B, with 1e-150, cannot be told from nothing")

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterator
 from random import Random
 from typing import Any
 
@@ -20,7 +21,14 @@ import transcribe
 from growth import random_mechanism
 from icsolve.answer import Answer, Found
 from icsolve.statics.friction import solutions as homotopy
-from icsolve.statics.friction.equations import Lengths, fixed_point
+from icsolve.statics.friction.equations import (
+    Lengths,
+    fixed_point,
+    misfits,
+    newton,
+    scale_at,
+    without_friction,
+)
 from reference import frame_of, motions, points_of
 from sizes import MORE
 
@@ -702,6 +710,53 @@ def test_solutions_found_in_parts_are_those_of_the_whole() -> None:
         assert all(any(homotopy.near(y, other) for other in whole) for y in parts)
         several += len(parts) > 0
     assert several
+
+
+def rubs_at_random(seed: int, number: int) -> Iterator[Lengths]:
+    """One to three rubs whose forces hang on one another."""
+    rng = Random(seed)
+
+    def form(n: int) -> tuple[float, ...]:
+        return (rng.uniform(-1, 1), *(rng.uniform(-1, 1) for _ in range(n)))
+
+    for _ in range(number):
+        n = rng.choice([1, 2, 3])
+        yield fixed_point([(form(n), form(n)) for _ in range(n)], (False,) * n)
+
+
+def test_a_solution_that_is_followed_is_one_of_full_friction() -> None:
+    """Where there is none it says at which share of friction it ends, and whether the forces grow there."""
+    ended = {True: 0, False: 0}
+    for equations in rubs_at_random(5, 16):
+        end, share, grows = homotopy.followed(equations)
+        first = max(without_friction(equations))
+        if end is not None:
+            assert (share, grows) == (1.0, False)
+            assert max(map(abs, misfits(equations, end))) <= 1e-11 * scale_at(equations, end)
+            continue
+        ended[grows] += 1
+        before, _, _ = homotopy.followed(equations.scaled((1.0 - 1e-4) * share))
+        assert before is not None and (max(before) > 1e3 * first) is grows
+        assert homotopy.followed(equations.scaled((1.0 + 1e-4) * share))[0] is None
+    assert all(ended.values())
+
+
+def test_the_change_with_friction_is_the_tangent_of_its_solutions() -> None:
+    for equations in rubs_at_random(6, 10):
+        first, share, h = max(without_friction(equations)), 0.1, 1e-5
+        z = (*(size / first for size in without_friction(equations)), 1.0)
+        for k in range(1, 5):
+            found = newton(homotopy._homogeneous(equations, first, k * share / 4), z)
+            assert found is not None
+            z = found
+        both = [newton(homotopy._homogeneous(equations, first, s), z) for s in (share - h, share + h)]
+        change = homotopy._tangent(equations, first, z, share)
+        assert change is not None and None not in both
+        slopes = [(b - a) / (2 * h) for a, b in zip(*both, strict=True)]
+        assert change == pytest.approx(slopes, rel=1e-6, abs=1e-6 * max(map(abs, slopes)))
+        y = [part * first / z[-1] for part in z[:-1]]
+        scaled = equations.scaled(share)
+        assert max(map(abs, misfits(scaled, y))) <= 1e-11 * scale_at(scaled, y)
 
 
 def test_pins_of_an_unloaded_rod_are_one_unknown(monkeypatch: pytest.MonkeyPatch) -> None:

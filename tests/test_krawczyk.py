@@ -18,7 +18,7 @@ from figures import without_order
 from icsolve.assembly import solve_figure
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.balls import INEXACT, Ball, Balls, MoreDigits
-from icsolve.numbers.krawczyk import enclosed_root
+from icsolve.numbers.krawczyk import enclosed_root, turns_away
 
 many = mp.clone()
 many.dps = 150
@@ -78,6 +78,20 @@ def test_what_has_no_root_is_given_up_soon(start: float) -> None:
     with pytest.raises(MoreDigits):
         enclosed_root(system, [start], Balls(30))
     assert len(calls) <= 24
+
+
+@pytest.mark.parametrize(
+    ("gap", "away"), [("1e-40", True), ("1e-8", True), ("0", False), ("-1e-40", False), ("-1e-8", False)]
+)
+def test_newton_turns_away_where_there_is_no_root_however_narrow_the_gap(gap: str, away: bool) -> None:
+    """x^2 + gap: the steps halve down to the root of the gap, and grow again where there is none."""
+
+    def system(z: Any) -> Any:
+        balls = z[0].arithmetic
+        return [z[0] * z[0] + balls.exactly(Decimal(gap))], [{0: z[0] * 2.0}]
+
+    assert turns_away(system, [1.0], Balls(120, highest=True)) is away
+    assert not turns_away(system, [0.0], Balls(120, highest=True))  # there no step is known
 
 
 @pytest.mark.parametrize("offset", ["1", "1.0000000000000001"])

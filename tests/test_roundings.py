@@ -18,14 +18,20 @@ import numpy as np
 import pytest
 from mpmath import mp
 
+from icsolve.assembly.loci import CircleLocus, LineLocus
+from icsolve.assembly.steps import Meet
+from icsolve.assembly.walk import Gap, _rounded
+from icsolve.assembly.workspace import Apart, LineDirection
 from icsolve.case import Number
 from icsolve.numbers.adjoint import gradient, still_noise
+from icsolve.numbers.arithmetic import FLOATS
 from icsolve.numbers.backward import Backward
 from icsolve.numbers.balls import INEXACT, Ball, Balls
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.jets import BallArray, Jet
 from icsolve.numbers.record import Record
 from icsolve.numbers.tape import Tape
+from icsolve.statics.load_wrenches import at_one_place
 
 many = mp.clone()
 many.dps = 400
@@ -353,3 +359,26 @@ def test_the_radius_in_a_cell_is_that_of_the_operands_ends_and_two_ulps(name: st
         roundings = 2 if name == "root" else 1
         assert rad <= (spread + (roundings * 2.0**-51 + 2.0**-53) * abs(mid)) * (1 + HAIR)
         assert rad >= 2.0**-51 * abs(mid)
+
+
+# --- what rounding explains is zero ----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize("place", [0.0, 0.3, -1.0, 1.0])
+def test_points_within_a_few_roundings_are_one(place: float, axis: int) -> None:
+    for off, one in ((0.0, True), (1e-14, True), (1e-12, False), (0.1, False)):
+        a, b = [place, place], [place, place]
+        b[axis] += off
+        assert at_one_place((a[0], a[1]), (b[0], b[1]), FLOATS) is one
+
+
+@pytest.mark.parametrize(("size", "scale"), [(1e-3, 1.0), (1.0, 1.0), (64.0, 64.0)])
+def test_circles_touch_within_a_few_roundings_and_lines_are_parallel(size: float, scale: float) -> None:
+    """Of gaps that the decimals leave in doubt: over the figure's size, or the larger circles'."""
+    circle = CircleLocus("A", Apart("A", "B"))
+    line = LineLocus("A", LineDirection(Apart("A", "B")), False)
+    for meet, most in ((Meet("P", circle, circle), 8 * HALF_ULP * scale), (Meet("P", line, line, 0), 1e-14)):
+        for off, sign in ((0.5 * most, 0), (-0.5 * most, 0), (2.0 * most, 1), (-2.0 * most, -1)):
+            gaps = [Gap(1 if off > 0.0 else -1, off), Gap(1, size)]
+            assert [gap.sign for gap in _rounded(meet, gaps)] == [sign, 1]

@@ -13,11 +13,14 @@ from pathlib import Path
 import pytest
 
 import icsolve
+import mechanisms
 import reference
+import transcribe
 import witness
 from icsolve.cams.solving import placed
 from icsolve.case import Case, KnownCentre
 from icsolve.scene.program import Want, evaluate, prepare
+from loading import drawn
 
 FILES = sorted((Path(__file__).parent.parent / "cases").rglob("*.yaml"))
 AGREE = 1e-9
@@ -73,3 +76,42 @@ def test_the_loads_by_the_plan_by_the_loop_equations_and_by_the_null_space(name:
     for load, value in by_plan.solution.values.items():
         assert by_loops.solution.values[load] == pytest.approx(value, rel=AGREE)
         assert null_space[load] == pytest.approx(value, rel=AGREE)
+
+
+@pytest.mark.parametrize(
+    "generator",
+    [mechanisms.four_bar, mechanisms.slider_crank, mechanisms.inverted_slider_crank, mechanisms.trammel],
+)
+def test_in_a_loop_of_four_links_kennedy_joins_the_centres_of_the_joints(
+    generator: mechanisms.Generator,
+) -> None:
+    """I13 on I12-I23 and I14-I34, I24 on I12-I14 and I23-I34: no line is left to the loop equations."""
+    for seed in range(8):
+        case = icsolve.load(transcribe.text(drawn(seed, generator)))
+        answer = icsolve.solve(case, all_centres=True)
+        joined = {frozenset(joint.links) for joint in case.joints}
+        for pair, centre in answer.centres.items():
+            if frozenset(pair) in joined:
+                assert centre.by == "inspection"
+                continue
+            assert centre.by == "construction", centre
+            others = set(case.links) - {*pair}
+            lines = {frozenset(map(frozenset, line)) for line in centre.lines}
+            assert lines == {frozenset(frozenset((end, k)) for end in pair) for k in others}
+
+
+def test_a_centre_may_be_far_from_the_others_and_still_be_constructed() -> None:
+    """The crank is nearly parallel to the guide's normal: I13 lies four thousand lengths off."""
+    text = """
+icsolve: 1
+points: {A: [0, 0], B: [0.001, 1], C: [4, 1]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0}
+loads: {T: {torque: unknown, link: 2}, P: {force: 5, link: 4, at: C, angle: 0}}
+"""
+    centre = icsolve.solve(icsolve.load(text), all_centres=True).centres["1", "3"]
+    assert (centre.by, centre.kind) == ("construction", "at")
+    assert centre.place == pytest.approx((4.0, 4000.0), rel=1e-12)

@@ -35,8 +35,8 @@ from icsolve.assembly.workspace import (
 Cost = tuple[int, int, int]
 """Authority of the data (the lowest wins): the worst datum, the sum, and the number of ways."""
 
-EXACT, BY_LENGTH, BY_ANGLE, BY_ARC = 0, 100, 200, 300
-"""What data cost: coordinates and guides, lengths, angles, angles seen from the point itself."""
+EXACT, BY_LENGTH, BY_ANGLE, BY_ARC, BY_GROUP = range(0, 500, 100)
+"""What data cost: coordinates and guides, lengths, angles, angles seen from the point itself, groups."""
 
 
 NOBODY, LOOSE_CLUSTERS, ALL_CLUSTERS = 0, 1, 2

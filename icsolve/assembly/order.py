@@ -11,7 +11,15 @@ from collections.abc import Collection, Iterable, Iterator, Set
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from icsolve.assembly.clusters import ALL_CLUSTERS, LOOSE_CLUSTERS, NOBODY, Cluster, LooseFigure
+from icsolve.assembly.clusters import (
+    ALL_CLUSTERS,
+    BY_GROUP,
+    BY_LENGTH,
+    LOOSE_CLUSTERS,
+    NOBODY,
+    Cluster,
+    LooseFigure,
+)
 from icsolve.assembly.conditions import FigureEquation, Unknown, parts_of
 from icsolve.assembly.steps import Base, PointGroup, Step, leading_to, points_of, sensed
 from icsolve.assembly.workspace import (
@@ -93,7 +101,7 @@ def order_of(
             if best_effort:
                 break
             step = next_group(drawing, goal)
-            ground.put(step, step.targets, (400, 400, 1))
+            ground.put(step, step.targets, (BY_GROUP, BY_GROUP, 1))
         ground.run(wanted)
     steps = leading_to(wanted & ground.placed.keys() if best_effort else wanted, drawing.steps)
     return Order(steps, points_of(steps), drawing.facts)
@@ -142,7 +150,7 @@ def _start(drawing: LooseFigure) -> None:
             continue
         cluster = Cluster(drawing)
         drawing.clusters.append(cluster)
-        cluster.put(Base(cluster.key(a), cluster.key(b), datum), (a, b), (100, 100, 0))
+        cluster.put(Base(cluster.key(a), cluster.key(b), datum), (a, b), (BY_LENGTH, BY_LENGTH, 0))
         cluster.run()
 
 

@@ -15,7 +15,7 @@ from functools import lru_cache
 from icsolve.case import Case, Centroid, Coordinates, Corner, Guide, Number, Rope
 from icsolve.case.joints import Guided
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Arithmetic, Scalar, Showing
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, Showing, largest_of
 from icsolve.screws.plane import Point, unit_between
 from icsolve.structure.topology import Topology, topology
 from icsolve.tuples import NamedTuple
@@ -248,9 +248,9 @@ def frame_of(case: Case) -> Frame:
             if place.y is not None:
                 ys.append(place.y)
     ox, oy = _origin(case, xs, ys)
-    reach = max((abs(x.value - ox) for x in xs), default=0.0)
-    rise = max((abs(y.value - oy) for y in ys), default=0.0)
-    size = max(reach, rise, max((abs(length.value.value) for length in case.lengths), default=0.0))
+    reach = largest_of([x.value - ox for x in xs])
+    rise = largest_of([y.value - oy for y in ys])
+    size = max(reach, rise, largest_of([length.value.value for length in case.lengths]))
     _resolved(case, xs, ys, size)
     _beside_its_size(case, (ox, oy), size)
     exponent = min(max(math.frexp(size)[1], -1023), 1024) if size > 0.0 else 0
@@ -268,7 +268,7 @@ def _origin(case: Case, xs: list[Number], ys: list[Number]) -> tuple[float, floa
 
 def _resolved(case: Case, xs: list[Number], ys: list[Number], size: float) -> None:
     """Refuse a figure that its coordinates cannot draw."""
-    farthest = max((abs(n.value) for n in (*xs, *ys)), default=0.0)
+    farthest = largest_of([n.value for n in (*xs, *ys)])
     if not math.isfinite(size) or not math.isfinite(farthest):
         raise SceneError(Status.NEAR_SINGULAR, "the coordinates are too large to be told apart")
     if size > 0.0 and math.ulp(farthest) > SMALLEST_RESOLUTION * size:

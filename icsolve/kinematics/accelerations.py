@@ -17,7 +17,7 @@ from icsolve.case import Joint, Motion, Number, Rope
 from icsolve.case.joints import CentreAt, JointCentre, JointKind, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import LOOSE, NO_SPEED, fastest, meant, path_of, speed_of
-from icsolve.numbers.arithmetic import Scalar, all_vanish, decider
+from icsolve.numbers.arithmetic import Scalar, all_vanish, decider, largest_of
 from icsolve.numbers.linear import SPENT, General, Row, eliminate
 from icsolve.screws.joints import centre_twist, freedoms, mesh_weights, rolling_centres, transmitted
 from icsolve.screws.plane import Point, Triple, add, cross, pairing, subtract, unit_between, velocity
@@ -27,7 +27,6 @@ from icsolve.tuples import NamedTuple
 from icsolve.wording.joints import why_no_acceleration
 from icsolve.wording.sentences import listed
 
-STILL: Triple = (0.0, 0.0, 0.0)
 NEAR = 2e-3
 """Contacts as written may miss a motion by so much of the figure's size."""
 GROWN = 1e4
@@ -55,8 +54,8 @@ class Moving(NamedTuple):
     @property
     def size(self) -> float:
         """What accelerations are summed from: beside it one may be zero."""
-        turned = max(abs(x) for t in self.twists.values() for x in t) ** 2
-        return max(turned, *(abs(x) for t in self.rates.values() for x in t)) or 1.0
+        turned = largest_of([x for t in self.twists.values() for x in t]) ** 2
+        return max(turned, largest_of([x for t in self.rates.values() for x in t]))
 
     def acceleration(self, link: str, p: Point) -> Point:
         """Acceleration (ax, ay) [frame length/s^2] of the point p [frame] of a link: ``velocity(t', p) +
@@ -91,7 +90,7 @@ def moving(place: PlacedCase, motions: Mapping[str, Sequence[Triple]], slack: fl
     for link in (link for link in motions if link in top.body_of):
         (x, y, w), *open_ = meant(motions, speed, link)
         twists[link] = (x / speed.divisor, y / speed.divisor, w / speed.divisor)
-        size = LOOSE * max((abs(part) for t in motions[link] for part in t), default=0.0)
+        size = LOOSE * largest_of([part for t in motions[link] for part in t])
         if not all_vanish(arithmetic, ((part, size) for t in open_ for part in t)):
             idle.add(link)
     rates, loose = _rates(place, twists, drives_of(place, motions), slack)

@@ -302,7 +302,7 @@ class CentreFinder:
             if bond.a not in self.twists or bond.b not in self.twists:
                 continue
             pair = ordered(bond.a, bond.b)
-            if bond.pivots[0]:
+            if bond.pivots:
                 primaries.setdefault(pair, (pitch_point(bond, self.points, self.arithmetic), "inspection"))
                 continue
             basis = freedoms(bond, self.points, self.arithmetic)

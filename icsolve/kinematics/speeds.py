@@ -21,6 +21,7 @@ from icsolve.numbers.arithmetic import (
     Scalar,
     all_vanish,
     decider,
+    largest_of,
     zero_of,
 )
 from icsolve.screws.plane import Point, Triple, velocity
@@ -77,7 +78,7 @@ class Speed(NamedTuple):
     def particular_of(self, values: Sequence[Scalar], scale: float) -> Scalar:
         """The same in one motion of those that are meant, as good as any other."""
         value = _dot(self.particular, values)
-        size = scale * max(map(abs, self.particular), default=0.0)
+        size = scale * largest_of(self.particular)
         if self.arithmetic.vanishes(value, size):
             return zero_of(value / self.divisor)
         return value / self.divisor
@@ -230,7 +231,7 @@ def _check_direction(given: Given, v: Point, along: Point) -> None:
 
 def fastest(twists: Twists) -> float:
     """Size of the largest twist of a scene, against which rest is judged."""
-    return max((abs(float(x)) for link in twists.values() for t in link for x in t), default=0.0)
+    return largest_of([float(x) for link in twists.values() for t in link for x in t])
 
 
 def joint_order(case: Case) -> list[str]:

@@ -346,7 +346,7 @@ def _close(group: Group, top: Topology, bases: Bases, arithmetic: Arithmetic, po
         return _dyad(group, bases, pool)
     if group.kind == "monad":
         mesh = top.bonds[group.bonds[1]]
-        if mesh.pivots[0] and _on_carrier(group, top):
+        if mesh.pivots and _on_carrier(group, top):
             return _wheel(group, mesh, bases, weights_of(mesh, arithmetic), pool)
         return _monad(group, bases, pool)
     return _eliminated(group, top, bases, pool, arithmetic)
@@ -368,7 +368,7 @@ def _on_carrier(group: Group, top: Topology) -> bool:
     """Whether a wheel hangs on a body that carries the pivots of both wheels of its mesh."""
     one, two = (top.bonds[k] for k in group.bonds)
     carrier, other = group.ends
-    mine, its = two.pivots if two.b == other else two.pivots[::-1]
+    mine, its = tuple(two.pivots if two.b == other else two.pivots[::-1])
     if one.joint.pivot != mine:
         return False
     here = _pinned(top, other, its)

@@ -7,7 +7,7 @@ the same methods as `Floats`.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from typing import Any
 
 from icsolve.numbers.units import ExactRatio, Number, nearest
@@ -27,7 +27,7 @@ def magnitude(value: Scalar) -> float:
     return size if type(size) is float else float(size.max() if hasattr(size, "max") else size)
 
 
-def largest(values: Sequence[Scalar]) -> float:
+def largest_of(values: Collection[Scalar]) -> float:
     """The largest `magnitude` of some; 0 of none."""
     try:
         found = max(map(abs, values), default=0.0)

@@ -13,7 +13,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Callable, Mapping, Sequence
 
-from icsolve.numbers.arithmetic import ZERO, Scalar, magnitude
+from icsolve.numbers.arithmetic import ZERO, Scalar, largest_of, magnitude
 from icsolve.tuples import NamedTuple
 
 SINGULAR = 1e-14
@@ -44,7 +44,7 @@ def solve_square(
     """
     n = len(matrix)
     work = [[*row, b] for row, b in zip(matrix, right, strict=True)]
-    sizes = [max((abs(entries[c]) for entries in matrix), default=0.0) for c in range(n)]
+    sizes = [max(abs(entries[c]) for entries in matrix) for c in range(n)]
     for c in range(n):
         r = _largest(work, c)
         pivot = work[r][c]
@@ -290,7 +290,7 @@ class _Work:
         self.sizes: dict[int, float] = {}
         for n, row in self.rows.items():
             inner = self.inner(row)
-            self.sizes[n] = max((magnitude(row[c]) for c in inner), default=0.0)
+            self.sizes[n] = largest_of([row[c] for c in inner])
             for c in inner:
                 self.holders[c].add(n)
         self.heap = [(len(self.inner(row)), n) for n, row in self.rows.items()]
@@ -326,7 +326,7 @@ class _Work:
                     self.vanishes(row[c], size)  # raises where that is open
                 return None
             inner = certain
-        largest = max((magnitude(row[c]) for c in inner), default=0.0)
+        largest = largest_of([row[c] for c in inner])
         if self.vanishes is None and largest <= self.spent * size:
             return None
         fit = [c for c in inner if magnitude(row[c]) >= THRESHOLD * largest]

@@ -365,7 +365,7 @@ class _ProgramWriter:
             "loads": [self._load(w) for w in load_wrenches.wrenches(self._place())],
             "moves": self._by_points(),
             "kinds": [type(bond.joint).__name__ for bond in top.bonds],
-            "pivots": [list(bond.pivots) if bond.pivots[0] else None for bond in top.bonds],
+            "pivots": [list(bond.pivots) if bond.pivots else None for bond in top.bonds],
             "turning": self._turning(),
             "owner": self._owners(),
             "measures": self._measures(place),
@@ -486,7 +486,7 @@ class _ProgramWriter:
         guides = [getattr(bond.joint, "guide", None) for bond in self.top.bonds]
         found = [load_wrenches.line_of(load) for load in self.case.loads]
         found += [guide.ends for guide in guides if guide is not None]
-        found += [bond.pivots for bond in self.top.bonds if bond.pivots[0]]
+        found += [bond.pivots for bond in self.top.bonds if bond.pivots]
         return (ends for ends in found if ends is not None)
 
     def _mesh(self, bond: Bond, place: Mapping[Key, int]) -> Iterable[list[Any]]:

@@ -14,7 +14,7 @@ from icsolve.errors import SceneError
 from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
 from icsolve.kinematics.speeds import Speed
-from icsolve.numbers.arithmetic import Scalar, largest, zero_of
+from icsolve.numbers.arithmetic import Scalar, largest_of, zero_of
 from icsolve.numbers.balls import PRECISIONS, BelowZero, MoreDigits, MovedBalls
 from icsolve.scene.program import (
     EvaluatedScene,
@@ -345,7 +345,7 @@ def _twists(found: Evaluation) -> dict[str, Triple]:
     """The motions that are meant, each number rounded once: a rest is a rest, however slow others are."""
     motions, frame, a = found.outcome.motions.twists, found.program.figure.frame, found.arithmetic
     speed = speed_of(found)
-    fastest = largest([value for ts in motions.values() for t in ts for value in t])
+    fastest = largest_of([value for ts in motions.values() for t in ts for value in t])
     shown: dict[str, Triple] = {}
     for link in motions:
         first, *rest = speeds.meant(motions, speed, link)

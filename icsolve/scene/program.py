@@ -76,7 +76,7 @@ def prepare(case: Case, want: Want) -> Program:
     bonds = motion.needed_bonds(plan, top)
     figure = _figure(case, top, bonds, want)
     refusals.refuse_no_hanging(case, figure.points, figure.frame.scale)
-    if any(bond.pivots[0] for bond in top.bonds):
+    if any(bond.pivots for bond in top.bonds):
         from icsolve.assembly.conditions import refuse_misfit
 
         refuse_misfit(case, figure.points, figure.frame.scale)

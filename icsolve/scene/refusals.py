@@ -60,7 +60,7 @@ def directions_of_joints(case: Case) -> Directions:
         names = sentences.listed(bond.links)
         guide = bond.joint.guide
         lines.append((f"the guide of links {names}", guide.ends if guide is not None else None))
-        lines.append((f"the wheels {names}", bond.pivots if bond.pivots[0] else None))
+        lines.append((f"the wheels {names}", bond.pivots or None))
     return tuple([(what, ends) for what, ends in lines if ends is not None])
 
 

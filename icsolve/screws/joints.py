@@ -34,7 +34,7 @@ def freedoms(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[Triple
         One (pin, slide) or two (slot, contact, mesh). Two span the line of possible relative centres.
     """
     _, _, _, joint, _, pivots, _ = bond
-    return _mesh(bond, points, arithmetic) if pivots[0] else joint_freedoms(joint, points, arithmetic)
+    return _mesh(bond, points, arithmetic) if pivots else joint_freedoms(joint, points, arithmetic)
 
 
 def joint_freedoms(joint: Joint, points: Points, arithmetic: Arithmetic) -> tuple[Triple, ...]:
@@ -53,7 +53,7 @@ def centre_twist(centre: JointCentre, points: Points, arithmetic: Arithmetic) ->
 
 def points_of(bond: Bond) -> tuple[str, ...]:
     """The points whose places the basis twists need."""
-    return bond.pivots if bond.pivots[0] else joint_points(bond.joint)
+    return bond.pivots or joint_points(bond.joint)
 
 
 def joint_points(joint: Joint) -> tuple[str, ...]:
@@ -176,7 +176,7 @@ def _size(n: float) -> float:
 def _mesh(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[Triple, Triple]:
     """The pitch point and the point at infinity square to the line of the pivots."""
     p, q = weights_of(bond, arithmetic)
-    (ax, ay), (bx, by) = points[bond.pivots[0]], points[bond.pivots[1]]
+    (ax, ay), (bx, by) = (points[p] for p in bond.pivots)
     pitch = (p * ax + q * bx, p * ay + q * by, p + q)
     return pitch, (ay - by, bx - ax, 0.0)
 

@@ -14,7 +14,7 @@ from icsolve.answer.bodies import FrictionFound, Reactions, Tension, Witness
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.kinematics.twists import FRAME
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing, largest_of
 from icsolve.numbers.linear import Row
 from icsolve.numbers.units import numbers_in
 from icsolve.screws.plane import velocity
@@ -252,7 +252,7 @@ def _power(w: Wrench, factor: float) -> float:
 
 def _room(w: Wrench, factor: float) -> float:
     """Power of half a unit of the last decimal of a load's number."""
-    half = max((number.half for number in numbers_in(w.number)), default=0.0)
+    half = max(number.half for number in numbers_in(w.number))
     return abs(half * float(w.ratio) * factor * w.measure)
 
 
@@ -294,7 +294,7 @@ def _left(position: Position, motion: int, drive: float) -> str:
 def _first_turning(position: Position, motion: int) -> tuple[str, float]:
     """The first link, as the joints name them, that turns in a motion, and its rate; else that moves."""
     case, twists = position.case, position.twists
-    fastest = max((abs(x) for ts in twists.values() for x in ts[motion]), default=0.0)
+    fastest = largest_of([x for ts in twists.values() for x in ts[motion]])
     for link in joint_order(case):
         rate = twists[link][motion][2] - twists[case.ground][motion][2]
         if abs(rate) > 1e-12 * fastest:

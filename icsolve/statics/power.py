@@ -23,7 +23,7 @@ from icsolve.numbers.arithmetic import (
     Scalar,
     Showing,
     decider,
-    largest,
+    largest_of,
     sum_of_sizes,
     zero_of,
 )
@@ -72,7 +72,7 @@ def balance(
     factors, sizes = [], []
     for m in range(motions):
         row, scale = [], []
-        fastest = largest([x for ts in twists.values() for x in ts[m]])
+        fastest = largest_of([x for ts in twists.values() for x in ts[m]])
         for load, against, unit, gain, _, _, _, _, reach in all_wrenches:
             relative = map(sub, twists[load.link][m], twists[against][m])
             row.append(gain * reduce(add, map(mul, unit, relative)))

@@ -56,7 +56,7 @@ class Tie(NamedTuple):
     at: Point
     where: str
     units: tuple[Force, ...]
-    pivots: tuple[str, str] = ("", "")
+    pivots: tuple[str, str] | tuple[()] = ()
     screw: Screw | None = None
     couples: tuple[Scalar, ...] = ()
     """of a screw what each unit does on its rotor"""
@@ -132,7 +132,7 @@ def ties_of(position: Position) -> tuple[Tie, ...]:
     found = []
     for joint in position.case.joints:
         for by, on in pairs_of(joint):
-            bond = Bond(0, 1, 0, joint, (by, on), pivots.get((id(joint), (by, on)), ("", "")))
+            bond = Bond(0, 1, 0, joint, (by, on), pivots.get((id(joint), (by, on)), ()))
             found.append(_tie(position, bond))
     ends = [_end_tie(position, tie) for tie in position.ropes if tie.rope.is_free]
     return (*found, *ends, *(_rotor_tie(position, screw) for screw in position.case.screws))
@@ -179,7 +179,7 @@ def _end_tie(position: Position, tie: RopeTie) -> Tie:
 
 def _tie(position: Position, bond: Bond) -> Tie:
     joint, (by, on), points = bond.joint, bond.links, position.points
-    if bond.pivots[0]:
+    if bond.pivots:
         at, units = _on_pivots(position, bond)
         return Tie(joint, by, on, at, "", units, bond.pivots)
     meshed = isinstance(joint, Mesh)
@@ -257,14 +257,14 @@ def _as_it_moves(position: Position, bond: Bond, basis: tuple[Triple, ...]) -> t
     """The centre that the motion has, where given centres miss it by a few digits of the figure."""
     x, y, w = position.relative(*bond.links)
     size = max(abs(x), abs(y), abs(w))
-    if size <= 1e-9 or position.mobility != 1:
+    if size <= 1e-9:
         return basis
     return ((x / w, y / w, 1.0),) if abs(w) > 1e-9 * size else ((x / size, y / size, 0.0),)
 
 
 def meshes(ties: Sequence[Tie]) -> list[int]:
     """The ties that are meshes of known pressure angle: gears, and rolling by teeth (a rack)."""
-    fixed = {t for t, tie in enumerate(ties) if isinstance(tie.joint, Mesh) and not tie.pivots[0]}
+    fixed = {t for t, tie in enumerate(ties) if isinstance(tie.joint, Mesh) and not tie.pivots}
     return [t for t, tie in enumerate(ties) if tie.joint.pressure_angle is not None and t not in fixed]
 
 

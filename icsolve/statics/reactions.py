@@ -13,7 +13,7 @@ from icsolve.answer.bodies import Reaction, Reactions, Tension, names_of
 from icsolve.case import Case, Rope, ordered_pair
 from icsolve.case.joints import Mesh, Sliding
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, size_of, zero_of
+from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, largest_of, size_of, zero_of
 from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Equilibrium, Statics, T, Transmits, value_of
 from icsolve.statics.reaction_basis import Position, Tie, axial_shares, tangent_and_separating
@@ -48,7 +48,7 @@ def reactions_of(
         unique = [statics.determines(row, sizes) for row in rows]
         kept = [zero(f, n) if u else None for n, (f, u) in enumerate(zip(forces, unique, strict=True))]
         parts = _parts(position, tie, kept, a)
-        if isinstance(tie.joint, Mesh) and tie.joint.pulls and tie.pivots[0]:
+        if isinstance(tie.joint, Mesh) and tie.joint.pulls and tie.pivots:
             parts = [("net pull", _net_pull(position, tie.joint, tie, forces, a))]
         shares = tuple(
             (n, a.rounded(share if n in DEGREES else share / statics.scale)[0]) for n, share in parts
@@ -72,7 +72,7 @@ def tensions_of(
         ``slack`` where one would have to push.
     """
     sizes = statics.open_sizes()
-    largest = max((abs(statics.value(c, parameters)) for c in range(statics.known)), default=0.0)
+    largest = largest_of([statics.value(c, parameters) for c in range(statics.known)])
     found = []
     for n, tie in enumerate(statics.ropes):
         row = statics.general.of(statics.tension(n))
@@ -106,7 +106,7 @@ def _net_pull(position: Position, belt: Mesh, tie: Tie, force: tuple[Scalar, ...
 
     The part of the force that is left open lies along the line of the pivots and makes no torque.
     """
-    px, py = position.points[tie.pivots[1]]
+    (_, _), (px, py) = (position.points[p] for p in tie.pivots)
     torque = force[2] + (tie.at[0] - px) * force[1] - (tie.at[1] - py) * force[0]
     return size_of(torque / (a.given(belt.sizes[1]) * position.scale))
 
@@ -125,8 +125,8 @@ def names_by_tie(case: Case, ties: Sequence[Transmits]) -> list[str]:
 
 def _zeros(values: Sequence[tuple[Scalar, ...]], a: Showing) -> Callable[[Scalar, int], Scalar]:
     """What makes a force, or a couple (2), that is nothing beside the largest of all a zero."""
-    force = max((abs(v) for three in values for v in three[:2]), default=0.0)
-    sizes = (force, force, max(force, max((abs(three[2]) for three in values), default=0.0)))
+    force = largest_of([v for three in values for v in three[:2]])
+    sizes = (force, force, max(force, largest_of([three[2] for three in values])))
     return lambda value, n: zero_of(value) if a.vanishes(value, sizes[n]) else value
 
 
@@ -197,7 +197,7 @@ def pressure_angle(position: Position, tie: Tie, a: Showing) -> Scalar | None:
     motions = [
         velocity(position.relative(position.case.ground, tie.on, m), tie.at) for m in range(position.mobility)
     ]
-    fastest = max((abs(x) for ts in position.twists.values() for t in ts for x in t), default=0.0)
+    fastest = largest_of([x for ts in position.twists.values() for t in ts for x in t])
     moving = [v for v in motions if not all_vanish(a, ((part, fastest) for part in v))]
     if not moving:
         return None
@@ -213,7 +213,7 @@ def _why(tie: Tie, kept: list[Scalar | None]) -> str:
         return "a given centre stands for joints that the case does not show" if boxed else ""
     if not isinstance(tie.joint, Mesh):
         return SHARED
-    if not tie.pivots[0]:
+    if not tie.pivots:
         return "its links are fixed to each other: what it carries hangs on how it was fitted"
     if tie.joint.pulls:
         return "the pull of the slack strand is not given: only the difference of the two pulls is determined"
@@ -255,7 +255,7 @@ def _open_parts(shown: Mapping[str, Reaction]) -> list[str]:
 
 
 def _remedy(ties: Sequence[Tie]) -> str:
-    meshed = [tie.joint for tie in ties if tie.pivots[0]]
+    meshed = [tie.joint for tie in ties if tie.pivots]
     if any(not joint.pulls and joint.pressure_angle is None for joint in meshed):
         return "Give the gears their `pressure angle` for the loads on their bearings."
     if any(joint.pulls for joint in meshed):

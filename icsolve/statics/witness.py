@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from icsolve.answer.bodies import Witness
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Scalar, Showing, decider
+from icsolve.numbers.arithmetic import Scalar, Showing, decider, largest_of
 from icsolve.numbers.linear import Row, inverse, solve_square
 from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Components, Equilibrium, T
@@ -59,7 +59,7 @@ def residual(terms: Terms) -> float:
     """
     sums = [both for _, equations in terms.values() for both in equations]
     largest = max((size for size, _ in sums), default=0.0)
-    return max((abs(rest) for _, rest in sums), default=0.0) / (largest or 1.0)
+    return largest_of([rest for _, rest in sums]) / (largest or 1.0)
 
 
 AGREE = 1e-9

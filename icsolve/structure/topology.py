@@ -25,7 +25,7 @@ class Bond(NamedTuple):
     freedom: int
     joint: Joint
     links: tuple[str, str]
-    pivots: tuple[str, str] = ("", "")
+    pivots: tuple[str, str] | tuple[()] = ()
     """of gears and belts: the points at which the two links are pinned to their carrier"""
     carrier: int = -1
     """of gears and belts: the body to which both are pinned"""
@@ -164,7 +164,8 @@ def _bonds(case: Case, body_of: dict[str, int], pins: dict[str, list[int]]) -> I
             a, b = body_of[links[0]], body_of[links[1]]
             if not joint.freedom or a == b:
                 continue
-            pivots, carrier = ("", ""), -1
+            pivots: tuple[str, str] | tuple[()] = ()
+            carrier = -1
             if isinstance(joint, Mesh):
                 pivots, carrier = _pivots(joint, body_of, pins, pins_of)
             yield Bond(a, b, joint.freedom, joint, links, pivots, carrier)

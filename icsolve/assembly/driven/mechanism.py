@@ -189,7 +189,7 @@ def mechanism(case: Case, frame: Frame, record: Record, ref: Mapping[str, Point]
             constraints += _immovable(joint, top, places, refusal)
         else:
             constraints += _conditions(joint, lines.get(i), shape, top.body_of)
-    constraints += [_meshed(bond, record) for bond in top.bonds if bond.pivots[0]]
+    constraints += [_meshed(bond, record) for bond in top.bonds if bond.pivots]
     constraints += [_roped(rope, top, frame, record, places) for rope in top.ropes]
     _base(spots, lines.values(), places)
     owners = _owners(case, top, spots, contacts)

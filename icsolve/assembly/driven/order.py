@@ -473,7 +473,7 @@ class AssemblyOrder:
 
     def _ropes(self, c: Roped, spot: Spot) -> bool:
         """Whether a rope ties a spot to one place, and all else about it is known."""
-        wound = [c.spots[k][0] for k in (0, -1) if c.is_round(k)]
+        wound = (body for body, _ in c.terms)
         others = (other for other in c.spots if other != spot)
         return c.tied_to(spot) is not None and all(map(self.known, others)) and self.turned.issuperset(wound)
 

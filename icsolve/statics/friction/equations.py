@@ -16,6 +16,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 
+from icsolve.numbers.arithmetic import largest_of
 from icsolve.numbers.linear import Row, inverse, solve_square
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.witness import independent
@@ -117,7 +118,7 @@ def newton(equations: Lengths, start: Sequence[float], most: int = MOST_STEPS) -
     before = math.inf
     for _ in range(most):
         g = misfits(equations, y)
-        size = max(map(abs, g), default=0.0)
+        size = largest_of(g)
         if size <= 4.0 * ROUNDING * scale_at(equations, y) or (
             size < 1e-12 * scale_at(equations, y) and size >= before
         ):
@@ -171,7 +172,7 @@ def error_of(equations: Lengths, y: Sequence[float]) -> float:
         spread, twice = inverse(slopes(equations, y)), 2.0
     if spread is None:
         return math.inf
-    size = max(map(abs, y), default=0.0) or 1.0
+    size = largest_of(y) or 1.0
     return (
         twice
         * max((sum(abs(a) * r for a, r in zip(row, rest, strict=True)) for row in spread), default=0.0)
@@ -255,7 +256,7 @@ def _force(statics: Statics, tie: int, shares: Sequence[float]) -> Row:
     for n, share in enumerate(shares):
         for c, a in statics.general.of(statics.first[tie] + n).items():
             total[c] = total.get(c, 0.0) + share * a
-    largest = max(map(abs, total.values()), default=0.0)
+    largest = largest_of(total.values())
     if any(abs(a) > OPEN * max(largest, 1.0) for c, a in total.items() if c < statics.known):
         raise LookupError(tie)
     return total
@@ -306,7 +307,7 @@ def reduced(statics: Statics, senses: Sequence[float]) -> Reduced | None:
         friction = (g * whole.get(statics.rub(k), 0.0) for k, g in enumerate(gains))
         return (known if abs(known) > least else 0.0, *friction)
 
-    least = NOTHING * max((abs(form(row)[0]) for row in statics.general.solved.values()), default=0.0)
+    least = NOTHING * largest_of([form(row)[0] for row in statics.general.solved.values()])
     vectors = [tuple(form(row, least) for row in rows) for rows in forces_of(statics)]
     smooth = tuple(form(row, least) for row in _smooth_normals(statics))
     return Reduced(fixed_point(vectors, _touching(statics)), tuple(map(form, loads)), tuple(gains), smooth)

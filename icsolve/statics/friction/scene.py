@@ -282,7 +282,7 @@ def _floats(row: Row) -> Row:
 def _shared(tie: Tie, ties: Sequence[Tie]) -> str:
     remedy = "Take out `mu` there, or make the joints fewer (a pin in a slot in place of a slide)."
     cause = "the joints are redundant and share the load by their fit"
-    meshes = [other.joint for other in ties if other.pivots[0]]
+    meshes = [other.joint for other in ties if other.pivots]
     if any(not mesh.pulls and mesh.pressure_angle is None for mesh in meshes):
         cause, remedy = "it hangs on how hard teeth push apart", "Give the gears their `pressure angle`."
     elif any(mesh.pulls for mesh in meshes):

@@ -11,6 +11,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 
+from icsolve.numbers.arithmetic import largest_of
 from icsolve.numbers.linear import solve_square
 from icsolve.statics.friction.equations import (
     Form,
@@ -38,8 +39,8 @@ NEAR = 0.05
 
 def near(y: Sequence[float], other: Sequence[float]) -> bool:
     """Whether two solutions are one."""
-    size = max(map(abs, (*y, *other)), default=0.0) or 1.0
-    return max((abs(a - b) for a, b in zip(y, other, strict=True)), default=0.0) <= 1e-7 * size
+    size = largest_of((*y, *other))
+    return largest_of([a - b for a, b in zip(y, other, strict=True)]) <= 1e-7 * size
 
 
 def followed(equations: Lengths) -> tuple[Y | None, float, bool]:

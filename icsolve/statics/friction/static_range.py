@@ -18,6 +18,7 @@ from itertools import pairwise, product
 from typing import TYPE_CHECKING
 
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import largest_of
 from icsolve.numbers.roots import zero_between
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.friction.equations import (
@@ -135,7 +136,7 @@ def _again(statics: Statics, senses: Sequence[float], least: float, most: float)
         if equations is not None:
             by, roots = counted(statics, [direction * s for s in senses], equations)
             found |= {by.load(y)[0] / statics.scale for y in roots or ()}
-    room = 1e-9 * max((abs(end) for end in (least, most) if math.isfinite(end)), default=0.0)
+    room = 1e-9 * largest_of([end for end in (least, most) if math.isfinite(end)])
     return tuple(sorted(value for value in found if value < least - room or value > most + room))
 
 
@@ -302,7 +303,7 @@ def pressed(statics: Statics, senses: Sequence[float]) -> StaticRange:
     (left,) = statics.general.left
     powers = [left.get(statics.rub(k), 0.0) for k in range(len(senses))]
     drive = left.get(statics.known, 0.0)
-    if abs(drive) <= 1e-12 * max(map(abs, (*left.values(), drive)), default=0.0):
+    if abs(drive) <= 1e-12 * largest_of((*left.values(), drive)):
         raise SceneError(
             Status.ANY_VALUE, f"any value of {name} holds: it does no work, and nothing drives the mechanism."
         )

@@ -33,7 +33,7 @@ from icsolve.case.space import (
     Vector,
 )
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, largest_of
 from icsolve.screws.plane import add, cross, subtract
 from icsolve.screws.space import AXES, ZERO, Components, Vec, dot, size, square_to, times, unit
 from icsolve.tuples import NamedTuple
@@ -117,8 +117,8 @@ def frame_of(places: Places) -> SpatialFrame:
     """
     rough = [(float(x), float(y), float(z)) for x, y, z in places.values()]
     origin = next(iter(rough), (0.0, 0.0, 0.0))
-    reach = max((abs(c) for p in rough for c in subtract(p, origin)), default=0.0)
-    offset = max((abs(c) for p in rough for c in p), default=0.0)
+    reach = largest_of([c for p in rough for c in subtract(p, origin)])
+    offset = largest_of([c for p in rough for c in p])
     if reach and math.ulp(offset) > 1e-3 * reach:
         raise SceneError(
             Status.NEAR_SINGULAR,

@@ -24,7 +24,7 @@ from icsolve.case.space import (
     Vector,
 )
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Arithmetic, Scalar, Showing, decider, zero_of
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, Showing, decider, largest_of, zero_of
 from icsolve.numbers.linear import Row
 from icsolve.screws.plane import cross, subtract
 from icsolve.screws.space import AXES, Vec, dot, size, square_to, times, unit
@@ -204,7 +204,7 @@ class _Reader:
         self.case, self.frame, self.a = solved.case, solved.figure.frame, a
         self.statics, self.parameters = statics, parameters = solved.statics, solved.parameters
         self.sizes = statics.open_sizes()
-        self.largest = max((abs(statics.value(c, parameters)) for c in range(statics.known)), default=0.0)
+        self.largest = largest_of([statics.value(c, parameters) for c in range(statics.known)])
         num, den, pi = self.case.units.exact_torque
         self.per_torque = a.ratio((den, num, -pi)) * self.frame.scale
         self.rows = [statics.transmitted(t) for t in range(len(statics.ties))]
@@ -373,7 +373,7 @@ def driven_motion(solved: SpatialSolution) -> str:
 def refuse_huge(solved: SpatialSolution) -> None:
     """Refuse forces that only a figure out of true by its last digits would make."""
     statics, parameters = solved.statics, solved.parameters
-    loads = max((abs(value) for value in parameters.values()), default=0.0)
+    loads = largest_of(parameters.values())
     values = [abs(statics.value(column, parameters)) for column in range(statics.known)]
     if loads and max(values, default=0.0) > HUGE * loads:
         raise SceneError(
