@@ -18,6 +18,7 @@ from icsolve.assembly.steps import PointGroup
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
+from icsolve.numbers.tape import UNIT
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.program import wanted_points
 from icsolve.sweep.request import Columns
@@ -67,9 +68,9 @@ STEADY = 1e-9
 with bounds show the rest."""
 UNPROVEN = 1e-9
 """Relative error of an answer of which no bound is proven."""
-LEVELS, ENOUGH = 3, 14
-"""Beside a peak an answer grows no more: that it doubles while its stretch is closed in so many times, after
-so many in all, shows that it runs off to infinity."""
+LEVELS, ENOUGH = 6, 24
+"""Beside a peak an answer grows no more: that it doubles while its stretch is halved so many times, after so
+many in all, shows that it runs off to infinity."""
 JUMPS = 10.0
 """A change that closes in to a part w of its stretch keeps at most so many times the root of w of its size,
 or it is a jump."""
@@ -129,7 +130,7 @@ class Asked(NamedTuple):
     proven: bool = False
 
 
-class Seen(NamedTuple):
+class SeenRows(NamedTuple):
     """What is seen at places, (n,) each: answers [case units], statuses (their codes), and bounds of the
     errors of the answers where these were asked."""
 
@@ -138,7 +139,7 @@ class Seen(NamedTuple):
     errors: Array
 
 
-Search = Generator[Asked, Seen, list[FoundPosition]]
+Search = Generator[Asked, SeenRows, list[FoundPosition]]
 """Yields places, is sent what is seen there, and returns what it found."""
 Measure = Callable[[Array], Array]
 """Of answers."""
@@ -185,6 +186,8 @@ class Scenes:
         self.places = np.linspace(values.min(), values.max(), (SEARCHED if self.searched else PLACES) + 1)
         self.scenes = 0
         self.width = max(CLOSED * float(np.ptp(values)), 4.0 * float(np.spacing(np.abs(values).max())))
+        self.rounded = UNIT * abs(query.value)
+        """how far the value may be from the decimal that it is written as"""
         self.notes: dict[str, None] = {}
 
     def spots(self) -> FoundPositions:
@@ -229,7 +232,7 @@ class Scenes:
         self.places = places[order]
         return np.concatenate([found, seen.answers])[order], np.concatenate([codes, seen.codes])[order]
 
-    def _swept(self, at: Array, proven: bool = False) -> Seen:
+    def _swept(self, at: Array, proven: bool = False) -> SeenRows:
         self.scenes += len(at) * (FOUND if self.searched else 1)
         if self.scenes > MOST_SCENES:
             raise _EnoughError
@@ -242,11 +245,11 @@ class Scenes:
         nothing = np.full(len(at), np.nan)
         answers = found.answers.get(self.load, nothing)
         errors = found.error.get(self.load, nothing) if proven else nothing
-        return Seen(answers, found.codes, np.where(np.isnan(errors), UNPROVEN * np.abs(answers), errors))
+        return SeenRows(answers, found.codes, np.where(np.isnan(errors), UNPROVEN * np.abs(answers), errors))
 
     def _together(self, searches: list[Search]) -> Iterator[FoundPosition]:
         """What searches find that go on side by side, each step of all by one sweep."""
-        sent: dict[Search, Seen | None] = dict.fromkeys(searches)
+        sent: dict[Search, SeenRows | None] = dict.fromkeys(searches)
         while sent:
             asked: dict[Search, Asked] = {}
             for search, seen in sent.items():
@@ -261,7 +264,7 @@ class Scenes:
                     seen = self._swept(np.concatenate(list(some.values())), proven)
                     cuts = np.cumsum([len(at) for at in some.values()])[:-1]
                     parts = zip(*(np.split(part, cuts) for part in seen), strict=True)
-                    sent |= zip(some, (Seen(*part) for part in parts), strict=True)
+                    sent |= zip(some, (SeenRows(*part) for part in parts), strict=True)
 
     # --- kinds ------------------------------------------------------------------------------------
 
@@ -301,7 +304,7 @@ class Scenes:
 
     def _narrowed(
         self, stretch: tuple[float, float], miss: tuple[float, float]
-    ) -> Generator[Asked, Seen, tuple[float, float]]:
+    ) -> Generator[Asked, SeenRows, tuple[float, float]]:
         """A stretch whose ends miss the value to both sides, as narrow as is asked: where the chord meets it,
         with room to both sides, and halved."""
         (low, high), (f, g) = stretch, miss
@@ -321,7 +324,7 @@ class Scenes:
 
     def _shown(
         self, stretch: tuple[float, float], at: float, wide: float, value: float
-    ) -> Generator[Asked, Seen, tuple[float, float, float] | None]:
+    ) -> Generator[Asked, SeenRows, tuple[float, float, float] | None]:
         """A place with its error and the change within it, where rows with bounds show the answer on both
         sides of a value; None where none do."""
         wide = max(wide, self.width / 2.0)
@@ -329,7 +332,7 @@ class Scenes:
             ends = np.clip([at - wide, at + wide], *stretch)
             answers, _, errors = yield Asked(ends, True)
             miss = answers - value
-            if (np.abs(miss) > errors).all() and miss[0] * miss[1] < 0.0:
+            if (np.abs(miss) > errors + self.rounded).all() and (miss[0] < 0.0) != (miss[1] < 0.0):
                 return at, float(max(at - ends[0], ends[1] - at)), float(abs(miss[1] - miss[0]))
             if (ends == stretch).all():
                 return None
@@ -340,6 +343,7 @@ class Scenes:
         passed through it and comes back."""
         value, stretch = self.query.value, (float(self.places[k - 1]), float(self.places[k + 1]))
         top = yield from self._topmost(k, lambda answers: -side * (answers - value), found)
+        top = top._replace(error=top.error + self.rounded)
         if top.height < -top.error:
             return []
         if top.height > top.error:
@@ -371,7 +375,7 @@ class Scenes:
         inner = float(self.places[k + 1 if math.isnan(before) else k - 1])
         while abs(wide) < abs(inner - at):
             seen = yield Asked(np.array([at + math.copysign(wide, inner - at)]), True)
-            if abs(seen.answers[0] - value) > seen.errors[0]:
+            if abs(seen.answers[0] - value) > seen.errors[0] + self.rounded:
                 return [FoundPosition(at, "value", value, wide)]
             wide *= SECTIONS
         return []
@@ -439,28 +443,26 @@ class Scenes:
             return []
         return [FoundPosition(top.at, "max", top.answer, error)]
 
-    def _topmost(self, k: int, measure: Measure, found: Array) -> Generator[Asked, Seen, Top]:
+    def _topmost(self, k: int, measure: Measure, found: Array) -> Generator[Asked, SeenRows, Top]:
         """Where a measure of the answer is largest between the places beside place ``k``, which have less of
         it than that."""
         at, height = self.places[k - 1 : k + 2], measure(found[k - 1 : k + 2])
-        size, tops, grows = float(np.abs(found[k])), [float(height[1])], False
+        size, tops, grows = float(np.abs(found[k])), [height[1]], False
         while at[-1] - at[0] > self.width and height[1] - min(height[0], height[-1]) > STEADY * size:
-            fine = np.linspace(at[0], at[-1], 2 * SECTIONS + 1)
-            seen = yield Asked(fine[1:-1])
-            heights = np.array([height[0], *np.nan_to_num(measure(seen.answers), nan=-np.inf), height[-1]])
-            if np.isneginf(heights[1:-1]).all() or (
-                grows and len(tops) > ENOUGH and self.query.kind != "dead"
-            ):
-                break
-            top = int(heights[1:-1].argmax()) + 1
-            at, height = fine[top - 1 : top + 2], heights[top - 1 : top + 2]
-            size, tops = float(np.abs(seen.answers[top - 1])), [*tops, float(height[1])]
+            fine = np.insert(at, [1, 2], (at[:-1] + at[1:]) / 2.0)
+            between = np.nan_to_num(measure((yield Asked(fine[1::2])).answers), nan=-np.inf)
+            heights = np.insert(height, [1, 2], between)
+            top = 1 + int(heights[1:-1].argmax())
+            at, height, tops = fine[top - 1 : top + 2], heights[top - 1 : top + 2], [*tops, heights[top]]
             grows = len(tops) > LEVELS and tops[-1] > 2.0 * abs(tops[-1 - LEVELS])
+            if grows and len(tops) > ENOUGH and self.query.kind != "dead":
+                break
         seen = yield Asked(at, True)
         height, bound = measure(seen.answers), seen.errors
         reach, drop = (at[2] - at[0]) / 2.0, float(height[1] - min(height[0], height[2]))
-        bend = height[0] - 2.0 * height[1] + height[2]
-        crest = at[1] + (reach * 0.5 * (height[0] - height[2]) / bend if bend < 0.0 else 0.0)
+        (before, after), (less, lower) = at[::2] - at[1], (height[::2] - height[1]) / (at[::2] - at[1])
+        bend = (less - lower) / (before - after)
+        crest = at[1] - ((less - bend * before) / (2.0 * bend) if bend < 0.0 else 0.0)
         best = at[1], seen.answers[1], height[1], bound[1]
         if crest != at[1] and at[0] < crest < at[2]:  # that of a parabola
             own = yield Asked(np.array([crest]), True)
@@ -469,7 +471,7 @@ class Scenes:
         place, answer, most, error = map(float, best)
         return Top(place, answer, most, error, float(reach), drop, grows, measure)
 
-    def _above(self, stretch: tuple[float, float], top: Top) -> Generator[Asked, Seen, float | None]:
+    def _above(self, stretch: tuple[float, float], top: Top) -> Generator[Asked, SeenRows, float | None]:
         """The error of the place of a peak: as far away to both sides rows with bounds show less; None where
         none do."""
         ends, least = np.array(stretch), self.width / 2.0
@@ -486,8 +488,8 @@ class Scenes:
             wide = np.where(less, wide, SECTIONS * wide)
 
     def _closed(
-        self, state: Callable[[Seen], Mask], k: int, sizes: Array | None = None
-    ) -> Generator[Asked, Seen, tuple[float, float]]:
+        self, state: Callable[[SeenRows], Mask], k: int, sizes: Array | None = None
+    ) -> Generator[Asked, SeenRows, tuple[float, float]]:
         """The two places, as near as is asked, between which a state changes after place ``k``; less near
         where the answers, of these ``sizes`` at first, fade as toward a zero."""
         low, high = float(self.places[k]), float(self.places[k + 1])

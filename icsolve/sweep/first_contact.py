@@ -125,8 +125,8 @@ class FirstContact:
         by, sense = self._way(at[:, row], guide[:, row], x, y, line.nx[a], line.ny[a])
         real = np.ones(len(row), dtype=bool) if self.shifts else line.good[a] | line.good[b]
         chosen, sure = self._first(row[real], by[real], sense[real], rows)
-        picked = np.flatnonzero(real)[chosen]
-        chord, sure = chord[picked], sure & (chosen >= 0)
+        # any chord, where a row has none
+        chord, sure = np.append(chord[real], 0)[chosen], sure & (chosen >= 0)
         sure &= line.good[line.first[chord]] & line.good[line.first[chord] + 1]
 
         def miss(x: Array, y: Array) -> Array:
