@@ -1,4 +1,4 @@
-"""What --find tells where each row is a scene of its own, against closed forms in forty digits.
+"""What --find tells where each row is a scene of its own, against closed forms in sixty digits.
 
 A roller that slides upright on an eccentric circle: R. L. Norton, Design of Machinery, ch. 8.
 """
@@ -21,7 +21,7 @@ from icsolve.sweep.find_by_scenes import FoundPosition
 from icsolve.sweep.find_on_record import Query, find
 from sizes import MORE
 
-mp.dps = 40
+mp.dps = 60
 RADIUS, AWAY, ROLLER = 40, 20, 10
 
 
