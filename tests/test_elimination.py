@@ -27,7 +27,7 @@ from icsolve.numbers.linear import (
     solve_square,
 )
 from icsolve.numbers.quadratics import Quadratics, every_zero
-from icsolve.numbers.roots import last_that_holds, zero_between
+from icsolve.numbers.roots import below_zero, last_that_holds, zero_between
 
 Matrix = list[list[float]]
 
@@ -292,6 +292,18 @@ def test_a_zero_is_found_to_an_ulp_in_few_calls_from_either_side(name: str) -> N
         assert len(calls) <= most
         assert all(low <= x <= high for x in calls)
     assert zero_between(f, zero, high, 0.0, f(high)) == zero
+
+
+@pytest.mark.parametrize("depth", [1.0, 1e-4, 1e-8, 1e-12, 0.0, -1e-12, -1.0])
+@pytest.mark.parametrize("bottom", [0.01, 0.3, 0.77])
+def test_a_valley_below_zero_is_found_however_shallow_it_is(depth: float, bottom: float) -> None:
+    def valley(x: float) -> float:
+        return 100.0 * (x - bottom) ** 2 * (1.0 + 0.3 * x) - depth * 1e-3
+
+    place = below_zero(valley, 0.0, 1.0)
+    assert (place is not None) == (depth > 0.0)
+    assert place is None or valley(place) < 0.0
+    assert below_zero(lambda x: x + 1e-9, 0.0, 1.0) is None
 
 
 def test_the_last_place_at_which_something_holds_is_a_double_beside_the_next() -> None:

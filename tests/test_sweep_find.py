@@ -320,6 +320,13 @@ loads: {W: {weight: 60, link: 2, at: X}, P: {force: unknown, link: 2, at: O, ang
         assert [at for _, at, _ in spots] == pytest.approx(places)
 
 
+def test_what_is_unbounded_in_a_cell_leaves_it_undecided_without_a_warning() -> None:
+    """A quotient over cells that hold a zero of its divisor, where the slope of the answer is sought."""
+    text = (Path(__file__).parent / "data" / "found" / "zero_bound0.yaml").read_text()
+    for spot in find(icsolve.load(text), None, Query("max"), drive={"4": [-180.0, 180.0]}):
+        assert spot.answer is not None
+
+
 def test_what_cannot_be_looked_for() -> None:
     case = icsolve.load(UNKNOWN_TORQUE)
     with pytest.raises(ValueError, match="has one value: give FROM:TO:STEP"):
