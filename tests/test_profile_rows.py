@@ -13,8 +13,9 @@ from random import Random
 
 import numpy as np
 import pytest
+from mpmath import mp, mpf
 
-from cams import HEAD
+from cams import HEAD, swinging
 from icsolve.case import Case
 from icsolve.errors import SceneError
 from icsolve.read import load
@@ -23,6 +24,7 @@ from icsolve.sweep import sweep
 from icsolve.sweep.numbers import with_numbers
 from icsolve.tuples import replace
 
+mp.dps = 60
 FULL = bool(os.environ.get("ICSOLVE_FULL"))
 BASE, NOSE, APART = 40.0, 15.0, 40.0
 FLANK = math.degrees(math.acos((BASE - NOSE) / APART))
@@ -105,3 +107,62 @@ def test_rows_beside_strokes_and_dwells_are_scenes(follower: str, unknown: str) 
     for at in edges(follower) if FULL else rng.sample(edges(follower), 1):
         offs = [s * 10.0**-k * rng.uniform(0.3, 1.0) for k in range(2, 14) for s in (1.0, -1.0)]
         check(case, unknown, at, offs if FULL else rng.sample(offs, 3))
+
+
+@pytest.mark.parametrize("seed", range(3 if not FULL else 30))
+def test_with_friction_rows_beside_a_follower_at_rest_are_right_to_the_last_digit(seed: int) -> None:
+    """Where the arm turns back the normal goes through the cam's axis, so that the normal force has next to
+    no moment about it, and its friction all: F = N (n - mu s t), N by the moments about the arm's pivot."""
+    rng = Random(seed)
+    e, radius, roller, mu = rng.uniform(5, 9), rng.uniform(30, 40), rng.uniform(8, 15), rng.choice((0.1, 0.3))
+    x, y, radius, roller = (round(v, 2) for v in (e * 0.7, e * 0.7, radius, roller))
+    case = load(
+        f"{HEAD}points: {{A: [0, 0], D: [120, 0]}}\nlengths: {{DE: 100}}\nnear: {{E: [40, 60]}}\n"
+        f"profile: {{2: {{circle: [{x}, {y}], radius: {radius}}}, 3: {{roller: E, radius: {roller}}}}}\n"
+        f"joints: [{{pin: [1, 2], at: A}}, {{contact: [2, 3], mu: {mu}}}, {{pin: [3, 1], at: D}}]\n"
+        "loads: {M: {torque: 100, link: 3}, T: {torque: unknown, link: 2}}\nmotion: {link: 2, turns: ccw}\n"
+    )
+    away, reach = mp.sqrt(mpf(repr(x)) ** 2 + mpf(repr(y)) ** 2), mpf(repr(radius)) + mpf(repr(roller))
+    for far in (reach + away, reach - away):  # of the roller's centre from the axis, at rest
+        up = mp.acos((120**2 + far**2 - 100**2) / (240 * far))
+        rest = mp.degrees(up - mp.atan2(y, x)) + (0 if far > reach else 180)
+        rows = [float(rest) + s * 10.0**-k * rng.uniform(0.3, 1.0) for k in (6, 9, 11, 13) for s in (1, -1)]
+        found = sweep(case, want=("answers", "error"), drive={"2": np.array(rows)})
+        for row, value, error in zip(rows, found.answers["T"], found.error["T"], strict=True):
+            angle = mp.atan2(mpf(repr(y)), mpf(repr(x))) + mp.radians(mpf(repr(row)))
+            cx, cy = away * mp.cos(angle), away * mp.sin(angle)
+            dx, apart = cx - 120, mp.hypot(cx - 120, cy)
+            arm = mp.atan2(cy, dx) - mp.acos((100**2 + apart**2 - reach**2) / (200 * apart))
+            nx, ny = (120 + 100 * mp.cos(arm) - cx) / reach, (100 * mp.sin(arm) - cy) / reach
+            px, py = cx + mpf(repr(radius)) * nx, cy + mpf(repr(radius)) * ny
+            fx, fy = nx - mpf(repr(mu)) * ny, ny + mpf(repr(mu)) * nx  # with the cam's surface, ccw
+            true = -100 * (px * fy - py * fx) / ((px - 120) * fy - py * fx)
+            assert abs(value - true) <= error <= 4.0 * math.ulp(value), (row, value, true)
+
+
+@pytest.mark.parametrize("seed", range(2 if not FULL else 20))
+def test_a_knife_edge_that_only_grazes_an_edge_rests_on_it(seed: int) -> None:
+    """The tip of an arm goes in and out again through one edge of a block, at places as near to each other as
+    the root of how far it is from missing the block altogether. With the edge at the distance s from the
+    cam's axis, its normal in the direction w, and q = (d cos w - s) / r, the arm's direction is
+    w + 180 - acos q."""
+    rng = Random(seed)
+    side, turned = rng.uniform(18.8, 19.3), math.radians(8.6)
+    c, k = side * math.cos(turned), side * math.sin(turned)
+    corners = [(c - k, k + c), (-c - k, -k + c), (-c + k, -k - c), (c + k, k - c)]
+    written = [(round(x, 2), round(y, 2)) for x, y in corners]
+    case = swinging(f"{{polygon: [{', '.join(f'[{x}, {y}]' for x, y in written)}]}}", "{knife: E}")
+    case = replace(case, near={"E": (20.3, -7.0)})
+    (px, py), (qx, qy) = ([mpf(repr(v)) for v in written[n]] for n in (3, 0))
+    along = mp.hypot(qx - px, qy - py)
+    normal, s = mp.atan2(px - qx, qy - py), (px * (qy - py) - py * (qx - px)) / along
+    least = mp.degrees(mp.acos((100 + s) / 120) - normal)
+    rows = [float(least) + 10.0**-k * rng.uniform(0.3, 1.0) for k in range(1, 12)]
+    ends = {"2": np.array([*rows, float(least) - 1e-9])}
+    assert sweep(case, drive=ends).status.tolist() == ["ok"] * len(rows) + ["cannot-assemble"]
+    found = sweep(case, want=("answers", "error"), drive=ends)
+    for row, value, error in zip(rows, found.answers["T12"], found.error["T12"], strict=False):
+        w = normal + mp.radians(mpf(repr(row)))
+        q = (120 * mp.cos(w) - s) / 100
+        true = -100 * (1 - mpf("1.2") * mp.sin(w) / mp.sqrt(1 - q * q))
+        assert abs(value - true) <= error <= 4.0 * math.ulp(value), row

@@ -10,11 +10,12 @@ from collections.abc import Iterator
 
 from icsolve.cams.curve import Body, Curve, Foot, dot
 from icsolve.cams.pieces import TURN, Point, unit
-from icsolve.numbers.roots import zero_between
+from icsolve.numbers.roots import below_zero, zero_between
 from icsolve.tuples import NamedTuple
 
 SAMPLES = 720
-"""Positions that are looked at; touching positions nearer to each other than that may be missed."""
+"""Positions that are looked at; of touching positions nearer to each other than that, all but two may be
+missed."""
 
 
 class Shift(NamedTuple):
@@ -94,8 +95,8 @@ class Candidate(NamedTuple):
 def candidates(curve: Curve, body: Body, freedom: Freedom) -> list[Candidate]:
     """Every position in which the follower touches the profile, along its freedom.
 
-    Found where the gap changes its sign between 720 places, then closed in by Brent's method: positions
-    nearer to each other than these may be missed.
+    Found where the gap changes its sign between 720 places, or comes back to it between two of them, then
+    closed in by Brent's method: of more than two between the same places some may be missed.
     """
     sides = (1.0, -1.0) if body.kind == "flat face" else (1.0,)
     return [way for side in sides for way in candidates_on(curve, body, freedom, side)]
@@ -155,6 +156,13 @@ def _zeros(curve: Curve, body: Body, freedom: Freedom, side: float) -> Iterator[
         if at_a * at_b < 0.0 or at_b == 0.0 != at_a:
             by = zero_between(gap, low + (k - 1) * step, low + k * step, at_a, at_b)
             yield by, math.copysign(1.0, at_b - at_a)
+        elif at_a * at_b > 0.0 and abs(at_a) + abs(at_b) < most:  # so near that it may pass zero twice
+            sign, ends = math.copysign(1.0, at_a), (low + (k - 1) * step, low + k * step)
+            between = below_zero(lambda by, sign=sign: sign * gap(by), *ends)  # type: ignore[misc]
+            if between is not None:
+                at_c = gap(between)
+                yield zero_between(gap, ends[0], between, at_a, at_c), -sign
+                yield zero_between(gap, between, ends[1], at_c, at_b), sign
         at_a = at_b
 
 

@@ -211,6 +211,9 @@ def _null_vectors(work: list[list[Scalar]], order: list[int], rank: int, free: i
 Row = dict[int, Scalar]
 
 THRESHOLD = 0.1
+SMALL = 1e-4
+"""A row whose pivot is below this fraction of what other rows have in its column waits for them: they may
+take it out."""
 SPENT = 1e-13
 """A row whose largest entry is below this fraction of what it was summed from says nothing more."""
 
@@ -293,6 +296,7 @@ class _Work:
             self.sizes[n] = largest_of([row[c] for c in inner])
             for c in inner:
                 self.holders[c].add(n)
+        self.late: list[int] = []
         self.heap = [(len(self.inner(row)), n) for n, row in self.rows.items()]
         heapq.heapify(self.heap)
 
@@ -302,8 +306,9 @@ class _Work:
 
     def next_row(self) -> tuple[int | None, Row] | None:
         """The shortest row and its pivot column (None where it has none left); None at the end."""
-        while self.heap:
-            count, n = heapq.heappop(self.heap)
+        while self.heap or self.late:
+            waited = not self.heap
+            count, n = (self.columns, self.late.pop()) if waited else heapq.heappop(self.heap)
             row = self.rows.get(n)
             if row is None:
                 continue
@@ -311,11 +316,20 @@ class _Work:
             if len(inner) > count:
                 heapq.heappush(self.heap, (len(inner), n))
                 continue
+            column = self.pivot(row, inner, self.sizes[n])
+            if not waited and column is not None and self.is_small(row, column):
+                self.late.append(n)
+                continue
             del self.rows[n]
             for c in inner:
                 self.holders[c].discard(n)
-            return self.pivot(row, inner, self.sizes[n]), row
+            return column, row
         return None
+
+    def is_small(self, row: Row, column: int) -> bool:
+        """Whether a pivot is next to nothing beside its column in other rows."""
+        most = max((magnitude(self.rows[n][column]) for n in self.holders[column]), default=0.0)
+        return magnitude(row[column]) < SMALL * most
 
     def pivot(self, row: Row, inner: list[int], size: float) -> int | None:
         """The column of a row that the fewest others share, among those that are large enough."""

@@ -8,6 +8,8 @@ Function = Callable[[float], float]
 MOST = 120
 """Steps at most: as many halvings leave no double between the ends, unless the zero is at 0."""
 ULP = 2.0**-52
+BESIDE = 1e-3
+"""So near to its ends, as a part of an interval, a valley is not looked for."""
 
 
 def zero_between(f: Function, a: float, b: float, at_a: float, at_b: float) -> float:
@@ -35,6 +37,32 @@ def zero_between(f: Function, a: float, b: float, at_a: float, at_b: float) -> f
             c, at_c = a, at_a
             step = before = b - a
     return b
+
+
+GOLDEN = 0.5 * (5.0**0.5 - 1.0)
+
+
+def below_zero(f: Function, a: float, b: float) -> float | None:
+    """A place between a and b at which f, positive at both, is negative: on the way to its least value, by
+    golden sections (J. Kiefer, 1953); None where that is not below zero. Of several valleys it looks into
+    one.
+    """
+    wide, near = b - a, (b - a) * BESIDE
+    if f(a + near) >= f(a) or f(b - near) >= f(b):
+        return None
+    c, d = b - GOLDEN * (b - a), a + GOLDEN * (b - a)
+    at_c, at_d = f(c), f(d)
+    while b - a > 2.0**-27 * wide and min(at_c, at_d) >= 0.0:
+        if at_c < at_d:
+            b, d, at_d = d, c, at_c
+            c = b - GOLDEN * (b - a)
+            at_c = f(c)
+        else:
+            a, c, at_c = c, d, at_d
+            d = a + GOLDEN * (b - a)
+            at_d = f(d)
+    place, least = min((c, at_c), (d, at_d), key=lambda one: one[1])
+    return place if least < 0.0 else None
 
 
 def last_that_holds(holds: Callable[[float], bool], inside: float, outside: float) -> tuple[float, float]:

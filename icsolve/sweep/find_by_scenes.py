@@ -1,7 +1,8 @@
 """Positions where each row is a scene of its own: with friction, on cam profiles, in families one by one.
 
-There is no record to bound over whole cells: the range is searched at many places, each change between two of
-them is closed in scene by scene, and a note says so.
+There is no record to bound over whole cells: the range is searched at many places, more closely toward its
+ends, each change between two of them is closed in on, and a note says so. What is closed in on counts where
+rows with proven bounds show it: signs on both sides of a value, less on both sides of a peak.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from icsolve.assembly.steps import PointGroup
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
+from icsolve.numbers.tape import UNIT
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.program import wanted_points
 from icsolve.sweep.request import Columns
@@ -26,6 +28,8 @@ from icsolve.tuples import NamedTuple
 
 PLACES = 360
 """Places at which the range is searched."""
+RINGS, CLOSER = 8, 0.125
+"""Toward each end so many more, each this many times as far from it as the one before."""
 SEARCHED, APART = 48, 4
 """The same where points of the figure are searched for at each: every so-manyth first, and those between only
 beside one that assembles."""
@@ -33,20 +37,20 @@ FOUND, MISSED = 4, 24
 """Such a scene counts for so many, and for so many more where nothing is found."""
 CLOSED = 1e-12
 """Places are closed in to this part of the range."""
-FLAT = 1e-7
-"""A peak, to which an answer is flat, to this."""
 SECTIONS = 4
 """A search closes in by this factor in one sweep, and"""
 TOGETHER = 8
 """so many searches share their sweeps: each sweep follows the figure from the case's own position anew, which
 may take as long as many scenes."""
-MOST_SCENES = 1200
+MOST_SCENES = 3000
 """Scenes that are solved before a search ends with what it has."""
 MANY = "so much changes in this range that not all of it was closed in on: take a shorter one."
 SAID = (
     "each position is a scene of its own: the range was searched at {count} places, and two positions "
     "between two of them may be missed."
 )
+UNSHOWN = "where the answer hardly changes, by less than its own rounding error, no position is told."
+HAS = "{load} has this value over whole stretches, of which the ends are given."
 HOLDS = (
     "with friction and no motion {load} holds over a range, not at one value, so no position is looked for. "
     "Give a `motion`, or leave out the friction."
@@ -57,6 +61,19 @@ it is finite, it is more than ``GROWN`` times as large as ten times as far away.
 FADED = 0.01
 """What runs off to infinity is not larger far from there than near it: where both ends of a shorter stretch
 have less than this part of what the longer one had, the answer passes through zero."""
+ROOM = 2.0**-6
+"""To both sides of where a chord meets a value, as a part of the chord."""
+STEADY = 1e-9
+"""A peak is closed in on by doubles until it stands so little above what is beside it, relative to it; rows
+with bounds show the rest."""
+UNPROVEN = 1e-9
+"""Relative error of an answer of which no bound is proven."""
+LEVELS, ENOUGH = 6, 24
+"""Beside a peak an answer grows no more: that it doubles while its stretch is halved so many times, after so
+many in all, shows that it runs off to infinity."""
+JUMPS = 10.0
+"""A change that closes in to a part w of its stretch keeps at most so many times the root of w of its size,
+or it is a jump."""
 MISSES = [CODE[Status.CANNOT_ASSEMBLE], CODE[Status.AMBIGUOUS]]
 LOCKED = [CODE[word] for word in (Status.DEAD_CENTRE, Status.NO_VALUE, Status.JAM)]
 
@@ -104,10 +121,50 @@ class _EnoughError(Exception):
 
 
 Mask = npt.NDArray[np.bool_]
-Seen = tuple[Array, Codes]
-"""Answers and statuses (their codes) at places."""
-Search = Generator[Array, Seen, FoundPosition | None]
+
+
+class Asked(NamedTuple):
+    """Places that a search asks for; ``proven`` where the bounds of their answers are asked, too."""
+
+    at: Array
+    proven: bool = False
+
+
+class SeenRows(NamedTuple):
+    """What is seen at places, (n,) each: answers [case units], statuses (their codes), and bounds of the
+    errors of the answers where these were asked."""
+
+    answers: Array
+    codes: Codes
+    errors: Array
+
+
+Search = Generator[Asked, SeenRows, list[FoundPosition]]
 """Yields places, is sent what is seen there, and returns what it found."""
+Measure = Callable[[Array], Array]
+"""Of answers."""
+
+
+class Top(NamedTuple):
+    """Where a measure of the answer is largest, as doubles and a parabola tell.
+
+    Attributes
+    ----------
+    at : the place
+    answer, height, error : the answer there, its measure, and the bound of their error [case units]
+    reach, drop : so far to both sides of it the measure is less by so much, on one side at least
+    grows : whether it grows as the place is closed in on, to infinity
+    measure : of answers
+    """
+
+    at: float
+    answer: float
+    height: float
+    error: float
+    reach: float
+    drop: float
+    grows: bool
+    measure: Measure
 
 
 def _is_searched(case: Case) -> bool:
@@ -126,10 +183,12 @@ class Scenes:
         self.load = query.load or next(load.name for load in case.loads if is_unknown(load))
         values = columns.arrays[name]
         self.searched = _is_searched(case)
-        count = SEARCHED if self.searched else PLACES
-        self.places = np.linspace(values.min(), values.max(), count + 1)
+        self.places = np.linspace(values.min(), values.max(), (SEARCHED if self.searched else PLACES) + 1)
         self.scenes = 0
         self.width = max(CLOSED * float(np.ptp(values)), 4.0 * float(np.spacing(np.abs(values).max())))
+        self.rounded = UNIT * abs(query.value)
+        """how far the value may be from the decimal that it is written as"""
+        self.notes: dict[str, None] = {}
 
     def spots(self) -> FoundPositions:
         """All positions that are found, in order."""
@@ -139,83 +198,197 @@ class Scenes:
         finder = {"value": self._values, "max": self._peaks, "dead": self._dead}[self.query.kind]
         searches = list(finder(found, codes))
         spots = FoundPositions()
-        spots.notes = (SAID.format(count=len(self.places)),)
+        self.notes[SAID.format(count=len(self.places))] = None
         try:
             for first in range(0, len(searches), TOGETHER):
                 spots += self._together(searches[first : first + TOGETHER])
         except _EnoughError:
-            spots.notes += (MANY,)
+            self.notes[MANY] = None
         spots.sort(key=lambda spot: spot.at)
+        spots.notes = tuple(self.notes)
         return spots
 
-    def _first(self) -> Seen:
-        """What is seen at the places, which are all, or those that are worth a search."""
+    def _first(self) -> tuple[Array, Codes]:
+        """What is seen at the places, which are all, or those that are worth a search, and at rings toward
+        the ends, so that what turns in the first or the last stretch is seen to."""
         kept = np.arange(len(self.places)) % (APART if self.searched else 1) == 0
         found, codes = np.full(len(kept), np.nan), np.zeros(len(kept), dtype=np.int8)
-        found[kept], codes[kept] = self._swept(self.places[kept])
+        found[kept], codes[kept] = self._swept(self.places[kept])[:2]
         if self.searched:
             missed = np.isin(codes[kept], MISSES)
             between = ~kept & ~np.append(np.repeat(missed[:-1] & missed[1:], APART), False)
             if between.any():
-                found[between], codes[between] = self._swept(self.places[between])
+                found[between], codes[between] = self._swept(self.places[between])[:2]
             kept |= between
-        self.places = self.places[kept]
-        return found[kept], codes[kept]
+        self.places, found, codes = self.places[kept], found[kept], codes[kept]
+        step = (self.places[1] - self.places[0]) * CLOSER ** np.arange(1.0, RINGS + 1.0)
+        ends = [end for end, k in ((self.places[0] + step, 0), (self.places[-1] - step, -1)) if not codes[k]]
+        if not ends:
+            return found, codes
+        rings = np.setdiff1d(np.concatenate(ends), self.places)
+        seen = self._swept(rings)
+        places = np.concatenate([self.places, rings])
+        order = np.argsort(places)
+        self.places = places[order]
+        return np.concatenate([found, seen.answers])[order], np.concatenate([codes, seen.codes])[order]
 
-    def _swept(self, at: Array) -> Seen:
+    def _swept(self, at: Array, proven: bool = False) -> SeenRows:
         self.scenes += len(at) * (FOUND if self.searched else 1)
         if self.scenes > MOST_SCENES:
             raise _EnoughError
         rows = {own: np.full(len(at), float(a[0])) for own, a in self.columns.arrays.items()}
         rows[self.name] = at
         vary = {own: rows[own] for own in self.columns.paths}
-        found = sweep(self.case, vary, drive={own: rows[own] for own in self.columns.links})
+        want = ("answers", "status", *(["error"] if proven else []))
+        found = sweep(self.case, vary, want, drive={own: rows[own] for own in self.columns.links})
         self.scenes += MISSED * self.searched * int(np.isin(found.codes, MISSES).sum())
-        return found.answers.get(self.load, np.full(len(at), np.nan)), found.codes
+        nothing = np.full(len(at), np.nan)
+        answers = found.answers.get(self.load, nothing)
+        errors = found.error.get(self.load, nothing) if proven else nothing
+        return SeenRows(answers, found.codes, np.where(np.isnan(errors), UNPROVEN * np.abs(answers), errors))
 
     def _together(self, searches: list[Search]) -> Iterator[FoundPosition]:
         """What searches find that go on side by side, each step of all by one sweep."""
-        sent: dict[Search, Seen | None] = dict.fromkeys(searches)
+        sent: dict[Search, SeenRows | None] = dict.fromkeys(searches)
         while sent:
-            asked: dict[Search, Array] = {}
+            asked: dict[Search, Asked] = {}
             for search, seen in sent.items():
                 try:
                     asked[search] = next(search) if seen is None else search.send(seen)
                 except StopIteration as ended:
-                    if ended.value is not None:
-                        yield ended.value
-            if not asked:
-                return
-            answers, codes = self._swept(np.concatenate(list(asked.values())))
-            cuts = np.cumsum([len(at) for at in asked.values()])[:-1]
-            sent = dict(
-                zip(asked, zip(np.split(answers, cuts), np.split(codes, cuts), strict=True), strict=True)
-            )
+                    yield from ended.value
+            sent = {}
+            for proven in (False, True):
+                some = {search: one.at for search, one in asked.items() if one.proven == proven}
+                if some:
+                    seen = self._swept(np.concatenate(list(some.values())), proven)
+                    cuts = np.cumsum([len(at) for at in some.values()])[:-1]
+                    parts = zip(*(np.split(part, cuts) for part in seen), strict=True)
+                    sent |= zip(some, (SeenRows(*part) for part in parts), strict=True)
 
     # --- kinds ------------------------------------------------------------------------------------
 
     def _values(self, found: Array, codes: Codes) -> Iterator[Search]:
-        """Where the answer has the value, and its changes of sign less the value but through infinity."""
+        """Where the answer passes through the value, turns back at it, or begins or ceases to have it."""
         miss = found - self.query.value
-        for k in np.flatnonzero((miss == 0.0) | np.append(miss[:-1] * miss[1:] < 0.0, False)).tolist():
-            yield self._value(k, miss)
+        sign, size = np.sign(miss), np.abs(miss)
+        for k in range(len(sign)):
+            before, after = (sign[j] if 0 <= j < len(sign) else math.nan for j in (k - 1, k + 1))
+            if sign[k] * after < 0.0:
+                yield self._crossing(k, k + 1, miss)
+            elif sign[k] == 0.0 and before * after < 0.0:
+                yield self._crossing(k - 1, k + 1, miss)
+            elif before * after > 0.0 and sign[k] * after >= 0.0:
+                least, most = sorted(size[[k - 1, k + 1]])
+                if size[k] <= least and size[k] <= most - size[k]:  # a parabola, or a corner, may reach it
+                    yield self._touching(k, float(after), found)
+            elif sign[k] == 0.0:
+                yield self._having(k, before, after)
 
-    def _value(self, k: int, miss: Array) -> Search:
-        if miss[k] == 0.0:
-            return FoundPosition(
-                float(self.places[k]), "value", float(miss[k] + self.query.value), self.width
-            )
-        low, high = yield from self._closed(lambda seen: seen[0] > self.query.value, k)
-        at = (low + high) / 2.0
-        answer = float((yield np.array([at]))[0][0])
-        if abs(answer - self.query.value) <= min(abs(miss[k]), abs(miss[k + 1])) + abs(self.width):
-            return FoundPosition(at, "value", answer, high - low)
-        return None  # a jump, in which there may be no answer
+    def _crossing(self, k: int, n: int, miss: Array) -> Search:
+        """The change of sign between two places."""
+        return self._through((float(self.places[k]), float(self.places[n])), (float(miss[k]), float(miss[n])))
+
+    def _through(self, stretch: tuple[float, float], miss: tuple[float, float]) -> Search:
+        """The same between the ends of a stretch, at which the answer misses the value by so much."""
+        low, high = yield from self._narrowed(stretch, miss)
+        shown = yield from self._shown(stretch, (low + high) / 2.0, (high - low) / 2.0, self.query.value)
+        if shown is None:
+            self.notes[UNSHOWN] = None
+            return []
+        at, error, changed = shown
+        part = 2.0 * error / (stretch[1] - stretch[0])
+        if changed > JUMPS * math.sqrt(part) * abs(miss[1] - miss[0]):
+            return []
+        return [FoundPosition(at, "value", self.query.value, error)]
+
+    def _narrowed(
+        self, stretch: tuple[float, float], miss: tuple[float, float]
+    ) -> Generator[Asked, SeenRows, tuple[float, float]]:
+        """A stretch whose ends miss the value to both sides, as narrow as is asked: where the chord meets it,
+        with room to both sides, and halved."""
+        (low, high), (f, g) = stretch, miss
+        while high - low > self.width:
+            chord, room = low - f * (high - low) / (g - f), max((high - low) * ROOM, self.width / 4.0)
+            at = np.clip([chord - room, chord + room, (low + high) / 2.0], low, high)
+            at = np.unique(at[(at > low) & (at < high)])
+            if not at.size:
+                break
+            m = np.nan_to_num((yield Asked(at)).answers - self.query.value, nan=g)
+            at, m = np.array([low, *at, high]), np.array([f, *m, g])
+            j = int(np.flatnonzero((m > 0.0) == (g > 0.0))[0])
+            (low, high), (f, g) = (float(at[j - 1]), float(at[j])), (float(m[j - 1]), float(m[j]))
+            if f == 0.0 or g == 0.0:
+                return (low, low) if f == 0.0 else (high, high)
+        return low, high
+
+    def _shown(
+        self, stretch: tuple[float, float], at: float, wide: float, value: float
+    ) -> Generator[Asked, SeenRows, tuple[float, float, float] | None]:
+        """A place with its error and the change within it, where rows with bounds show the answer on both
+        sides of a value; None where none do."""
+        wide = max(wide, self.width / 2.0)
+        while True:
+            ends = np.clip([at - wide, at + wide], *stretch)
+            answers, _, errors = yield Asked(ends, True)
+            miss = answers - value
+            if (np.abs(miss) > errors + self.rounded).all() and (miss[0] < 0.0) != (miss[1] < 0.0):
+                return at, float(max(at - ends[0], ends[1] - at)), float(abs(miss[1] - miss[0]))
+            if (ends == stretch).all():
+                return None
+            wide *= SECTIONS
+
+    def _touching(self, k: int, side: float, found: Array) -> Search:
+        """Where the answer, to this ``side`` of the value, comes nearest to it: it turns back there, or has
+        passed through it and comes back."""
+        value, stretch = self.query.value, (float(self.places[k - 1]), float(self.places[k + 1]))
+        top = yield from self._topmost(k, lambda answers: -side * (answers - value), found)
+        top = top._replace(error=top.error + self.rounded)
+        if top.height < -top.error:
+            return []
+        if top.height > top.error:
+            spots = []
+            for n, end in ((k - 1, stretch[0]), (k + 1, stretch[1])):
+                ends = sorted([(end, float(found[n]) - value), (top.at, -side * top.height)])
+                spots += yield from self._through(*zip(*ends, strict=True))
+            return spots
+        error = yield from self._above(stretch, top._replace(height=min(top.height, 0.0)))
+        if error is None:
+            self.notes[UNSHOWN] = None
+            return []
+        return [FoundPosition(top.at, "value", value, error)]
+
+    def _having(self, k: int, before: float, after: float) -> Search:
+        """A place that has the value, at the end of the range or of the places that have an answer, or where
+        a stretch that has it begins or ends."""
+        value = self.query.value
+        if before == after == 0.0:
+            return []
+        if 0.0 in (before, after):
+            self.notes[HAS.format(load=self.load)] = None
+            if math.isnan(before + after):
+                return []
+            n = k - 1 if after == 0.0 else k
+            low, high = yield from self._closed(lambda seen: seen.answers == value, n)
+            return [FoundPosition(high if after == 0.0 else low, "value", value, high - low)]
+        at, wide = float(self.places[k]), self.width
+        inner = float(self.places[k + 1 if math.isnan(before) else k - 1])
+        while abs(wide) < abs(inner - at):
+            seen = yield Asked(np.array([at + math.copysign(wide, inner - at)]), True)
+            if abs(seen.answers[0] - value) > seen.errors[0] + self.rounded:
+                return [FoundPosition(at, "value", value, wide)]
+            wide *= SECTIONS
+        return []
 
     def _dead(self, found: Array, codes: Codes) -> Iterator[Search]:
-        """Changes of sign through infinity, and where the mechanism begins to lock or reaches its limit."""
-        for k in np.flatnonzero(found[:-1] * found[1:] < 0.0).tolist():
+        """Changes of sign through infinity, places from which it runs off there to one side, and where the
+        mechanism begins to lock or reaches its limit."""
+        sign = np.sign(found)
+        for k in np.flatnonzero(sign[:-1] * sign[1:] < 0.0).tolist():
             yield self._pole(k, found)
+        for k in self._crests(np.abs(found)):
+            if sign[k - 1] == sign[k] == sign[k + 1]:
+                yield self._growing(k, found)
         for kind, wanted in (("dead", LOCKED), ("limit", [CODE[Status.CANNOT_ASSEMBLE]])):
             there = np.isin(codes, wanted)
             for k in np.flatnonzero(there[:-1] != there[1:]).tolist():
@@ -224,54 +397,109 @@ class Scenes:
     def _pole(self, k: int, found: Array) -> Search:
         """Where the answer grows to infinity at a change of sign: a jump stays as it is, also where friction
         jams so near to it that there is no answer."""
-        low, high = yield from self._closed(lambda seen: seen[0] > 0.0, k, np.abs(found[k : k + 2]))
+        stretch = (float(self.places[k]), float(self.places[k + 1]))
+        low, high = yield from self._closed(lambda seen: seen.answers > 0.0, k, np.abs(found[k : k + 2]))
         if high - low > self.width:
-            return None
+            return []
         at, away, near, far = (low + high) / 2.0, BESIDE * self.width, math.nan, math.nan
-        while math.isnan(near) and away <= self.places[k + 1] - self.places[k]:
-            size = np.abs((yield at + away * np.array([-1.0, 1.0, -10.0, 10.0]))[0])
+        while math.isnan(near) and away <= stretch[1] - stretch[0]:
+            size = np.abs((yield Asked(at + away * np.array([-1.0, 1.0, -10.0, 10.0]))).answers)
             near, far = size[:2].max(), size[2:].max()
             away *= 10.0
-        return None if near <= GROWN * far else FoundPosition(at, "dead", None, high - low)
+        if near <= GROWN * far:
+            return []
+        shown = yield from self._shown(stretch, at, (high - low) / 2.0, 0.0)
+        return [FoundPosition(at, "dead", None, high - low if shown is None else shown[1])]
+
+    def _growing(self, k: int, found: Array) -> Search:
+        """Where the answer grows to infinity to one side."""
+        top = yield from self._topmost(k, np.abs, found)
+        return [FoundPosition(top.at, "dead", None, 2.0 * top.reach)] if top.grows else []
 
     def _end(self, kind: str, wanted: list[int], k: int, before: bool) -> Search:
         """Where a status begins or ends between two places: the last that has none of it."""
-        low, high = yield from self._closed(lambda seen: np.isin(seen[1], wanted), k)
+        low, high = yield from self._closed(lambda seen: np.isin(seen.codes, wanted), k)
         at = high if before else low
-        answer = float((yield np.array([at]))[0][0]) if kind == "limit" else math.nan
-        return FoundPosition(at, kind, None if math.isnan(answer) else answer, high - low)
+        answer = float((yield Asked(np.array([at]))).answers[0]) if kind == "limit" else math.nan
+        return [FoundPosition(at, kind, None if math.isnan(answer) else answer, high - low)]
 
     def _peaks(self, found: Array, codes: Codes) -> Iterator[Search]:
         """Where the size of the answer is larger than on both sides."""
-        size = np.abs(found)
-        for k in range(1, len(size) - 1):
-            if np.isfinite(size[k - 1 : k + 2]).all() and size[k - 1] < size[k] >= size[k + 1]:
-                yield self._peak(k, float(found[k]))
+        for k in self._crests(np.abs(found)):
+            yield self._peak(k, found)
 
-    def _peak(self, k: int, beside: float) -> Search:
-        low, high = float(self.places[k - 1]), float(self.places[k + 1])
-        while high - low > FLAT * self.width / CLOSED:
-            at = np.linspace(low, high, 2 * SECTIONS + 1)
-            most = int(np.nan_to_num(np.abs((yield at[1:-1])[0])).argmax()) + 1
-            low, high = float(at[most - 1]), float(at[most + 1])
-        at = np.array([(low + high) / 2.0])
-        answer = float((yield at)[0][0])
-        grown = abs(answer) > 10.0 * abs(beside) or answer * beside <= 0.0
-        return None if grown else FoundPosition(float(at[0]), "max", answer, high - low)
+    def _crests(self, size: Array) -> list[int]:
+        """Places at which the answer is larger than at the ones beside."""
+        here = size[1:-1]
+        return (1 + np.flatnonzero((size[:-2] < here) & (here >= size[2:]))).tolist()
+
+    def _peak(self, k: int, found: Array) -> Search:
+        top = yield from self._topmost(k, np.abs, found)
+        if top.grows:
+            return []
+        error = yield from self._above((float(self.places[k - 1]), float(self.places[k + 1])), top)
+        if error is None:
+            self.notes[UNSHOWN] = None
+            return []
+        return [FoundPosition(top.at, "max", top.answer, error)]
+
+    def _topmost(self, k: int, measure: Measure, found: Array) -> Generator[Asked, SeenRows, Top]:
+        """Where a measure of the answer is largest between the places beside place ``k``, which have less of
+        it than that."""
+        at, height = self.places[k - 1 : k + 2], measure(found[k - 1 : k + 2])
+        size, tops, grows = float(np.abs(found[k])), [height[1]], False
+        while at[-1] - at[0] > self.width and height[1] - min(height[0], height[-1]) > STEADY * size:
+            fine = np.insert(at, [1, 2], (at[:-1] + at[1:]) / 2.0)
+            between = np.nan_to_num(measure((yield Asked(fine[1::2])).answers), nan=-np.inf)
+            heights = np.insert(height, [1, 2], between)
+            top = 1 + int(heights[1:-1].argmax())
+            at, height, tops = fine[top - 1 : top + 2], heights[top - 1 : top + 2], [*tops, heights[top]]
+            grows = len(tops) > LEVELS and tops[-1] > 2.0 * abs(tops[-1 - LEVELS])
+            if grows and len(tops) > ENOUGH and self.query.kind != "dead":
+                break
+        seen = yield Asked(at, True)
+        height, bound = measure(seen.answers), seen.errors
+        reach, drop = (at[2] - at[0]) / 2.0, float(height[1] - min(height[0], height[2]))
+        (before, after), (less, lower) = at[::2] - at[1], (height[::2] - height[1]) / (at[::2] - at[1])
+        bend = (less - lower) / (before - after)
+        crest = at[1] - ((less - bend * before) / (2.0 * bend) if bend < 0.0 else 0.0)
+        best = at[1], seen.answers[1], height[1], bound[1]
+        if crest != at[1] and at[0] < crest < at[2]:  # that of a parabola
+            own = yield Asked(np.array([crest]), True)
+            if measure(own.answers)[0] >= height[1]:
+                best = crest, own.answers[0], measure(own.answers)[0], own.errors[0]
+        place, answer, most, error = map(float, best)
+        return Top(place, answer, most, error, float(reach), drop, grows, measure)
+
+    def _above(self, stretch: tuple[float, float], top: Top) -> Generator[Asked, SeenRows, float | None]:
+        """The error of the place of a peak: as far away to both sides rows with bounds show less; None where
+        none do."""
+        ends, least = np.array(stretch), self.width / 2.0
+        share = 8.0 * top.error / top.drop if top.drop > 0.0 else 1.0
+        wide = np.full(2, max(least, top.reach * math.sqrt(min(share, 1.0))))
+        while True:
+            at = np.clip(top.at + wide * [-1.0, 1.0], *stretch)
+            answers, _, errors = yield Asked(at, True)
+            less = top.measure(answers) + errors < top.height - top.error
+            if less.all():
+                return float(np.abs(at - top.at).max())
+            if (~less & (at == ends)).any():
+                return None
+            wide = np.where(less, wide, SECTIONS * wide)
 
     def _closed(
-        self, state: Callable[[Seen], Mask], k: int, sizes: Array | None = None
-    ) -> Generator[Array, Seen, tuple[float, float]]:
+        self, state: Callable[[SeenRows], Mask], k: int, sizes: Array | None = None
+    ) -> Generator[Asked, SeenRows, tuple[float, float]]:
         """The two places, as near as is asked, between which a state changes after place ``k``; less near
         where the answers, of these ``sizes`` at first, fade as toward a zero."""
         low, high = float(self.places[k]), float(self.places[k + 1])
-        first = state((yield np.array([low])))[0]
+        first = state((yield Asked(np.array([low]))))[0]
         least = -1.0 if sizes is None else FADED * float(sizes.max())
         ends = np.zeros(2) if sizes is None else sizes
         while high - low > self.width and not ends.max() < least:
             at = np.linspace(low, high, SECTIONS + 1)
-            seen = yield at[1:-1]
+            seen = yield Asked(at[1:-1])
             j = int(np.append(state(seen) != first, True).argmax())
             low, high = float(at[j]), float(at[j + 1])
-            ends = np.array([ends[0], *np.abs(seen[0]), ends[1]])[j : j + 2]
+            ends = np.array([ends[0], *np.abs(seen.answers), ends[1]])[j : j + 2]
         return low, high

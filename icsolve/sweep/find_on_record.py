@@ -515,8 +515,8 @@ def _decided(whole: Sequence[Jet], points: Sequence[Jet], half: Array) -> tuple[
 
 def _decided_peak(whole: Sequence[Jet], points: Sequence[Jet], half: Array) -> tuple[Mask, Array, Mask]:
     """The same for the numerator of a quotient's slope."""
-    wide, narrow = _wronskian(*whole), _wronskian(*points)
-    with np.errstate(all="ignore"):
+    with np.errstate(all="ignore"):  # what is unbounded in a cell leaves it undecided
+        wide, narrow = _wronskian(*whole), _wronskian(*points)
         reach = (np.abs(wide[1].mid) + wide[1].rad) * half
         empty = wide[0].excludes_zero | (np.abs(narrow[0].mid) - narrow[0].rad > reach)
     rises = np.where(wide[1].excludes_zero, np.sign(wide[1].mid), 0.0)

@@ -125,8 +125,8 @@ class FirstContact:
         by, sense = self._way(at[:, row], guide[:, row], x, y, line.nx[a], line.ny[a])
         real = np.ones(len(row), dtype=bool) if self.shifts else line.good[a] | line.good[b]
         chosen, sure = self._first(row[real], by[real], sense[real], rows)
-        picked = np.flatnonzero(real)[chosen]
-        chord, sure = chord[picked], sure & (chosen >= 0)
+        # any chord, where a row has none
+        chord, sure = np.append(chord[real], 0)[chosen], sure & (chosen >= 0) & ~self._grazed(off, guide)
         sure &= line.good[line.first[chord]] & line.good[line.first[chord] + 1]
 
         def miss(x: Array, y: Array) -> Array:
@@ -138,6 +138,24 @@ class FirstContact:
         by, _ = self._way(at, guide, x, y, nx, ny)
         point = np.stack([x - line.radius * nx, y - line.radius * ny], axis=1)
         return FirstContacts(by, point, np.stack([nx, ny], axis=1), sure & closed, centre)
+
+    def _grazed(self, off: Array, guide: Array) -> Mask:
+        """Rows in which the way may pass twice through the piece over one chord, whose ends lie to one side
+        of it: there it runs along the piece, nearer than that lies to its chord."""
+        line = self.line
+        a, b = off[:, line.first], off[:, line.first + 1]
+        if self.shifts:
+            least, along, room = np.minimum(np.abs(a), np.abs(b)), 0.0, 2.0 * line.rise
+        else:
+            (qx, qy), x, y = guide, line.x[line.first], line.y[line.first]
+            dx, dy = line.x[line.first + 1] - x, line.y[line.first + 1] - y
+            along = dx * dx + dy * dy
+            foot = (_outer(qx, dx) + _outer(qy, dy) - (x * dx + y * dy)) / along
+            nearest = np.where((foot > 0.0) & (foot < 1.0), a - foot * foot * along, np.minimum(a, b))
+            least = np.where(a > 0.0, nearest, -np.maximum(a, b))
+            room = 4.0 * line.rise * np.hypot(x - qx[:, None], y - qy[:, None]) + AT_ONE * self.size**2
+        beside = ((a > 0.0) == (b > 0.0)) & (least < room) & (np.abs(a - b) <= 1.5 * along + 3.0 * room)
+        return np.asarray(beside.any(axis=1))
 
     def _way(self, at: Array, guide: Array, x: Array, y: Array, nx: Array, ny: Array) -> tuple[Array, Array]:
         """How far the follower is moved to places, and whether the gap grows there as it moves on."""

@@ -1,0 +1,172 @@
+"""What --find tells where each row is a scene of its own, against closed forms in sixty digits.
+
+A roller that slides upright on an eccentric circle: R. L. Norton, Design of Machinery, ch. 8.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from random import Random
+
+import pytest
+from mpmath import cos, diff, mp, mpf, pi, sin, sqrt
+
+import icsolve
+from cams import sliding, swinging
+from icsolve.case import Case
+from icsolve.read import load
+from icsolve.sweep import find_by_scenes
+from icsolve.sweep.find_by_scenes import FoundPosition
+from icsolve.sweep.find_on_record import Query, find
+from sizes import MORE
+
+mp.dps = 60
+RADIUS, AWAY, ROLLER = 40, 20, 10
+
+
+def torque(degrees: mpf, offset: float) -> mpf:
+    """The torque on the eccentric circle under 100 on the roller."""
+    x, y = AWAY * cos(degrees * pi / 180), AWAY * sin(degrees * pi / 180)
+    nx = (mpf(offset) - x) / (RADIUS + ROLLER)
+    ny = sqrt(1 - nx**2)
+    return 100 * ((x + RADIUS * nx) * ny - (y + RADIUS * ny) * nx) / ny
+
+
+def eccentric(offset: float) -> Case:
+    return sliding(
+        f"{{circle: C, radius: {RADIUS}}}", f"{{roller: B, radius: {ROLLER}}}", offset=offset, e=AWAY
+    )
+
+
+def zero(function: Callable[[mpf], mpf], low: mpf, high: mpf) -> mpf:
+    """Of a function that changes its sign once."""
+    rises = function(high) > 0
+    for _ in range(110):
+        middle = (low + high) / 2
+        low, high = (low, middle) if (function(middle) > 0) == rises else (middle, high)
+    return (low + high) / 2
+
+
+def peaks(offset: float) -> list[mpf]:
+    """The two in a turn, in [0, 360)."""
+
+    def slope(t: mpf) -> mpf:
+        return diff(lambda u: torque(u, offset), t)
+
+    return [zero(slope, mpf(-60), mpf(90)), zero(slope, mpf(100), mpf(240))]
+
+
+def held(found: list[FoundPosition], true: list[mpf]) -> None:
+    """As many places as there are, each within its error."""
+    assert len(found) == len(true), (found, true)
+    for spot, place in zip(found, true, strict=True):
+        assert abs(mpf(spot.at) - place) <= spot.error <= 1e-4, (spot, place)
+
+
+@pytest.mark.parametrize("seed", range(4 * MORE))
+def test_a_peak_wherever_the_range_begins_and_however_long_it_is(seed: int) -> None:
+    """In the first and the last of the places at which it is searched, too, and so near to its ends that the
+    answer falls by a millionth of a millionth."""
+    rng = Random(seed)
+    offset = rng.choice((0.0, 6.0, -5.0))
+    case = eccentric(offset)
+    place, wide = rng.choice(peaks(offset)), rng.choice((90.0, 10.0, 1.0, 0.01))
+    before = wide * rng.choice((0.5, 1e-3, 3e-4))
+    low = float(place) - rng.choice((before, wide - before))
+    (spot,) = found = find(case, {"angles.AC": [low, low + wide]}, Query("max", "T12"))
+    held(found, [place])
+    assert spot.answer is not None
+    assert abs(torque(place, offset) - spot.answer) <= 1e-14 * abs(spot.answer)
+
+
+@pytest.mark.parametrize("seed", range(4 * MORE))
+def test_a_value_just_below_a_peak_is_taken_twice_and_just_above_nowhere(seed: int) -> None:
+    """Between two of the places, where no row tells that it was passed."""
+    rng = Random(seed)
+    offset = rng.choice((0.0, 6.0, -5.0))
+    case, place = eccentric(offset), rng.choice(peaks(offset))
+    low = float(place) - rng.uniform(0.2, 20.0)
+    ends = {"angles.AC": [low, low + rng.choice((21.0, 90.0))]}
+    below = 10.0 ** -rng.uniform(3.0, 13.0)
+    value = float(torque(place, offset) * (1 - mpf(below)))
+
+    def miss(t: mpf) -> mpf:
+        return torque(t, offset) - mpf(repr(value))
+
+    apart = 4 * sqrt(mpf(below)) * 57
+    true = [zero(miss, place - apart, place), zero(miss, place, place + apart)]
+    first, last = map(mpf, ends["angles.AC"])
+    held(find(case, ends, Query("value", "T12", value)), [t for t in true if first <= t <= last])
+    value = float(torque(place, offset) * (1 + mpf(below)))
+    assert find(case, ends, Query("value", "T12", value)) == []
+
+
+@pytest.mark.parametrize("offset", [0.0, -5.0])
+def test_a_value_that_is_only_touched_is_one_place(offset: float) -> None:
+    """The answer of a scene is right to its last digit, and so is the value that it is asked for."""
+    case, place = eccentric(offset), peaks(offset)[0]
+    value = float(torque(place, offset))
+    held(find(case, {"angles.AC": [-20.0, 71.0]}, Query("value", "T12", value)), [place])
+
+
+@pytest.mark.parametrize("seed", range(2 * MORE))
+def test_a_jump_past_a_value_is_no_place_of_it(seed: int) -> None:
+    """A flat face goes over from one corner of a square cam to the next, and the torque from one side to the
+    other: what lies between is nowhere taken."""
+    rng = Random(seed)
+    side = rng.randint(20, 40)
+    x, y = round(1.4 * side, 1), round(0.2 * side, 1)
+    case = sliding(
+        f"{{polygon: [[{y}, {x}], [-{x}, {y}], [-{y}, -{x}], [{x}, -{y}]]}}", "{flat: B, along: 0}"
+    )
+    at = -math.degrees(math.asin(0.6))
+    turn = {"2": [at - rng.uniform(2.0, 5.0), at + 5.0]}
+    for share in (0.85, -0.7):
+        assert find(case, None, Query("value", "T12", 100.0 * side * share), drive=turn) == []
+    (spot,) = find(case, None, Query("value", "T12", 100.0 * side * 0.99), drive=turn)
+    assert abs(spot.at - at) == pytest.approx(
+        math.degrees(math.acos(0.99 / math.sqrt(2.0))) - 45.0, abs=spot.error
+    )
+    (jump,) = find(case, None, Query("max", "T12"), drive=turn)
+    assert abs(jump.at - at) <= jump.error <= 1e-8
+    assert jump.answer is not None and abs(jump.answer) == pytest.approx(100.0 * side, rel=1e-9)
+
+
+def test_of_a_stretch_that_has_a_value_the_ends_are_told() -> None:
+    """A follower that rests on the base circle of a tangent cam, on which it takes no torque to hold it."""
+    arcs = (
+        "{arcs: [{centre: [0, 0], radius: 40, from: [32, 24], to: [32, -24]},"
+        " {centre: [30, 0], radius: 16, from: [42.8, -9.6], to: [42.8, 9.6]}]}"
+    )
+    case = sliding(arcs, "{roller: B, radius: 10}")
+    found = find(case, None, Query("value", "T12", 0.0), drive={"2": [0.0, 180.0]})
+    flank = mp.degrees(mp.acos(mpf(4) / 5))
+    held(list(found), [90 - flank, mpf(90), 90 + flank])
+    assert any("whole stretches" in note for note in found.notes)
+
+
+def test_a_row_alone_is_the_row_among_others() -> None:
+    """Also where a knife edge on an arm has just passed a corner, so that it meets neither piece of the
+    profile as far as doubles tell."""
+    corners = "[31.79, 8.05], [18.57, 31.65], [-29.38, 12.99], [-31.18, -21.86], [16.63, -40.04]"
+    case = swinging(f"{{polygon: [{corners}]}}", "{knife: E}")
+    rows = [195.1658183610678, 249.0579407930568, 249.0579408, 249.058, 249.0589, 250.0]
+    together = icsolve.sweep(case, drive={"2": rows}).answers["T12"]
+    for row, value in zip(rows, together, strict=True):
+        assert icsolve.sweep(case, drive={"2": [row]}).answers["T12"][0] == value
+
+
+def test_what_overflows_between_two_rows_is_no_warning(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Loads beyond the root of the largest double, on both sides of a dead centre."""
+    text = """icsolve: 1
+points: {A: [0, 0], B: [3, 0]}
+joints: [{slide: [2, 1], at: A, along: 0, mu: 0.4}]
+loads:
+  W: {weight: 1e200, link: 2, at: A}
+  P: {force: unknown, link: 2, at: A, angle: 5}
+motion: {point: A, link: 2, speed: 1, angle: 0}
+"""
+    monkeypatch.setattr(find_by_scenes, "PLACES", 20)
+    spots = find(load(text), {"loads.P.angle": [0.0, 60.0]}, Query("value", "P", 3.8e199))
+    assert len(spots) == 2
