@@ -26,6 +26,8 @@ from icsolve.case import (
     Torque,
     TorsionSpring,
     Weight,
+    is_link,
+    is_named,
 )
 from icsolve.read.document import Mapping, Node, Sequence
 from icsolve.read.reading import Reading
@@ -145,7 +147,7 @@ def _places(
 ) -> Iterator[tuple[str, str, str, str, tuple[str | int, ...]]]:
     """What is put on which link at which point, the key that says the link, and where that stands."""
     for load in loads:
-        if isinstance(load, Torque) or load.link.startswith("@"):
+        if isinstance(load, Torque) or not is_link(load.link):
             continue
         placed, way = _on_load(load, ground), ("loads", load.name)
         own = 2 if isinstance(load, TorsionSpring) else len(placed) - isinstance(load, Spring)
@@ -192,7 +194,7 @@ class _Owners:
     def instead(self, link: str, point: str) -> tuple[list[str], bool]:
         """The links that have a point, where a link has it not, and whether dimensions say so."""
         own = self.own.get(link, set())
-        if point in own or point in self.centres or point.startswith("@"):
+        if point in own or point in self.centres or not is_named(point):
             return [], False
         if point in self._fixed_to(link):
             return [], False

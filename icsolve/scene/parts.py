@@ -9,7 +9,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
-from icsolve.case import Case, Number, Pair, link_order
+from icsolve.case import Case, Number, Pair, is_named, link_order
 from icsolve.errors import SceneError
 from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
@@ -77,7 +77,7 @@ def power_terms(found: Evaluation, values: Mapping[str, Scalar], speed: Speed) -
 
 def _where(case: Case, w: Wrench) -> str:
     at = getattr(w.load, "at", "@")
-    where = f"{w.load.name} on {link_words(w.load.link)}" + ("" if at.startswith("@") else f" at {at}")
+    where = f"{w.load.name} on {link_words(w.load.link)}" + (f" at {at}" if is_named(at) else "")
     return where if w.against == case.ground else f"{where} against link {w.against}"
 
 
