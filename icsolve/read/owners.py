@@ -62,7 +62,7 @@ def _on_load(load: Load, ground: str) -> list[tuple[str, str]]:
         return []
     other = load.against or ground if not isinstance(load, Weight) else ground
     if isinstance(load, TorsionSpring):
-        own, arm = load.corner[-2:], load.corner[:-1] if len(load.corner) > 2 else ()
+        own, arm = load.corner[-2:], load.corner[:-2]
         return [*((load.link, point) for point in own), *((other, point) for point in arm)]
     over = load.over if isinstance(load, Force) else None
     ends = [load.at, *(over[:2] if isinstance(over, Stretch) else ())]
@@ -151,6 +151,8 @@ def _places(
             continue
         placed, way = _on_load(load, ground), ("loads", load.name)
         own = 2 if isinstance(load, TorsionSpring) else len(placed) - isinstance(load, Spring)
+        if isinstance(load, TorsionSpring) and len(load.corner) > 2:  # about a hinge of both
+            placed.append((placed[-1][0], load.corner[1]))
         for link, point in placed[:own]:
             yield f"load {load.name} acts on", link, point, "link", (*way, "link")
         end = "against" if getattr(load, "against", None) else "to" if isinstance(load, Spring) else "corner"
