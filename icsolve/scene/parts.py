@@ -16,6 +16,7 @@ from icsolve.kinematics.centres import CentreFinder
 from icsolve.kinematics.speeds import Speed
 from icsolve.numbers.arithmetic import Scalar, largest_of, zero_of
 from icsolve.numbers.balls import PRECISIONS, BelowZero, MoreDigits, MovedBalls
+from icsolve.scene import refusals
 from icsolve.scene.program import (
     EvaluatedScene,
     Evaluation,
@@ -71,6 +72,8 @@ def power_terms(found: Evaluation, values: Mapping[str, Scalar], speed: Speed) -
     for w, value, factor, size in _powers(found, values, speed):
         unknown = known_value(w) is None
         power, _ = a.rounded(value * factor, size)
+        if not math.isfinite(power):
+            raise refusals.overflow(f"the power of {w.load.name}")
         numbers = a.rounded(value)[0], unit_of(w.load, case), a.rounded(factor)[0], power
         yield Term(w.load.name, w.load.link, *numbers, unknown, _where(case, w))
 
