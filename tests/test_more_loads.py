@@ -162,6 +162,17 @@ def test_a_torsion_spring_between_two_links_is_a_pair_of_torques() -> None:
     assert torque(spring) == pytest.approx(torque(pair), rel=1e-12)
 
 
+@pytest.mark.parametrize(("link", "against", "corner"), [("4", "3", "BFD"), ("3", "4", "DFB")])
+def test_the_corner_of_a_torsion_spring_goes_with_its_own_link(link: str, against: str, corner: str) -> None:
+    """The vertex and the last point are points of the link that it pushes, the first of the other."""
+    spring = f"{{spring: 20, corner: {corner}, free: 100, link: {link}, against: {against}}}"
+    text = PRESS.format(load=spring, torque=DOWN, units=INCHES).replace("D: [4, 0]", "D: [4, 0], F: [3, 1]")
+    rows = icsolve.sweep(icsolve.load(text), {"angles.AB": np.linspace(60.0, 90.0, 4)}, ("points",))
+    for other in (corner[2], "C"):
+        apart = np.hypot(*(rows.points["F"] - rows.points[other]).T)
+        assert apart == pytest.approx(apart[0], rel=1e-12)
+
+
 ARM = """\
 icsolve: 1
 points: {A: [0, 0]}

@@ -96,7 +96,7 @@ def test_the_four_bar_of_the_format() -> None:
 
 def test_a_number_keeps_its_numeral_its_half_unit_and_its_path() -> None:
     number = load(FOUR_BAR).lengths[1].value
-    assert number == (3.5, 0.05, "lengths.BC", "3.5", 1.0, None, "not negative")
+    assert number == (3.5, 0.05, "lengths.BC", "3.5", 1.0, None, "not negative", "length")
 
 
 def test_places_are_lines_and_columns_from_one() -> None:
@@ -170,7 +170,7 @@ def test_friction_is_kept(slider: Case) -> None:
     assert pin.friction is not None
     assert slide.friction is not None
     assert pin.friction.mu.value == 0.2
-    assert pin.friction.radius == (4.0, 0.5, "joints.A.radius", "4", 1.0, None, "positive")
+    assert pin.friction.radius == (4.0, 0.5, "joints.A.radius", "4", 1.0, None, "positive", "length")
     assert slide.friction.length is not None
     assert slide.friction.mu.path == "joints.4-1@C.mu"  # two joints stand at C
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
-from icsolve.case import Case, Pair
+from icsolve.case import Case, Pair, is_named
 from icsolve.errors import SceneError
 from icsolve.tuples import NamedTuple, cached_property, dataclass, field
 
@@ -231,7 +231,7 @@ class Answer:
     @property
     def shown_points(self) -> dict[str, tuple[float, float]]:
         """The points that have a name in the case (hidden ones start with ``@``)."""
-        return {name: place for name, place in self.points.items() if not name.startswith("@")}
+        return {name: place for name, place in self.points.items() if is_named(name)}
 
     def __getstate__(self) -> dict[str, Any]:
         """What is sent to another process."""

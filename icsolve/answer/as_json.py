@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from icsolve.case import Case, pair_name
+from icsolve.case import Case, is_named, pair_name
 from icsolve.errors import SceneError
 
 if TYPE_CHECKING:
@@ -117,7 +117,7 @@ def _motion(answer: Answer) -> dict[str, Any]:
         shown["velocities"] = {
             f"{point} on {link}": _velocity(velocity)
             for (point, link), velocity in answer.velocities.items()
-            if not point.startswith("@")
+            if is_named(point)
         }
     if answer.angular_accelerations is not None:
         rates = answer.angular_accelerations.items()

@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
 
-from icsolve.case import Case, Centroid, Coordinates, Corner, Guide, Number, Rope
+from icsolve.case import Case, Centroid, Coordinates, Corner, Guide, Number, Rope, is_named
 from icsolve.case.joints import Guided
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, Showing, largest_of
@@ -214,7 +214,7 @@ def case_places(
     spans = ((ox, 1.0 / scale + abs(ox)), (oy, 1.0 / scale + abs(oy)))
     found = {}
     for name, at in points.items():
-        if not name.startswith("@"):
+        if is_named(name):
             (x, _), (y, _) = (
                 arithmetic.rounded(c / scale + o, size) for c, (o, size) in zip(at, spans, strict=True)
             )

@@ -21,6 +21,8 @@ from icsolve.case.figure import (
     Units,
     Unknown,
     is_angle,
+    is_link,
+    is_named,
 )
 from icsolve.case.joints import (
     Belt,
@@ -115,6 +117,8 @@ __all__ = [
     "Weight",
     "Weld",
     "is_angle",
+    "is_link",
+    "is_named",
 ]
 
 

@@ -73,6 +73,21 @@ class Corner(NamedTuple):
     value: Number
 
 
+HIDDEN = "@"
+"""Begins what stands for a name in a case where its file has none: no name in a file begins so."""
+
+
+def is_named(point: str) -> bool:
+    """Whether a point has a name in the case, rather than being told where a joint or load stands."""
+    return not point.startswith(HIDDEN)
+
+
+def is_link(name: str) -> bool:
+    """Whether a link of the case, rather than what stands for one: the end of a rope that loads pull, a screw
+    that they turn."""
+    return not name.startswith(HIDDEN)
+
+
 def is_angle(path: str) -> bool:
     """Whether a datum of the figure is an angle, by its path: it is the same again after a whole turn."""
     return path.startswith("angles.")

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import TypeVar
 
+from icsolve.case.figure import is_link
 from icsolve.case.joints import Guided, Thread
 from icsolve.numbers.units import ExactRatio, Number
 from icsolve.tuples import NamedTuple
@@ -205,7 +206,7 @@ class Torque(NamedTuple):
     @property
     def positive(self) -> str:
         """The sense that counts as positive; of one that turns a screw, as one looks along its axis."""
-        return "cw" if self.link.startswith("@") else self.turns
+        return self.turns if is_link(self.link) else "cw"
 
 
 class Weight(NamedTuple):

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 import shapely
 
 from icsolve.answer.bodies import Reaction
+from icsolve.case import is_link
 from icsolve.draw.frame import point_parts, rims
 from icsolve.draw.links import bars, body_of, link_part, wheel_parts
 from icsolve.draw.loads import ARC, axle, heads, hidden, ways
@@ -124,7 +125,7 @@ def pushes_on(scene: Scene, link: str) -> Iterable[DrawnPush]:
             yield _reaction(scene, name, reaction if reaction.on == link else reaction.reversed())
     yield from _pulls(scene, link)
     for acting in acting_loads(scene.known):
-        if acting.link.startswith("@"):
+        if not is_link(acting.link):
             continue
         if link in (acting.link, acting.against):
             yield _load(scene, acting, 1.0 if link == acting.link else -1.0)

@@ -8,7 +8,7 @@ from typing import assert_never
 
 import shapely
 
-from icsolve.case import Belt, Contact, Gears, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
+from icsolve.case import Belt, Contact, Gears, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld, is_named
 from icsolve.case.joints import Guided
 from icsolve.draw.links import ROD, block_place, guide_in_picture, number_label, turns, under_wedge
 from icsolve.draw.marks import Disc, Follows, Mark, MarkGroup, Point, Stroke, along, unit
@@ -309,7 +309,7 @@ def point_parts(scene: Scene) -> list[Part]:
     named += [joint.at for joint in scene.case.joints if joint.at]
     parts = []
     for name in dict.fromkeys(named):
-        if name not in scene.at or name.startswith("@"):
+        if name not in scene.at or not is_named(name):
             continue
         p = scene.at[name]
         pinned, follows = name in jointed, (("at", name),)

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import shapely
 
 from icsolve.case import Area as Face
-from icsolve.case import Load, Number, Screw, Spring, Stretch, TorsionSpring, Weight
+from icsolve.case import Load, Number, Screw, Spring, Stretch, TorsionSpring, Weight, is_link
 from icsolve.draw.links import guide_in_picture
 from icsolve.draw.marks import (
     AreaMark,
@@ -94,7 +94,7 @@ def _heading(acting: Acting) -> Point:
 def _force(scene: Scene, acting: Acting, links: shapely.Geometry) -> Part | None:
     assert acting.at is not None
     at, u, kind = scene.view.at(acting.at), _heading(acting), kind_of(acting)
-    if acting.link.startswith("@"):  # the free end of a rope, as it is drawn
+    if not is_link(acting.link):  # the free end of a rope, as it is drawn
         at = scene.at[getattr(acting.load, "at", "")]
     hung = _hung(acting, at)
     at = along(at, DOWN, HUNG[1]) if hung else at
@@ -155,7 +155,7 @@ def _intensities(load: Load) -> tuple[float, float] | None:
 
 def _hung(acting: Acting, at: Point) -> tuple[Mark, ...]:
     """The body of a weight that hangs on the free end of a rope."""
-    if not (isinstance(acting.load, Weight) and acting.link.startswith("@")):
+    if not (isinstance(acting.load, Weight) and not is_link(acting.link)):
         return ()
     width, height = HUNG
     return (area(shapely.box(at[0] - width / 2.0, at[1], at[0] + width / 2.0, at[1] + height), "block"),)

@@ -11,6 +11,7 @@ from itertools import pairwise
 
 import shapely
 
+from icsolve.case import is_named
 from icsolve.draw.bodies import renamed, titled
 from icsolve.draw.marks import (
     AreaMark,
@@ -248,7 +249,7 @@ def _letters(sketch: Sketch) -> list[Part]:
     jointed = {tie.where for tie in scene.ties if not tie.mesh}
     parts = []
     for name, place in scene.places.items():
-        if place in used and not name.startswith("@"):
+        if place in used and is_named(name):
             p = sketch.at(place)
             label = Label(
                 f"point-{name}", name_runs(name), "t-point", 15.0, (p,), 9.0 if name in jointed else 5.0

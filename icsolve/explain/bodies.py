@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from icsolve.answer.bodies import Reaction
 from icsolve.answer.space import Parts, SpatialReaction
+from icsolve.case import is_link, is_named
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, product
 from icsolve.explain.given import Figures, load_name
@@ -81,7 +82,7 @@ def _acting_on(known: Known, link: str) -> Iterable[On | None]:
                 at, force = (*pull.at, 0.0), (*pull.force, 0.0)
                 yield None if pull.tension is None else On(*pull.symbol, at, force, ZERO)
     for acting in acting_loads(known):
-        if link in (acting.link, acting.against) and not acting.link.startswith("@"):
+        if link in (acting.link, acting.against) and is_link(acting.link):
             sign, own = 1.0 if link == acting.link else -1.0, load_name(acting.load.name)
             place = None if acting.at is None else (*acting.at, 0.0)
             force, couple = (*acting.force, 0.0), (0.0, 0.0, acting.couple)
@@ -125,7 +126,7 @@ def link_section(
 def _about(known: Known, link: str) -> tuple[Vec, str]:
     """A named point of the link."""
     for name in known.case.carries.get(link, ()):
-        if name in known.points and not name.startswith("@"):
+        if name in known.points and is_named(name):
             return (*known.points[name], 0.0), name
     return ZERO, "the origin"
 

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.answer import Centre
-from icsolve.case import Joint, Pair, pair_name
+from icsolve.case import Joint, Pair, is_named, pair_name
 from icsolve.explain.document import Block, Inline, Items, Section, formula, words
 from icsolve.explain.formula import (
     Expr,
@@ -124,7 +124,7 @@ def _normal(joint: Joint | None) -> str:
     if joint is None or joint.at is None:
         return "common normal of the joint"
     what = normal_words(joint)
-    hidden = joint.at.startswith("@")
+    hidden = not is_named(joint.at)
     return f"{what} of links {' and '.join(joint.links)}" if hidden else f"{what} at {joint.at}"
 
 
@@ -307,7 +307,7 @@ def _of_points(known: Known, figures: Figures) -> Iterable[Block]:
         own, rate = place(known, pair), abs(known.twists[link][2])
         for point in known.case.carries.get(link, ()):
             gap = math.dist(known.points[point], own) if point in known.points else 0.0
-            if point.startswith("@") or point in said or gap <= 1e-9 * known.size:
+            if not is_named(point) or point in said or gap <= 1e-9 * known.size:
                 continue
             said.add(point)
             arm = Spanned(centre_name(known, pair), Name(point))

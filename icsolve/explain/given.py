@@ -18,6 +18,8 @@ from icsolve.case import (
     TorsionSpring,
     Units,
     Weight,
+    is_link,
+    is_named,
     pair_name,
 )
 from icsolve.draw.words import name_runs
@@ -114,7 +116,7 @@ def rate_name(link: str) -> Name:
 
 def speed_name(link: str) -> Name:
     """The speed of a link that slides, or of the free end of a rope."""
-    return Name("v", link.rpartition("-")[2] if link.startswith("@") else link)
+    return Name("v", link if is_link(link) else link.rpartition("-")[2])
 
 
 def place_words(figures: Figures, centre: Centre) -> str:
@@ -209,7 +211,7 @@ def _points(known: Known, figures: Figures, told: Statement) -> list[Block]:
     asked = {one.path for one in known.posed}
     given = {name: data for name, data in known.case.points.items() if _is_given(data, asked)}
     for name in dict.fromkeys((*known.case.points, *known.points)):
-        if name.startswith("@") or name not in known.points:
+        if not is_named(name) or name not in known.points:
             continue
         if known.posed and known.answer is None and name not in given:
             continue
@@ -220,7 +222,7 @@ def _points(known: Known, figures: Figures, told: Statement) -> list[Block]:
         rows.append(((name,), (x,), (y,), ("from the figure's data",)))
     unit = known.case.units.length
     table = [ShownTable(("point", f"x, {unit}", f"y, {unit}", "how"), tuple(rows))] if rows else []
-    data = [told.point(name) for name in told.case.points if not name.startswith("@") and name not in given]
+    data = [told.point(name) for name in told.case.points if is_named(name) and name not in given]
     data += told.figure()
     return [*table, words("Data of the figure:"), _items(data)] if data else [*table]
 

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer import Answer, Found
-from icsolve.case import ForceVector, Like, Load, Spring, Torque
+from icsolve.case import ForceVector, Like, Load, Spring, Torque, is_named
 from icsolve.errors import SceneError
 from icsolve.explain.centres import centre_sections, ratio_section, worked_speeds
 from icsolve.explain.document import Block, Document, Inline, Items, Section, ShownTable, formula, words
@@ -127,7 +127,7 @@ def _velocities(known: Known, figures: Figures, timed: bool) -> Iterable[Block]:
     vectors = {key: v for key, v in whole.velocities.items() if not isinstance(v, str)}
     fastest = max((math.hypot(*v) for v in vectors.values()), default=0.0)
     for (point, link), v in vectors.items():
-        if point.startswith("@") or link == known.case.ground:
+        if not is_named(point) or link == known.case.ground:
             continue
         x, y = map(figures.number, plain_vector(v, fastest))
         rows.append(((f"{point} on {link}",), (x,), (y,)))

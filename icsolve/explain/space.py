@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from icsolve.case import is_named
 from icsolve.explain.bodies import On, link_section, reaction_on, reactions_section
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.formula import Name, Num, Sum, product
@@ -31,7 +32,7 @@ def given_in_space(known: Known, figures: Figures) -> Section:
     unit = case.units.length
     rows: list[tuple[tuple[Inline, ...], ...]] = []
     for name, place in scene.places.items():
-        if not name.startswith("@"):
+        if is_named(name):
             rows.append(((name,), *((figures.length(c).digits,) for c in place)))
     if rows:
         blocks.append(ShownTable(("point", *(f"{axis}, {unit}" for axis in AXES)), tuple(rows)))
@@ -59,7 +60,7 @@ def _joint(tie: SpatialTie) -> str:
         "gears": "mesh of gears",
     }
     axis = f" along {direction_words(tie.axis)}" if size(tie.axis) > 0.5 else ""
-    where = f" at {tie.where}" if tie.where and not tie.where.startswith("@") else ""
+    where = f" at {tie.where}" if tie.where and is_named(tie.where) else ""
     return f"a {kind.get(tie.joint_kind, tie.joint_kind)} of links {tie.by} and {tie.on}{where}{axis}"
 
 
@@ -68,7 +69,7 @@ def _load(figures: Figures, push: Push) -> tuple[Inline, ...]:
         "" if push.unknown or push.value is None else f" of {figures.number(push.value).digits} {push.unit}"
     )
     kind = "couple" if push.at is None else "load"
-    where = f" at {push.where}" if push.where and not push.where.startswith("@") else ""
+    where = f" at {push.where}" if push.where and is_named(push.where) else ""
     return (
         load_name(push.name),
         f": a {kind}{value} on link {push.link}{where}, {push.way}",

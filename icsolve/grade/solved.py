@@ -6,7 +6,7 @@ from copy import copy
 from functools import lru_cache
 
 from icsolve.answer import Answer
-from icsolve.case import Case
+from icsolve.case import Case, is_named
 from icsolve.case.expected import CentreIs, LoadIs, OfBodies, PositionIs, ReactionIs, Target, TensionIs
 from icsolve.errors import SceneError
 from icsolve.grade.course import Course
@@ -95,7 +95,7 @@ def _reading(case: Case) -> Reading:
 
 def _points(case: Case) -> set[str]:
     named = set(case.points) | {p for carried in case.carries.values() for p in carried}
-    return {name for name in named if not name.startswith("@")}
+    return {name for name in named if is_named(name)}
 
 
 class SolvedCase:

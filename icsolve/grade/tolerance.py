@@ -17,6 +17,7 @@ from icsolve.case import (
     TorsionSpring,
     Weight,
     is_angle,
+    is_named,
 )
 from icsolve.case.expected import (
     LoadIs,
@@ -275,7 +276,7 @@ def _changed(target: Target, answer: Answer, path: str, value: float) -> tuple[f
     """The target where one number is another; None where it has no value then."""
     from icsolve.sweep.numbers import with_numbers
 
-    near = {name: place for name, place in answer.points.items() if not name.startswith("@")}
+    near = {name: place for name, place in answer.points.items() if is_named(name)}
     case = replace(with_numbers(answer.case, {path: value}), near={**answer.case.near, **near})
     try:
         return value_of(solved_for(case, target), target)

@@ -20,7 +20,7 @@ from operator import attrgetter
 
 from icsolve.answer import Centre
 from icsolve.assembly.workspace import PlacedCase
-from icsolve.case import Pair, ordered_pair
+from icsolve.case import Pair, is_named, ordered_pair
 from icsolve.kinematics.twists import Closure, is_dead, products, rate_sizes
 from icsolve.numbers.arithmetic import ROUNDING, ROUNDING_NOISE, Arithmetic, Showing, all_vanish
 from icsolve.screws.joints import freedoms, joint_freedoms, joint_points, pitch_point
@@ -452,12 +452,12 @@ def aligned(top: Topology, bonds: Iterable[int], verb: str = "lie on") -> str:
 
 def _place(bond: Bond) -> str:
     pivot = bond.joint.pivot
-    return pivot if pivot is not None and not pivot.startswith("@") else ""
+    return pivot if pivot is not None and is_named(pivot) else ""
 
 
 def _normal(bond: Bond) -> str:
     from icsolve.wording.joints import normal_words
 
     joint = bond.joint
-    named = joint.has_normal and joint.at and not joint.at.startswith("@")
+    named = joint.has_normal and joint.at and is_named(joint.at)
     return f"the {normal_words(joint)} at {joint.at}" if named else ""

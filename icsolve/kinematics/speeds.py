@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from icsolve.assembly.workspace import PlacedCase
-from icsolve.case import Case
+from icsolve.case import Case, is_named
 from icsolve.case import Motion as Given
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import (
@@ -276,7 +276,7 @@ def point_velocities(
     largest = fastest(twists)
     for link in case.links:
         for name in moving_points(case, link):
-            if name.startswith("@") or name not in points:
+            if not is_named(name) or name not in points:
                 continue
             both = _velocity(twists[link], speed, largest, points[name]) if link in twists else None
             words = f"the velocity of {name} on link {link} is left open: {OPEN}"

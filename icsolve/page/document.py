@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from icsolve.case import Torque
+from icsolve.case import Torque, is_link, is_named
 from icsolve.draw.words import (
     answer_sentences,
     datum_name,
@@ -286,12 +286,10 @@ def _stage(parts: PageParts) -> str:
 def _see(parts: PageParts) -> str:
     """What can be shown in the figure besides, each by a box to tick."""
     case, live = parts.known.case, parts.live is not None
-    links = [link for link in case.links if link != case.ground and not link.startswith("@")]
+    links = [link for link in case.links if link != case.ground and is_link(link)]
     links = links if live else list(parts.model.get("forces", {}).get("links", ()))
     seen = bool(links) and not parts.known.structure
-    moving = [
-        name for name in parts.model.get("motion", {"points": ()})["points"] if not name.startswith("@")
-    ]
+    moving = [name for name in parts.model.get("motion", {"points": ()})["points"] if is_named(name)]
 
     def boxes(what: str, kind: str, names: Iterable[str]) -> str:
         some = (f'<label><input type="checkbox" data-{kind}="{_text(n)}">{_text(n)}</label>' for n in names)

@@ -14,7 +14,18 @@ import numpy as np
 
 from icsolve.answer import Centre, Found
 from icsolve.answer.bodies import Reaction
-from icsolve.case import Force, ForceVector, Load, Pair, Spring, TorsionSpring, Toward, Weight, pair_name
+from icsolve.case import (
+    Force,
+    ForceVector,
+    Load,
+    Pair,
+    Spring,
+    TorsionSpring,
+    Toward,
+    Weight,
+    is_link,
+    pair_name,
+)
 from icsolve.draw.loads import axle
 from icsolve.draw.marks import Point, View
 from icsolve.draw.ropes import RopeCourse
@@ -127,7 +138,7 @@ def load_data(scene: Scene, motion: PageMotion | None, acting: Acting) -> dict[s
     """What the script of the page reads of a load: its place on its link and how its arrow turns."""
     load = acting.load
     place = axle(scene, acting.link) if acting.at is None else scene.view.at(acting.at)
-    if acting.link.startswith("@"):  # the free end of a rope, as it is drawn
+    if not is_link(acting.link):  # the free end of a rope, as it is drawn
         place = scene.at.get(str(getattr(load, "at", "")), place)
     x, y = place or (0.0, 0.0)
     found: dict[str, Any] = {"on": [acting.link, round(x, 1), round(y, 1)], "torque": acting.at is None}

@@ -7,7 +7,19 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from icsolve.case import Case, Centroid, Coordinates, Like, Load, Number, Pair, Torque, pair_name
+from icsolve.case import (
+    Case,
+    Centroid,
+    Coordinates,
+    Like,
+    Load,
+    Number,
+    Pair,
+    Torque,
+    is_link,
+    is_named,
+    pair_name,
+)
 from icsolve.case.joints import Guided, Mesh, without_friction
 from icsolve.draw.figure import genevas
 from icsolve.draw.loads import round_at_most
@@ -67,7 +79,7 @@ def sliding(known: Known) -> tuple[Case, PageInput] | None:
     case = known.case
     if known.answer is None or known.answer.mobility != 1:
         return None
-    nameless = any(name.startswith("@") for name in known.points)
+    nameless = any(not is_named(name) for name in known.points)
     if nameless or not all(joint.stays_known and not isinstance(joint, Mesh) for joint in case.joints):
         return None
     going = {link: (t[1], -t[0]) for link, t in known.twists.items()}
@@ -398,7 +410,7 @@ def inputs(known: Known) -> list[str]:
         if isinstance(load, Torque)
     ]
     ranked = [*first, *torques, *pinned, *loaded_links(case), *case.links]
-    quick = [q for q in dict.fromkeys(ranked) if rates.get(q, 0.0) > least and not q.startswith("@")]
+    quick = [q for q in dict.fromkeys(ranked) if rates.get(q, 0.0) > least and is_link(q)]
     return sorted(quick, key=lambda link: link not in pinned)
 
 

@@ -17,6 +17,7 @@ from icsolve.case import (
     Load,
     Number,
     Unknown,
+    is_named,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.entry import Entry, truth_of
@@ -310,7 +311,7 @@ def check_given(reading: Reading) -> None:
     placed = reading.measured | set(reading.on_guides)  # a centroid that is placed says where its points are
     given |= {one for name, of in reading.centroids.items() if name in placed for one in of}
     for name, mark in reading.used.items():
-        if name not in given and not name.startswith("@"):
+        if name not in given and is_named(name):
             reading.refuse(mark, _never_given(reading, name, given))
 
 

@@ -26,6 +26,8 @@ from icsolve.case import (
     Torque,
     TorsionSpring,
     Weight,
+    is_link,
+    is_named,
 )
 from icsolve.read.document import Mapping, Node, Sequence
 from icsolve.read.reading import Reading
@@ -60,7 +62,7 @@ def _on_load(load: Load, ground: str) -> list[tuple[str, str]]:
         return []
     other = load.against or ground if not isinstance(load, Weight) else ground
     if isinstance(load, TorsionSpring):
-        own, arm = load.corner[-2:], load.corner[:-1] if len(load.corner) > 2 else ()
+        own, arm = load.corner[-2:], load.corner[:-2]
         return [*((load.link, point) for point in own), *((other, point) for point in arm)]
     over = load.over if isinstance(load, Force) else None
     ends = [load.at, *(over[:2] if isinstance(over, Stretch) else ())]
@@ -145,10 +147,12 @@ def _places(
 ) -> Iterator[tuple[str, str, str, str, tuple[str | int, ...]]]:
     """What is put on which link at which point, the key that says the link, and where that stands."""
     for load in loads:
-        if isinstance(load, Torque) or load.link.startswith("@"):
+        if isinstance(load, Torque) or not is_link(load.link):
             continue
         placed, way = _on_load(load, ground), ("loads", load.name)
         own = 2 if isinstance(load, TorsionSpring) else len(placed) - isinstance(load, Spring)
+        if isinstance(load, TorsionSpring) and len(load.corner) > 2:  # about a hinge of both
+            placed.append((placed[-1][0], load.corner[1]))
         for link, point in placed[:own]:
             yield f"load {load.name} acts on", link, point, "link", (*way, "link")
         end = "against" if getattr(load, "against", None) else "to" if isinstance(load, Spring) else "corner"
@@ -192,7 +196,7 @@ class _Owners:
     def instead(self, link: str, point: str) -> tuple[list[str], bool]:
         """The links that have a point, where a link has it not, and whether dimensions say so."""
         own = self.own.get(link, set())
-        if point in own or point in self.centres or point.startswith("@"):
+        if point in own or point in self.centres or not is_named(point):
             return [], False
         if point in self._fixed_to(link):
             return [], False

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from icsolve.case import Case, Number, Pair, Toward, Units
+from icsolve.case import Case, Number, Pair, Toward, Units, is_named
 from icsolve.case.space import (
     Along,
     Axis,
@@ -218,7 +218,7 @@ def _check_sections(reading: SpaceReading, root: Mapping) -> None:
 def _check_given(reading: SpaceReading) -> None:
     """Every point that is needed must have its coordinates."""
     for name, mark in reading.used.items():
-        if name not in reading.given and not name.startswith("@"):
+        if name not in reading.given and is_named(name):
             likely = suggestion(name, sorted(reading.given)) if len(name) > 1 else ""
             reading.refuse(mark, f"point {name} is named here, but 'points' does not give it{likely}")
 

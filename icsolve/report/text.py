@@ -8,7 +8,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer, Centre, Found, Term
-from icsolve.case import Case, Coordinates, Pair, Torque, is_angle, link_order, pair_name
+from icsolve.case import Case, Coordinates, Pair, Torque, is_angle, is_named, link_order, pair_name
 from icsolve.scene.parts import scene_of
 from icsolve.tuples import replace
 from icsolve.wording.senses import NOTHING, SPELT, holding, plain_vector, spelt
@@ -289,7 +289,7 @@ def _velocities(answer: Answer, digits: int) -> list[str]:
     if not answer.velocities:
         return []
     error = _velocity_error(answer)
-    named = {key: v for key, v in answer.velocities.items() if not key[0].startswith("@")}
+    named = {key: v for key, v in answer.velocities.items() if is_named(key[0])}
     names = [f"{point} on {link}" for point, link in named]
     shown = [v if isinstance(v, str) else [_shown(c, error, digits) for c in v] for v in named.values()]
     values = [v if isinstance(v, str) else f"({', '.join(v)})" for v in shown]

@@ -13,7 +13,7 @@ from functools import partial
 
 from icsolve.answer import Answer, Deferred, Later
 from icsolve.assembly.workspace import PlacedCase
-from icsolve.case import Case, ForceVector, Load, Torque
+from icsolve.case import Case, ForceVector, Load, Torque, is_named
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.accelerations import Moving, moving
 from icsolve.kinematics.speeds import OPEN, moving_points
@@ -130,7 +130,7 @@ def _shown(place: PlacedCase, moves: Moving, arithmetic: Showing) -> Acceleratio
         else:
             links[link] = _rounded(moves.rates[link][2], arithmetic, moves.size)
         for name in moving_points(case, link):
-            if name.startswith("@") or name not in points:
+            if not is_named(name) or name not in points:
                 continue
             if link in moves.open:
                 places[name, link] = f"the acceleration of {name} on link {link} is left open: {OPEN}"

@@ -9,13 +9,14 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
-from icsolve.case import Case, Number, Pair, link_order
+from icsolve.case import Case, Number, Pair, is_named, link_order
 from icsolve.errors import SceneError
 from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
 from icsolve.kinematics.speeds import Speed
 from icsolve.numbers.arithmetic import Scalar, largest_of, zero_of
 from icsolve.numbers.balls import PRECISIONS, BelowZero, MoreDigits, MovedBalls
+from icsolve.scene import refusals
 from icsolve.scene.program import (
     EvaluatedScene,
     Evaluation,
@@ -71,13 +72,15 @@ def power_terms(found: Evaluation, values: Mapping[str, Scalar], speed: Speed) -
     for w, value, factor, size in _powers(found, values, speed):
         unknown = known_value(w) is None
         power, _ = a.rounded(value * factor, size)
+        if not math.isfinite(power):
+            raise refusals.overflow(f"the power of {w.load.name}")
         numbers = a.rounded(value)[0], unit_of(w.load, case), a.rounded(factor)[0], power
         yield Term(w.load.name, w.load.link, *numbers, unknown, _where(case, w))
 
 
 def _where(case: Case, w: Wrench) -> str:
     at = getattr(w.load, "at", "@")
-    where = f"{w.load.name} on {link_words(w.load.link)}" + ("" if at.startswith("@") else f" at {at}")
+    where = f"{w.load.name} on {link_words(w.load.link)}" + (f" at {at}" if is_named(at) else "")
     return where if w.against == case.ground else f"{where} against link {w.against}"
 
 

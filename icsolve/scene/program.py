@@ -17,7 +17,7 @@ from typing import TypeVar
 
 from icsolve.assembly import Figure, place, placed_figure, solve_figure
 from icsolve.assembly.workspace import PlacedCase, case_places, names_of
-from icsolve.case import Case
+from icsolve.case import Case, is_named
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics import motion, speeds
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing
@@ -276,7 +276,7 @@ def _made(digits: int, highest: bool) -> Balls:
 def places_in(found: Evaluation) -> dict[str, tuple[Scalar, Scalar]]:
     """The points that have a name in the case, in case units and the arithmetic of the evaluation."""
     ox, oy, scale = found.program.figure.frame
-    named = {name: at for name, at in found.outcome.points.items() if not name.startswith("@")}
+    named = {name: at for name, at in found.outcome.points.items() if is_named(name)}
     return {name: (x / scale + ox, y / scale + oy) for name, (x, y) in named.items()}
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
 from icsolve.assembly.modes import ways_of
-from icsolve.case import Case, Coordinates, Direction, Number, Torque, is_angle
+from icsolve.case import Case, Coordinates, Direction, Number, Torque, is_angle, is_named
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import RADIAN
 from icsolve.numbers.replay import Array, Code
@@ -68,7 +68,7 @@ class LedMechanism:
         """The points that are named, and where they are: (values, points, 2), not numbers where the links
         do not assemble."""
         compiled, record = self.search.compiled, self.search.record
-        named = {name: at for name, at in compiled.scene.points.items() if not name.startswith("@")}
+        named = {name: at for name, at in compiled.scene.points.items() if is_named(name)}
         given, good = self.search.along.floats(self.along, values)
         nodes = [record.lifted(v).index for at in named.values() for v in at]
         found = [np.broadcast_to(v, len(values)) for v in Code(record, nodes).run(given, len(values))]

@@ -23,7 +23,7 @@ from icsolve.assembly.order import Order, order_of
 from icsolve.assembly.refusals import compare
 from icsolve.assembly.steps import Meet, PointGroup, Step
 from icsolve.assembly.workspace import Workspace, frame_of
-from icsolve.case import Case, Coordinates, Number, TorsionSpring, is_angle
+from icsolve.case import Case, Coordinates, Number, TorsionSpring, is_angle, is_named
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
@@ -381,7 +381,7 @@ def _on_record(mode: RecordedMode, path: str, span: tuple[float, float] | None) 
 def places_on(compiled: CompiledSweep) -> dict[str, tuple[int, int]]:
     """The nodes of the points of a figure that are named."""
     record, scene = compiled.record, compiled.scene
-    named = {p: scene.points[p] for p in compiled.setting.figure.points if not p.startswith("@")}
+    named = {p: scene.points[p] for p in compiled.setting.figure.points if is_named(p)}
     return {p: (record.lifted(x).index, record.lifted(y).index) for p, (x, y) in named.items()}
 
 
@@ -443,7 +443,7 @@ def _rate(
     best: tuple[float, float] = (0.0, 0.0)
     ways: list[tuple[tuple[Scalar, Scalar], list[tuple[Scalar, Scalar]]]] = []
     for name, links in bearers(case).items():
-        if name not in scene.points or name.startswith("@"):
+        if name not in scene.points or not is_named(name):
             continue
         x, y = scene.points[name]
         dx, dy = gradient(record, x, (given,))[given], gradient(record, y, (given,))[given]

@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 
 from icsolve.assembly.modes import ways_of
-from icsolve.case import Case, Coordinates, TorsionSpring, is_angle
+from icsolve.case import Case, Coordinates, TorsionSpring, is_angle, is_named
 from icsolve.case.joints import Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Code
@@ -362,7 +362,7 @@ def _history(case: Case) -> Iterator[tuple[str, str]]:
         if getattr(load, "turns_with", None):
             yield f"load {load.name}, which turns with a link,", str(getattr(load, "turns_with", ""))
         for at in (getattr(load, "at", ""), getattr(load, "to", "")):
-            if at.startswith("@") and getattr(load, "over", None) is None:
+            if not is_named(at) and getattr(load, "over", None) is None:
                 yield f"load {load.name} at coordinates", load.link
     for name in placed_by_coordinates(case):
         carriers = [link for link, names in case.carries.items() if name in names]

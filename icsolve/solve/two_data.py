@@ -15,7 +15,7 @@ import numpy as np
 
 from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
 from icsolve.assembly.modes import ways_of
-from icsolve.case import Case, Load, TorsionSpring, is_angle
+from icsolve.case import Case, Load, TorsionSpring, is_angle, is_named
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.intervals import Interval, enclose
@@ -184,7 +184,7 @@ def _surface(mode: RecordedMode, paths: Sequence[str]) -> Surface:
     slopes = [v for total in totals for v in gradient(record, total, inputs).values()]
     velocities = []
     for name, (link, *_) in bearers(case).items():
-        if name in scene.points and not name.startswith("@"):
+        if name in scene.points and is_named(name):
             for axis in (0, 1):
                 velocities += list(gradient(record, scene.points[name][axis], inputs).values())
                 velocities += [velocity(motions.twists[link][m], scene.points[name])[axis] for m in (0, 1)]

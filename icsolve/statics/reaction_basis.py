@@ -15,7 +15,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from icsolve.assembly.workspace import Frame, PlacedCase
-from icsolve.case import Case, Guide, Joint, Number, Pin, Rope, Screw, Slide, Thread
+from icsolve.case import Case, Guide, Joint, Number, Pin, Rope, Screw, Slide, Thread, is_named
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import TURN
@@ -190,7 +190,7 @@ def _tie(position: Position, bond: Bond) -> Tie:
     basis = freedoms(bond, points, position.arithmetic)
     if position.slack and joint.has_written_centre:
         basis = _as_it_moves(position, bond, basis)
-    where = joint.at if joint.at is not None and not joint.at.startswith("@") else ""
+    where = joint.at if joint.at is not None and is_named(joint.at) else ""
     found = Tie(joint, by, on, at, where, _forces(tuple(basis_at(at, b) for b in basis)))
     if isinstance(joint, Guided) and joint.thread is not None:
         return _screwed(position, found, Screw(joint, joint.thread))
@@ -245,7 +245,7 @@ def _meeting(position: Position, by: str, on: str) -> str:
     """A point for the reaction of a weld that names none: one that both links carry, else one of either."""
     carries, points = position.case.carries, position.points
     mine, other = ([p for p in carries.get(link, ()) if p in points] for link in (by, on))
-    named = [p for p in (*(p for p in mine if p in other), *other, *mine) if not p.startswith("@")]
+    named = [p for p in (*(p for p in mine if p in other), *other, *mine) if is_named(p)]
     return named[0] if named else ""
 
 

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from icsolve.answer.bodies import Reaction, Reactions, Tension, names_of
-from icsolve.case import Case, Rope, ordered_pair
+from icsolve.case import Case, Rope, is_link, ordered_pair
 from icsolve.case.joints import Mesh, Sliding
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, largest_of, size_of, zero_of
@@ -43,7 +43,7 @@ def reactions_of(
     names = names_by_tie(position.case, statics.ties)
     found = Reactions()
     for tie, rows, forces, name in zip(statics.ties, combined, values, names, strict=True):
-        if tie.on.startswith("@"):  # the free end of a rope, which is no link
+        if not is_link(tie.on):  # the free end of a rope, which is no link
             continue
         unique = [statics.determines(row, sizes) for row in rows]
         kept = [zero(f, n) if u else None for n, (f, u) in enumerate(zip(forces, unique, strict=True))]
@@ -226,7 +226,7 @@ def notes_of(statics: Statics, reactions: Reactions, names: Sequence[str]) -> tu
     """All sentences, in the order of the joints; without reactions those that need none."""
     if not reactions:
         return tuple(_black_boxes(statics.ties))
-    ties = [tie for tie in statics.ties if not tie.on.startswith("@")]
+    ties = [tie for tie in statics.ties if is_link(tie.on)]
     names = [name for name in names if name in reactions]
     shown = [reactions[name] for name in names]
     both = zip(ties, shown, strict=True)

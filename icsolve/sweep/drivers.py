@@ -34,7 +34,7 @@ from icsolve.assembly.driven.order import (
 from icsolve.assembly.driven.poses import Places as Still
 from icsolve.assembly.driven.poses import Rotation, Spot, minus
 from icsolve.assembly.workspace import CORNER, LENGTH, RAY, Datum, X, Y, data_of, normalised, number_of
-from icsolve.case import Case, Coordinates, Number
+from icsolve.case import Case, Coordinates, Number, is_named
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
@@ -98,7 +98,7 @@ def _leaves_shapes(mechanism: Mechanism, path: str, written: float) -> bool:
 def _same_shapes(mechanism: Mechanism, other: Case) -> bool:
     """Whether a case, solved near the places of the mechanism, has links of the same shapes."""
     frame, still = mechanism.frame, Still(mechanism.shape)
-    names = [name for name in mechanism.shape.ref if not name.startswith("@")]
+    names = [name for name in mechanism.shape.ref if is_named(name)]
     near = {name: case_point(frame, still.place((0, name))) for name in names}
     figure = solve_figure(replace(other, near=near), [name for name in names if name in mechanism.owners])
     at = {name: case_point(figure.frame, place) for name, place in figure.points.items()}

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.assembly.workspace import names_of
-from icsolve.case import Case, Pair, is_angle
+from icsolve.case import Case, Pair, is_angle, is_named
 from icsolve.numbers.replay import Array
 from icsolve.numbers.units import BOUNDS
 from icsolve.read.names import pairs, shown, suggestion
@@ -211,7 +211,7 @@ def refuse_size(columns: Columns, asked: RowRequest, error: bool) -> None:
 
 def shown_points(case: Case) -> list[str]:
     """The points that have a name in the case."""
-    return [name for name in names_of(case) if not name.startswith("@")]
+    return [name for name in names_of(case) if is_named(name)]
 
 
 def _points(case: Case, name: str) -> list[str]:

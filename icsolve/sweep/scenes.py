@@ -13,7 +13,7 @@ import numpy as np
 
 from icsolve.assembly import Figure, case_point, place, placed_figure
 from icsolve.assembly.workspace import Frame
-from icsolve.case import Case
+from icsolve.case import Case, is_named
 from icsolve.errors import SceneError, Status
 from icsolve.files import can_fork, started
 from icsolve.numbers.replay import Array
@@ -151,7 +151,7 @@ def placed_near(case: Case, figure: Figure) -> Case:
 
 def _shown(frame: Frame, points: Mapping[str, Point]) -> dict[str, Place]:
     """The points that the file names, in case units."""
-    return {name: case_point(frame, at) for name, at in points.items() if not name.startswith("@")}
+    return {name: case_point(frame, at) for name, at in points.items() if is_named(name)}
 
 
 def _places(case: Case) -> tuple[dict[str, Place] | None, str]:

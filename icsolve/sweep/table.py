@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.answer import Answer, by_load
-from icsolve.case import Case, Coordinates, link_order
+from icsolve.case import Case, Coordinates, is_named, link_order
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
 from icsolve.numbers.tape import UNIT
@@ -275,7 +275,7 @@ class Table:
                 self.put("angular_accelerations", link, row, rate)
         for kind in (kind for kind in VECTORS if getattr(asked, kind)):
             for (point, on), vector in (getattr(answer, kind) or {}).items():
-                if not isinstance(vector, str) and not point.startswith("@"):
+                if not isinstance(vector, str) and is_named(point):
                     self.put(kind, f"{point} on {on}", row, vector)
 
     def lacks_rates(self, row: int) -> bool:

@@ -5,7 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import assert_never
 
-from icsolve.case import Belt, Contact, Gears, Joint, KnownCentre, Number, Pin, Roll, Slide, Slot, Weld
+from icsolve.case import (
+    Belt,
+    Contact,
+    Gears,
+    Joint,
+    KnownCentre,
+    Number,
+    Pin,
+    Roll,
+    Slide,
+    Slot,
+    Weld,
+    is_named,
+)
 from icsolve.case.joints import Thread
 from icsolve.wording.sentences import listed
 
@@ -13,7 +26,7 @@ from icsolve.wording.sentences import listed
 def joint_words(joint: Joint) -> str:
     """What a joint does."""
     links = listed(joint.links)
-    where = f" at {joint.at}" if joint.at and not joint.at.startswith("@") else ""
+    where = f" at {joint.at}" if joint.at and is_named(joint.at) else ""
     match joint:
         case Pin():
             return f"a pin joins links {links}{where}"
@@ -49,7 +62,7 @@ def joint_data(joint: Joint, length: str, show: Callable[[Number], str]) -> Iter
         a, b = guide.ends or ("", "")
         join = "" if len(a) == len(b) == 1 else "-"
         yield f"along {a}{join}{b}" if guide.angle is None else f"along {show(guide.angle)} deg"
-        if guide.through and not guide.through.startswith("@"):
+        if guide.through and is_named(guide.through):
             yield f"through {guide.through}"
     yield from _sizes(joint, length, show)
     if friction is not None:

@@ -7,7 +7,19 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from icsolve.answer import Found
-from icsolve.case import Area, Case, Force, Load, Spring, Stretch, Torque, TorsionSpring, Toward, Weight
+from icsolve.case import (
+    Area,
+    Case,
+    Force,
+    Load,
+    Spring,
+    Stretch,
+    Torque,
+    TorsionSpring,
+    Toward,
+    Weight,
+    is_link,
+)
 
 if TYPE_CHECKING:
     from icsolve.case.space import Load as SpatialLoad
@@ -41,7 +53,7 @@ def sense_of(load: Load, value: float, gain: float, degrees: float) -> str:
             return "ccw" if value * gain > 0 else "cw"
         case Spring():
             return "pull" if value * gain > 0 else "push"
-        case Force(link=link) if link.startswith("@"):
+        case Force(link=link) if not is_link(link):
             return "pull" if value > 0 else "push"
         case Force(heading=Toward() as heading):
             if load.against is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from icsolve.case import Case
+from icsolve.case import Case, is_link
 from icsolve.structure.topology import Topology
 
 
@@ -23,7 +23,7 @@ def link_words(link: str) -> str:
     """``link 3``; what stands for a link where loads pull the free end of a rope or turn a screw."""
     if link.startswith("@screw "):
         return f"the {link[1:]}"
-    return f"the end of the rope {link[1:]}" if link.startswith("@") else f"link {link}"
+    return f"link {link}" if is_link(link) else f"the end of the rope {link[1:]}"
 
 
 def overflow(load: str) -> str:

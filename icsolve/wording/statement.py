@@ -27,6 +27,8 @@ from icsolve.case import (
     TorsionSpring,
     Toward,
     Weight,
+    is_link,
+    is_named,
 )
 from icsolve.case.figure import Corner, Unknown
 from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Knife, Polygon, Radii, Roller, Shape
@@ -56,7 +58,7 @@ class Statement(NamedTuple):
     def rows(self) -> list[Row]:
         """All that it gives, but pins that only join."""
         case = self.case
-        rows = [self.point(name) for name in case.points if not name.startswith("@")]
+        rows = [self.point(name) for name in case.points if is_named(name)]
         rows += self.figure()
         rows += [row for joint in case.joints if (row := self.joint(joint))[1]]
         rows += self.profiles()
@@ -100,7 +102,7 @@ class Statement(NamedTuple):
     def place(self, name: str) -> str:
         """A point by its name; one that is given by coordinates alone by those."""
         p = self.case.points.get(name)
-        if not name.startswith("@") or not isinstance(p, Coordinates):
+        if is_named(name) or not isinstance(p, Coordinates):
             return name
         return f"{self._coordinates(p)} {self.case.units.length}"
 
@@ -116,7 +118,7 @@ class Statement(NamedTuple):
     def joint(self, joint: Joint) -> Row:
         """A joint, and its numbers; of a smooth pin none."""
         data = [*joint_data(joint, self.case.units.length, self.show)]
-        if joint.stands_in and joint.at and joint.at.startswith("@"):
+        if joint.stands_in and joint.at and not is_named(joint.at):
             data.append(f"at {self.place(joint.at)}")
         return joint_words(joint), ", ".join(data)
 
@@ -253,11 +255,11 @@ class Statement(NamedTuple):
         match load:
             case Torque():
                 positive = "positive " if load.value is None else ""
-                if load.link.startswith("@"):
+                if not is_link(load.link):
                     return ", positive clockwise as one looks along its axis"
                 return f", {positive}{SPELT[load.turns]}"
             case Spring():
-                end = "a fixed point" if self.place(load.to).startswith("@") else self.place(load.to)
+                end = self.place(load.to) if is_named(self.place(load.to)) else "a fixed point"
                 return f" to {end}, free length {self.show(load.free)} {self.case.units.length}"
             case TorsionSpring():
                 return f" by the angle {''.join(load.corner)}, free at {self.show(load.free)} deg"

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import combinations
 
 from icsolve.answer import Centre
-from icsolve.case import Case, Pair, Rope, Screw, link_order
+from icsolve.case import Case, Pair, Rope, Screw, is_link, link_order
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ropes import moving_names
 from icsolve.scene.parts import wanted_pairs
@@ -225,9 +225,7 @@ def _tied(known: Known, of: str, link: str, sign: float) -> Ratio | None:
     """A ratio by a rope that ties these two alone, or by the screw that moves one along the frame."""
     case = known.case
     value = _speed(known, link, sign) / _speed(known, of, sign)
-    own = tuple(
-        known.pair(one, case.ground) for one in (of, link) if known.turns(one) and not one.startswith("@")
-    )
+    own = tuple(known.pair(one, case.ground) for one in (of, link) if known.turns(one) and is_link(one))
     if any((centre := known.centre(*pair)) is None or centre.kind != "at" for pair in own):
         return None
     for screw in case.screws:
@@ -401,7 +399,7 @@ def _less(t: Triple, other: Triple, s: float) -> Triple:
 def speed_words(motion: OneMotion) -> str:
     """The driver's motion in words."""
     x, y, w = motion.twists[motion.driver]
-    if motion.turns and motion.driver.startswith("@"):
+    if motion.turns and not is_link(motion.driver):
         return f"{link_words(motion.driver)} turns at 1 rad/s clockwise as one looks along its axis"
     if motion.turns:
         return f"link {motion.driver} turns at 1 rad/s counterclockwise"

@@ -16,7 +16,7 @@ from collections.abc import Iterable, Mapping
 from typing import assert_never
 
 from icsolve.assembly.conditions import refuse_unfit
-from icsolve.case import Case, Centroid, Number, Spring, Toward
+from icsolve.case import Case, Centroid, Number, Spring, Toward, is_named
 from icsolve.case.space import (
     Along,
     Axis,
@@ -178,7 +178,7 @@ def spring_length(spring: Spring, figure: SpatialFigure) -> Scalar:
 
 
 def _shown(name: str) -> str:
-    return "its point" if name.startswith("@") else name
+    return name if is_named(name) else "its point"
 
 
 def in_case(case: Case) -> Space:

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.answer import Term
 from icsolve.answer.space import SpatialReaction, SpatialReactions
-from icsolve.case import Case, Spring, Toward, Weight, ordered_pair
+from icsolve.case import Case, Spring, Toward, Weight, is_named, ordered_pair
 from icsolve.case.space import (
     Along,
     FromTo,
@@ -111,7 +111,7 @@ def terms_of_power(solved: SpatialSolution, values: Mapping[str, float], a: Arit
 
 def _at(load: Load) -> str:
     at = getattr(load, "at", "@")
-    return "" if at.startswith("@") else f" at {at}"
+    return f" at {at}" if is_named(at) else ""
 
 
 SMALL = 1e-9
@@ -148,7 +148,7 @@ def motion_words(link: str, motion: Motion, figure: SpatialFigure) -> str:
 
 def _line(p: Vec, axis: Vec, figure: SpatialFigure) -> str:
     """A line by the named points on it, or by a point and its direction."""
-    shown = [(name, point) for name, point in figure.points.items() if not name.startswith("@")]
+    shown = [(name, point) for name, point in figure.points.items() if is_named(name)]
     named = [(name, point) for name, point in shown if _is_on(point, p, axis)]
     apart = [name for name, point in named if size(subtract(point, named[0][1])) > SMALL]
     if apart:

@@ -14,7 +14,7 @@ from contextlib import suppress
 
 from icsolve.answer import Answer, Deferred, Found
 from icsolve.answer.space import Spatial
-from icsolve.case import Case
+from icsolve.case import Case, is_named
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Showing
 from icsolve.numbers.balls import PRECISIONS, Balls, HalfUnits, MoreDigits, is_long
@@ -106,7 +106,7 @@ def _solve(case: Case, a: Showing) -> Answer:
     roundings = bounds if a is FLOATS else None
     found = compared(by_power, unknowns or {}, roundings, 0.0, statics, solved.parameters, a)
     reactions = reactions_of(solved, a)
-    shown = {name: tuple(map(float, p)) for name, p in figure.places.items() if not name.startswith("@")}
+    shown = {name: tuple(map(float, p)) for name, p in figure.places.items() if is_named(name)}
     places = {name: (x, y, z) for name, (x, y, z) in shown.items()}
     spatial = Spatial(places, reactions, found, residual(terms))
     return _answer(solved, bounds, spatial, a)
