@@ -42,7 +42,7 @@ SECTIONS = 4
 TOGETHER = 8
 """so many searches share their sweeps: each sweep follows the figure from the case's own position anew, which
 may take as long as many scenes."""
-MOST_SCENES = 3000
+MOST_SCENES = 1200
 """Scenes that are solved before a search ends with what it has."""
 MANY = "so much changes in this range that not all of it was closed in on: take a shorter one."
 SAID = (
