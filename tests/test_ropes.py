@@ -432,6 +432,30 @@ def same(length: float, written: float, rope: Rope) -> bool:
     return min(abs(way - written) for way in ways) < 1e-9
 
 
+@pytest.mark.parametrize("turned", ["2", "4"])
+def test_two_parts_of_a_rope_between_two_pins_move_as_a_bar_does(turned: str) -> None:
+    """There and back is twice the distance, which the rope keeps."""
+    rope = "  - {rope: [B, C, B], on: [2, 4, 2]}"
+    bar = "  - {pin: [2, 3], at: B}\n  - {pin: [3, 4], at: C}"
+    rows = []
+    for coupler in (rope, bar):
+        case = icsolve.load(f"""icsolve: 1
+points: {{A: [0, 0], D: [4, 0], B: [0.5, 0.9], C: [3.5, 2.4]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+{coupler}
+  - {{pin: [4, 1], at: D}}
+loads: {{M: {{torque: -5, link: 4}}, T12: {{torque: unknown, link: 2}}}}
+""")
+        rows.append(
+            icsolve.sweep(case, want=("answers", "points"), drive={turned: np.array([0.0, 3.0, 6.0])})
+        )
+    for point in "BC":
+        assert rows[0].points[point] == pytest.approx(rows[1].points[point], rel=1e-14, nan_ok=True)
+    assert rows[0].answers["T12"] == pytest.approx(rows[1].answers["T12"], rel=1e-13, nan_ok=True)
+    assert np.isfinite(rows[0].answers["T12"][:2]).all()
+
+
 def test_where_a_part_of_a_rope_has_no_length_nothing_assembles_however_large_the_figure_is() -> None:
     """A lever pivoted on a brake's drum: turned far enough, its end comes to lie within the drum, where the
     band can't leave it. How far out the lever is loaded says nothing about that."""

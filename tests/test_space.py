@@ -117,6 +117,31 @@ def test_the_worked_solution_says_which_way_a_load_acts_as_it_was_written(way: s
     assert "P: a load of 10 kN on link 2 at B, along -z\n" in told
 
 
+def test_a_mass_in_space_is_its_weight_in_any_units() -> None:
+    text = BOOM.partition("expect")[0].replace("{length: m, force: kN}", "{length: in, force: lbf}")
+    by_mass, by_weight = (
+        solve(load(text.replace("force: 10, link: 2, at: B, along: -z", f"{said}, link: 2, at: B")))
+        for said in ("mass: 12 kg", "weight: 117.72 N")
+    )
+    for name, found in by_mass.answers.items():
+        assert found.value == pytest.approx(by_weight.answers[name].value, rel=1e-14)
+
+
+def test_the_powers_in_space_tell_which_load_was_unknown() -> None:
+    """A lever on a hinge about z."""
+    answer = solve(
+        load("""icsolve: 1
+points: {A: [0, 0, 0], B: [2, 0, 1]}
+joints: [{hinge: [1, 2], at: A, axis: z}]
+loads:
+  P: {force: 10, link: 2, at: B, along: -y}
+  T: {torque: unknown, link: 2, along: z}
+""")
+    )
+    assert {term.load: term.unknown for term in answer.terms} == {"P": False, "T": True}
+    assert answer.answers["T"].value == pytest.approx(20.0, rel=1e-15)
+
+
 def test_inertia_forces_in_space_are_refused_and_not_left_out() -> None:
     with pytest.raises(SceneError, match="solved at rest") as refused:
         solve(load(BOOM), dynamic=True)

@@ -97,3 +97,22 @@ def test_a_row_exactly_at_a_limit_has_a_bound() -> None:
     assert abs(sweep.answers["T12"][0] + 75.0) <= sweep.error["T12"][0]
     assert (sweep.error["T12"] < 1e-9).all()
     assert (sweep.errors["points"]["B"] < 1e-12).all()
+
+
+@pytest.mark.parametrize("side", [0.4, -0.4])
+def test_a_figure_written_where_its_circles_only_touch_goes_on_as_near_says(side: float) -> None:
+    """A four-bar with coupler and rocker in line: as its angle grows, C comes to the side of `near`."""
+    case = icsolve.load(f"""icsolve: 1
+points: {{A: [0, 0], D: [4, 0]}}
+lengths: {{AB: 1, BC: 3, CD: 2}}
+angles: {{AB: 180}}
+near: {{C: [2.2, {side}]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+loads: {{M: {{torque: 5, link: 4}}, T12: {{torque: unknown, link: 2}}}}
+""")
+    rows = icsolve.sweep(case, {"angles.AB": [170.0, 190.0, 200.0]}, ("points",))
+    assert (rows.points["C"][:, 1] * side > 0.0).tolist() == [False, True, True]

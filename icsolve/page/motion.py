@@ -35,6 +35,7 @@ from icsolve.screws.plane import Point
 from icsolve.statics.inertia import as_given
 from icsolve.statics.power import is_unknown
 from icsolve.sweep import Sweep, sweep
+from icsolve.sweep.request import RequestError
 from icsolve.tuples import NamedTuple, replace
 
 STILL = 1e-12
@@ -382,7 +383,7 @@ def _swept(case: Case, by: PageInput, degrees: Array, want: Sequence[str]) -> Sw
         if not rubs(case):
             return found
         placed = sweep(_smooth(case), vary, [w for w in want if w != "answers"], drive=drive)
-    except (SceneError, ArithmeticError):
+    except (SceneError, ArithmeticError, RequestError):  # the last of ways that nobody would count
         return None
     return replace(found, points=placed.points, centres=placed.centres, rates=placed.rates)
 

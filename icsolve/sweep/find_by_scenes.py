@@ -19,6 +19,7 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
 from icsolve.numbers.tape import UNIT
+from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.program import wanted_points
 from icsolve.sweep.request import Columns
@@ -35,6 +36,8 @@ SEARCHED, APART = 48, 4
 beside one that assembles."""
 FOUND, MISSED = 4, 24
 """Such a scene counts for so many, and for so many more where nothing is found."""
+RUBBING = 1.5
+"""A scene with friction counts for so many: where it jams its forces are searched for in vain."""
 CLOSED = 1e-12
 """Places are closed in to this part of the range."""
 SECTIONS = 4
@@ -184,7 +187,9 @@ class Scenes:
         values = columns.arrays[name]
         self.searched = _is_searched(case)
         self.places = np.linspace(values.min(), values.max(), (SEARCHED if self.searched else PLACES) + 1)
-        self.scenes = 0
+        self.each = FOUND if self.searched else RUBBING if rubs(case) else 1.0
+        """what a scene counts for"""
+        self.scenes = 0.0
         self.width = max(CLOSED * float(np.ptp(values)), 4.0 * float(np.spacing(np.abs(values).max())))
         self.rounded = UNIT * abs(query.value)
         """how far the value may be from the decimal that it is written as"""
@@ -233,7 +238,7 @@ class Scenes:
         return np.concatenate([found, seen.answers])[order], np.concatenate([codes, seen.codes])[order]
 
     def _swept(self, at: Array, proven: bool = False) -> SeenRows:
-        self.scenes += len(at) * (FOUND if self.searched else 1)
+        self.scenes += len(at) * self.each
         if self.scenes > MOST_SCENES:
             raise _EnoughError
         rows = {own: np.full(len(at), float(a[0])) for own, a in self.columns.arrays.items()}
