@@ -683,7 +683,7 @@ def test_followers_of_all_cases_by_differences_of_their_rates() -> None:
     assert compared >= 4
 
 
-@pytest.mark.parametrize("angle", [20, 160, 250, 330])
+@pytest.mark.parametrize("angle", [20, 128, 160, 250, 330])
 def test_a_point_that_cannot_move_as_given_is_told_both_ways_that_it_can(angle: int) -> None:
     """At 3-4-5 the end of a crank moves square to it."""
     with pytest.raises(icsolve.SceneError) as refused:

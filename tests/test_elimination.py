@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from icsolve.assembly.exclusion import _Link, _narrow_length
 from icsolve.numbers.arithmetic import ZERO
 from icsolve.numbers.balls import INEXACT, Ball, Balls, MoreDigits
 from icsolve.numbers.linear import (
@@ -354,3 +355,57 @@ def test_a_linear_equation_narrows_and_solutions_that_are_close_are_two() -> Non
         assert along == [pytest.approx(s * half, rel=1e-5) for s in (-1, 1)]
         assert found.complete
         assert found.boxes <= 1.05 * boxes
+
+
+# --- points of a box at a given distance ------------------------------------------------------------
+
+
+def distant_pairs(rng: Random, low: Any, high: Any, length: float, number: int) -> list[list[float]]:
+    """Places (ax, ay, bx, by) within a box whose two points are at a distance."""
+    found = []
+    for _ in range(number):
+        ax, ay = (rng.uniform(low[k], high[k]) for k in (0, 1))
+        way = rng.uniform(0.0, 2.0 * math.pi)
+        place = [ax, ay, ax + length * math.cos(way), ay + length * math.sin(way)]
+        if all(low[k] <= place[k] <= high[k] for k in range(4)):
+            found.append(place)
+    return found
+
+
+@pytest.mark.parametrize("held", ["", "a", "b"])
+def test_a_box_is_narrowed_to_the_places_at_a_distance_and_no_further(held: str) -> None:
+    """None of them is cut off; of one axis by the other what is left ends where they do, or nearly."""
+    rng, narrower = Random(f"box {held}"), 0
+    for _ in range(30):
+        low = np.array([rng.uniform(-1, 1) for _ in range(4)])
+        high = low + [rng.choice([0.05, 0.3, 1.0]) for _ in range(4)]
+        length = rng.uniform(0.2, 2.0)
+        fixed = ((float(low[0]), float(low[1])), (float(low[2]), float(low[3])))
+        whole_low, whole_high = low.copy(), high.copy()
+        for k, end in enumerate("ab"):
+            if held == end:
+                whole_high[2 * k : 2 * k + 2] = whole_low[2 * k : 2 * k + 2]
+        places = np.array(distant_pairs(rng, whole_low, whole_high, length, 4000)).reshape(-1, 4)
+        columns = [-1 if held == "a" else 0, -1 if held == "b" else 0 if held == "a" else 2]
+        own = [0, 1, 2, 3] if not held else [2, 3] if held == "a" else [0, 1]
+        box_low, box_high = low[None, own].copy(), high[None, own].copy()
+        _narrow_length(_Link(*columns, *fixed, length * length), box_low, box_high)
+        if len(places):
+            assert (places[:, own] >= box_low[0] - 1e-12).all() and (
+                places[:, own] <= box_high[0] + 1e-12
+            ).all()
+        narrower += int((box_low[0] > low[own]).any() or (box_high[0] < high[own]).any())
+        if held and len(places) > 50:
+            ends = places[:, own].min(axis=0), places[:, own].max(axis=0)
+            assert np.abs(box_low[0] - ends[0]).max() < 0.1 and np.abs(box_high[0] - ends[1]).max() < 0.1
+    assert narrower > 10
+
+
+def test_a_box_whose_points_are_too_near_or_too_far_apart_is_empty() -> None:
+    for at, gone in ((1.9, True), (1.9995, False), (2.1, True)):
+        for axis in (0, 1):
+            low = np.zeros((1, 4))
+            low[0, 2 + axis] = at
+            high = low + 1e-3
+            _narrow_length(_Link(0, 2, (0.0, 0.0), (0.0, 0.0), 4.0), low, high)
+            assert bool((low > high).any()) is gone

@@ -112,6 +112,7 @@ def test_the_worked_solution_says_which_way_a_load_acts_as_it_was_written(way: s
     text = BOOM.partition("expect")[0].replace("toward: C", f"{way}: C")
     told = explain(load(text), "text")
     assert f"TC: a load on link 2 at B, {'away from' if way == 'away' else 'toward'} C\n" in told
+    assert solve(load(text)).answers["TC"].value == pytest.approx(-17.5 if way == "away" else 17.5, rel=1e-12)
     assert "N: a couple on link 2, about y\n" in told
     assert "P: a load of 10 kN on link 2 at B, along -z\n" in told
 
