@@ -69,6 +69,17 @@ EQUIVALENT: dict[str, str] = {
     "icsolve/scene/dynamics.py with_inertia #2: -1 -> 1": "the last of two",
     "icsolve/assembly/newton.py module #13: 100 -> 150.0": "how many equations an inverse is taken of",
     "icsolve/statics/reaction_basis.py thread #6: rise * rise -> rise / rise": "a unit's length cancels out",
+    "icsolve/statics/equilibrium.py Equilibrium.open_sizes #0: 1.0 -> 2.0": "rounding is far below",
+    "icsolve/kinematics/centres.py CentreFinder._centre #15: 1000.0 -> 1500.0": "far from both",
+    "icsolve/assembly/walk.py places_of #4: 1.0 -> 2.0": "the size beside which a double is zero to 1e-40",
+    "icsolve/statics/reaction_basis.py _as_it_moves #1: size <= 1e-09 -> size < 1e-09": "none is so slow",
+    "icsolve/statics/reaction_basis.py _as_it_moves #3: 1e-09 * size -> 1e-09 / size": "none lies between",
+    "icsolve/assembly/newton.py module #18: 4.0 -> 5.0": "a bound, which may be wider: then one searches on",
+    "icsolve/assembly/clusters.py Cluster.begin #0: 0 -> 1": "less than a length costs, either way",
+    "icsolve/numbers/krawczyk.py _refined #4: len(rows) <= FEW -> len(rows) > FEW": "only the time",
+    "icsolve/numbers/roots.py zero_between #8: abs(middle) <= least -> abs(middle) < least": "one ulp more",
+    "icsolve/statics/space/power.py SpatialBalance.unbalanced #1: abs(rest) > NOTHING * most -> abs(rest) >= "
+    "NOTHING * most": "the two are equal where both are zero",
 }
 """Mutants, as they are listed, that change no answer, with the reason."""
 

@@ -183,12 +183,11 @@ def _narrow_length(link: _Link, low: Array, high: Array) -> None:
         most = np.maximum(np.abs(other_low), np.abs(other_high))
         least = np.maximum(0.0, np.maximum(other_low, -other_high))
         far = np.sqrt(np.maximum(0.0, link.square - least * least)) + SLACK
-        far = np.where(link.square - least * least < -SLACK, -1.0, far)
         near = np.sqrt(np.maximum(0.0, link.square - most * most)) - SLACK
         d_low, d_high = np.maximum(spans[axis][0], -far), np.minimum(spans[axis][1], far)
         d_low = np.where(d_low > -near, np.maximum(d_low, near), d_low)
         d_high = np.where(d_high < near, np.minimum(d_high, -near), d_high)
-        empty = (far < 0.0) | (d_low > d_high)
+        empty = d_low > d_high
         spans[axis] = (d_low, d_high)
         _put(link, axis, d_low, d_high, empty, low, high)
 
