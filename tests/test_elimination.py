@@ -28,7 +28,7 @@ from icsolve.numbers.linear import (
     solve_square,
 )
 from icsolve.numbers.quadratics import Quadratics, every_zero
-from icsolve.numbers.roots import last_that_holds, zero_between
+from icsolve.numbers.roots import below_zero, last_that_holds, zero_between
 
 Matrix = list[list[float]]
 
@@ -235,6 +235,18 @@ def test_what_is_left_of_a_row_is_rounding_below_a_fraction_of_its_terms(share: 
     assert SPENT == 1e-13
 
 
+@pytest.mark.parametrize("tiny", [1e-6, 1e-10, 1e-14, 1e-16])
+def test_a_short_row_of_next_to_nothing_waits_for_the_others(tiny: float) -> None:
+    """x is 1/3 by the second row, and hardly matters in the first, which tells the parameter q: as a pivot of
+    the first its rounding would be all that is left."""
+    for rows in ([{0: tiny, 2: 1.0, 1: -0.7}, {0: 3.0, 1: -1.0}], [{0: tiny, 2: 1.0}, {0: 3.0, 1: -1.0}]):
+        general = eliminate(rows, 1)
+        ((left),) = general.left
+        assert general.of(0)[1] == pytest.approx(1 / 3, rel=1e-15)
+        constant = Fraction(rows[0].get(1, 0.0)) + Fraction(tiny) / 3
+        assert Fraction(-left[1] / left[2]) == pytest.approx(-constant, rel=4e-16)
+
+
 def test_a_row_remembers_the_largest_amount_that_was_taken_from_it() -> None:
     """1 - 1e6 + 1e6 leaves 1e-10 of rounding: beside 1e6 that is nothing, beside 1 it would be a pivot."""
     rows = [{0: 1.0, 1: 1e6}, {0: 1.0, 1: 1e6 + 1e-9, 2: 1e-8}]
@@ -281,6 +293,18 @@ def test_a_zero_is_found_to_an_ulp_in_few_calls_from_either_side(name: str) -> N
         assert len(calls) <= most
         assert all(low <= x <= high for x in calls)
     assert zero_between(f, zero, high, 0.0, f(high)) == zero
+
+
+@pytest.mark.parametrize("depth", [1.0, 1e-4, 1e-8, 1e-12, 0.0, -1e-12, -1.0])
+@pytest.mark.parametrize("bottom", [0.01, 0.3, 0.77])
+def test_a_valley_below_zero_is_found_however_shallow_it_is(depth: float, bottom: float) -> None:
+    def valley(x: float) -> float:
+        return 100.0 * (x - bottom) ** 2 * (1.0 + 0.3 * x) - depth * 1e-3
+
+    place = below_zero(valley, 0.0, 1.0)
+    assert (place is not None) == (depth > 0.0)
+    assert place is None or valley(place) < 0.0
+    assert below_zero(lambda x: x + 1e-9, 0.0, 1.0) is None
 
 
 def test_the_last_place_at_which_something_holds_is_a_double_beside_the_next() -> None:
