@@ -45,6 +45,27 @@ def test_a_rod_that_carries_nothing(seed: int) -> None:
     assert found.value == 0.0 and found.error < 1e-40
 
 
+@pytest.mark.parametrize(("gap", "said"), [("0.001", False), ("1e-8", True), ("1e-11", True)])
+def test_what_a_rod_carries_beside_the_axis_that_it_holds_is_answered_and_said(gap: str, said: bool) -> None:
+    """A rod that passes a hinge's axis by next to nothing: its force is the couple over that arm."""
+    answer = solve(
+        load(f"""icsolve: 1
+points: {{A: [0, 0, 0], B: [1, 0, 0], C: [3, {gap}, 0]}}
+joints:
+  - {{hinge: [1, 2], at: A, axis: z}}
+  - {{ball: [2, 3], at: B}}
+  - {{ball: [3, 1], at: C}}
+loads: {{T: {{torque: 10, link: 2, along: z}}}}
+""")
+    )
+    assert answer.spatial is not None
+    force = answer.spatial.reactions["F23"].force
+    with mp.workdps(60):
+        assert force[0] is not None and abs(force[0]) == pytest.approx(float(20 / mpf(gap)), rel=1e-15)
+    assert force[1] is not None and abs(force[1]) == pytest.approx(10.0, rel=1e-15)
+    assert any("within a hair's breadth" in note for note in answer.notes) is said
+
+
 def test_a_torque_of_zero_beside_huge_forces() -> None:
     """The rod's line passes the hinge's axis at 6e-13, and loads of 1e12 leave 1: nothing turns the rod."""
     answer = solve(

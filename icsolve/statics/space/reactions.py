@@ -370,21 +370,16 @@ def driven_motion(solved: SpatialSolution) -> str:
     return motion_words(link, motion, solved.figure)
 
 
-def refuse_huge(solved: SpatialSolution) -> None:
-    """Refuse forces that only a figure out of true by its last digits would make."""
+def _is_huge(solved: SpatialSolution) -> bool:
+    """Whether joints carry what only a figure out of true by its last digits would make them carry."""
     statics, parameters = solved.statics, solved.parameters
     loads = largest_of(parameters.values())
-    values = [abs(statics.value(column, parameters)) for column in range(statics.known)]
-    if loads and max(values, default=0.0) > HUGE * loads:
-        raise SceneError(
-            Status.NEAR_SINGULAR,
-            f"the joints would carry more than {HUGE:.0g} times the loads: the bodies are within a hair's "
-            "breadth of a position in which they can move. Give the points and axes with more digits, or an "
-            "axis by two points of it.",
-        )
+    carried = largest_of([statics.value(column, parameters) for column in range(statics.known)])
+    return bool(loads and carried > HUGE * loads)
 
 
 HUGE = 1e6
+"""Joints that carry so many times the loads are said to."""
 
 
 def notes_of(solved: SpatialSolution, reactions: SpatialReactions) -> tuple[str, ...]:
@@ -396,6 +391,11 @@ def notes_of(solved: SpatialSolution, reactions: SpatialReactions) -> tuple[str,
     if mobility > working:
         idle = plural(mobility - working, "degree")
         notes.append(f"the joints leave {idle} of freedom in which the loads are in balance.")
+    if _is_huge(solved):
+        notes.append(
+            f"the joints carry more than {HUGE:.0g} times the loads: the bodies are within a hair's breadth of "
+            "a position in which they can move, and the last digits of points and axes decide what they carry."
+        )
     if balance.off:
         notes.append(
             f"the loads balance to a fraction of {balance.off:.1g} only (a motion in which "

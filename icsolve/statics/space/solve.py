@@ -33,7 +33,6 @@ from icsolve.statics.space.reaction_basis import (
 from icsolve.statics.space.reactions import (
     notes_of,
     reactions_of,
-    refuse_huge,
     refuse_loose,
     refuse_unbalanced,
     sense_of,
@@ -98,7 +97,6 @@ def _solve(case: Case, a: Showing) -> Answer:
     refuse_unbalanced(solved)
     terms = terms_of(statics, solved.parameters)
     bounds = bounds_of(statics, powers_of(statics, solved.powers), solved.twists, terms)
-    refuse_huge(solved)
     unknowns = unknowns_of(statics)
     if unknowns is None:
         refuse_doubt(0, solved.mobility)
