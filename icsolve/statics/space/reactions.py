@@ -393,8 +393,8 @@ def notes_of(solved: SpatialSolution, reactions: SpatialReactions) -> tuple[str,
         notes.append(f"the joints leave {idle} of freedom in which the loads are in balance.")
     if _is_huge(solved):
         notes.append(
-            f"the joints carry more than {HUGE:.0g} times the loads: the bodies are within a hair's breadth of "
-            "a position in which they can move, and the last digits of points and axes decide what they carry."
+            f"the joints carry more than {HUGE:.0g} times the loads: the bodies are within a hair's breadth "
+            "of a position in which they can move, and the last digits of points and axes tell how much."
         )
     if balance.off:
         notes.append(
