@@ -17,6 +17,7 @@ import mechanisms
 from equilibrium import push
 from icsolve.answer import Answer
 from icsolve.answer.bodies import Reaction
+from icsolve.errors import SceneError
 
 
 def solved(text: str, **options: Any) -> Answer:
@@ -89,6 +90,22 @@ def test_a_joint_left_out_of_a_truss_is_said_whether_its_loads_balance_or_not(jo
     answer = icsolve.solve(icsolve.load(TRUSS.replace(joint, "")))
     assert answer.mobility and "a joint is missing" in answer.notes[-1]
     assert ("do not balance" in answer.notes[-1]) is ("[1, 2], at: A" not in joint)
+
+
+def test_what_loads_leave_is_a_force_along_the_motion_of_the_first_link() -> None:
+    """A wedge of 30 degrees under a block: on the block it is cot 30 times what is left on the wedge."""
+    guides = ["  - {slide: [2, 1], at: A, along: 0}", "  - {slot: [3, 1], at: B, along: 90}"]
+    tangent = 3**-0.5
+    for order, left in ((guides, 4 + 10 * tangent), (guides[::-1], 10 + 4 / tangent)):
+        joints = "\n".join([*order, "  - {slide: [3, 2], at: B, along: 30}"])
+        with pytest.raises(SceneError, match=f"leave {left:.6g} N at ") as refused:
+            solved(f"""
+points: {{A: [0, 0], B: [1, 0.5]}}
+joints:
+{joints}
+loads: {{W: {{force: 10, link: 3, at: B, angle: -90}}, P: {{force: 4, link: 2, at: A, angle: 0}}}}
+""")
+        assert refused.value.status == "unbalanced"
 
 
 def test_an_unknown_load_on_a_structure_and_one_that_nearly_moves_are_refused() -> None:

@@ -336,6 +336,26 @@ loads:
     assert refused(text + down.replace("270", "90")).status == "no-value"
 
 
+@pytest.mark.parametrize(("rough", "said"), [("", "and no friction does"), (", mu: 0.3", "that it makes")])
+def test_an_unknown_that_does_no_work_where_nothing_rubs_or_what_rubs_does_not_balance(
+    rough: str, said: str
+) -> None:
+    """Two links glide on together: their pin does not turn, and P presses the smooth guide alone."""
+    refusal = refused(f"""
+points: {{A: [0, 0], B: [1, 0.5], C: [2, 1]}}
+joints:
+  - {{slide: [2, 1], at: A, along: 0}}
+  - {{pin: [3, 2], at: B, mu: 0.2, radius: 0.1}}
+  - {{slot: [3, 1], at: C, along: 0{rough}}}
+motion: {{point: A, link: 2, speed: 1, angle: 0}}
+loads:
+  W: {{force: 10, link: 3, at: C, angle: 180}}
+  P: {{force: unknown, link: 2, at: A, angle: 90}}
+""")
+    assert refusal.status == "no-value"
+    assert said in refusal.message
+
+
 def test_ladder_on_a_rough_floor_and_wall() -> None:
     """Push at the foot: N_B = (W/2 - mu N_B) cot(theta), P = N_B - mu (W - mu N_B) at the least."""
     theta, mu, w = math.radians(50), 0.2, 100.0
