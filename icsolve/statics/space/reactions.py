@@ -30,7 +30,7 @@ from icsolve.screws.plane import cross, subtract
 from icsolve.screws.space import AXES, Vec, dot, size, square_to, times, unit
 from icsolve.statics.equilibrium import value_of
 from icsolve.statics.power import unknown_loads
-from icsolve.statics.reactions import REDUNDANT, SHARED, left_open, names_by_tie
+from icsolve.statics.reactions import REDUNDANT, SHARED, left_open, names_by_tie, refuse_overflow
 from icsolve.statics.space.power import NEARLY, SpatialBalance, SpatialSolution, SpatialWrench, is_couple
 from icsolve.statics.space.reaction_basis import SpatialFigure, SpatialTie
 from icsolve.structure.topology import reached
@@ -194,7 +194,10 @@ ROUNDING = 1e-15
 def reactions_of(solved: SpatialSolution, a: Showing) -> SpatialReactions:
     """Every joint's reaction [case units]."""
     reader, names = _Reader(solved, a), names_by_tie(solved.case, solved.statics.ties)
-    return SpatialReactions((name, reader.reaction(t)) for t, name in enumerate(names))
+    found = SpatialReactions((name, reader.reaction(t)) for t, name in enumerate(names))
+    for name, own in found.items():
+        refuse_overflow(name, (*own.force, *own.couple))
+    return found
 
 
 class _Reader:
