@@ -11,7 +11,7 @@ from typing import Any
 from icsolve.assembly.loci import Axis, CircleLocus, Locus
 from icsolve.assembly.steps import Given, Meet, Polar, Step
 from icsolve.assembly.workspace import LENGTH, RAY, Datum, X, number_of
-from icsolve.case import Area, Case, Force, Load, Number, Weight, pair_name
+from icsolve.case import Case, Load, Number, pair_name
 from icsolve.draw.words import unit_word
 from icsolve.errors import CaseError
 from icsolve.numbers.units import numbers_in
@@ -22,7 +22,6 @@ from icsolve.report.derivation.known import Known
 from icsolve.statics.inertia import is_loaded
 from icsolve.sweep.numbers import numbers_of
 from icsolve.tuples import NamedTuple
-from icsolve.wording.senses import unit_of
 
 
 class Field(NamedTuple):
@@ -204,18 +203,18 @@ def text_of(case: Case) -> str | None:
     return None
 
 
+UNITS_NEEDED = ("mass", "moment of inertia", "pressure")
+"""Dimensions of numbers that bare would be refused, or mean another unit."""
+
+
 def units_to_write(case: Case) -> dict[str, str]:
-    """By path the unit of a number that bare would be refused or mean another: masses and pressures."""
-    found = {
-        load.value.path: unit_of(load, case)
-        for load in case.loads
-        if isinstance(load, Weight | Force) and isinstance(load.value, Number)
-        if getattr(load, "mass", False) or isinstance(getattr(load, "over", None), Area)
+    """By path the unit of a number that has to carry it."""
+    names = unit_names(case.units)
+    return {
+        path: names[number.dimension]
+        for path, number in numbers_of(case).items()
+        if number.dimension in UNITS_NEEDED
     }
-    for inertia in case.inertia.values():
-        for number, unit in ((inertia.mass, "kg"), (inertia.moment, "kg*m^2")):
-            found |= {} if number is None else {number.path: unit}
-    return found
 
 
 def text_data(case: Case, paths: list[str]) -> dict[str, Any] | None:
