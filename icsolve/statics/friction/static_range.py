@@ -161,7 +161,8 @@ def end_of(statics: Statics, senses: Sequence[float]) -> End | None:
 def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> End | None:
     """The unknown load at full friction of these senses; infinite where the forces grow without bound.
 
-    With ``pushing``, None where a contact would have to pull.
+    With ``pushing``, None where a contact would have to pull. Raises SceneError where the equilibrium ends
+    and nothing says at which load.
     """
     equations = reduced(statics, senses)
     assert equations is not None
@@ -182,10 +183,14 @@ def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> En
     parting = None if grows else _parting(short, last)
     if parting is not None:
         return End(_where_it_parts(equations, parting, share) / statics.scale, tuple(senses), pushes=False)
-    value = (equations.loads[0][0] + 0.999 * share * change) / statics.scale
     if grows or _locks(equations):
-        value = math.copysign(math.inf, change)
-    return End(value, tuple(senses), pushes=pushes)
+        return End(math.copysign(math.inf, change), tuple(senses), pushes=pushes)
+    raise SceneError(
+        Status.UNSUPPORTED,
+        f"the equilibrium with friction at rest ends where {share:.3g} of it is used, and neither the forces "
+        "grow there nor does a contact part: where the load ends is not known. Give a `motion`, or a smaller "
+        "`mu`.",
+    )
 
 
 def _parting(equations: Lengths, last: Y) -> int | None:
