@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import math
 import os
 import subprocess
 import sys
@@ -12,6 +13,8 @@ from typing import Any
 
 import pytest
 
+from icsolve.cli.run import json_text
+from icsolve.errors import SceneError
 from icsolve.manual import kinds, template
 from shell import Shell
 
@@ -450,3 +453,10 @@ def test_names_that_no_encoding_knows_are_shown_all_the_same(icsolve: Shell) -> 
     assert ran.code == 2
     assert "no such file" in ran.err
     assert "T = 200" in ran.out
+
+
+@pytest.mark.parametrize("number", [math.inf, -math.inf, math.nan])
+def test_an_answer_with_a_number_beyond_all_doubles_is_refused_and_no_fault(number: float) -> None:
+    with pytest.raises(SceneError, match="larger than the largest double") as refused:
+        json_text({"answers": {"T12": {"value": number}}})
+    assert refused.value.status == "unsupported"

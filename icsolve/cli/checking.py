@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from icsolve.cli.commands import CASES, DIGITS, JOBS, JSON, SET, Verb
-from icsolve.cli.run import DONE, NO_ANSWER, complain, for_each, in_json, on_stderr, print_json
+from icsolve.cli.run import DONE, NO_ANSWER, complain, for_each, in_json, json_text, on_stderr, print_json
 from icsolve.report.check import (
     AGREES,
     DISAGREES,
@@ -101,11 +101,8 @@ def _rows(case: Case) -> list[Row]:
 
 
 def _json(case: Case, path: str, rows: list[Row]) -> str:
-    import json
-
     values = [row._asdict() for row in rows]
-    entry = {"schema": CHECK, "case": case.name, "status": "ok", "values": values}
-    return json.dumps(entry, allow_nan=False)
+    return json_text({"schema": CHECK, "case": case.name, "status": "ok", "values": values})
 
 
 def _table_row(case: Case, path: str, rows: list[Row]) -> str:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from icsolve.cli.run import json_text
 from icsolve.errors import Status
 from icsolve.tuples import NamedTuple
 
@@ -90,7 +90,7 @@ def as_json(case: Case, one: Finding) -> str:
     entry = {"schema": SCHEMA, "case": case.name, "status": Status.OK, "find": what, "found": one.found}
     if one.notes:
         entry["notes"] = list(one.notes)
-    return json.dumps(entry, allow_nan=False) + "\n"
+    return json_text(entry) + "\n"
 
 
 def as_text(case: Case, one: Finding, digits: int) -> str:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from icsolve.cli import BUG, bug_report
-from icsolve.errors import CaseError, NotACase, Problem, SceneError
+from icsolve.errors import CaseError, NotACase, Problem, SceneError, Status
 from icsolve.files import KeptError, can_fork, files_of, is_plain, note, reading, started
 from icsolve.tuples import NamedTuple
 
@@ -145,11 +145,22 @@ def on_stderr(case: Case, path: str, error: SceneError) -> None:
     complain(f"{path}: {error.status}: {error.message}")
 
 
-def print_json(entry: Mapping[str, Any]) -> None:
-    """One object on one line; a number that JSON can't hold would be a fault."""
+def json_text(entry: Mapping[str, Any]) -> str:
+    """One object on one line. Raises SceneError (``unsupported``) for a number beyond the range of doubles,
+    which JSON can't hold."""
     import json
 
-    click.echo(json.dumps(entry, allow_nan=False))
+    try:
+        return json.dumps(entry, allow_nan=False)
+    except ValueError:
+        from icsolve.wording.sentences import overflow
+
+        raise SceneError(Status.UNSUPPORTED, overflow("a number of the answer")) from None
+
+
+def print_json(entry: Mapping[str, Any]) -> None:
+    """One object on one line."""
+    click.echo(json_text(entry))
 
 
 def in_json(schema: str, **more: Any) -> Refuse:

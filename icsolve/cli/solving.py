@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from icsolve.cli.commands import CASES, DIGITS, JOBS, JSON, SET, Verb
-from icsolve.cli.run import DONE, Work, for_each, in_json, print_json
+from icsolve.cli.run import DONE, Work, for_each, in_json, json_text
 from icsolve.tuples import NamedTuple, replace
 
 if TYPE_CHECKING:
@@ -89,7 +89,7 @@ def solve_cases(
         from icsolve.answer.as_json import SCHEMA
 
         work, refuse = _as_json(options), in_json(SCHEMA)
-        return for_each(cases, work, refuse, settings, show=_print_entry, jobs=jobs)
+        return for_each(cases, work, refuse, settings, show=_print, jobs=jobs)
     return for_each(cases, _as_text(options), settings=settings, show=_printer(_several(cases)), jobs=jobs)
 
 
@@ -118,13 +118,13 @@ def _report(case: Case, options: Options) -> Report:
     return report(solve(_posed(case, options), examine=True))
 
 
-def _print_entry(entry: Mapping[str, Any]) -> int:
-    print_json(entry)
+def _print(text: str) -> int:
+    click.echo(text)
     return DONE
 
 
-def _as_json(options: Options) -> Work[dict[str, Any]]:
-    def work(case: Case, path: str) -> dict[str, Any]:
+def _as_json(options: Options) -> Work[str]:
+    def work(case: Case, path: str) -> str:
         answer = _solve(case, options)
         entry = answer.to_dict()
         if options.report:
@@ -133,7 +133,7 @@ def _as_json(options: Options) -> Work[dict[str, Any]]:
             from icsolve.scene.sensitivity import entries
 
             entry |= entries(answer, options.sensitivity, options.tolerance)
-        return entry
+        return json_text(entry)
 
     return work
 
