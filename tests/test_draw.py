@@ -29,6 +29,8 @@ from icsolve.draw import Drawing, draw
 from icsolve.draw.figure import scene_of
 from icsolve.draw.links import body_of
 from icsolve.draw.scene import geneva_of
+from icsolve.draw.words import figure_number
+from icsolve.errors import SceneError
 from icsolve.report.derivation.known import known_of
 from icsolve.report.derivation.ratios import needed_steps
 from library import FILES, LIBRARY, sample
@@ -402,3 +404,11 @@ def test_a_figure_with_more_steps_than_there_are_says_how_many_there_are(links: 
         "  T: {torque: unknown, link: 2}\n"
     )
     assert f">{told}</text>" in draw(case, Drawing(step=9))
+
+
+@pytest.mark.parametrize("number", [math.inf, math.nan, 1.7976931348623157e308])
+def test_a_number_that_no_figure_can_show_is_refused_and_no_fault(number: float) -> None:
+    """The last is a double: its four digits are none."""
+    with pytest.raises(SceneError, match="larger than the largest double"):
+        figure_number(number)
+    assert figure_number(-1.7e308) == "−1.7×10³⁰⁸"
