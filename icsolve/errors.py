@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from icsolve.tuples import NamedTuple
@@ -92,3 +93,17 @@ class Status:
     CONTRADICTORY = "contradictory-centres"
     NEAR_SINGULAR = "near-singular"
     UNSUPPORTED = "unsupported"
+
+
+def overflow(what: str) -> SceneError:
+    """The refusal (``unsupported``) of a number beyond the range of doubles."""
+    return SceneError(
+        Status.UNSUPPORTED,
+        f"{what} is larger than the largest double in these units: give the case in other `units`.",
+    )
+
+
+def refuse_overflow(what: str, *numbers: float | None) -> None:
+    """Raise that refusal where one of the numbers that there are is not finite."""
+    if not all(math.isfinite(number) for number in numbers if number is not None):
+        raise overflow(what)

@@ -230,7 +230,7 @@ class Answer:
 
     @property
     def shown_points(self) -> dict[str, tuple[float, float]]:
-        """The points that have a name in the case (hidden ones start with ``@``)."""
+        """The points that have a name in the case."""
         return {name: place for name, place in self.points.items() if is_named(name)}
 
     def __getstate__(self) -> dict[str, Any]:

@@ -30,8 +30,6 @@ from icsolve.tuples import NamedTuple
 
 CORNER = 1e-9
 """Pieces whose tangents differ by less (sine) meet smoothly."""
-AT_END = 1e-9
-"""So near to the end of a piece (of its length) doubles leave open whether the next one is touched."""
 MEETING = 1e-9
 """Ends that are nearer than this fraction of the profile's size are one point."""
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from icsolve.cli import BUG, bug_report
-from icsolve.errors import CaseError, NotACase, Problem, SceneError, Status
+from icsolve.errors import CaseError, NotACase, Problem, SceneError, overflow
 from icsolve.files import KeptError, can_fork, files_of, is_plain, note, reading, started
 from icsolve.tuples import NamedTuple
 
@@ -153,9 +153,7 @@ def json_text(entry: Mapping[str, Any]) -> str:
     try:
         return json.dumps(entry, allow_nan=False)
     except ValueError:
-        from icsolve.wording.sentences import overflow
-
-        raise SceneError(Status.UNSUPPORTED, overflow("a number of the answer")) from None
+        raise overflow("a number of the answer") from None
 
 
 def print_json(entry: Mapping[str, Any]) -> None:

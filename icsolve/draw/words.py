@@ -10,12 +10,12 @@ from icsolve.answer.bodies import Reaction
 from icsolve.case import is_angle, pair_name
 from icsolve.draw.marks import Mark, MarkGroup, TextMark, TextRun, bounds, text_width
 from icsolve.draw.svg import runs_of
-from icsolve.errors import SceneError, Status
+from icsolve.errors import refuse_overflow
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ratios import Step
 from icsolve.report.text import positions_text
 from icsolve.wording.senses import holding, spelt
-from icsolve.wording.sentences import overflow, plural, provenance
+from icsolve.wording.sentences import plural, provenance
 
 DIGITS = 4
 
@@ -26,8 +26,7 @@ def figure_number(value: float, digits: int = DIGITS) -> str:
     Raises SceneError (``unsupported``) where that is beyond the range of doubles.
     """
     value = float(format(value, f".{digits}g")) + 0.0
-    if not math.isfinite(value):
-        raise SceneError(Status.UNSUPPORTED, overflow("a number of the figure"))
+    refuse_overflow("a number of the figure", value)
     if value == 0.0:
         return "0"
     if 1e-4 <= abs(value) < 10.0 ** max(digits, 7):

@@ -15,7 +15,7 @@ from icsolve.screws.plane import subtract
 from icsolve.screws.space import ZERO, size, times
 from icsolve.statics.space.reaction_basis import SpatialTie
 from icsolve.statics.space.reactions import direction_words
-from icsolve.wording.sentences import listed
+from icsolve.wording.sentences import at_words, listed
 
 AXES = "xyz"
 
@@ -60,7 +60,7 @@ def _joint(tie: SpatialTie) -> str:
         "gears": "mesh of gears",
     }
     axis = f" along {direction_words(tie.axis)}" if size(tie.axis) > 0.5 else ""
-    where = f" at {tie.where}" if tie.where and is_named(tie.where) else ""
+    where = at_words(tie.where)
     return f"a {kind.get(tie.joint_kind, tie.joint_kind)} of links {tie.by} and {tie.on}{where}{axis}"
 
 
@@ -69,10 +69,9 @@ def _load(figures: Figures, push: Push) -> tuple[Inline, ...]:
         "" if push.unknown or push.value is None else f" of {figures.number(push.value).digits} {push.unit}"
     )
     kind = "couple" if push.at is None else "load"
-    where = f" at {push.where}" if push.where and is_named(push.where) else ""
     return (
         load_name(push.name),
-        f": a {kind}{value} on link {push.link}{where}, {push.way}",
+        f": a {kind}{value} on link {push.link}{at_words(push.where)}, {push.way}",
     )
 
 

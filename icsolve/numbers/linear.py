@@ -328,7 +328,7 @@ class _Work:
 
     def is_small(self, row: Row, column: int) -> bool:
         """Whether a pivot is next to nothing beside its column in other rows."""
-        most = max((magnitude(self.rows[n][column]) for n in self.holders[column]), default=0.0)
+        most = largest_of([self.rows[n][column] for n in self.holders[column]])
         return magnitude(row[column]) < SMALL * most
 
     def pivot(self, row: Row, inner: list[int], size: float) -> int | None:

@@ -11,7 +11,7 @@ from typing import Any
 from icsolve.assembly.loci import Axis, CircleLocus, Locus
 from icsolve.assembly.steps import Given, Meet, Polar, Step
 from icsolve.assembly.workspace import LENGTH, RAY, Datum, X, number_of
-from icsolve.case import Case, Load, Number, pair_name
+from icsolve.case import Case, Load, Number, is_named, pair_name
 from icsolve.draw.words import unit_word
 from icsolve.errors import CaseError
 from icsolve.numbers.units import numbers_in
@@ -33,7 +33,7 @@ class Field(NamedTuple):
     unit: str
     said: str
     """its name for who does not see the page"""
-    bound: str = ""
+    bound: str
 
 
 class FieldLine(NamedTuple):
@@ -170,7 +170,7 @@ def handles_of(case: Case, steps: Iterable[Step], paths: list[str]) -> dict[str,
                 found[str(key)] = [
                     move for locus in (step.first, step.second) for move in _along(locus, number)
                 ]
-    return {name: moves for name, moves in found.items() if moves and not name.startswith(("@", "("))}
+    return {name: moves for name, moves in found.items() if moves and is_named(name) and name[0] != "("}
 
 
 def _turning(step: Polar, number: Callable[[Datum], int]) -> Iterable[list[Any]]:

@@ -9,14 +9,13 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
-from icsolve.case import Case, Number, Pair, is_named, link_order
-from icsolve.errors import SceneError
+from icsolve.case import Case, Number, Pair, link_order
+from icsolve.errors import SceneError, refuse_overflow
 from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
 from icsolve.kinematics.speeds import Speed
 from icsolve.numbers.arithmetic import Scalar, largest_of, zero_of
 from icsolve.numbers.balls import PRECISIONS, BelowZero, MoreDigits, MovedBalls
-from icsolve.scene import refusals
 from icsolve.scene.program import (
     EvaluatedScene,
     Evaluation,
@@ -36,7 +35,7 @@ from icsolve.statics.power import Bounded, Outcome, Value, known_value, load_val
 from icsolve.tuples import LateModule, NamedTuple, cached_property, replace
 from icsolve.wording import sentences
 from icsolve.wording.senses import direction_words, sense_of, unit_of
-from icsolve.wording.sentences import link_words
+from icsolve.wording.sentences import at_words, link_words
 
 if TYPE_CHECKING:
     from icsolve.scene import sensitivity
@@ -72,15 +71,13 @@ def power_terms(found: Evaluation, values: Mapping[str, Scalar], speed: Speed) -
     for w, value, factor, size in _powers(found, values, speed):
         unknown = known_value(w) is None
         power, _ = a.rounded(value * factor, size)
-        if not math.isfinite(power):
-            raise refusals.overflow(f"the power of {w.load.name}")
+        refuse_overflow(f"the power of {w.load.name}", power)
         numbers = a.rounded(value)[0], unit_of(w.load, case), a.rounded(factor)[0], power
         yield Term(w.load.name, w.load.link, *numbers, unknown, _where(case, w))
 
 
 def _where(case: Case, w: Wrench) -> str:
-    at = getattr(w.load, "at", "@")
-    where = f"{w.load.name} on {link_words(w.load.link)}" + (f" at {at}" if is_named(at) else "")
+    where = f"{w.load.name} on {link_words(w.load.link)}{at_words(getattr(w.load, 'at', None))}"
     return where if w.against == case.ground else f"{where} against link {w.against}"
 
 

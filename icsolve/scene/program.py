@@ -18,7 +18,7 @@ from typing import TypeVar
 from icsolve.assembly import Figure, place, placed_figure, solve_figure
 from icsolve.assembly.workspace import PlacedCase, case_places, names_of
 from icsolve.case import Case, is_named
-from icsolve.errors import SceneError, Status
+from icsolve.errors import SceneError, Status, refuse_overflow
 from icsolve.kinematics import motion, speeds
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing
 from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, HalfUnits, MoreDigits
@@ -292,8 +292,7 @@ def unknown_values(found: Evaluation) -> dict[str, Value]:
         if w.root in solution.values:
             exact = w.ratio * solution.values[w.root]
             value, error = found.arithmetic.rounded(exact)
-            if not abs(value) < math.inf:
-                raise refusals.overflow(w.load.name)
+            refuse_overflow(w.load.name, value)
             known = error < math.inf
             values[w.load.name] = Value(value, error if known else None, "" if known else UNASKED)
     return values

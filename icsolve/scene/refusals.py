@@ -165,11 +165,6 @@ def not_as_written() -> SceneError:
     return SceneError(Status.CANNOT_ASSEMBLE, sentences.not_as_written())
 
 
-def overflow(load: str) -> SceneError:
-    """The refusal of a load beyond the range of doubles."""
-    return SceneError(Status.UNSUPPORTED, sentences.overflow(load))
-
-
 FLAT = 1e-6
 """How flat a loop of links is whose three centres are said to lie nearly on one line."""
 

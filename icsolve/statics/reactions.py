@@ -12,12 +12,12 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from icsolve.answer.bodies import Reaction, Reactions, Tension, names_of
 from icsolve.case import Case, Rope, is_link, ordered_pair
 from icsolve.case.joints import Mesh, Sliding
-from icsolve.errors import SceneError, Status
+from icsolve.errors import SceneError, Status, refuse_overflow
 from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, largest_of, size_of, zero_of
 from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Equilibrium, Statics, T, Transmits, value_of
 from icsolve.statics.reaction_basis import Position, Tie, axial_shares, tangent_and_separating
-from icsolve.wording.sentences import listed, overflow, plural
+from icsolve.wording.sentences import listed, plural
 
 
 def reactions_of(
@@ -54,14 +54,8 @@ def reactions_of(
             (n, a.rounded(share if n in DEGREES else share / statics.scale)[0]) for n, share in parts
         )
         own = found[name] = _reaction(position, tie, kept, statics.scale, a)._replace(parts=shares)
-        refuse_overflow(name, (own.x, own.y, own.moment, own.magnitude, *dict(shares).values()))
+        refuse_overflow(name, own.x, own.y, own.moment, own.magnitude, *dict(shares).values())
     return found
-
-
-def refuse_overflow(name: str, numbers: Iterable[float | None]) -> None:
-    """Raise SceneError (``unsupported``) where a number of a reaction is beyond the range of doubles."""
-    if not all(math.isfinite(number) for number in numbers if number is not None):
-        raise SceneError(Status.UNSUPPORTED, overflow(name))
 
 
 DEGREES = ("pressure angle",)

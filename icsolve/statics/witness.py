@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from icsolve.answer.bodies import Witness
-from icsolve.errors import SceneError, Status
+from icsolve.errors import SceneError, Status, overflow, refuse_overflow
 from icsolve.numbers.arithmetic import Scalar, Showing, decider, largest_of
 from icsolve.numbers.linear import Row, inverse, solve_square
 from icsolve.screws.plane import velocity
@@ -17,7 +17,7 @@ from icsolve.statics.equilibrium import Components, Equilibrium, T
 from icsolve.statics.load_wrenches import L
 from icsolve.statics.power import PowerFactors
 from icsolve.tuples import LateModule
-from icsolve.wording.sentences import overflow, plural
+from icsolve.wording.sentences import plural
 
 if TYPE_CHECKING:
     from icsolve.screws import space
@@ -37,7 +37,7 @@ def terms_of(statics: Equilibrium[T], parameters: Mapping[int, Scalar]) -> Terms
     try:
         found = {link: (about, _summed(rows, x)) for link, (about, rows) in statics.equations.items()}
     except (OverflowError, ValueError):  # of `fsum`: beyond the largest number, or inf - inf
-        raise SceneError(Status.UNSUPPORTED, overflow("a force between the links")) from None
+        raise overflow("a force between the links") from None
     return found
 
 
@@ -211,8 +211,7 @@ def refuse_apart(found: Sequence[Witness], slack: float) -> None:
     ``slack`` is how far given centres contradict each other [fraction of the figure's size].
     """
     for w in found:
-        if not math.isfinite(w.power + w.bodies):
-            raise SceneError(Status.UNSUPPORTED, overflow(w.load))
+        refuse_overflow(w.load, w.power + w.bodies)
         room = max(w.bound, max(AGREE, slack) * max(abs(w.power), abs(w.bodies)))
         if not abs(w.difference) <= room:
             raise SceneError(Status.NEAR_SINGULAR, _routes_disagree(w))

@@ -34,7 +34,7 @@ from icsolve.cams.curve import Body, Curve, Foot, placed
 from icsolve.cams.enclosed_contact import DIGITS, Vector, ball_places, exact_number
 from icsolve.cams.pieces import Point
 from icsolve.cams.words import not_guided
-from icsolve.case import Case, Contact, Coordinates, Length, Number
+from icsolve.case import Case, Contact, Coordinates, Length, Number, is_named
 from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Radii, Roller, Shape, points_of
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.balls import Balls
@@ -165,7 +165,7 @@ class CamMotion:
         self.case, self.touching = case, known.touching
         self.whole = anchored(known.case)
         touching = [joint.at for joint in self.whole.joints if joint.only_pushes]
-        hidden = {at for at in touching if at is not None and at[0] == "@"}
+        hidden = {at for at in touching if at is not None and not is_named(at)}
         joints = tuple(j for j in self.whole.joints if j.at not in hidden)
         points = {name: place for name, place in self.whole.points.items() if name not in hidden}
         carries = {link: tuple(n for n in ns if n not in hidden) for link, ns in self.whole.carries.items()}

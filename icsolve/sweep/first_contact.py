@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.cams.contact_candidates import Freedom, Shift
-from icsolve.cams.curve import AT_END, MEETING, Body, Curve
+from icsolve.cams.curve import MEETING, Body, Curve
 from icsolve.cams.pieces import TURN, CircularArc, Piece, PolarPiece, Spline, Straight
 from icsolve.numbers.replay import Array
 from icsolve.tuples import NamedTuple
@@ -30,6 +30,8 @@ STEPS = 60
 NEWTON = 12
 AT_ONE = 1e-12
 """A step of this part of a turn is none."""
+AT_END = 1e-9
+"""So near to the end of a piece (of its length) doubles leave open whether the next one is touched."""
 
 Mask = npt.NDArray[np.bool_]
 Which = npt.NDArray[np.intp]

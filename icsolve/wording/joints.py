@@ -20,13 +20,13 @@ from icsolve.case import (
     is_named,
 )
 from icsolve.case.joints import Thread
-from icsolve.wording.sentences import listed
+from icsolve.wording.sentences import at_words, listed
 
 
 def joint_words(joint: Joint) -> str:
     """What a joint does."""
     links = listed(joint.links)
-    where = f" at {joint.at}" if joint.at and is_named(joint.at) else ""
+    where = at_words(joint.at)
     match joint:
         case Pin():
             return f"a pin joins links {links}{where}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from icsolve.case import Case, is_link
+from icsolve.case import Case, is_link, is_named
 from icsolve.structure.topology import Topology
 
 
@@ -26,9 +26,9 @@ def link_words(link: str) -> str:
     return f"link {link}" if is_link(link) else f"the end of the rope {link[1:]}"
 
 
-def overflow(load: str) -> str:
-    """A load beyond the range of doubles."""
-    return f"{load} is larger than the largest double in these units: give the case in other `units`."
+def at_words(point: str | None) -> str:
+    """`` at B``; nothing of a point without a name."""
+    return f" at {point}" if point and is_named(point) else ""
 
 
 RECONSTRUCTED = "Reconstructed"

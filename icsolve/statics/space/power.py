@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from icsolve.case import Case, Spring, Weight
 from icsolve.case.space import Load, SpatialForce, SpatialForceVector, SpatialTorque, TorqueVector
-from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider, largest_of
 from icsolve.numbers.linear import Row, eliminate
 from icsolve.screws.space import AXES, ZERO, Components, Vec, moved
 from icsolve.statics.equilibrium import (
@@ -168,7 +168,7 @@ class SpatialBalance(NamedTuple):
     @property
     def off(self) -> float:
         """The largest of these fractions."""
-        return max(map(abs, self.shares), default=0.0)
+        return largest_of(self.shares)
 
 
 def balance_of(powers: SpatialFactors, arithmetic: Arithmetic) -> SpatialBalance:

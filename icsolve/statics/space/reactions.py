@@ -23,19 +23,19 @@ from icsolve.case.space import (
     TorqueVector,
     Vector,
 )
-from icsolve.errors import SceneError, Status
+from icsolve.errors import SceneError, Status, refuse_overflow
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, Showing, decider, largest_of, zero_of
 from icsolve.numbers.linear import Row
 from icsolve.screws.plane import cross, subtract
 from icsolve.screws.space import AXES, Vec, dot, size, square_to, times, unit
 from icsolve.statics.equilibrium import value_of
 from icsolve.statics.power import unknown_loads
-from icsolve.statics.reactions import REDUNDANT, SHARED, left_open, names_by_tie, refuse_overflow
+from icsolve.statics.reactions import REDUNDANT, SHARED, left_open, names_by_tie
 from icsolve.statics.space.power import NEARLY, SpatialBalance, SpatialSolution, SpatialWrench, is_couple
 from icsolve.statics.space.reaction_basis import SpatialFigure, SpatialTie
 from icsolve.structure.topology import reached
 from icsolve.wording import senses, sentences
-from icsolve.wording.sentences import plural, wrong_count
+from icsolve.wording.sentences import at_words, plural, wrong_count
 
 
 def unit_of(load: Load, case: Case) -> str:
@@ -105,13 +105,10 @@ def terms_of_power(solved: SpatialSolution, values: Mapping[str, float], a: Arit
     for w, power in zip(loads, rows[most], strict=True):
         name, link, value, factor = w.load.name, w.load.link, values[w.load.name], power / whole
         numbers = value, unit_of(w.load, case), factor, value * factor
-        terms.append(Term(name, link, *numbers, w.root == one.root, f"{name} on link {link}{_at(w.load)}"))
+        refuse_overflow(f"the power of {name}", value * factor)
+        words = f"{name} on link {link}{at_words(getattr(w.load, 'at', None))}"
+        terms.append(Term(name, link, *numbers, w.root == one.root, words))
     return tuple(terms)
-
-
-def _at(load: Load) -> str:
-    at = getattr(load, "at", "@")
-    return f" at {at}" if is_named(at) else ""
 
 
 SMALL = 1e-9
@@ -196,7 +193,7 @@ def reactions_of(solved: SpatialSolution, a: Showing) -> SpatialReactions:
     reader, names = _Reader(solved, a), names_by_tie(solved.case, solved.statics.ties)
     found = SpatialReactions((name, reader.reaction(t)) for t, name in enumerate(names))
     for name, own in found.items():
-        refuse_overflow(name, (*own.force, *own.couple))
+        refuse_overflow(name, *own.force, *own.couple)
     return found
 
 
