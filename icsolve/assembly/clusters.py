@@ -10,7 +10,7 @@ by them.
 from __future__ import annotations
 
 import heapq
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import combinations
 
 from icsolve.assembly.loci import ArcLocus, Axis, CircleLocus, LineLocus, Locus, Shifted, Tether, is_round
@@ -100,7 +100,7 @@ class Cluster:
         """The point's key on a workspace."""
         return point if self.number == 0 else (self.number, point)
 
-    def begin(self, points: list[str]) -> None:
+    def begin(self, points: Sequence[str]) -> None:
         """Start the ground's cluster from the given points and directions."""
         if points:
             self.put(Given(tuple(points)), points, (0, 0, 0))

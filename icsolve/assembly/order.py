@@ -8,6 +8,7 @@ their data together determine: which conditions determine which points, and what
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Set
+from functools import lru_cache
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -34,10 +35,12 @@ from icsolve.assembly.workspace import (
     X,
     Y,
     data_in,
-    facts_of,
+    data_of,
+    facts_about,
+    flat_corners,
     given_points,
 )
-from icsolve.case import Case
+from icsolve.case import Case, Rope
 from icsolve.errors import SceneError, Status
 from icsolve.structure.plan import determined, loose, matched
 from icsolve.structure.topology import reached
@@ -92,9 +95,25 @@ def order_of(
     SceneError
         ``underdetermined``, ``ambiguous`` (a group without ``near``).
     """
-    drawing = LooseFigure(facts_of(case), banned)
+    data = data_of(case)
+    told = (data, flat_corners(case, data), case.ropes, tuple(given_points(case)))
+    return _ordered(*told, tuple(goal), banned, best_effort)
+
+
+@lru_cache(maxsize=64)
+def _ordered(
+    data: tuple[Datum, ...],
+    flat: frozenset[Datum],
+    ropes: tuple[Rope, ...],
+    given: tuple[str, ...],
+    goal: tuple[str, ...],
+    banned: frozenset[frozenset[object]],
+    best_effort: bool,
+) -> Order:
+    """The order for figures of these data, whatever their numbers: figures alike share it."""
+    drawing = LooseFigure(facts_about(data, flat, ropes), banned)
     ground, wanted = drawing.ground, set(goal)
-    ground.begin(given_points(case))
+    ground.begin(given)
     ground.run(wanted)
     while not wanted <= ground.placed.keys():
         if not grow(drawing):

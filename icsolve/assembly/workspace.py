@@ -132,6 +132,17 @@ class Facts(NamedTuple):
 def facts_of(case: Case, only: tuple[Datum, ...] | None = None) -> Facts:
     """Look-up tables over the data of a case, or over some of them."""
     data = data_of(case) if only is None else only
+    return facts_about(data, flat_corners(case, data), case.ropes)
+
+
+def flat_corners(case: Case, data: tuple[Datum, ...]) -> frozenset[Datum]:
+    """The corners of a multiple of 180 degrees: the one thing that facts need numbers for."""
+    return frozenset([d for d in data if d.kind == CORNER and number_of(case, d).value % 180.0 == 0.0])
+
+
+@lru_cache(maxsize=64)
+def facts_about(data: tuple[Datum, ...], flat: frozenset[Datum], ropes: tuple[Rope, ...]) -> Facts:
+    """The same of data: figures alike share them."""
     of: dict[str, list[Datum]] = {}
     arms: dict[tuple[str, str], list[tuple[Datum, str, int]]] = {}
     for datum in data:
@@ -141,8 +152,7 @@ def facts_of(case: Case, only: tuple[Datum, ...] | None = None) -> Facts:
             a, at, b = datum.points
             arms.setdefault((at, a), []).append((datum, b, 1))
             arms.setdefault((at, b), []).append((datum, a, -1))
-    flat = frozenset(d for d in data if d.kind == CORNER and number_of(case, d).value % 180.0 == 0.0)
-    return Facts(data, of, arms, flat, case.ropes)
+    return Facts(data, of, arms, flat, ropes)
 
 
 SMALLEST_RESOLUTION = 1e-3

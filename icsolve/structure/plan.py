@@ -14,9 +14,10 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Collection, Container, Hashable, Iterable, Mapping
+from functools import lru_cache
 from typing import TypeVar
 
-from icsolve.structure.topology import Topology, reached
+from icsolve.structure.topology import Skeleton, Topology, reached
 from icsolve.tuples import NamedTuple
 
 T = TypeVar("T", bound=Hashable)
@@ -41,13 +42,11 @@ class Matching:
     every group of a mechanism.
     """
 
-    def __init__(self, top: Topology, known: set[int]) -> None:
+    def __init__(self, top: Skeleton, known: set[int]) -> None:
         self.top = top
         self.known = known
         self.parts: list[GroupPart] = []
-        self.load: dict[int, list[Constraint]] = {
-            body: [] for body in range(len(top.members)) if body not in known
-        }
+        self.load: dict[int, list[Constraint]] = {body: [] for body in range(top.bodies) if body not in known}
         for k, bond in enumerate(top.bonds):
             for row in range(bond.constraints):
                 self._place((k, row))
@@ -232,14 +231,19 @@ CANDIDATES = 12
 """Virtual inputs that are tried; those at the wanted bodies come first."""
 
 
-def make_plan(top: Topology, wanted: Collection[int]) -> Plan | None:
+def make_plan(top: Topology, wanted: Iterable[int]) -> Plan | None:
     """The cheapest plan for the twists of the wanted bodies, relative to one another.
 
     None where no joint with one freedom can serve as input. A plan that is not ``closed`` has no
     groups to run.
     """
+    return _planned(top.skeleton, frozenset(wanted))
+
+
+@lru_cache(maxsize=64)
+def _planned(top: Skeleton, wanted: frozenset[int]) -> Plan | None:
     best: Plan | None = None
-    bodies = max(2, len(set(wanted)))
+    bodies = max(2, len(wanted))
     for entry in _entries(top, wanted):
         plan = _pruned(top, _grown(top, entry), wanted)
         if best is None or _cost(plan) < _cost(best):
@@ -250,7 +254,7 @@ def make_plan(top: Topology, wanted: Collection[int]) -> Plan | None:
     return best
 
 
-def _entries(top: Topology, wanted: Collection[int]) -> list[int]:
+def _entries(top: Skeleton, wanted: Collection[int]) -> list[int]:
     singles = [k for k, bond in enumerate(top.bonds) if bond.freedom == 1]
     inside = [k for k in singles if top.bonds[k].a in wanted or top.bonds[k].b in wanted]
     both = [k for k in inside if top.bonds[k].a in wanted and top.bonds[k].b in wanted]
@@ -261,26 +265,26 @@ def _cost(plan: Plan) -> tuple[bool, int]:
     return (not plan.closed, sum(len(group.bodies) ** 3 for group in plan.groups))
 
 
-def _least(top: Topology, bodies: int) -> tuple[bool, int]:
+def _least(top: Skeleton, bodies: int) -> tuple[bool, int]:
     """No plan that finds so many bodies costs less; where each joint leaves one freedom, groups have two."""
     alone = any(bond.freedom == 2 for bond in top.bonds)
     return (False, bodies - 2 if alone else 8 * ((bodies - 1) // 2))
 
 
-def _grown(top: Topology, entry: int) -> Plan:
+def _grown(top: Skeleton, entry: int) -> Plan:
     """All bodies that follow from this input, group by group."""
     bond = top.bonds[entry]
     growth = _Growth(top, (bond.a, bond.b), entry)
     groups = tuple(growth.groups())
     used = {entry}.union(*(group.bonds for group in groups))
-    closed = len(growth.known) == len(top.members) and len(used) == len(top.bonds) and not growth.surplus
+    closed = len(growth.known) == top.bodies and len(used) == len(top.bonds) and not growth.surplus
     return Plan(entry, groups, closed, frozenset(growth.known))
 
 
 class _Growth:
     """The set of known bodies as it grows; each body is looked at again only when a neighbour is found."""
 
-    def __init__(self, top: Topology, known: Iterable[int], entry: int) -> None:
+    def __init__(self, top: Skeleton, known: Iterable[int], entry: int) -> None:
         self.top = top
         self.entry = entry
         self.known = set(known)
@@ -309,7 +313,7 @@ class _Growth:
             for other in self._neighbours((body,)):
                 if self._held(body) + self._held(other) + self._constraints(body, (other,)) >= 6:
                     return (body, other)
-        if len(self.known) == len(self.top.members):
+        if len(self.known) == self.top.bodies:
             return ()
         if self.matching is None:
             self.matching = Matching(self.top, self.known)
@@ -340,7 +344,7 @@ class _Growth:
         return sum(3 - bond.freedom for bond in bonds if (bond.b if body == bond.a else bond.a) in others)
 
 
-def _pruned(top: Topology, plan: Plan, wanted: Collection[int]) -> Plan:
+def _pruned(top: Skeleton, plan: Plan, wanted: Collection[int]) -> Plan:
     """The plan without the groups that no wanted body needs."""
     if not plan.closed:
         return plan._replace(groups=())
@@ -359,7 +363,7 @@ def _pruned(top: Topology, plan: Plan, wanted: Collection[int]) -> Plan:
     return plan._replace(groups=groups, bodies=bodies, bonds=tuple(bonds))
 
 
-def _classified(top: Topology, group: Group) -> Group:
+def _classified(top: Skeleton, group: Group) -> Group:
     """The group as a monad or dyad, if it is one."""
     bonds = sorted(group.bonds, key=lambda k: top.bonds[k].freedom)
     shape = [top.bonds[k].freedom for k in bonds]

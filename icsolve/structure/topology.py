@@ -17,6 +17,23 @@ from icsolve.tuples import NamedTuple
 T = TypeVar("T")
 
 
+class Edge(NamedTuple):
+    """What a plan looks at of a bond: its bodies a and b, and the freedoms that it leaves between them."""
+
+    a: int
+    b: int
+    freedom: int
+
+    @property
+    def constraints(self) -> int:
+        """Independent constraints that the joint imposes."""
+        return 3 - self.freedom
+
+    def other(self, body: int) -> int:
+        """The body at the other end."""
+        return self.b if body == self.a else self.a
+
+
 class Bond(NamedTuple):
     """A joint between the bodies a and b; ``links`` are the links it joins."""
 
@@ -31,13 +48,18 @@ class Bond(NamedTuple):
     """of gears and belts: the body to which both are pinned"""
 
     @property
-    def constraints(self) -> int:
-        """Independent constraints that the joint imposes."""
-        return 3 - self.freedom
+    def edge(self) -> Edge:
+        """The bond without what the joint is."""
+        return Edge(self.a, self.b, self.freedom)
 
-    def other(self, body: int) -> int:
-        """The body at the other end."""
-        return self.b if body == self.a else self.a
+
+class Skeleton(NamedTuple):
+    """Bodies and bonds without links, joints and numbers: mechanisms alike have one, and one plan."""
+
+    bodies: int
+    bonds: tuple[Edge, ...]
+    at: tuple[tuple[int, ...], ...]
+    """for each body the indices of its bonds"""
 
 
 class Topology(NamedTuple):
@@ -51,6 +73,11 @@ class Topology(NamedTuple):
     ground: int
     ropes: tuple[Rope, ...] = ()
     """those that are fixed at both ends: each is one constraint of several bodies"""
+
+    @property
+    def skeleton(self) -> Skeleton:
+        """What a plan is made from."""
+        return Skeleton(len(self.members), tuple([bond.edge for bond in self.bonds]), self.at)
 
     @property
     def freedoms_by_count(self) -> int:
@@ -72,7 +99,7 @@ class Topology(NamedTuple):
     @property
     def constraints(self) -> int:
         """What the joints and ropes take."""
-        return sum(bond.constraints for bond in self.bonds) + len(self.ropes)
+        return sum(bond.edge.constraints for bond in self.bonds) + len(self.ropes)
 
     @property
     def afloat(self) -> tuple[tuple[int, ...], ...]:
@@ -87,7 +114,7 @@ class Topology(NamedTuple):
 
     def beside(self, body: int) -> list[int]:
         """The bodies that joints tie to this one."""
-        return [self.bonds[k].other(body) for k in self.at[body]]
+        return [self.bonds[k].edge.other(body) for k in self.at[body]]
 
 
 def reached(first: Iterable[T], following: Callable[[T], Iterable[T]]) -> dict[T, None]:
