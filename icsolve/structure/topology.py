@@ -17,7 +17,7 @@ from icsolve.tuples import NamedTuple
 T = TypeVar("T")
 
 
-class Edge(NamedTuple):
+class BareBond(NamedTuple):
     """What a plan looks at of a bond: its bodies a and b, and the freedoms that it leaves between them."""
 
     a: int
@@ -48,16 +48,16 @@ class Bond(NamedTuple):
     """of gears and belts: the body to which both are pinned"""
 
     @property
-    def edge(self) -> Edge:
+    def bare(self) -> BareBond:
         """The bond without what the joint is."""
-        return Edge(self.a, self.b, self.freedom)
+        return BareBond(self.a, self.b, self.freedom)
 
 
 class Skeleton(NamedTuple):
     """Bodies and bonds without links, joints and numbers: mechanisms alike have one, and one plan."""
 
     bodies: int
-    bonds: tuple[Edge, ...]
+    bonds: tuple[BareBond, ...]
     at: tuple[tuple[int, ...], ...]
     """for each body the indices of its bonds"""
 
@@ -77,7 +77,7 @@ class Topology(NamedTuple):
     @property
     def skeleton(self) -> Skeleton:
         """What a plan is made from."""
-        return Skeleton(len(self.members), tuple([bond.edge for bond in self.bonds]), self.at)
+        return Skeleton(len(self.members), tuple([bond.bare for bond in self.bonds]), self.at)
 
     @property
     def freedoms_by_count(self) -> int:
@@ -99,7 +99,7 @@ class Topology(NamedTuple):
     @property
     def constraints(self) -> int:
         """What the joints and ropes take."""
-        return sum(bond.edge.constraints for bond in self.bonds) + len(self.ropes)
+        return sum(bond.bare.constraints for bond in self.bonds) + len(self.ropes)
 
     @property
     def afloat(self) -> tuple[tuple[int, ...], ...]:
@@ -114,7 +114,7 @@ class Topology(NamedTuple):
 
     def beside(self, body: int) -> list[int]:
         """The bodies that joints tie to this one."""
-        return [self.bonds[k].edge.other(body) for k in self.at[body]]
+        return [self.bonds[k].bare.other(body) for k in self.at[body]]
 
 
 def reached(first: Iterable[T], following: Callable[[T], Iterable[T]]) -> dict[T, None]:
