@@ -367,9 +367,11 @@ def test_two_spellings_of_one_double_are_one_place() -> None:
     assert [float(a - b) for a, b in zip(exact["B"], exact["G"], strict=True)] == [0.0, 0.0]
 
 
-def test_scissors_whose_straight_bars_say_all_their_lengths() -> None:
-    """Each bar's three lengths make a flat triangle, so that every step is in doubt: none runs twice."""
-    stages, turn = 60, math.radians(40)
+@pytest.mark.parametrize("stages", [60, 190])
+def test_scissors_whose_straight_bars_say_all_their_lengths(stages: int) -> None:
+    """Each bar's three lengths make a flat triangle, so that every step is in doubt: none runs twice. Along
+    190 stages the radii of balls outgrow any digits, and the errors do not."""
+    turn = math.radians(40)
     width, height = 2 * math.cos(turn), 2 * math.sin(turn)
     lengths, near = [], {"R0": (width, 0.0)}
     for k in range(stages):

@@ -33,7 +33,8 @@ T = TypeVar("T")
 
 
 LONG_CHAINS = 300
-"""Digits where bounds have grown along some hundred steps."""
+"""Digits where bounds have grown along some hundred steps. Beyond, a zero is what is below 1e-40 of its terms
+by these digits, each number with its own rounding alone: radii explode there that no error fills."""
 
 
 class _Decision(NamedTuple):
@@ -53,18 +54,21 @@ class Decimals:
 
     def __init__(self, workspace: Workspace, placed: Mapping[Key, Path]) -> None:
         self.workspace, self.placed = workspace, placed
-        self.runs: dict[int, _Decision] = {}
+        self.runs: dict[tuple[int, float], _Decision] = {}
 
     def decided(self, step: Step, question: Callable[[Workspace], T]) -> T | None:
         """The answer to a question about a step; None where the digits leave it open."""
         from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, MoreDigits
 
-        for digits in (*PRECISIONS, LONG_CHAINS):
-            if digits not in self.runs:
-                balls = Balls(digits, highest=digits >= PRECISIONS[-1])
+        for digits, carried in (
+            *((digits, 1.0) for digits in (*PRECISIONS, LONG_CHAINS)),
+            (LONG_CHAINS, 0.0),
+        ):
+            if (digits, carried) not in self.runs:
+                balls = Balls(digits, digits >= PRECISIONS[-1], carried)
                 exact = Workspace(self.workspace.case, self.workspace.frame, balls)
-                self.runs[digits] = _Decision(exact, {}, {})
-            run = self.runs[digits]
+                self.runs[digits, carried] = _Decision(exact, {}, {})
+            run = self.runs[digits, carried]
             try:
                 if not self._place(needs(step), run):
                     return None
