@@ -174,7 +174,8 @@ def _numbers(words: str, decimal: str) -> list[tuple[int, WrittenNumber]]:
 def _end_of(text: str) -> WrittenRange:
     """The unit and direction that follow the last number."""
     read = tail(re.sub(r"^ ?[\])}]+", "", text).strip(), flagged("")._replace(flag=""))
-    return WrittenRange(None, None, read.unit, read.direction, read.flag)
+    signed = read.direction is not None and read.direction.signed
+    return WrittenRange(None, None, read.unit, read.direction, UNREAD if signed else read.flag)
 
 
 def _two(words: str, found: list[tuple[int, WrittenNumber]]) -> WrittenRange:
