@@ -70,6 +70,13 @@ REFUSED = {
     "a no-break space": ("AB: 60", "AB:\xa060", 6, 10, "a space after the colon, an ordinary one"),
     "a quotient": ("AB: 1,", "AB: 1/2,", 5, 15, "write the quotient as one decimal number"),
     "a point and no digit": ("AB: 1,", "AB: .,", 5, 15, "'.' does not start with a number"),
+    "a mass at a point of another link": (
+        "loads:",
+        "links: {3: {mass: 2 kg, centre: E}}\nloads:",
+        13,
+        33,
+        "on link 3 at E, which is a point of link 4: name a point of link 3, or 'points: [E]' if link 3",
+    ),
     # the unknown
     "question mark in brackets": ("[4, 0]", "[?, 0]", 4, 25, "write 'unknown' for what is to find"),
     "question mark in quotes": ("unknown", '"?"', 15, 17, "write 'unknown' for what is to find"),
@@ -558,6 +565,11 @@ SCENES = {
         [("  T12", "  S: {spring: 20 lbf*in/rad, corner: ABC, free: 90, link: 3}\n  T12")],
         "",
         "fixed to link 1 at B, a joint of link 2 and link 3; if one of these is meant, write 'against: 2'",
+    ),
+    "a mass at a joint of other links": (
+        [("loads:", "links: {3: {mass: 2 kg, centre: A}}\nloads:")],
+        "",
+        "a mass is given on link 3 at A, a joint of link 1 and link 2; if a point of link 3 is meant, name it",
     ),
     "a known torque on the frame": (
         [("  T12", "  M: {torque: 5, link: 1}\n  T12")],

@@ -21,7 +21,7 @@ from icsolve.read.joints import JOINTS, mention_links, read_joints
 from icsolve.read.keys import SECTIONS, SPACE_JOINTS
 from icsolve.read.loads import PLANE, driven, read_motion, read_section
 from icsolve.read.names import Problems, shown
-from icsolve.read.owners import FRAMES, FigureData, carried, check_frame, check_loads
+from icsolve.read.owners import FRAMES, FigureData, carried, check_frame, check_loads, with_masses
 from icsolve.read.reading import Reading, number
 
 if TYPE_CHECKING:
@@ -47,13 +47,13 @@ def build(root: Mapping, problems: Problems, name: str, units: Units) -> Case:
         check_given(reading)
         figure = FigureData(joints, parts["lengths"], parts["angles"], parts["points"], shaped)
         if not reading.problems.found:
-            reading.noticed += check_loads(reading, root, figure, loads, motion, ground)
+            reading.noticed += check_loads(reading, root, figure, loads, motion, parts["inertia"], ground)
             reading.noticed += stray_points(reading, figure)
     links = tuple(reading.links or ())
     return Case(
         **told_of_itself(reading, root, name, units, ground),
         **parts,
-        carries=carried(links, ground, joints, loads, shaped, motion),
+        carries=carried(links, ground, joints, loads, with_masses(shaped, parts["inertia"]), motion),
         gravity=_gravity(reading, root) or Case.gravity,
         directed=tuple(reading.directed),
         unknowns=tuple(reading.unknowns),

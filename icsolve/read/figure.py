@@ -275,8 +275,7 @@ def read_links(reading: Reading, section: Mapping) -> tuple[dict[str, tuple[str,
         if link is None or items is None:
             continue
         reading.marks[f"links.{link}"] = section.keys[key]
-        centre = [inertia.centre] if inertia is not None and inertia.centre else []
-        found[link] = tuple(dict.fromkeys((*(item.text for item in items), *centre)))
+        found[link] = tuple(dict.fromkeys(item.text for item in items))
         if inertia is not None:
             masses[link] = inertia
     return found, masses
