@@ -314,16 +314,28 @@ class _Tree:
         name, mark = key
         if type(node) is Scalar and node.text == "" and node.plain and self._goes_on(mapping, name, mark):
             return
+        if "\xa0" in (name[:1], name[-1:]):
+            if name[0] == "\xa0":
+                raise self.problems.stop(mark, "this line starts with a no-break space")
+            name = name.rstrip("\xa0 ")
+            self.problems.refuse(mark, f"write {shown(name)} without the no-break space behind it")
         first = mapping.keys.get(name)
         if first is not None:
             place = f"line {first[0]}, column {first[1]}"
             self.problems.refuse(mark, f"'{name}' is given twice, the first time in {place}")
             return
-        if type(node) is Scalar and node.text == "" and node.plain and ":" in name and _runs_on(name):
-            odd = ", an ordinary one" if "\xa0" in name else ""
-            self.problems.refuse(mark, f"{shown(name)}: write a space after the colon{odd}")
-            name, _, value = name.partition(":")
-            node = Scalar(value, True, mark)
+        if type(node) is Scalar and node.text == "" and node.plain:
+            if ":" in name and _runs_on(name):
+                odd = ", an ordinary one" if "\xa0" in name else ""
+                self.problems.refuse(mark, f"{shown(name)}: write a space after the colon{odd}")
+                name, _, value = name.partition(":")
+            elif given := re.fullmatch(r"([\w' -]*[\w']) ?:?(=|：)[=>]* ?(.+)", name):
+                name, sign, value = given.groups()
+                self.problems.refuse(mark, f"write a colon in place of '{sign}', {name}: {value[:60]}")
+            else:
+                value = ""
+            if value:
+                node = Scalar(value, True, mark)
             if name in mapping.keys:
                 return
         mapping.keys[name] = mark
