@@ -192,6 +192,20 @@ def test_brightspace_and_blackboard_are_filled_too(a_class: Class) -> None:
     assert [row[3] for row in found[1:]] == ["10", "0"]
 
 
+@pytest.mark.parametrize("more", ["", ",Other Points Grade <Numeric MaxPoints:4>", ",lever Points Grade"])
+def test_the_last_column_of_a_brightspace_file_stays_the_last(more: str, a_class: Class) -> None:
+    """Its import reads up to the End-of-Line Indicator, and knows a question by the words after its name."""
+    blank = "," * more.count(",")
+    template = f"OrgDefinedId,Username{more},End-of-Line Indicator\n#a,ann{blank},#\n#f,fay{blank},#\n"
+    header, ann, fay = written(a_class, template, kind="brightspace")
+    assert header[-1] == "End-of-Line Indicator" and ann[-1] == fay[-1] == "#"
+    for name in ("lever", "pusher"):
+        (column,) = [n for n, title in enumerate(header) if title.startswith(f"{name} Points Grade")]
+        assert (ann[column], fay[column]) == ("1", "0")
+    again = written(a_class, "\n".join(map(",".join, (header, ann, fay))) + "\n", kind="brightspace")
+    assert again == [header, ann, fay]
+
+
 def test_a_template_that_is_cut_off_is_refused(a_class: Class) -> None:
     path = a_class.file("template.csv", CANVAS + '"Gee, G')
     ran = graded(a_class, "--write", f"canvas={a_class.path('o.csv')}", "--template", path)
