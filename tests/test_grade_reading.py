@@ -211,3 +211,25 @@ def test_subscripts_remarks_on_figures_and_more_tongues(text: str, meant: str) -
     read, same = Reader().read(text), Reader().read(meant)
     assert read == same
     assert not read.flag
+
+
+@pytest.mark.parametrize(
+    "text", ["w4 = {} w2", "{} w2", "{} ω2", "{} ω_2", "{} W2", "{} T2", "{} w4/w2", "{} N12 cw"]
+)
+def test_a_symbol_with_a_number_is_no_power_of_a_unit(text: str) -> None:
+    """The speed of link 2, not watts squared: a person reads it; of a unit's own power nothing changes."""
+    assert Reader().read(text.format("0.2278")).flag in ("unread", "two-values")
+    for unit in ("m2", "in2", "m^2", "s2"):
+        assert not Reader().read(f"0.2278 {unit}").flag
+
+
+@pytest.mark.parametrize("text", ["30.1/312.0 N", "30.1 / 312", "-30.1/312 N up"])
+def test_two_ends_with_a_stroke_between_may_be_a_quotient(text: str) -> None:
+    assert read_range(text).flag == "ambiguous-number"
+    assert read_range("1/3 N to 2/3 N")[:2] == pytest.approx((1 / 3, 2 / 3), abs=0.0)
+
+
+@pytest.mark.parametrize("mark", ["=", ":", "≈", "~", " = "])
+def test_the_coordinates_of_a_place_may_be_about(mark: str) -> None:
+    read = read_place(f"x{mark}-0.9, y{mark}1.2")
+    assert (read.flag, read.x, read.y) == ("", -0.9, 1.2)

@@ -20,7 +20,7 @@ _PLACE_WORDS = re.compile(
 )
 _BETWEEN = (
     r" ?(?P<unit>[A-Za-z]{{0,12}}?) ?[\])}}]? ?"
-    r"(?:(?:{separators}) ?(?:and )?(?:y ?[:=] ?)?|y ?[:=] ?| )[\[({{]?"
+    r"(?:(?:{separators}) ?(?:and )?(?:y ?[:=~] ?)?|y ?[:=~] ?| )[\[({{]?"
 )
 _AFTER_POINT, _AFTER_EITHER = (
     re.compile(_BETWEEN.format(separators=separators), re.IGNORECASE)
@@ -152,6 +152,8 @@ def read_range(text: str, decimal: str = "either") -> WrittenRange:
     if not found:
         return WrittenRange(flag=UNREAD if holds_digits(words) else NO_NUMBER)
     if any(number.flag for _, number in found):
+        return WrittenRange(flag=AMBIGUOUS)
+    if len(found) == 1 and re.search(r"\d ?/ ?\d", words):
         return WrittenRange(flag=AMBIGUOUS)
     if len(found) == 1:
         return _one(words, *found[0])

@@ -322,6 +322,10 @@ _ANY_CAPITALS = frozenset("in ft yd lb lbs lbf kip rpm rad deg rev hp".split())
 """Names without a prefix that capitals could change."""
 
 
+_SYMBOL = re.compile(r"[A-Zwω]_?\d")
+"""The speed of link 2 or a torque on it, and no power of a watt or a tonne."""
+
+
 class UnitWord(NamedTuple):
     """A unit as read: ``name`` is its plain spelling; ``note`` is ``unit-case``, ``ambiguous-unit``,
     ``energy`` (for a torque a wrong unit) or ''."""
@@ -334,7 +338,7 @@ class UnitWord(NamedTuple):
 def unit_word(text: str) -> UnitWord | None:
     """The unit of a text in plain characters; None where it is none."""
     text = text.strip()
-    if not text or len(text) > _LONGEST:
+    if not text or len(text) > _LONGEST or _SYMBOL.match(text):
         return None
     if text in _AMBIGUOUS:
         return UnitWord(parse_unit("N"), text, AMBIGUOUS_UNIT)
