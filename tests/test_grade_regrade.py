@@ -109,7 +109,7 @@ def test_a_mark_by_hand_that_cannot_be_meant_is_refused(a_class: Class, text: st
 def test_a_mark_for_nobody_is_told(a_class: Class) -> None:
     ran = graded(a_class, "--overrides", a_class.file("marks.csv", "student_id,case,score\nzz,lever,1\n"))
     assert ran.code == 1
-    assert "marks.csv:2: zz owes and gave no answer to lever" in ran.err
+    assert "marks.csv:2: zz neither owes lever nor answered it, so this mark is for nobody" in ran.err
 
 
 def test_what_changes_is_told_with_its_reason(a_class: Class) -> None:

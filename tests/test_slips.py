@@ -13,6 +13,7 @@ import pytest
 import icsolve
 from icsolve.errors import CaseError, SceneError
 from icsolve.manual import template
+from icsolve.numbers.units import parse_unit
 from shell import exit_status
 
 PRESS = """\
@@ -152,6 +153,41 @@ REFUSED = {
         10,
         27,
         "names 1 link: give one",
+    ),
+    "a decimal comma of a tolerance": (
+        "loads:",
+        "tolerance: 1,5%\nloads:",
+        13,
+        12,
+        "write a decimal point, 1.5%",
+    ),
+    "a decimal comma of a width": (
+        "loads:",
+        "tolerance: 0,5 lbf\nloads:",
+        13,
+        12,
+        "a decimal point, 0.5 lbf",
+    ),
+    "a tolerance in no unit": (
+        "loads:",
+        "tolerance: 0.5 furlong\nloads:",
+        13,
+        12,
+        "there is no unit 'furlong'",
+    ),
+    "a tolerance in a unit of other capitals": (
+        "loads:",
+        "tolerance: 0.5 n\nloads:",
+        13,
+        12,
+        "did you mean 'N'?",
+    ),
+    "a width of a mapping in no unit": (
+        "loads:",
+        "tolerance: {absolute: 2 feets}\nloads:",
+        13,
+        12,
+        "there is no unit 'feets'",
     ),
     # the unknown
     "question mark in brackets": ("[4, 0]", "[?, 0]", 4, 25, "write 'unknown' for what is to find"),
@@ -716,6 +752,26 @@ def test_words_of_other_books_are_known_in_every_kind(kind: str) -> None:
             icsolve.load(template(kind).replace(old, new, 1))
         told = [problem.message for problem in refused.value.problems]
         assert len(told) == 1 and said in told[0], told
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        ("1%", "1 percent"),
+        ("1.5%", "1.5 per cent"),
+        ("3 sf", "3 SF"),
+        ("3 sf", "3 Sig Figs"),
+        ("2 N*m", "2 Nm"),
+    ],
+)
+def test_a_tolerance_is_read_as_people_write_it(one: str, other: str) -> None:
+    """In another spelling it has the same sizes."""
+    said = [
+        icsolve.load(changed(("loads:", f"tolerance: {text}\nloads:"))).tolerance for text in (one, other)
+    ]
+    assert said[0] is not None and said[1] is not None
+    assert said[0]._replace(unit="") == said[1]._replace(unit="")
+    assert parse_unit(said[0].unit or "m") == parse_unit(said[1].unit or "m")
 
 
 def test_teeth_are_counted_without_a_word() -> None:

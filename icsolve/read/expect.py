@@ -402,8 +402,8 @@ def _is_angle(text: str) -> bool:
     return parts is not None and parts[1] in ("", "deg", "°", "degrees")
 
 
-_PERCENT = r"(\d+(?:\.\d+)?|\.\d+) ?%$"
-_COUNT = r"(\d{1,2}) ?(?:sf|s\.f\.|sig figs?|figures?|significant figures?)$"
+_PERCENT = r"(\d+(?:\.\d+)?|\.\d+) ?(?:%|per ?cent)$"
+_COUNT = r"(?i)(\d{1,2}) ?(?:sf|s\.f\.|sig figs?|figures?|significant figures?)$"
 _WIDTH = r"(\d+(?:\.\d+)?(?:[eE][-+]?\d+)?|\.\d+) ?([^\d\s%].*)?$"
 _FORM = "write 1%, 3 sf, a width such as 0.5 N, or {drawing: 0.02 in}"
 
@@ -471,7 +471,13 @@ def parse_tolerance(text: str) -> Tolerance:
         return _limited(Tolerance(relative=float(percent.group(1)) / 100.0))
     if count:
         return _limited(Tolerance(figures=int(count.group(1))))
+    if re.match(r"\d+,\d", text):
+        raise ValueError(f"write a decimal point, {text.replace(',', '.', 1)}")
     if width:
+        try:
+            parse_unit(width.group(2) or "m")
+        except UnitError as error:
+            raise ValueError(f"{shown(text)}: {error}") from None
         return _limited(Tolerance(absolute=float(width.group(1)), unit=width.group(2) or ""))
     raise ValueError(f"{shown(text)} is not a tolerance: {_FORM}")
 
