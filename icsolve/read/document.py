@@ -244,6 +244,8 @@ class _Tree:
     def _scalar(self, event: Any) -> None:
         mark = _mark(event)
         self._examine(event, mark)
+        if not event.value.isascii():
+            self._seen(event, mark)
         plain = not event.style  # None of the pure parser, empty of libyaml
         pending = self.pending
         if pending and pending[-1] is None and type(self.stack[-1]) is Mapping:
@@ -271,6 +273,16 @@ class _Tree:
         if event.tag is not None:
             tag = event.tag.replace("tag:yaml.org,2002:", "!!")[:40]
             self.problems.refuse(mark, f"the tag '{tag}': a case has no tags; take it away")
+
+    def _seen(self, event: Any, mark: Mark) -> None:
+        """Without what no one sees, such as a space of no width: it would make another name of a name."""
+        from unicodedata import category
+
+        unseen = next((n for n, c in enumerate(event.value) if category(c) == "Cf"), None)
+        if unseen is not None:
+            said = f"U+{ord(event.value[unseen]):04X}, which nobody sees, stands here; take it away"
+            self.problems.refuse((mark[0], mark[1] + unseen), said)
+            event.value = "".join(c for c in event.value if category(c) != "Cf")
 
     def _place(self, node: Node) -> None:
         """Put a node where it belongs: in the list or mapping that is open, or at the root."""

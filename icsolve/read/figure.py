@@ -347,7 +347,8 @@ def _likely(reading: Reading, name: str, given: set[str]) -> str:
     if len(name) == 2 and {*name} <= given:
         return f"; {name} reads as two points, and one of them is wanted here, {name[0]} or {name[1]}"
     cased = next((point for point in sorted(given) if point.lower() == name.lower()), "")
-    near = f"; did you mean '{cased}'?" if cased else suggestion(name, sorted(given)) if len(name) > 1 else ""
+    likely = len(name) > 1 or not name.isascii()
+    near = f"; did you mean '{cased}'?" if cased else suggestion(name, sorted(given)) if likely else ""
     if near:
         return near
     if reading.links and name in reading.links:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-import unicodedata
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -296,6 +295,7 @@ def _is_of_radians(value: float, numeral: Numeral) -> bool:
 _NO_UNITS = {
     r",\d": "write a decimal point, not a comma",
     r"[- ]?\d+/\d": "write the fraction as decimals, 3.5 for 3 1/2",
+    r"['’]\s*\d+(?:\.\d+)?\s*[\"”]$": "write feet and inches as one number with one unit, 14 in for 1'2\"",
     r"\d|[_'’]\d": "write the digits of a number without separators",
     r"[a-z]+\.?\s*\d+\.?\d*\s*[a-z]+$": "write it with one number and one unit, as decimals",
     r"%$": "write the number itself, 0.2 for 20 %",
@@ -412,7 +412,9 @@ def _is_of_load(path: str, dimension: str) -> bool:
 
 def _meant(text: str, dimension: str, path: str) -> str:
     """What a text that is no number may mean, and how it is written."""
-    plain = unicodedata.normalize("NFKC", text)
+    import unicodedata
+
+    plain = "".join(str(unicodedata.digit(c, c)) for c in unicodedata.normalize("NFKC", text))
     if plain != text and re.fullmatch(r"[-−+]?[\d.,]+", plain):
         return f"; write {plain.replace('−', '-')}"
     if text[1:2].isdigit() and text[0] in "–—‐‑~≈=":
