@@ -52,6 +52,9 @@ def text_of(path: str | os.PathLike[str], problems: Problems) -> str:
         with reading(path) as file:
             data = file.read(LARGEST + 1)
     except (OSError, ValueError) as error:
+        if isinstance(error, FileNotFoundError) and os.path.islink(path):
+            said = f"this link leads to {shown(os.readlink(path))}, which is not there"
+            raise problems.stop((1, 1), said) from None
         raise problems.stop((1, 1), _unreadable(error) + _likely_file(path, error)) from None
     if len(data) > LARGEST:
         raise problems.stop((1, 1), f"the file is larger than {LARGEST // 10**6} MB, too large for a case")
