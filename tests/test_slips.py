@@ -803,6 +803,38 @@ def test_a_slip_of_the_scene_is_told(slip: str) -> None:
         assert said in " ".join(icsolve.solve(case).notes)
 
 
+@pytest.mark.parametrize(
+    "joint",
+    [
+        "{slot: [5, 4], at: E, along: [C, D]}",
+        "{slot: [4, 5], at: E, along: [C, D]}",
+        "{slot: [5, 4], at: E, along: [D, E]}",
+        "{slot: [5, 4], at: E, along: 30, through: D}",
+        "{slot: [5, 1], at: E, along: [D, A]}",
+        "{slot: [5, 1], at: E, along: [F, E], through: F}",
+    ],
+)
+def test_a_guide_by_points_of_its_own_links_is_no_slip(joint: str) -> None:
+    case = icsolve.load(changed(("D: [4, 0]}", "D: [4, 0], F: [9, 9]}"), ("loads:", f"  - {joint}\nloads:")))
+    assert not [said for said in case.noticed if "guide" in said], case.noticed
+
+
+@pytest.mark.parametrize(
+    ("joint", "pair", "point", "whose"),
+    [
+        ("{slot: [5, 3], at: E, along: [A, B]}", "5 and 3", "A", "link 1 and link 2"),
+        ("{slide: [5, 4], at: E, along: [C, E], through: A}", "5 and 4", "A", "link 1 and link 2"),
+        ("{slide: [5, 1], at: E, along: 30, through: B}", "5 and 1", "B", "link 2 and link 3"),
+        ("{slot: [2, 5], at: E, along: [D, C]}", "2 and 5", "D", "link 4 and link 1"),
+    ],
+)
+def test_a_guide_by_a_point_of_other_links_is_noticed(joint: str, pair: str, point: str, whose: str) -> None:
+    """It may be meant, as a line in this position; or the guide's link is another one."""
+    case = icsolve.load(changed(("loads:", f"  - {joint}\nloads:")))
+    said = f"the guide of links {pair} at E is given by {point}, a joint of {whose}; if it is"
+    assert any(one.startswith(said) for one in case.noticed), case.noticed
+
+
 KINDS = {
     "line-load": [
         ("distributed:", "line load:", "did you mean 'distributed'?"),

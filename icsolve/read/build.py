@@ -21,7 +21,15 @@ from icsolve.read.joints import JOINTS, mention_links, read_joints
 from icsolve.read.keys import LOADS, SECTIONS, SPACE_JOINTS
 from icsolve.read.loads import PLANE, driven, read_motion, read_section
 from icsolve.read.names import Problems, meant_by, shown
-from icsolve.read.owners import FRAMES, FigureData, carried, check_frame, check_loads, with_masses
+from icsolve.read.owners import (
+    FRAMES,
+    FigureData,
+    carried,
+    check_frame,
+    check_guides,
+    check_loads,
+    with_masses,
+)
 from icsolve.read.reading import Reading, number
 
 if TYPE_CHECKING:
@@ -48,7 +56,7 @@ def build(root: Mapping, problems: Problems, name: str, units: Units) -> Case:
         figure = FigureData(joints, parts["lengths"], parts["angles"], parts["points"], shaped)
         if not reading.problems.found:
             reading.noticed += check_loads(reading, root, figure, loads, motion, parts["inertia"], ground)
-            reading.noticed += stray_points(reading, figure)
+            reading.noticed += (*check_guides(figure), *stray_points(reading, figure))
     links = tuple(reading.links or ())
     return Case(
         **told_of_itself(reading, root, name, units, ground),

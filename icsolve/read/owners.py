@@ -155,6 +155,34 @@ def check_loads(
     return tuple(said)
 
 
+def check_guides(figure: FigureData) -> tuple[str, ...]:
+    """Sentences on guides that a joint of other links gives: their line holds in this position, but it may be
+    that the guide is one of those links'."""
+    said, bearing = [], dict[str, dict[str, None]]()
+    for joint in figure.joints:
+        for point in (one for one in joint.named if one == joint.at or one not in _guide_points(joint)):
+            bearing.setdefault(point, {}).update(dict.fromkeys(joint.links))
+    welds = [joint.links for joint in figure.joints if not joint.freedom]
+    for joint in (one for one in figure.joints if one.guide is not None):
+        own = {moved for link in joint.links for moved in _welded(link, welds)}
+        listed = {point for link in own for point in figure.further.get(link, ())}
+        for point in _guide_points(joint):
+            others = [*bearing.get(point, ())]
+            if others and own.isdisjoint(others) and point not in listed:
+                guide = f"the guide of links {' and '.join(joint.links)} at {joint.at} is given by {point}"
+                whose = " and ".join(f"link {other}" for other in others[:2])
+                meant = "if it is a guide of one of these, name that link second"
+                said.append(f"{guide}, a joint of {whose}; {meant}.")
+    return tuple(said)
+
+
+def _guide_points(joint: Joint) -> tuple[str, ...]:
+    """The points that give the line of a joint's guide."""
+    if joint.guide is None:
+        return ()
+    return (*(joint.guide.ends or ()), *((joint.guide.through,) if joint.guide.through else ()))
+
+
 def _places(
     loads: tuple[Load, ...], motion: tuple[Motion, ...], masses: dict[str, Inertia], ground: str
 ) -> Iterator[tuple[str, str, str, str, tuple[str | int, ...]]]:
