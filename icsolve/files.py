@@ -31,6 +31,7 @@ class _Call:
     def __init__(self) -> None:
         self.runs = False
         self.read: set[tuple[int, int]] = set()
+        self.written: set[tuple[int, int]] = set()
         self.drafts: set[str] = set()
         self.scratch: set[str] = set()
         self.made: list[str] = []
@@ -47,8 +48,8 @@ if hasattr(os, "register_at_fork"):
 
 @contextmanager
 def one_call() -> Iterator[None]:
-    """A call of the command line: files that are read in it are not written over in it."""
-    _call.read, _call.runs = set(), True
+    """A call of the command line: files that are read or written in it are not written over in it."""
+    _call.read, _call.written, _call.runs = set(), set(), True
     try:
         yield
     finally:
@@ -57,11 +58,15 @@ def one_call() -> Iterator[None]:
 
 def note(file: str | os.PathLike[str] | int) -> None:
     """Remember a file, by name or number, as one that this call reads."""
+    _remember(file, _call.read)
+
+
+def _remember(file: str | os.PathLike[str] | int, among: set[tuple[int, int]]) -> None:
     if _call.runs:
         with suppress(OSError, ValueError):
             found = os.stat(file)
             if stat.S_ISREG(found.st_mode):
-                _call.read.add((found.st_dev, found.st_ino))
+                among.add((found.st_dev, found.st_ino))
 
 
 def reading(path: str | os.PathLike[str]) -> IO[bytes]:
@@ -99,8 +104,8 @@ def files_of(folder: str, endings: tuple[str, ...]) -> Iterator[str]:
 
 
 def check_free(path: str, force: bool) -> None:
-    """Raises KeptError where a file would be overwritten that may not: one that this call reads, and without
-    ``force`` any that is there."""
+    """Raises KeptError where a file would be overwritten that may not: one that this call reads or wrote,
+    and without ``force`` any that is there."""
     if _descriptor(path) is not None:
         return
     found = _status(path)
@@ -108,6 +113,8 @@ def check_free(path: str, force: bool) -> None:
         return
     if _call.runs and (found.st_dev, found.st_ino) in _call.read:
         raise KeptError(f"{path} is one of the files read here, and is left as it is; choose another name")
+    if _call.runs and (found.st_dev, found.st_ino) in _call.written:
+        raise KeptError(f"{path} is written by this call already; give each output its own name")
     if not force:
         raise KeptError(f"{path} is there already, and is left as it is; --force writes over it")
 
@@ -142,6 +149,7 @@ def whole_file(path: str, force: bool = True, binary: bool = False) -> Iterator[
             yield file
         check_free(path, force)
         _take_name(draft, real, path, force)
+        _remember(real, _call.written)
     except OSError as error:
         if error.filename == draft:
             error.filename = path

@@ -295,6 +295,16 @@ def test_files_that_hold_no_case(what: str, tmp_path: Path) -> None:
     assert (caught.value.path, caught.value.line) == (str(path), line)
 
 
+def test_a_link_that_leads_nowhere_says_where(tmp_path: Path) -> None:
+    """It is there itself, so its own name is not proposed."""
+    (tmp_path / "press.yaml").symlink_to("gone.yaml")
+    (tmp_path / "ring.yaml").symlink_to("ring.yaml")
+    assert str(wrong(f"{tmp_path}/press.yaml")).endswith(
+        "press.yaml:1:1: this link leads to 'gone.yaml', which is not there"
+    )
+    assert "cannot be read" in str(wrong(f"{tmp_path}/ring.yaml"))
+
+
 @pytest.mark.parametrize(
     ("path", "says"),
     [

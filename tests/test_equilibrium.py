@@ -526,6 +526,34 @@ loads:
         positions(text.replace("{unknown: [0, 180], from: 90}", "unknown", 1))
 
 
+@pytest.mark.parametrize("end", [(0.0, 1.2), (0.3, 2.0), (-0.4, 1.5)])
+def test_the_far_end_of_a_spring_stays_with_its_own_link(end: tuple[float, float]) -> None:
+    """At coordinates on the frame it rests as at a point of the frame; on a link that turns, the position as
+    written is needed, whichever link bears the other end."""
+    arm = """\
+icsolve: 1
+points: {{A: [0, 0], E: [1.5, 0]{named}}}
+lengths: {{AB: 0.9, EF: 0.5}}
+angles: {{AB: {{unknown: [-80, 80]}}, EF: 90}}
+joints: [{{pin: [1, 2], at: A}}{more}]
+loads:
+  W: {{weight: 196, link: 2, at: B}}
+  S: {{spring: 600 N/m, free: 0.3, {ends}}}
+"""
+    there = f"[{end[0]}, {end[1]}]"
+    named = positions(arm.format(named=f", D: {there}", more="", ends="link: 2, at: B, to: D"))
+    for ends in (f"link: 2, at: B, to: {there}", f"link: 2, at: B, against: 1, to: {there}"):
+        found = positions(arm.format(named="", more="", ends=ends))
+        assert [one.at for one in found] == [one.at for one in named]
+    for ends in (
+        f"link: 1, at: E, against: 2, to: {there}",
+        f"link: 1, at: {there}, against: 2, to: [0.5, 0]",
+    ):
+        with pytest.raises(SceneError, match=r"load S at coordinates .* and link 2 turns") as refused:
+            positions(arm.format(named="", more="", ends=ends))
+        assert refused.value.status == "underdetermined"
+
+
 BLOCK = """icsolve: 1
 points: {{O: [0, 0], C: [{free}, 0]}}
 joints: [{{slide: [2, 1], at: C, along: 0{mu}}}]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import random
 import shutil
@@ -176,6 +177,40 @@ def test_what_is_read_is_never_written_over(writer: str, by: str, here: Path) ->
         if writer != "sweep" or by != "its name":
             assert exit_status(*line.format(target).split()) == 2
         assert _tree(here) == before
+
+
+OUTPUTS = [
+    "-o {}",
+    "--jsonl {}",
+    "--html {}",
+    "--review {}",
+    "--against old.csv --changes {}",
+    "--write canvas={}",
+]
+
+
+@pytest.mark.parametrize("force", ["", "--force"])
+@pytest.mark.parametrize(("one", "other"), [*itertools.combinations(OUTPUTS, 2)])
+def test_two_outputs_of_one_call_never_take_the_same_file(
+    one: str, other: str, force: str, here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """By the same name, another spelling of it, or a link: the first would be lost without a word."""
+    for name in ("both.csv", "./both.csv", "link.csv"):
+        (here / "both.csv").unlink(missing_ok=True)
+        (here / "link.csv").unlink(missing_ok=True)
+        (here / "link.csv").symlink_to("both.csv")
+        words = f"grade hand --cases cases -q {force} {one.format('both.csv')} {other.format(name)}"
+        assert exit_status(*words.split()) == 2, words
+        assert "is written by this call already; give each output its own name" in capsys.readouterr().err
+        whole = (here / "both.csv").read_text()
+        (here / "both.csv").unlink()
+        capsys.readouterr()
+        assert exit_status(*f"grade hand --cases cases -q {one.format('both.csv')}".split()) == 0
+        first = (here / "both.csv").read_text()
+        (here / "both.csv").unlink()
+        assert exit_status(*f"grade hand --cases cases -q {other.format('both.csv')}".split()) == 0
+        assert whole in (first, (here / "both.csv").read_text())
+        capsys.readouterr()
 
 
 def test_nor_is_a_case_that_comes_later_in_a_gallery(here: Path) -> None:

@@ -532,3 +532,25 @@ def test_an_autograder_carries_the_record_of_the_numbers(a_class: Class) -> None
         assert "--variants variants" in archive.read("run_autograder").decode()
         setup = archive.read("setup.sh").decode()
     assert re.search(r'install "numpy==\S+" "shapely==\S+" "click==\S+" "pyyaml==\S+"', setup)
+
+
+def test_a_class_of_one_is_counted_in_the_singular(a_class: Class) -> None:
+    """One student, one answer, right or wrong, in every output, and the numbers of one student."""
+    a_class.case("press", PRESS)
+    a_class.file("one.csv", "student_id\n0017\n")
+    template = a_class.file("book.csv", "Student,ID,SIS User ID,SIS Login ID,Section\nA,1,0017,,\n")
+    told = ""
+    for answer in ("200 N*m ccw", "-200 N*m", "200 N*m maybe", "17"):
+        path = a_class.file("answers.csv", f"student_id,case,answer\n0017,lever,{answer}\n")
+        for kind in ("canvas", "gradescope", "prairielearn", "moodle"):
+            out = a_class.path(f"{kind}-{len(told)}")
+            more = ("--template", template) if kind == "canvas" else ()
+            ran = a_class.run(
+                "grade", path, "--cases", a_class.path("cases"), "--write", f"{kind}={out}", *more
+            )
+            told += ran.out + ran.err
+    words = ("--roster", a_class.path("one.csv"), "-o", a_class.path("sheets"))
+    told += a_class.run("variants", a_class.path("cases"), *words).err
+    assert "1 student" in told and "1 sheet" in told
+    nouns = "students|answers|wrong answers|figures|sheets|questions|marks"
+    assert re.findall(rf"(?<![\d.])1 (?:{nouns})\b[^\n]*", told) == []

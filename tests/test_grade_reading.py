@@ -132,3 +132,104 @@ def test_a_text_with_a_digit_is_never_invalid(text: str) -> None:
         assert Reader().read(text).flag != "no-number"
         assert read_place(text).flag != "no-number"
         assert read_range(text).flag != "no-number"
+
+
+SENSES = [
+    ("N*m", "ccw", "cw"), ("lbf*in", "clockwise", "ccw"), ("kN*m", "anti-clockwise", "cw"),
+    ("N", "right", "left"), ("kN", "downwards", "up"), ("lbf", "upward", "down"),
+    ("N", "tension", "compression"), ("N*m", "im Uhrzeigersinn", "ccw"),
+]  # fmt: skip
+CONVENTIONS = [
+    "{} ({} positive)", "{}, {} is positive", "{}; {} = +", "{} (+ {})", "{}, positive {}",
+    "{} with {} as positive", "{} ({} +ve)", "{}, taking {} as positive", "{} [{} +]",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("form", CONVENTIONS)
+@pytest.mark.parametrize(("unit", "word", "other"), SENSES)
+def test_a_sense_that_is_said_to_be_positive_gives_the_sign_its_meaning(
+    unit: str, word: str, other: str, form: str
+) -> None:
+    """A minus beside a word has two readings only while nobody says which way is positive."""
+    for sign, said in (("", word), ("-", other), ("−", other)):
+        read, meant = (
+            Reader().read(form.format(f"{sign}12.5 {unit}", word)),
+            Reader().read(f"12.5 {unit} {said}"),
+        )
+        assert read == meant, (read, meant)
+        assert not meant.flag
+    assert Reader().read(f"-12.5 {unit} {word}").flag == "ambiguous-direction"
+
+
+@pytest.mark.parametrize(
+    ("unit", "letter", "along", "against"),
+    [("N", "i", "right", "left"), ("kN", "j", "up", "down"), ("N*m", "k", "ccw", "cw")],
+)
+def test_unit_vectors_are_directions_with_the_sign_of_the_number(
+    unit: str, letter: str, along: str, against: str
+) -> None:
+    hats = {"i": "î", "j": "ĵ", "k": "k̂"}
+    forms = ["{} {u} {}", "{} {u} {}-hat", f"{{}} {{u}} {hats[letter]}", f"{{}} {hats[letter]} {{u}}"]
+    forms += [f"${{}}\\,\\hat{{{{{letter}}}}}\\ \\mathrm{{{{N}}}}$"] if unit == "N" else []
+    for form in forms:
+        for sign, said in (("", along), ("-", against)):
+            read = Reader().read(form.format(f"{sign}12.5", letter, u=unit))
+            assert read == Reader().read(f"12.5 {unit} {said}"), (form, read)
+
+
+@pytest.mark.parametrize(
+    "text", ["33.76 (-) lbf*in", "1070 N at 180 deg (−)", "12.5 N (-) up", "(-) 3 N left"]
+)
+def test_a_minus_in_brackets_beside_a_unit_is_not_left_out(text: str) -> None:
+    """Alone it is the unit of a ratio; beside another unit it may be the sign."""
+    assert Reader().read(text).flag
+    assert Reader().read("0.133 (-)").number == Reader().read("0.133 [-]").number == 0.133
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("33.76 lb_f in cw", "33.76 lbf in cw"),
+        (r"33.76\,\mathrm{lb_{f}\cdot in}$ cw", "33.76 lbf in cw"),
+        ("12 kg_f up", "12 kgf up"),
+        ("12 lb_m", "12 lbm"),
+        ("12.50 N up (3 s.f.)", "12.50 N up"),
+        ("12.50 N (to 4 sig. figs.)", "12.50 N"),
+        ("12.50 N, 3 significant figures", "12.50 N"),
+        ("12.50 N (2 d.p.)", "12.50 N"),
+        ("12.5 Nm rechtsom", "12.5 Nm cw"),
+        ("12.5 Nm tegen de klok in", "12.5 Nm ccw"),
+        ("12.5 N naar rechts", "12.5 N right"),
+        ("12.5 Nm no sentido anti-horário", "12.5 Nm ccw"),
+        ("12.5 Nm sentido horário", "12.5 Nm cw"),
+        ("12.5 N para a esquerda", "12.5 N left"),
+        ("12.5 N para baixo", "12.5 N down"),
+        ("12.5 N tração", "12.5 N pull"),
+    ],
+)  # fmt: skip
+def test_subscripts_remarks_on_figures_and_more_tongues(text: str, meant: str) -> None:
+    read, same = Reader().read(text), Reader().read(meant)
+    assert read == same
+    assert not read.flag
+
+
+@pytest.mark.parametrize(
+    "text", ["w4 = {} w2", "{} w2", "{} ω2", "{} ω_2", "{} W2", "{} T2", "{} w4/w2", "{} N12 cw"]
+)
+def test_a_symbol_with_a_number_is_no_power_of_a_unit(text: str) -> None:
+    """The speed of link 2, not watts squared: a person reads it; of a unit's own power nothing changes."""
+    assert Reader().read(text.format("0.2278")).flag in ("unread", "two-values")
+    for unit in ("m2", "in2", "m^2", "s2"):
+        assert not Reader().read(f"0.2278 {unit}").flag
+
+
+@pytest.mark.parametrize("text", ["30.1/312.0 N", "30.1 / 312", "-30.1/312 N up"])
+def test_two_ends_with_a_stroke_between_may_be_a_quotient(text: str) -> None:
+    assert read_range(text).flag == "ambiguous-number"
+    assert read_range("1/3 N to 2/3 N")[:2] == pytest.approx((1 / 3, 2 / 3), abs=0.0)
+
+
+@pytest.mark.parametrize("mark", ["=", ":", "≈", "~", " = "])
+def test_the_coordinates_of_a_place_may_be_about(mark: str) -> None:
+    read = read_place(f"x{mark}-0.9, y{mark}1.2")
+    assert (read.flag, read.x, read.y) == ("", -0.9, 1.2)

@@ -109,7 +109,7 @@ def test_a_mark_by_hand_that_cannot_be_meant_is_refused(a_class: Class, text: st
 def test_a_mark_for_nobody_is_told(a_class: Class) -> None:
     ran = graded(a_class, "--overrides", a_class.file("marks.csv", "student_id,case,score\nzz,lever,1\n"))
     assert ran.code == 1
-    assert "marks.csv:2: zz owes and gave no answer to lever" in ran.err
+    assert "marks.csv:2: zz neither owes lever nor answered it, so this mark is for nobody" in ran.err
 
 
 def test_what_changes_is_told_with_its_reason(a_class: Class) -> None:
@@ -190,6 +190,20 @@ def test_brightspace_and_blackboard_are_filled_too(a_class: Class) -> None:
         "--total", "HW", kind="blackboard",
     )  # fmt: skip
     assert [row[3] for row in found[1:]] == ["10", "0"]
+
+
+@pytest.mark.parametrize("more", ["", ",Other Points Grade <Numeric MaxPoints:4>", ",lever Points Grade"])
+def test_the_last_column_of_a_brightspace_file_stays_the_last(more: str, a_class: Class) -> None:
+    """Its import reads up to the End-of-Line Indicator, and knows a question by the words after its name."""
+    blank = "," * more.count(",")
+    template = f"OrgDefinedId,Username{more},End-of-Line Indicator\n#a,ann{blank},#\n#f,fay{blank},#\n"
+    header, ann, fay = written(a_class, template, kind="brightspace")
+    assert header[-1] == "End-of-Line Indicator" and ann[-1] == fay[-1] == "#"
+    for name in ("lever", "pusher"):
+        (column,) = [n for n, title in enumerate(header) if title.startswith(f"{name} Points Grade")]
+        assert (ann[column], fay[column]) == ("1", "0")
+    again = written(a_class, "\n".join(map(",".join, (header, ann, fay))) + "\n", kind="brightspace")
+    assert again == [header, ann, fay]
 
 
 def test_a_template_that_is_cut_off_is_refused(a_class: Class) -> None:

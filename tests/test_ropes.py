@@ -655,7 +655,7 @@ PULL = "{force: unknown, at: B}"
 @pytest.mark.parametrize(
     ("rope", "load", "said"),
     [
-        ("{rope: [C, P, B], on: [2]}", PULL, "names 1 links: give one for each point, or one less"),
+        ("{rope: [C, P, B], on: [2]}", PULL, "names 1 link: give one for each point, or one less"),
         ("{rope: [C, P, B], on: [2, 1, 1, 1]}", PULL, "give one for each point"),
         ("{rope: [C, P, B]}", PULL, "needs 'on'"),
         ("{rope: [C, P, B], on: [2, 1], radii: {P: 0.1}}", PULL, "give its sense"),

@@ -13,6 +13,7 @@ import pytest
 import icsolve
 from icsolve.errors import CaseError, SceneError
 from icsolve.manual import template
+from icsolve.numbers.units import parse_unit
 from shell import exit_status
 
 PRESS = """\
@@ -70,6 +71,197 @@ REFUSED = {
     "a no-break space": ("AB: 60", "AB:\xa060", 6, 10, "a space after the colon, an ordinary one"),
     "a quotient": ("AB: 1,", "AB: 1/2,", 5, 15, "write the quotient as one decimal number"),
     "a point and no digit": ("AB: 1,", "AB: .,", 5, 15, "'.' does not start with a number"),
+    "a mass at a point of another link": (
+        "loads:",
+        "links: {3: {mass: 2 kg, centre: E}}\nloads:",
+        13,
+        33,
+        "on link 3 at E, which is a point of link 4: name a point of link 3, or 'points: [E]' if link 3",
+    ),
+    "an equals sign in a load": (
+        "force: 100",
+        "force = 100",
+        14,
+        7,
+        "write a colon in place of '=', force: 100",
+    ),
+    "an equals sign without spaces": (
+        "{force: 100",
+        "{force=100",
+        14,
+        7,
+        "write a colon in place of '=', force: 100",
+    ),
+    "an equals sign in a joint": (
+        "{pin: [1, 2], at: A}",
+        "{pin: [1, 2], at=A}",
+        9,
+        19,
+        "in place of '=', at: A",
+    ),
+    "a full-width colon": ("force: 100", "force：100", 14, 7, "write a colon in place of '：', force: 100"),
+    "full-width digits": ("force: 100", "force: １００", 14, 14, "write 100"),
+    "full-width minus and digits": ("angle: 180", "angle: －９０.5", 14, 42, "write -90.5"),
+    "a line indented with no-break spaces": ("  T12", "\xa0\xa0T12", 15, 1, "starts with a no-break space"),
+    "a no-break space behind a key": (
+        "force: 100",
+        "force\xa0: 100",
+        14,
+        7,
+        "write 'force' without the no-break space",
+    ),
+    "radii at the top": ("loads:", "radii: {A: 1}\nloads:", 13, 1, "it stands in a joint: roll, belt, rope"),
+    "wraps at the top": ("loads:", "wraps: {A: cw}\nloads:", 13, 1, "it stands in a joint: rope"),
+    "a load at the top": ("loads:", "torque: unknown\nloads:", 13, 1, "it stands in a load: torque"),
+    "teeth at the top": ("loads:", "teeth: [20, 30]\nloads:", 13, 1, "it stands in a joint: gears"),
+    "a link of no joint": (
+        "link: 2}",
+        "link: 7}",
+        15,
+        32,
+        "no joint has a link '7'; the links are 1, 2, 3 and 4",
+    ),
+    "a truth for a link": ("link: 2}", "link: on}", 15, 32, "the links are 1, 2, 3 and 4"),
+    "joules of a torque": ("unknown", "25 J", 15, 17, "did you mean 'N*m'?"),
+    "joules of a unit of a torque": ("force: lbf}", "force: lbf, torque: kJ}", 3, 41, "did you mean 'kN*m'?"),
+    "like another load": ("force: 100", "force: like T12", 14, 14, "write {like: T12}"),
+    "an empty load": ("torque: unknown", "torque: ~", 15, 17, "write 'unknown' for what is to find"),
+    "a line load at a point": (
+        "force: 100, link: 4, at: E",
+        "distributed: 3 lbf/in, from: C, to: D, link: 4, at: E",
+        14,
+        55,
+        "load P is a distributed load, which has no 'at'",
+    ),
+    "a spring with a direction": (
+        "force: 100, link: 4",
+        "spring: 3 lbf/in, free: 1, to: A, link: 4",
+        14,
+        57,
+        "load P is a spring, which has no 'angle'",
+    ),
+    "a rope of one point": (
+        "  - {pin: [2, 3]",
+        "  - {rope: [A], on: [1, 2, 3]}\n  - {pin: [2, 3]",
+        10,
+        12,
+        "needs two points or more",
+    ),
+    "a rope of too few links": (
+        "  - {pin: [2, 3]",
+        "  - {rope: [A, B, C], on: [1]}\n  - {pin: [2, 3]",
+        10,
+        27,
+        "names 1 link: give one",
+    ),
+    "a decimal comma of a tolerance": (
+        "loads:",
+        "tolerance: 1,5%\nloads:",
+        13,
+        12,
+        "write a decimal point, 1.5%",
+    ),
+    "a decimal comma of a width": (
+        "loads:",
+        "tolerance: 0,5 lbf\nloads:",
+        13,
+        12,
+        "a decimal point, 0.5 lbf",
+    ),
+    "a tolerance in no unit": (
+        "loads:",
+        "tolerance: 0.5 furlong\nloads:",
+        13,
+        12,
+        "there is no unit 'furlong'",
+    ),
+    "a tolerance in a unit of other capitals": (
+        "loads:",
+        "tolerance: 0.5 n\nloads:",
+        13,
+        12,
+        "did you mean 'N'?",
+    ),
+    "a width of a mapping in no unit": (
+        "loads:",
+        "tolerance: {absolute: 2 feets}\nloads:",
+        13,
+        12,
+        "there is no unit 'feets'",
+    ),
+    "published: omega": (
+        "loads:",
+        "expect: {omega4/omega2: 0.2}\nloads:",
+        13,
+        10,
+        "did you mean 'w4/w2'?",
+    ),
+    "published: a Greek omega": (
+        "loads:",
+        "expect: {ω4: 0.2}\nloads:",
+        13,
+        10,
+        "did you mean 'w4'?",
+    ),
+    "published: revolutions of links": (
+        "loads:",
+        "expect: {n4/n2: 0.2}\nloads:",
+        13,
+        10,
+        "did you mean 'w4/w2'?",
+    ),
+    "published: a space in a centre": (
+        "loads:",
+        "expect: {I 24: [1, 2]}\nloads:",
+        13,
+        10,
+        "did you mean 'I24'?",
+    ),
+    "published: an underscore in a centre": (
+        "loads:",
+        "expect: {I_24: [1, 2]}\nloads:",
+        13,
+        10,
+        "did you mean 'I24'?",
+    ),
+    "published: a velocity without its link": (
+        "loads:",
+        "expect: {v E: 3}\nloads:",
+        13,
+        10,
+        "write 'v E on' and its link",
+    ),
+    "published: a velocity in one word": (
+        "loads:",
+        "expect: {vE: 3}\nloads:",
+        13,
+        10,
+        "write 'v E on' and its link",
+    ),
+    "published: a small letter of a reaction": (
+        "loads:",
+        "expect: {f34: 3}\nloads:",
+        13,
+        10,
+        "did you mean 'F34'?",
+    ),
+    "an unseen character in a link": (
+        "link: 4,",
+        "link: 4\u200b,",
+        14,
+        26,
+        "U+200B, which nobody sees, stands here",
+    ),
+    "an unseen character in a key": ("force: 100", "\u2060force: 100", 14, 7, "U+2060, which nobody sees"),
+    "an unseen character in a number": ("BC: 3.5", "BC: 3.\u00ad5", 5, 24, "U+00AD, which nobody sees"),
+    "an unseen character in a section": ("lengths:", "lengths\u200e:", 5, 8, "U+200E, which nobody sees"),
+    "an unseen character in a list": ("[3, 4]", "[3, \u200c4]", 11, 15, "U+200C, which nobody sees"),
+    "a Cyrillic point": ("at: E", "at: Е", 14, 32, "type 'E' anew, in Latin letters"),
+    "a Greek point": ("pin: [1, 2], at: A", "pin: [1, 2], at: Α", 9, 23, "type 'A' anew, in Latin letters"),
+    "a Cyrillic key": ("at: E", "аt: E", 14, 28, "type 'at' anew, in Latin letters"),
+    "a Cyrillic section": ("points", "рoints", 4, 1, "type 'points' anew, in Latin letters"),
+    "Arabic digits": ("force: 100", "force: ١٠٠", 14, 14, "write 100"),
+    "feet and inches": ("BC: 3.5", "BC: 1'2\"", 5, 22, "feet and inches as one number with one unit"),
     # the unknown
     "question mark in brackets": ("[4, 0]", "[?, 0]", 4, 25, "write 'unknown' for what is to find"),
     "question mark in quotes": ("unknown", '"?"', 15, 17, "write 'unknown' for what is to find"),
@@ -559,6 +751,11 @@ SCENES = {
         "",
         "fixed to link 1 at B, a joint of link 2 and link 3; if one of these is meant, write 'against: 2'",
     ),
+    "a mass at a joint of other links": (
+        [("loads:", "links: {3: {mass: 2 kg, centre: A}}\nloads:")],
+        "",
+        "a mass is given on link 3 at A, a joint of link 1 and link 2; if a point of link 3 is meant",
+    ),
     "a known torque on the frame": (
         [("  T12", "  M: {torque: 5, link: 1}\n  T12")],
         "",
@@ -606,6 +803,38 @@ def test_a_slip_of_the_scene_is_told(slip: str) -> None:
         assert said in " ".join(icsolve.solve(case).notes)
 
 
+@pytest.mark.parametrize(
+    "joint",
+    [
+        "{slot: [5, 4], at: E, along: [C, D]}",
+        "{slot: [4, 5], at: E, along: [C, D]}",
+        "{slot: [5, 4], at: E, along: [D, E]}",
+        "{slot: [5, 4], at: E, along: 30, through: D}",
+        "{slot: [5, 1], at: E, along: [D, A]}",
+        "{slot: [5, 1], at: E, along: [F, E], through: F}",
+    ],
+)
+def test_a_guide_by_points_of_its_own_links_is_no_slip(joint: str) -> None:
+    case = icsolve.load(changed(("D: [4, 0]}", "D: [4, 0], F: [9, 9]}"), ("loads:", f"  - {joint}\nloads:")))
+    assert not [said for said in case.noticed if "guide" in said], case.noticed
+
+
+@pytest.mark.parametrize(
+    ("joint", "pair", "point", "whose"),
+    [
+        ("{slot: [5, 3], at: E, along: [A, B]}", "5 and 3", "A", "link 1 and link 2"),
+        ("{slide: [5, 4], at: E, along: [C, E], through: A}", "5 and 4", "A", "link 1 and link 2"),
+        ("{slide: [5, 1], at: E, along: 30, through: B}", "5 and 1", "B", "link 2 and link 3"),
+        ("{slot: [2, 5], at: E, along: [D, C]}", "2 and 5", "D", "link 4 and link 1"),
+    ],
+)
+def test_a_guide_by_a_point_of_other_links_is_noticed(joint: str, pair: str, point: str, whose: str) -> None:
+    """It may be meant, as a line in this position; or the guide's link is another one."""
+    case = icsolve.load(changed(("loads:", f"  - {joint}\nloads:")))
+    said = f"the guide of links {pair} at E is given by {point}, a joint of {whose}; if it is"
+    assert any(one.startswith(said) for one in case.noticed), case.noticed
+
+
 KINDS = {
     "line-load": [
         ("distributed:", "line load:", "did you mean 'distributed'?"),
@@ -628,6 +857,26 @@ def test_words_of_other_books_are_known_in_every_kind(kind: str) -> None:
             icsolve.load(template(kind).replace(old, new, 1))
         told = [problem.message for problem in refused.value.problems]
         assert len(told) == 1 and said in told[0], told
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        ("1%", "1 percent"),
+        ("1.5%", "1.5 per cent"),
+        ("3 sf", "3 SF"),
+        ("3 sf", "3 Sig Figs"),
+        ("2 N*m", "2 Nm"),
+    ],
+)
+def test_a_tolerance_is_read_as_people_write_it(one: str, other: str) -> None:
+    """In another spelling it has the same sizes."""
+    said = [
+        icsolve.load(changed(("loads:", f"tolerance: {text}\nloads:"))).tolerance for text in (one, other)
+    ]
+    assert said[0] is not None and said[1] is not None
+    assert said[0]._replace(unit="") == said[1]._replace(unit="")
+    assert parse_unit(said[0].unit or "m") == parse_unit(said[1].unit or "m")
 
 
 def test_teeth_are_counted_without_a_word() -> None:

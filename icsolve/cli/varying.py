@@ -12,6 +12,7 @@ from icsolve.cli.commands import FORCE, Verb
 from icsolve.cli.output import watched
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, refusing
 from icsolve.files import can_fork, check_free, started, write_whole
+from icsolve.wording.sentences import plural
 
 if TYPE_CHECKING:
     from icsolve.grade.case_store import CaseStore
@@ -122,7 +123,7 @@ def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force
     write_whole(paths[1], key_csv(varied, found), force)
     if not quiet:
         seconds = time.perf_counter() - start
-        complain(f"{folder}: values and key of {len(found)} students in {seconds:.2f} s")
+        complain(f"{folder}: values and key of {plural(len(found), 'student')} in {seconds:.2f} s")
     if figures:
         _figures(varied, found, folder, force, quiet)
     return code
@@ -145,7 +146,8 @@ def _figures(varied: Varied, found: list[VariantTask], folder: str, force: bool,
         waiting()
     if not quiet and groups:
         rate = len(groups) / (time.perf_counter() - start)
-        complain(f"{folder}: {len(groups)} figures and {len(found)} sheets, {rate:.0f} figures a second")
+        made = f"{plural(len(groups), 'figure')} and {plural(len(found), 'sheet')}"
+        complain(f"{folder}: {made}, {rate:.0f} figures a second")
 
 
 _WORTH_TWO = 50

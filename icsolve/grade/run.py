@@ -145,7 +145,7 @@ def _note_unmet(overrides: Overrides, marker: Marker, job: Job, issues: Issues) 
     """Say which marks given by hand meet no line of the results."""
     for (student, item), override in overrides.items():
         if (student, item) not in marker.overruled:
-            why = f"{student} owes and gave no answer to {item}, so this mark is for nobody"
+            why = f"{student} neither owes {item} nor answered it, so this mark is for nobody"
             issues.note(job.overrides[-1], override.line, why, serious=True)
 
 

@@ -60,11 +60,11 @@ def _question(item: str, counts: Counts) -> Iterator[str]:
     wrong = counts.verdicts["wrong"]
     named = [(code, n) for code, n in by_count(counts.mistakes) if code]
     for code, n in named[:_SHOWN]:
-        yield f"  {n} of {wrong} wrong answers: {code}"
+        yield f"  {n} of {_count(wrong, 'wrong answer')}: {code}"
     if len(named) > _SHOWN:
-        yield f"  {sum(n for _, n in named[_SHOWN:])} of {wrong} wrong answers: other causes"
+        yield f"  {sum(n for _, n in named[_SHOWN:])} of {_count(wrong, 'wrong answer')}: other causes"
     if counts.mistakes[""]:
-        yield f"  {counts.mistakes['']} of {wrong} wrong answers: no known cause"
+        yield f"  {counts.mistakes['']} of {_count(wrong, 'wrong answer')}: no known cause"
     common = _unexplained(counts, 3)
     if common:
         yield f"  the commonest of them: {common}"
@@ -202,7 +202,7 @@ def _in_words(counts: Counts) -> str:
     beyond = counts.bins.get(BINS + 1, 0) + counts.bins.get(-BINS - 1, 0)
     about = counts.bins.get(BINS // 2, 0)
     near = f"{about} within 5 % of the right one"
-    return f"Histogram of {total} answers: {near}, {beyond} beyond twice its size"
+    return f"Histogram of {_count(total, 'answer')}: {near}, {beyond} beyond twice its size"
 
 
 def _bar(k: int, x: float, count: int, most: int) -> str:

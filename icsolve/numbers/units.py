@@ -251,6 +251,7 @@ _MEANT = {
     "lbm's": "'lbm'",
     "K": "'kip' or 'kN'",
     "k": "'kip' or 'kN'",
+    **{f"{prefix}J": f"'{prefix}N*m'" for prefix in ("", "k", "M")},
     **dict.fromkeys(("d", "o", "Grad", "grad"), "'deg'"),
 }
 

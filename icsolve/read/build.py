@@ -18,10 +18,18 @@ from icsolve.read.figure import (
     stray_points,
 )
 from icsolve.read.joints import JOINTS, mention_links, read_joints
-from icsolve.read.keys import SECTIONS, SPACE_JOINTS
+from icsolve.read.keys import LOADS, SECTIONS, SPACE_JOINTS
 from icsolve.read.loads import PLANE, driven, read_motion, read_section
-from icsolve.read.names import Problems, shown
-from icsolve.read.owners import FRAMES, FigureData, carried, check_frame, check_loads
+from icsolve.read.names import Problems, meant_by, shown
+from icsolve.read.owners import (
+    FRAMES,
+    FigureData,
+    carried,
+    check_frame,
+    check_guides,
+    check_loads,
+    with_masses,
+)
 from icsolve.read.reading import Reading, number
 
 if TYPE_CHECKING:
@@ -36,7 +44,7 @@ def build(root: Mapping, problems: Problems, name: str, units: Units) -> Case:
     """The case of a planar tree; whether it may be used, the problems tell."""
     reading = Reading(problems, units)
     reading.marks.update(root.keys)
-    reading.check_keys(root, SECTIONS, "a case")
+    reading.check_keys(root, SECTIONS, "a case", _elsewhere)
     mention_links(reading, root.items.get("joints"))
     ground = ground_of(reading, root)
     parts, shaped = _parts(reading, root)
@@ -47,19 +55,29 @@ def build(root: Mapping, problems: Problems, name: str, units: Units) -> Case:
         check_given(reading)
         figure = FigureData(joints, parts["lengths"], parts["angles"], parts["points"], shaped)
         if not reading.problems.found:
-            reading.noticed += check_loads(reading, root, figure, loads, motion, ground)
-            reading.noticed += stray_points(reading, figure)
+            reading.noticed += check_loads(reading, root, figure, loads, motion, parts["inertia"], ground)
+            reading.noticed += (*check_guides(figure), *stray_points(reading, figure))
     links = tuple(reading.links or ())
     return Case(
         **told_of_itself(reading, root, name, units, ground),
         **parts,
-        carries=carried(links, ground, joints, loads, shaped, motion),
+        carries=carried(links, ground, joints, loads, with_masses(shaped, parts["inertia"]), motion),
         gravity=_gravity(reading, root) or Case.gravity,
         directed=tuple(reading.directed),
         unknowns=tuple(reading.unknowns),
         dynamic=read_dynamic(reading, root.items.get("dynamic")),
         noticed=tuple(reading.noticed),
     )
+
+
+def _elsewhere(key: str) -> str:
+    """In which entries a key stands that is none of a case; '' where in none, or where a section is meant."""
+    if meant_by(key, SECTIONS):
+        return ""
+    joints = [kind for kind, entry in JOINTS.items() if key in (kind, *entry.keys)]
+    loads = [kind for kind, entry in LOADS.items() if key in (kind, *entry.keys)]
+    where = [f"a {what}: {', '.join(kinds)}" for what, kinds in (("joint", joints), ("load", loads)) if kinds]
+    return f"; it stands in {' or in '.join(where)}" if where else ""
 
 
 def told_of_itself(reading: Reading, root: Mapping, name: str, units: Units, ground: str) -> dict[str, Any]:

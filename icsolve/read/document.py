@@ -52,6 +52,9 @@ def text_of(path: str | os.PathLike[str], problems: Problems) -> str:
         with reading(path) as file:
             data = file.read(LARGEST + 1)
     except (OSError, ValueError) as error:
+        if isinstance(error, FileNotFoundError) and os.path.islink(path):
+            said = f"this link leads to {shown(os.readlink(path))}, which is not there"
+            raise problems.stop((1, 1), said) from None
         raise problems.stop((1, 1), _unreadable(error) + _likely_file(path, error)) from None
     if len(data) > LARGEST:
         raise problems.stop((1, 1), f"the file is larger than {LARGEST // 10**6} MB, too large for a case")
@@ -244,6 +247,8 @@ class _Tree:
     def _scalar(self, event: Any) -> None:
         mark = _mark(event)
         self._examine(event, mark)
+        if not event.value.isascii():
+            self._seen(event, mark)
         plain = not event.style  # None of the pure parser, empty of libyaml
         pending = self.pending
         if pending and pending[-1] is None and type(self.stack[-1]) is Mapping:
@@ -271,6 +276,16 @@ class _Tree:
         if event.tag is not None:
             tag = event.tag.replace("tag:yaml.org,2002:", "!!")[:40]
             self.problems.refuse(mark, f"the tag '{tag}': a case has no tags; take it away")
+
+    def _seen(self, event: Any, mark: Mark) -> None:
+        """Without what no one sees, such as a space of no width: it would make another name of a name."""
+        from unicodedata import category
+
+        unseen = next((n for n, c in enumerate(event.value) if category(c) == "Cf"), None)
+        if unseen is not None:
+            said = f"U+{ord(event.value[unseen]):04X}, which nobody sees, stands here; take it away"
+            self.problems.refuse((mark[0], mark[1] + unseen), said)
+            event.value = "".join(c for c in event.value if category(c) != "Cf")
 
     def _place(self, node: Node) -> None:
         """Put a node where it belongs: in the list or mapping that is open, or at the root."""
@@ -314,16 +329,28 @@ class _Tree:
         name, mark = key
         if type(node) is Scalar and node.text == "" and node.plain and self._goes_on(mapping, name, mark):
             return
+        if "\xa0" in (name[:1], name[-1:]):
+            if name[0] == "\xa0":
+                raise self.problems.stop(mark, "this line starts with a no-break space")
+            name = name.rstrip("\xa0 ")
+            self.problems.refuse(mark, f"write {shown(name)} without the no-break space behind it")
         first = mapping.keys.get(name)
         if first is not None:
             place = f"line {first[0]}, column {first[1]}"
             self.problems.refuse(mark, f"'{name}' is given twice, the first time in {place}")
             return
-        if type(node) is Scalar and node.text == "" and node.plain and ":" in name and _runs_on(name):
-            odd = ", an ordinary one" if "\xa0" in name else ""
-            self.problems.refuse(mark, f"{shown(name)}: write a space after the colon{odd}")
-            name, _, value = name.partition(":")
-            node = Scalar(value, True, mark)
+        if type(node) is Scalar and node.text == "" and node.plain:
+            if ":" in name and _runs_on(name):
+                odd = ", an ordinary one" if "\xa0" in name else ""
+                self.problems.refuse(mark, f"{shown(name)}: write a space after the colon{odd}")
+                name, _, value = name.partition(":")
+            elif given := re.fullmatch(r"([\w' -]*[\w']) ?:?(=|：)[=>]* ?(.+)", name):
+                name, sign, value = given.groups()
+                self.problems.refuse(mark, f"write a colon in place of '{sign}', {name}: {value[:60]}")
+            else:
+                value = ""
+            if value:
+                node = Scalar(value, True, mark)
             if name in mapping.keys:
                 return
         mapping.keys[name] = mark

@@ -54,7 +54,7 @@ def target_of(reading: Reading, key: str, points: set[str]) -> Target | str:
         return found[0]
     if found:
         return f"{shown(key)} can be read in {len(found)} ways; write the links with hyphens, as in I3-14"
-    return _unknown(reading, key)
+    return _unknown(reading, key, points)
 
 
 def _position(reading: Reading, key: str) -> Target | str:
@@ -85,8 +85,17 @@ def dimension_of_target(reading: Reading, target: Target) -> str:
     return load_dimension(reading.kinds[target.load]) if isinstance(target, LoadIs) else dimension_of(target)
 
 
-def _unknown(reading: Reading, key: str) -> str:
+_OMEGA = re.compile(r"(?:omega|ω|Ω|n)_?(?=\w)", re.IGNORECASE)
+
+
+def _unknown(reading: Reading, key: str, points: set[str]) -> str:
     likely = suggestion(key, reading.kinds)
+    bare = re.sub("[ _]", "", key)
+    for meant in dict.fromkeys((bare, bare[:1].upper() + bare[1:], _OMEGA.sub("w", bare))):
+        if not likely and any(_readings(reading, meant, points)):
+            likely = f"; did you mean '{meant}'?"
+    if not likely and bare[:1] in ("v", "V") and bare[1:] in points and reading.axes != "xyz":
+        likely = f"; write 'v {bare[1:]} on' and its link"
     forms = "a load, I24, I12-I26, I24-A, w4/w2, w2, 'v C on 8', F34, M34, 'h F32 A', 'rf B' or 'T A-P-B'"
     if reading.axes == "xyz":
         forms = "a load, A-B, F34, F34z, F1-2@B, M34, M34x, 'thrust F12@B' or 'h F32 A'"
@@ -402,8 +411,8 @@ def _is_angle(text: str) -> bool:
     return parts is not None and parts[1] in ("", "deg", "°", "degrees")
 
 
-_PERCENT = r"(\d+(?:\.\d+)?|\.\d+) ?%$"
-_COUNT = r"(\d{1,2}) ?(?:sf|s\.f\.|sig figs?|figures?|significant figures?)$"
+_PERCENT = r"(\d+(?:\.\d+)?|\.\d+) ?(?:%|per ?cent)$"
+_COUNT = r"(?i)(\d{1,2}) ?(?:sf|s\.f\.|sig figs?|figures?|significant figures?)$"
 _WIDTH = r"(\d+(?:\.\d+)?(?:[eE][-+]?\d+)?|\.\d+) ?([^\d\s%].*)?$"
 _FORM = "write 1%, 3 sf, a width such as 0.5 N, or {drawing: 0.02 in}"
 
@@ -471,7 +480,13 @@ def parse_tolerance(text: str) -> Tolerance:
         return _limited(Tolerance(relative=float(percent.group(1)) / 100.0))
     if count:
         return _limited(Tolerance(figures=int(count.group(1))))
+    if re.match(r"\d+,\d", text):
+        raise ValueError(f"write a decimal point, {text.replace(',', '.', 1)}")
     if width:
+        try:
+            parse_unit(width.group(2) or "m")
+        except UnitError as error:
+            raise ValueError(f"{shown(text)}: {error}") from None
         return _limited(Tolerance(absolute=float(width.group(1)), unit=width.group(2) or ""))
     raise ValueError(f"{shown(text)} is not a tolerance: {_FORM}")
 

@@ -275,8 +275,7 @@ def read_links(reading: Reading, section: Mapping) -> tuple[dict[str, tuple[str,
         if link is None or items is None:
             continue
         reading.marks[f"links.{link}"] = section.keys[key]
-        centre = [inertia.centre] if inertia is not None and inertia.centre else []
-        found[link] = tuple(dict.fromkeys((*(item.text for item in items), *centre)))
+        found[link] = tuple(dict.fromkeys(item.text for item in items))
         if inertia is not None:
             masses[link] = inertia
     return found, masses
@@ -348,7 +347,8 @@ def _likely(reading: Reading, name: str, given: set[str]) -> str:
     if len(name) == 2 and {*name} <= given:
         return f"; {name} reads as two points, and one of them is wanted here, {name[0]} or {name[1]}"
     cased = next((point for point in sorted(given) if point.lower() == name.lower()), "")
-    near = f"; did you mean '{cased}'?" if cased else suggestion(name, sorted(given)) if len(name) > 1 else ""
+    likely = len(name) > 1 or not name.isascii()
+    near = f"; did you mean '{cased}'?" if cased else suggestion(name, sorted(given)) if likely else ""
     if near:
         return near
     if reading.links and name in reading.links:

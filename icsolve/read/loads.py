@@ -134,7 +134,8 @@ def _explain_keys(entry: Entry, sort: str, forms: Forms[T]) -> list[str]:
             continue
         told.append(key)
         if key in others:
-            said = f"is a {sort}, which has no '{key}'; it takes {', '.join(forms.kinds[sort].keys)}"
+            kind = "distributed load" if sort == "distributed" else sort
+            said = f"is a {kind}, which has no '{key}'; it takes {', '.join(forms.kinds[sort].keys)}"
         else:
             said = f"has no '{key}': {forms.elsewhere[key]}"
             entry.ties = tuple(tie for tie in entry.ties if tie.kind != "direction")

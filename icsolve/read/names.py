@@ -117,9 +117,17 @@ _OTHER_WORDS = {
 """Words that people write for a key of the format, where they are no slip of the pen."""
 
 
+_ALIKE = dict(zip("АВЕКМНОРСТХаеорсхΑΒΕΖΗΙΚΜΝΟΡΤΧ", "ABEKMHOPCTXaeopcxABEZHIKMNOPTX", strict=True))
+_LATIN = str.maketrans(_ALIKE)
+"""Cyrillic and Greek letters that look as Latin ones."""
+
+
 def suggestion(name: str, options: Iterable[str]) -> str:
     """``; did you mean ...?`` for the nearest option, else nothing."""
+    options = list(options)
     near = meant_by(name, options)
+    if (latin := name.translate(_LATIN)) != name and latin in options:
+        return f"; type '{latin}' anew, in Latin letters"
     return f"; did you mean '{near}'?" if near else ""
 
 
@@ -132,7 +140,13 @@ def meant_by(name: str, options: Iterable[str]) -> str:
     alone = re.sub(r"^(?:link|point|body|bar|gear)[ _]?(?=.)", "", word)
     lower = [option for option in known if option.lower() in (word, alone)]
     other = [option for option in known if word.replace(" ", "_") in _OTHER_WORDS.get(option, "").split()]
-    near = lower or other or get_close_matches(name[:60], known, 1, 0.6)
+    latin = name.translate(_LATIN)
+    near = (
+        lower
+        or other
+        or ([latin] if latin != name and latin in known else [])
+        or get_close_matches(name[:60], known, 1, 0.6)
+    )
     return near[0] if near else ""
 
 
@@ -193,8 +207,6 @@ def splits(key: str, parts: int, known: Callable[[str], bool]) -> Iterator[Names
                 yield (key[:at], *rest)
 
 
-_ALIKE = frozenset("АВЕКМНОРСТХаеорсхΑΒΕΖΗΙΚΜΝΟΡΤΧ")
-"""Cyrillic and Greek letters that look as Latin ones."""
 LONGEST_KEY = 120
 """Characters of a key of names; bounds the number of ways to cut it."""
 
@@ -205,7 +217,7 @@ def point_key(key: str, sizes: tuple[int, ...], known: Collection[str]) -> Names
     ``sizes`` are the numbers of points allowed: (2,) or (2, 3).
     """
     wanted = "two points" if sizes == (2,) else "two or three points"
-    if not _ALIKE.isdisjoint(key) and re.search("[A-Za-z]", key):
+    if not _ALIKE.keys().isdisjoint(key) and re.search("[A-Za-z]", key):
         return f"'{key}' has letters of two alphabets that look alike; type it anew"
     if len(key) > LONGEST_KEY:
         return f"a key names {wanted}; this one is too long"

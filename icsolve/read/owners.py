@@ -16,6 +16,7 @@ from icsolve.case import (
     Corner,
     Direction,
     Force,
+    Inertia,
     Joint,
     Length,
     Load,
@@ -54,6 +55,14 @@ def carried(
     for link, point in placed:
         found.setdefault(link, {})[point] = None
     return {link: tuple(points) for link, points in found.items()}
+
+
+def with_masses(
+    further: dict[str, tuple[str, ...]], masses: dict[str, Inertia]
+) -> dict[str, tuple[str, ...]]:
+    """Further points of links and their centres of mass."""
+    centres = {link: (one.centre,) for link, one in masses.items() if one.centre}
+    return {link: (*further.get(link, ()), *centres.get(link, ())) for link in {**further, **centres}}
 
 
 def _on_load(load: Load, ground: str) -> list[tuple[str, str]]:
@@ -112,27 +121,31 @@ def check_loads(
     figure: FigureData,
     loads: tuple[Load, ...],
     motion: tuple[Motion, ...],
+    masses: dict[str, Inertia],
     ground: str,
 ) -> tuple[str, ...]:
-    """Refuse loads and motions at a point that is fixed to another link; sentences on what may be meant.
+    """Refuse loads, motions and masses at a point fixed to another link; sentences on what may be meant.
 
     A joint's point is at one place with the links that it does not join, and a load may act on these there:
     that is said, not refused. A point that dimensions fix to one link belongs to it and to no other.
     """
-    owners, said = _Owners(figure, ground), []
-    for what, link, point, key, way in _places(loads, motion, ground):
-        others, fixed = owners.instead(link, point)
+    bare, said = _Owners(figure, ground), []
+    owners = _Owners(figure._replace(further=with_masses(figure.further, masses)), ground)
+    for what, link, point, key, way in _places(loads, motion, masses, ground):
+        others, fixed = (owners if key else bare).instead(link, point)
         if not others:
             continue
         whose = " and ".join(f"link {other}" for other in others[:2])
-        remedy = " or ".join(f"'{key}: {other}'" for other in others[:2])
+        remedy = "write " + " or ".join(f"'{key}: {other}'" for other in others[:2])
+        too, if_not = f"'links: {{{link}: [{point}]}}'", f"if one of these is meant, {remedy}"
+        if not key:  # a mass is of its link: its point is the slip
+            remedy, too = f"name a point of link {link}", f"'points: [{point}]'"
+            if_not = f"if a point of link {link} is meant, name it"
         if fixed:
-            mark = _mark(root, *way)
-            message = f"{what} link {link} at {point}, which is a point of {whose}: write {remedy}"
-            reading.refuse(mark, f"{message}, or 'links: {{{link}: [{point}]}}' if link {link} has it too")
+            message = f"{what} link {link} at {point}, which is a point of {whose}: {remedy}"
+            reading.refuse(_mark(root, *way), f"{message}, or {too} if link {link} has it too")
         else:
-            there = f"{what} link {link} at {point}, a joint of {whose}"
-            said.append(f"{there}; if one of these is meant, write {remedy}.")
+            said.append(f"{what} link {link} at {point}, a joint of {whose}; {if_not}.")
     for load in loads:
         known = getattr(load, "value", 0) is not None
         alone = getattr(load, "against", None) is None and not isinstance(load, Spring)
@@ -142,10 +155,38 @@ def check_loads(
     return tuple(said)
 
 
+def check_guides(figure: FigureData) -> tuple[str, ...]:
+    """Sentences on guides that a joint of other links gives: their line holds in this position, but it may be
+    that the guide is one of those links'."""
+    said, bearing = [], dict[str, dict[str, None]]()
+    for joint in figure.joints:
+        for point in (one for one in joint.named if one == joint.at or one not in _guide_points(joint)):
+            bearing.setdefault(point, {}).update(dict.fromkeys(joint.links))
+    welds = [joint.links for joint in figure.joints if not joint.freedom]
+    for joint in (one for one in figure.joints if one.guide is not None):
+        own = {moved for link in joint.links for moved in _welded(link, welds)}
+        listed = {point for link in own for point in figure.further.get(link, ())}
+        for point in _guide_points(joint):
+            others = [*bearing.get(point, ())]
+            if others and own.isdisjoint(others) and point not in listed:
+                guide = f"the guide of links {' and '.join(joint.links)} at {joint.at} is given by {point}"
+                whose = " and ".join(f"link {other}" for other in others[:2])
+                meant = "if it is a guide of one of these, name that link second"
+                said.append(f"{guide}, a joint of {whose}; {meant}.")
+    return tuple(said)
+
+
+def _guide_points(joint: Joint) -> tuple[str, ...]:
+    """The points that give the line of a joint's guide."""
+    if joint.guide is None:
+        return ()
+    return (*(joint.guide.ends or ()), *((joint.guide.through,) if joint.guide.through else ()))
+
+
 def _places(
-    loads: tuple[Load, ...], motion: tuple[Motion, ...], ground: str
+    loads: tuple[Load, ...], motion: tuple[Motion, ...], masses: dict[str, Inertia], ground: str
 ) -> Iterator[tuple[str, str, str, str, tuple[str | int, ...]]]:
-    """What is put on which link at which point, the key that says the link, and where that stands."""
+    """What is put on which link at which point, the key of the link ('': none), and where that stands."""
     for load in loads:
         if isinstance(load, Torque) or not is_link(load.link):
             continue
@@ -161,6 +202,9 @@ def _places(
     for index, given in enumerate(motion):
         if given.point:
             yield "the motion is given on", given.link, given.point, "link", ("motion", index, "link")
+    for link, mass in masses.items():
+        if mass.centre:
+            yield "a mass is given on", link, mass.centre, "", ("links", link, "centre")
 
 
 def _mark(root: Mapping, *way: str | int) -> Mark:

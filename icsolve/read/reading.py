@@ -28,6 +28,7 @@ from icsolve.numbers.units import (
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.keys import UNITS as UNIT_KEYS
 from icsolve.read.names import Problems, is_name, meant_by, shown, suggestion, why_no_name
+from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -141,6 +142,8 @@ class Reading:
         if name is None or self.knows_link(name):
             return name
         likely = suggestion(name, self.links or ())
+        if not likely and self.links and len(self.links) < 10:
+            likely = f"; the links are {listed([*self.links])}"
         if len(name) == 2 and set(name) <= {*self.given, *self.measured, *self.used}:
             links = ", ".join(self.links or ())
             likely = f"; it names two points, and links are called as in 'joints': {links}"
@@ -159,11 +162,20 @@ class Reading:
         good = [item for item in node.items if self.name(item, f"each of {what}") is not None]
         return [item for item in good if type(item) is Scalar] if len(good) == len(node.items) else None
 
-    def check_keys(self, node: Mapping, allowed: Iterable[str], what: str) -> None:
-        """Refuse keys that have no meaning here; what is likely meant is taken as said."""
+    def check_keys(
+        self,
+        node: Mapping,
+        allowed: Iterable[str],
+        what: str,
+        elsewhere: Callable[[str], str] = lambda key: "",
+    ) -> None:
+        """Refuse keys that have no meaning here; what is likely meant is taken as said.
+
+        ``elsewhere`` says where a key has a meaning.
+        """
         for key in list(node.items):
             if key not in allowed:
-                self.unknown_key(key, node.keys[key], allowed, what)
+                self.unknown_key(key, node.keys[key], allowed, what, elsewhere)
                 self.take_for(node, key, allowed)
 
     def take_for(self, node: Mapping, key: str, allowed: Iterable[str]) -> None:
@@ -172,9 +184,11 @@ class Reading:
         if meant and meant not in node.items:
             node.items[meant], node.keys[meant] = node.items[key], node.keys[key]
 
-    def unknown_key(self, key: str, mark: Mark, allowed: Iterable[str], what: str) -> None:
+    def unknown_key(
+        self, key: str, mark: Mark, allowed: Iterable[str], what: str, elsewhere: Callable[[str], str]
+    ) -> None:
         """Refuse a key that is not known, with a suggestion."""
-        self.refuse(mark, f"{what} has no key {shown(key)}{suggestion(key, allowed)}")
+        self.refuse(mark, f"{what} has no key {shown(key)}{elsewhere(key) or suggestion(key, allowed)}")
 
     def text(self, node: Node, what: str) -> str:
         """Free text: a title, a source."""
@@ -281,6 +295,7 @@ def _is_of_radians(value: float, numeral: Numeral) -> bool:
 _NO_UNITS = {
     r",\d": "write a decimal point, not a comma",
     r"[- ]?\d+/\d": "write the fraction as decimals, 3.5 for 3 1/2",
+    r"['’]\s*\d+(?:\.\d+)?\s*[\"”]$": "write feet and inches as one number with one unit, 14 in for 1'2\"",
     r"\d|[_'’]\d": "write the digits of a number without separators",
     r"[a-z]+\.?\s*\d+\.?\d*\s*[a-z]+$": "write it with one number and one unit, as decimals",
     r"%$": "write the number itself, 0.2 for 20 %",
@@ -372,7 +387,8 @@ COMPASS = {
 def _no_number(node: Scalar, text: str, dimension: str, path: str) -> str:
     wanted = _a(dimension)
     if is_null(node):
-        return f"{wanted} should stand here, but there is no value"
+        wanted_too = "; write 'unknown' for what is to find" if _is_of_load(path, dimension) else ""
+        return f"{wanted} should stand here, but there is no value{wanted_too}"
     if text.lower().lstrip("+-") in (".inf", ".nan", "inf", "nan", "infinity"):
         return f"'{text}' is not a number that a mechanism can have"
     if dimension == "angle" and text.lower() in COMPASS:
@@ -389,8 +405,18 @@ def _no_number(node: Scalar, text: str, dimension: str, path: str) -> str:
     return f"{wanted} should stand here, but {shown(text)} does not start with a number{likely}"
 
 
+def _is_of_load(path: str, dimension: str) -> bool:
+    """Whether a number is one that a load may leave to be found."""
+    return path.startswith("loads.") and dimension in ("torque", "force", "mass", "pressure")
+
+
 def _meant(text: str, dimension: str, path: str) -> str:
     """What a text that is no number may mean, and how it is written."""
+    import unicodedata
+
+    plain = "".join(str(unicodedata.digit(c, c)) for c in unicodedata.normalize("NFKC", text))
+    if plain != text and re.fullmatch(r"[-−+]?[\d.,]+", plain):
+        return f"; write {plain.replace('−', '-')}"
     if text[1:2].isdigit() and text[0] in "–—‐‑~≈=":
         return f"; write {'' if text[0] in '~≈=' else '-'}{text[1:]}"
     if text.startswith("$"):
@@ -400,8 +426,9 @@ def _meant(text: str, dimension: str, path: str) -> str:
         return f"; write digits, {digits}"
     if re.fullmatch(r"[a-z]+\(.*\)", text):
         return "; write the number that it comes to"
-    of_load = path.startswith("loads.") and dimension in ("torque", "force", "mass", "pressure")
-    if (of_load or path.startswith("points.")) and is_name(text.lstrip("-")):
+    if text.startswith("like ") and path.startswith("loads."):
+        return f"; write {{like: {text[5:].strip()}}}"
+    if (_is_of_load(path, dimension) or path.startswith("points.")) and is_name(text.lstrip("-")):
         return "; write a number, or 'unknown' for what is to find"
     if path.endswith(".along") and is_name(text):
         two = text if len(text) == 2 else ("B" if text == "A" else "A") + text[:1]

@@ -9,6 +9,7 @@ from icsolve.read.joints import JOINTS, unlike
 from icsolve.read.keys import PULLS
 from icsolve.read.names import shown, suggestion
 from icsolve.read.reading import Reading
+from icsolve.wording.sentences import plural
 
 _FORM = "{rope: [A, P, B], on: [4, 3, 1]}"
 
@@ -67,8 +68,8 @@ def _links(entry: Entry, key: str, node: Node) -> tuple[str, ...] | None:
         return None
     links = [entry.reading.link(item, f"'on' of {entry.what}") for item in items]
     points = _through(entry)
-    if len(items) not in (len(points), len(points) - 1) or not items:
-        said = f"{entry.what} runs through {len(points)} points, and 'on' names {len(items)} links"
+    if len(points) > 1 and (len(items) not in (len(points), len(points) - 1) or not items):
+        said = f"{entry.what} runs through {len(points)} points, and 'on' names {plural(len(items), 'link')}"
         entry.refuse(node.mark, f"{said}: give one for each point, or one less where its last end is free")
         return None
     return tuple(link for link in links if link is not None) if None not in links else None

@@ -212,7 +212,7 @@ def _check_sections(reading: SpaceReading, root: Mapping) -> None:
             said = f"'{key}' has no place in a case in space, whose points have three coordinates"
             reading.refuse(mark, f"{said}: {PLANAR[key]}")
         elif key not in SECTIONS:
-            reading.unknown_key(key, mark, SECTIONS, "a case")
+            reading.unknown_key(key, mark, SECTIONS, "a case", lambda key: "")
 
 
 def _check_given(reading: SpaceReading) -> None:

@@ -352,8 +352,8 @@ def _on_record(mode: RecordedMode, path: str, span: tuple[float, float] | None) 
     if motions.mobility != 1:
         raise SceneError(
             Status.MOBILITY,
-            f"the mechanism has {motions.mobility} degrees of freedom: as many data of its figure have to be "
-            "unknown as it has.",
+            f"the mechanism has {motions.mobility} degrees of freedom, and one datum is unknown: "
+            f"write 'unknown' for {motions.mobility - 1} more of its angles or lengths.",
         )
     wrenches = load_wrenches.wrenches(scene.place, vectors=True)
     balance = power.balance(wrenches, motions.twists, 1)

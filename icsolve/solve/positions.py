@@ -361,9 +361,10 @@ def _history(case: Case) -> Iterator[tuple[str, str]]:
     for load in case.loads:
         if getattr(load, "turns_with", None):
             yield f"load {load.name}, which turns with a link,", str(getattr(load, "turns_with", ""))
-        for at in (getattr(load, "at", ""), getattr(load, "to", "")):
+        other = getattr(load, "against", None) or case.ground
+        for at, link in ((getattr(load, "at", ""), load.link), (getattr(load, "to", ""), other)):
             if not is_named(at) and getattr(load, "over", None) is None:
-                yield f"load {load.name} at coordinates", load.link
+                yield f"load {load.name} at coordinates", link
     for name in placed_by_coordinates(case):
         carriers = [link for link, names in case.carries.items() if name in names]
         if case.ground not in carriers:

@@ -175,8 +175,9 @@ def _surface(mode: RecordedMode, paths: Sequence[str]) -> Surface:
     if motions.mobility != 2:
         raise SceneError(
             Status.MOBILITY,
-            f"two data of the figure are unknown, and the mechanism is of mobility {motions.mobility}: as "
-            "many have to be.",
+            f"two data of the figure are unknown, {' and '.join(paths)}, and the mechanism has mobility "
+            f"{motions.mobility}: "
+            + ("give one of them a number." if motions.mobility < 2 else "write 'unknown' for more data."),
         )
     inputs = (compiled.inputs[paths[0]], compiled.inputs[paths[1]])
     balance = power.balance(load_wrenches.wrenches(scene.place, vectors=True), motions.twists, 2)

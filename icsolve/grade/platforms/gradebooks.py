@@ -27,6 +27,9 @@ class Filled(NamedTuple):
     placed: frozenset[str]
 
 
+_LAST = plain_name("End-of-Line Indicator")
+
+
 class Template:
     """A teacher's own grade file: its header and rows, its delimiter and its decimal mark."""
 
@@ -67,11 +70,15 @@ class Template:
         return found.value if found is not None and whole and found.value > 0.0 else None
 
     def new_column(self, name: str) -> int:
-        """Another column at the end."""
-        self.header.append(name)
+        """Another column at the end; before the mark of it in a file of Brightspace, named as it wants it."""
+        at = len(self.header)
+        if self.names[-1] == _LAST:
+            at, name = at - 1, f"{name} Points Grade"
+        self.header.insert(at, name)
+        self.names.insert(at, plain_name(name))
         for row in self.rows:
-            row.append("")
-        return len(self.header) - 1
+            row.insert(at, "")
+        return at
 
     def text(self) -> str:
         """The file again."""

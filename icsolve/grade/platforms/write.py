@@ -26,6 +26,7 @@ from icsolve.grade.results import ResultRow, by_student, csv_text, marks_of, rea
 from icsolve.grade.tables.text import encoding_of
 from icsolve.grade.variants.record import file_name
 from icsolve.tuples import NamedTuple
+from icsolve.wording.sentences import plural
 
 
 class PlatformFile(NamedTuple):
@@ -88,7 +89,7 @@ def _filled(order: PlatformFile, made: Filled) -> str:
     left = [student for student, _ in by_student(order.results) if student and student not in made.placed]
     names = ", ".join(left[:_NAMED]) + (f" and {len(left) - _NAMED} more" if len(left) > _NAMED else "")
     missing = f"; it has no row for {names}" if left else ""
-    return f"{order.path}: marks of {len(made.placed)} students of {order.template}{missing}"
+    return f"{order.path}: marks of {plural(len(made.placed), 'student')} of {order.template}{missing}"
 
 
 def _content(path: str) -> str:

@@ -88,10 +88,15 @@ _INTRODUCE = re.compile(
 _ASIDE = re.compile(
     rf"[(\[]?(?<![\w.])(?:{_ABOUT}|{_LIMIT}|dimensionless|unitless|no units?|without units?|sans unités?"
     r"|sin unidades?|senza unità|ohne einheit|einheitenlos|ratio|d\.h\.|that is|i\.e\.)(?!\w)[)\]]?,?"
-    r"|[(\[] ?[-1] ?[)\]]|\([A-Z]_?\d+\)",
+    r"|[(\[] ?[-1] ?[)\]]|\([A-Z]_?\d+\)"
+    r"|[(\[]?(?:to )?\d+ ?(?:s\.?f|sig(?:nificant|\.)? ?(?:fig(?:ure|\.)?s?|digits)|d\.?p|decimal places)\b"
+    r"\.?[)\]]?",
     re.IGNORECASE,
 )
 """Words that say nothing about the value, and a unit in brackets that is none."""
+_BRACKETED_MINUS = re.compile(r"\( ?- ?\)")
+"""Alone the unit of a ratio; beside a unit or a direction perhaps the number's sign."""
+_VECTOR_FIRST = re.compile(r"([ij]|[ijk]-hat) (.+)")
 _BODY = (
     r"link|crank|bar|member|body|input|output|frame|rod|coupler|rocker"
     r"|slider|block|piston|gear|wheel|arm|lever|pin"
@@ -153,7 +158,8 @@ class Reader:
     def _remember(self, rest: str) -> WrittenAnswer:
         if len(self._rests) >= _MOST:
             self._rests.clear()
-        found = self._rests[rest] = tail(plain(rest), WrittenAnswer(0.0, None, None))
+        found = tail(plain(rest), WrittenAnswer(0.0, None, None))
+        found = self._rests[rest] = found._replace(direction=_toward(found.direction))
         return found
 
     def slowly(self, text: str) -> WrittenAnswer:
@@ -286,7 +292,9 @@ def tail(text: str, read: WrittenAnswer) -> WrittenAnswer:
     text = text if "(" in text else text.strip(") ")
     if not text:
         return read
-    text = re.sub(r"(?<=\w) (?:min|max)\.?$", "", text)
+    if _BRACKETED_MINUS.search(text) and _BRACKETED_MINUS.sub("", text).strip(" ,;"):
+        return flagged(AMBIGUOUS_DIRECTION)
+    text = _VECTOR_FIRST.sub(r"\2 \1", re.sub(r"(?<=\w) (?:min|max)\.?$", "", text))
     inside = text.strip("[](){} ")
     whole = _unit(inside) or _unit(text)
     if whole is not None and not inside.endswith(_LETTERS):
@@ -359,10 +367,19 @@ def _joined(
     way = read.direction or leading
     if read.direction is not None and leading is not None and read.direction != leading:
         return flagged(AMBIGUOUS_DIRECTION)
-    if way is not None and (way.flag or (sign == "-" and found.value != 0.0)):
+    if way is not None and (way.flag or (sign == "-" and found.value != 0.0 and not way.signed)):
         return flagged(AMBIGUOUS_DIRECTION)
-    number = -found.value if sign == "-" else found.value
-    return read._replace(number=number, direction=way, digits=found.digits)
+    reverse = sign == "-" and way is not None and way.signed
+    number = -found.value if sign == "-" and not reverse else found.value
+    return read._replace(number=number, direction=_toward(way, reverse), digits=found.digits)
+
+
+def _toward(way: WrittenDirection | None, reverse: bool = False) -> WrittenDirection | None:
+    """The direction itself, or its opposite, where words say which way is positive."""
+    if way is None or not way.signed:
+        return way
+    way = way._replace(signed=False)
+    return way.opposite if reverse else way
 
 
 # --- columns of their own ---------------------------------------------------------------------------
@@ -386,9 +403,13 @@ def _with_columns(written: WrittenAnswer, unit: str, way: str) -> WrittenAnswer:
         written = written._replace(unit=word, note=written.note or word.note)
     if ways and not written.flag:
         said = _direction_of_column(ways)
-        if said is None or said.flag or written.number < 0.0 or written.direction not in (None, said):
+        signed = said is not None and said.signed
+        reverse, said = signed and written.number < 0.0, _toward(said, signed and written.number < 0.0)
+        if said is None or said.flag or (written.number < 0.0 and not reverse):
             return flagged(AMBIGUOUS_DIRECTION)
-        written = written._replace(direction=said)
+        if written.direction not in (None, said):
+            return flagged(AMBIGUOUS_DIRECTION)
+        written = written._replace(direction=said, number=abs(written.number) if reverse else written.number)
     return written
 
 

@@ -194,11 +194,13 @@ _TABLE = str.maketrans(
     | {c: plain for many, plain in _SAME.items() for c in many}
 )
 _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
+_HAT = re.compile("(?<![^\\W\\d_])(?:î|ĵ|[ijk]\u0302)")
 _SUPERSCRIPT = re.compile("[⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+")
 _TAG = re.compile(r"</?[a-zA-Z][a-zA-Z0-9]*(?:\s[^<>]*)?/?>")
 _RAISED_TAG = re.compile(r"<\s*sup\s*>\s*([-+−]?\d+)\s*<\s*/\s*sup\s*>")
 _LATEX = (
     (re.compile(r"\\(?:boxed|fbox|mathbf|textbf|underline)\s*\{(.*)\}"), r"\1"),
+    (re.compile(r"\\(?:hat|vec|boldsymbol|bm)\s*\{?\s*\\?([ijk])(?:math)?(?![A-Za-z])\s*\}?"), r" \1-hat "),
     (re.compile(r"~(?=\\)"), " "),
     (re.compile(r"\\(?:SI|qty)\s*\{([^{}]*)\}\s*\{([^{}]*)\}"), r"\1 \2"),
     (re.compile(r"\\num\s*\{([^{}]*)\}"), r"\1"),
@@ -229,6 +231,7 @@ def plain(text: str) -> str:
     if "<" in text or "&" in text:  # of rich text editors
         text = html.unescape(_TAG.sub(" ", _RAISED_TAG.sub(r"^\1", text)))
     if not text.isascii():
+        text = _HAT.sub(lambda m: f" {unicodedata.normalize('NFD', m[0])[0]}-hat ", text)
         text = _SUPERSCRIPT.sub(lambda m: "^" + m.group().translate(_RAISED), text)
         text = "".join(map(_plain_character, text.translate(_TABLE)))
     if any(mark in text for mark in ("\\", "$", "^", "_{")):

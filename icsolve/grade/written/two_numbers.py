@@ -20,7 +20,7 @@ _PLACE_WORDS = re.compile(
 )
 _BETWEEN = (
     r" ?(?P<unit>[A-Za-z]{{0,12}}?) ?[\])}}]? ?"
-    r"(?:(?:{separators}) ?(?:and )?(?:y ?[:=] ?)?|y ?[:=] ?| )[\[({{]?"
+    r"(?:(?:{separators}) ?(?:and )?(?:y ?[:=~] ?)?|y ?[:=~] ?| )[\[({{]?"
 )
 _AFTER_POINT, _AFTER_EITHER = (
     re.compile(_BETWEEN.format(separators=separators), re.IGNORECASE)
@@ -153,6 +153,8 @@ def read_range(text: str, decimal: str = "either") -> WrittenRange:
         return WrittenRange(flag=UNREAD if holds_digits(words) else NO_NUMBER)
     if any(number.flag for _, number in found):
         return WrittenRange(flag=AMBIGUOUS)
+    if len(found) == 1 and re.search(r"\d ?/ ?\d", words):
+        return WrittenRange(flag=AMBIGUOUS)
     if len(found) == 1:
         return _one(words, *found[0])
     return _two(words, found) if len(found) == 2 else WrittenRange(flag=TWO_VALUES)
@@ -174,7 +176,8 @@ def _numbers(words: str, decimal: str) -> list[tuple[int, WrittenNumber]]:
 def _end_of(text: str) -> WrittenRange:
     """The unit and direction that follow the last number."""
     read = tail(re.sub(r"^ ?[\])}]+", "", text).strip(), flagged("")._replace(flag=""))
-    return WrittenRange(None, None, read.unit, read.direction, read.flag)
+    signed = read.direction is not None and read.direction.signed
+    return WrittenRange(None, None, read.unit, read.direction, UNREAD if signed else read.flag)
 
 
 def _two(words: str, found: list[tuple[int, WrittenNumber]]) -> WrittenRange:

@@ -43,6 +43,15 @@ class WrittenDirection(NamedTuple):
     flag: str = ""
     measured: bool = False
     """Whether it is an angle in degrees, and not words."""
+    signed: bool = False
+    """Whether it says which way is positive, so that the number's sign goes with it."""
+
+    @property
+    def opposite(self) -> WrittenDirection:
+        """The other way, of a turn, a line, a pull or a push."""
+        if self.kind == "line":
+            return _line(self.value + 180.0)
+        return {CCW: CW, CW: CCW, PULL: PUSH}.get(self, PULL)
 
 
 def _line(degrees: float) -> WrittenDirection:
@@ -68,18 +77,20 @@ ccw | antihorario, anti horario, contrario agujas reloj, contrario manecillas re
 ccw | contra manecillas reloj, levógiro, antiorario, anti orario
 cw | cw, c.w, clockwise, clock wise, rechtsdrehend, uhrzeigersinn, uzs
 cw | horaire, aiguilles montre, aiguilles d'une montre, horario, agujas reloj, manecillas reloj, dextrógiro
-cw | orario
+cw | orario, rechtsom, klok mee, horário
+ccw | linksom, tegen klok, anti horário
 pull | pull, pulls, pulling, tension, tensile, zug, zugkraft, traction, tracción, traccion, trazione, tirant
+pull | trek, tração
 push | push, pushes, pushing, compression, compressive, druck, druckkraft, compresión, compresion
-push | compressione
+push | compressione, druk, compressão
 right | right, rightward, rightwards, horizontally right, horizontal right, rechts, droite, derecha, destra
-right | +x, positive x, plus x
+right | +x, positive x, plus x, direita
 up | up, upward, upwards, vertically up, vertically upward, vertically upwards, vertical up, vertical upward
-up | oben, aufwärts, haut, arriba, alto, l'alto, +y, positive y, plus y
+up | oben, aufwärts, haut, arriba, alto, l'alto, omhoog, boven, cima, +y, positive y, plus y
 left | left, leftward, leftwards, horizontally left, horizontal left, links, gauche, izquierda, sinistra
-left | -x, negative x, minus x
+left | -x, negative x, minus x, esquerda
 down | down, downward, downwards, vertically down, vertically downward, vertically downwards, vertical down
-down | vertical downward, unten, abwärts, bas, abajo, basso, -y, negative y, minus y
+down | vertical downward, unten, abwärts, bas, abajo, basso, -y, negative y, minus y, omlaag, beneden, baixo
 """
 _NAMED = {"ccw": CCW, "cw": CW, "pull": PULL, "push": PUSH} | {
     name: _line(degrees) for name, degrees in (("right", 0.0), ("up", 90.0), ("left", 180.0), ("down", 270.0))
@@ -89,17 +100,21 @@ _WORDS: dict[str, WrittenDirection] = {
     for name, _, phrases in (line.partition("|") for line in _PHRASES.splitlines())
     for phrase in phrases.strip().split(", ")
 }
-"""What is left of a phrase without its filling words, in English, German, French, Spanish and Italian."""
+"""What is left of a phrase without its filling words, in the languages of the platforms' tables."""
 
 _SIDES = {"right": (1, 0), "left": (-1, 0), "up": (0, 1), "down": (0, -1)}
 _FILLER = re.compile(
     r"(?<![\w'])(?:in|the|to|a|an|is|are|it|its|acts?|acting|applied|directed|pointing|points|directions?|dir|sense"
     r"|going|towards?|rotation|rotates?|rotating|turns?|turning|moment|torque|force|axis|member|being|of|on|and|with"
     r"|along|which|i\.?e|that|gerichtet"
-    r"|der|die|das|dem|den|im|mit|nach|und|drehsinn|richtung|dans|le|la|les|des?|du|vers|à|au|sens|en|el|los|las"
-    r"|al|del|sentido|hacia|dirección|direccion|il|lo|verso|senso|direzione|si)(?![\w'])\.?"
+    r"|der|die|das|dem|den|im|mit|nach|und|drehsinn|richtung|dans|le|la|les|des?|du|vers|à|au|sens|en|el|los"
+    r"|las|al|del|(?:no )?sentido|hacia|dirección|direccion|il|lo|verso|senso|direzione|si|naar|met|para)"
+    r"(?![\w'])\.?"
 )
-_LETTERS = {"T": PULL, "C": PUSH, "cw": CW, "ccw": CCW}
+_VECTORS = {"i": _line(0.0), "j": _line(90.0), "k": CCW}
+_LETTERS = {"T": PULL, "C": PUSH, "cw": CW, "ccw": CCW} | {
+    f"{letter}{hat}": way._replace(signed=True) for letter, way in _VECTORS.items() for hat in ("", "-hat")
+}
 _NUMBER = r"([-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+))"
 _UNIT = r" ?(deg|degs|degrees?|°|rad|radians?|grad)?"
 _LEAD = r"(?:(?:at|@|angle|angle of|at angle|at an angle of|unter|theta ?=|direction|dir)[ :=]*)"
@@ -136,7 +151,22 @@ def direction(text: str) -> WrittenDirection | None:
     if bare in _LETTERS:
         return _LETTERS[bare]
     lower = bare.lower()
-    return _WORDS.get(lower) or _toward(bare) or _angle(lower) or _spelled(lower)
+    return _WORDS.get(lower) or _toward(bare) or _angle(lower) or _spelled(lower) or _convention(lower)
+
+
+_PLUS = r"(?:\+|\+ve|positive|pos\.?|plus)"
+_CONVENTION = re.compile(
+    rf"(?:(?:with|take|taking|taken|where|assuming) )?"
+    rf"(?:{_PLUS} ?(?:is |= ?)?(?P<after>.+)|(?P<before>.+?) ?(?:is |as |taken as |= ?)?{_PLUS})$"
+)
+
+
+def _convention(lower: str) -> WrittenDirection | None:
+    """Which way is positive: ``ccw positive``, ``taking right as +``."""
+    found = _CONVENTION.match(lower)
+    words = found and (found["after"] or found["before"]).strip()
+    way = words and (_WORDS.get(words) or _spelled(words))
+    return way._replace(signed=True) if way and not way.flag else None
 
 
 def _toward(text: str) -> WrittenDirection | None:
@@ -267,6 +297,7 @@ _SPOKEN = (
     (re.compile(r"\bfeet\b", re.IGNORECASE), "ft"),
     (re.compile(r"\bpound-?mass\b", re.IGNORECASE), "lbm"),
     (re.compile(r"\b(kg|lb|lbs)[- ]?f\b", re.IGNORECASE), r"\1f"),
+    (re.compile(r"\b(kg|lb)_([fm])\b"), r"\1\2"),
     (re.compile(r"\binches\b", re.IGNORECASE), "in"),
     (re.compile(r"\br\.?p\.?m\b\.?", re.IGNORECASE), "rpm"),
     (re.compile(r"\brads\b", re.IGNORECASE), "rad"),
@@ -291,6 +322,10 @@ _ANY_CAPITALS = frozenset("in ft yd lb lbs lbf kip rpm rad deg rev hp".split())
 """Names without a prefix that capitals could change."""
 
 
+_SYMBOL = re.compile(r"[A-Zwω]_?\d")
+"""The speed of link 2 or a torque on it, and no power of a watt or a tonne."""
+
+
 class UnitWord(NamedTuple):
     """A unit as read: ``name`` is its plain spelling; ``note`` is ``unit-case``, ``ambiguous-unit``,
     ``energy`` (for a torque a wrong unit) or ''."""
@@ -303,7 +338,7 @@ class UnitWord(NamedTuple):
 def unit_word(text: str) -> UnitWord | None:
     """The unit of a text in plain characters; None where it is none."""
     text = text.strip()
-    if not text or len(text) > _LONGEST:
+    if not text or len(text) > _LONGEST or _SYMBOL.match(text):
         return None
     if text in _AMBIGUOUS:
         return UnitWord(parse_unit("N"), text, AMBIGUOUS_UNIT)
