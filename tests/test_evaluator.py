@@ -176,6 +176,29 @@ def test_a_number_that_is_none_spoils_its_own_row_alone(rows: int, path: str, nu
     assert np.isfinite(found.answers["T12"]).tolist() == [True] * (rows - 1) + [False]
 
 
+@pytest.mark.parametrize("rows", [1, 3, 200])
+@pytest.mark.parametrize(
+    ("path", "bad"),
+    [("lengths.AB", -1.0), ("loads.S", -0.5), ("loads.S.free", -1.0), ("joints.4-5.teeth.0", 20.5)],
+)
+def test_a_number_that_no_case_may_have_spoils_its_own_row_alone(rows: int, path: str, bad: float) -> None:
+    """A sweep refuses such a number, and so does the reader: it has no answer here either."""
+    text = FOUR_BAR.replace("D: [4, 0]", "D: [4, 0], K: [8, 0]").replace(
+        "loads:", "loads:\n  S: {spring: 2, free: 1, link: 4, at: C, to: A}"
+    )
+    text = text.replace("joints:", "joints:\n  - {pin: [5, 1], at: K}\n  - {gears: [4, 5], teeth: [20, 40]}")
+    case = icsolve.load(text)
+    values = np.full(rows, numbers_of(case)[path].value)
+    values[-1] = bad
+    with pytest.raises(ValueError, match="should"):
+        icsolve.sweep(case, {path: values})
+    call = icsolve.evaluator(case, inputs=(path,), want=("answers",), gradient=True)
+    for found in (call(values), call(bad)):
+        assert found.status.tolist() == ["ok"] * (len(found) - 1) + ["cannot-assemble"]
+        assert np.isfinite(found.answers["T12"]).tolist() == [True] * (len(found) - 1) + [False]
+        assert np.isnan(found.gradients["T12"][path][-1])
+
+
 @pytest.mark.skipif(shutil.which("node") is None, reason="no JavaScript engine")
 def test_the_generated_javascript_does_what_the_record_does() -> None:
     record, wanted, names, expected = recorded()

@@ -22,11 +22,12 @@ from icsolve.numbers.arithmetic import turn_of
 from icsolve.numbers.record import Op, live, varies
 from icsolve.numbers.replay import BLOCK, Array, Code
 from icsolve.numbers.source import PYTHON, straight_line
+from icsolve.numbers.units import BOUNDS, NumberLimit
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.drivers import Drive
-from icsolve.sweep.numbers import find_number, with_numbers
+from icsolve.sweep.numbers import find_number, numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of
 from icsolve.sweep.request import RequestError, SweepRequest, request_of, told
 from icsolve.sweep.runner import Key, Rows, column
@@ -143,6 +144,7 @@ class Evaluator:
     def __init__(self, case: Case, names: dict[str, str], wanted: SweepRequest, gradients: bool) -> None:
         self.case, self.inputs, self.wanted = case, tuple(names), wanted
         self.own, self.gradients = tuple(names.values()), gradients
+        self.limits = limits_of(case, self.own)
         self.compiled = None if _one_by_one(case) else _compiled(case, names, wanted.asked, gradients)
         if self.compiled is None and gradients:
             raise RequestError(
@@ -167,7 +169,7 @@ class Evaluator:
         -------
         Evaluated
             n rows; one of plain numbers alone is one row. A row without an answer says so in ``status``; one
-            with a number that is not finite can't be assembled.
+            with a number that is not finite, or that no case may have there, can't be assembled.
 
         Raises
         ------
@@ -230,7 +232,7 @@ class Evaluator:
         for array in table.values.values():
             array[row] = np.nan
         numbers = [float(c[row] if c.ndim else c) for c in given]
-        if not all(map(isfinite, numbers)):
+        if not (all(map(isfinite, numbers)) and all(one.holds(numbers[n]) for n, one in self.limits)):
             table.codes[row] = CODE[Status.CANNOT_ASSEMBLE]
             return
         case = self.case_of(*numbers)
@@ -243,6 +245,12 @@ class Evaluator:
             table.refuse(row, refusal)
             return
         table.fill(row, answer)
+
+
+def limits_of(case: Case, own: Sequence[str]) -> list[tuple[int, NumberLimit]]:
+    """What inputs keep to in any case, by their place."""
+    known = numbers_of(case)
+    return [(n, limit) for n, path in enumerate(own) for limit in BOUNDS[known[path].bound]]
 
 
 def _one_by_one(case: Case) -> bool:
@@ -269,6 +277,7 @@ class _Compiled:
     ) -> None:
         record = compiled.record
         self.compiled, self.asked, self.names = compiled, asked, tuple(names)
+        self.bounds = limits_of(compiled.scene.case, tuple(names.values()))
         self.nodes = [compiled.inputs[own] for own in names.values()]
         self.parts = {key: len(values) for key, values in compiled.outputs.items()}
         values = [(key, part, v) for key, some in compiled.outputs.items() for part, v in enumerate(some)]
@@ -316,6 +325,8 @@ class _Compiled:
         if any(getattr(column, "shape", ()) or isinstance(column, list | tuple) for column in columns):
             return None
         try:
+            if not all(one.holds(columns[n]) for n, one in self.bounds):
+                return None
             found = self.one(*map(float, columns))  # type: ignore[arg-type]
         except (ArithmeticError, ValueError):
             return None
@@ -348,7 +359,7 @@ class _Compiled:
         for row in range(rows):
             numbers = [c[row] if isinstance(c, list) else c for c in columns]
             try:
-                found = self.one(*numbers)
+                found = self.one(*numbers) if all(b.holds(numbers[n]) for n, b in self.bounds) else None
             except (ArithmeticError, ValueError):
                 found = None
             if found is None:
@@ -369,6 +380,8 @@ class _Compiled:
                 target[start:stop] = array
             fine = np.ones(stop - start, dtype=bool)
             with np.errstate(invalid="ignore"):
+                for n, bound in self.bounds:
+                    fine &= bound.holds(here[self.nodes[n]])
                 for n, array in enumerate(found[shown:]):
                     fine &= ((array if n < positive else np.abs(array)) > self.limits[n]) & np.isfinite(array)
             if not fine.all():
