@@ -117,7 +117,7 @@ def evaluator(
         Where the case as written has no figure, or lies in space.
     ValueError
         For words that can't be wanted, no inputs, or one twice; gradients where rows are solved one by one
-        (friction, profiles, groups that Newton's method places).
+        (friction, profiles, ropes, screws, inertia forces, groups that Newton's method places).
     """
     paths = tuple(inputs) if not isinstance(inputs, str) else (inputs,)
     own = tuple(find_number(case, path).path for path in paths)
@@ -149,7 +149,8 @@ class Evaluator:
         if self.compiled is None and gradients:
             raise RequestError(
                 "there are no gradients where each row is solved as a scene of its own: with friction, "
-                "profiles, or points that only together can be placed"
+                "profiles, ropes, screws or inertia forces, or where points can be placed only together or "
+                "nothing moves beside the case as written"
             )
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -290,7 +291,8 @@ class _Compiled:
         shown = [*(v for *_, v in values), *(v for by in slopes.values() for v in by.values())]
         self.shown = [record.lifted(v).index for v in shown]
         alive = live(record, [v.index for v in shown if varies(v)])
-        self.positive = [*(r.radicand for k, r in record.roots.items() if k in set(alive)), *compiled.margins]
+        self.positive = [r.radicand for k, r in record.roots.items() if k in set(alive)]
+        self.positive += [*compiled.margins, *compiled.fits]
         divided = {record.nodes[k].b for k in alive if record.nodes[k].op == Op.DIV}
         self.apart = sorted(k for k in divided if record.nodes[k].row)
         self.apart += [v.index for v in answers.values() if varies(v)]
