@@ -183,7 +183,7 @@ def arm(corners: list[tuple[float, float]], d: float, reach: float, near: tuple[
 def tips_on(corners: list[tuple[float, float]], d: float, reach: float, row: float) -> list[tuple[mpc, mpf]]:
     """The tip of the arm, on each edge (p, q) that it can reach, and the torque on the cam there: the tip is
     p + x u, u from p to q, on the circle about the arm's pivot; T2 / T3 = -h2 / h3, the normal's arms."""
-    turn, pivot, found = mp.expj(mp.radians(mpf(repr(row)))), mpc(d), []
+    turn, pivot, found = mp.expj(mp.radians(mpf(repr(row)))), mpc(repr(d)), []
     places = [mpc(repr(x), repr(y)) * turn for x, y in corners]
     for p, q in zip(places, [*places[1:], places[0]], strict=True):
         u, w = (q - p) / abs(q - p), p - pivot
@@ -224,3 +224,19 @@ def test_a_knife_edge_on_an_arm_beside_a_corner_is_right_to_the_last_digit(seed:
         true = min((one for _, one in tips_on(corners, d, reach, rows[n])), key=lambda one: abs(one - value))
         assert abs(value - true) <= error <= 4.0 * math.ulp(value), (rows[n], value, true)
         assert abs(bare.answers["T"][n] - true) <= 1e-10 * abs(true), (rows[n], true)
+
+
+def test_a_knife_edge_that_just_passes_a_corner_has_no_answer_there() -> None:
+    """Of the last places in which it cuts the corner off doubles may miss one; of the next ones none is told
+    to have an answer."""
+    corners = [(6.121, 22.846), (-21.326, 12.508), (-26.814, -22.557), (12.109, -27.387), (39.309, 6.119)]
+    case, limit, told = arm(corners, 111.48582, 88.0, (20.3, 40.0)), 291.0287823673611, 0
+    rows = [limit + n * math.ulp(limit) for n in range(-8, 9)]
+    found = sweep(case, drive={"2": np.array(rows)})
+    for row, status, value in zip(rows, found.status, found.answers["T"], strict=True):
+        assert status in {"ok", "cannot-assemble", "unsupported"}
+        if status == "ok":
+            told += 1
+            (true,) = (one for _, one in tips_on(corners, 111.48582, 88.0, row) if abs(one - value) < 30.0)
+            assert abs(value - true) <= math.ulp(value)
+    assert told

@@ -38,7 +38,14 @@ from icsolve.cams.enclosed_contact import (
 )
 from icsolve.cams.enclosed_contact import direction as direction_in_balls
 from icsolve.cams.pieces import Point, Straight, unit
-from icsolve.cams.words import corner_refusal, left_open, never_meets, piece_words, several_ways
+from icsolve.cams.words import (
+    corner_refusal,
+    left_open,
+    never_meets,
+    passes_corner,
+    piece_words,
+    several_ways,
+)
 from icsolve.case import Case, Contact, Coordinates, Direction, Joint, Number
 from icsolve.case.profiles import (
     Circle,
@@ -199,6 +206,8 @@ class ContactSearch:
                     outer = one, spot
         except (MoreDigits, BelowZero, ZeroDivisionError):
             return None
+        if outer is None and guide is not None and isinstance(self.follower, Knife) and len(spots) > 1:
+            raise SceneError(Status.UNSUPPORTED, passes_corner(self.what))
         return outer
 
     def _ahead(
