@@ -176,6 +176,60 @@ def test_a_number_that_is_none_spoils_its_own_row_alone(rows: int, path: str, nu
     assert np.isfinite(found.answers["T12"]).tolist() == [True] * (rows - 1) + [False]
 
 
+@pytest.mark.parametrize("pitch", ["module: 4", "diametral pitch: 0.25"])
+@pytest.mark.parametrize(
+    ("path", "values"),
+    [
+        ("joints.2-3.teeth.0", [30.0, 31.0, 29.0]),
+        ("joints.2-3.teeth.1", [60.0, 61.0, 58.0]),
+        ("points.B.x", [180.0, 180.35, 180.37, 179.65, 179.63, 170.0]),
+        ("points.A.y", [0.0, 8.0, 12.0, -30.0]),
+        ("lengths.AB", [180.0, 180.35, 180.37, 170.0]),
+    ],
+)
+def test_teeth_that_no_longer_fit_their_pivots_are_refused_as_in_a_scene(
+    pitch: str, path: str, values: list[float]
+) -> None:
+    """Two wheels of 30 and 60 teeth of module 4: their pitch circles touch 180 apart. A row is a scene, in a
+    sweep and in an evaluator, whichever of the numbers is another one."""
+    figure = "points: {A: [0, 0], B: [180, 0]}"
+    if path == "lengths.AB":
+        figure = "points: {A: [0, 0]}\nlengths: {AB: 180}\nangles: {AB: 20}"
+    case = icsolve.load(
+        f"icsolve: 1\nunits: {{length: mm, force: N, torque: N*mm}}\n{figure}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [1, 3], at: B},"
+        f" {{gears: [2, 3], teeth: [30, 60], pressure angle: 20, {pitch}}}]\n"
+        "loads: {M: {torque: 100, link: 3}, T: {torque: unknown, link: 2}}\n"
+    )
+    scenes = [solved(with_numbers(case, {path: value}))[0] for value in values]
+    assert {"ok", "inconsistent"} == set(scenes)
+    assert icsolve.evaluator(case, (path,))(np.array(values)).status.tolist() == scenes
+    assert icsolve.sweep(case, {path: np.array(values)}).status.tolist() == scenes
+
+
+@pytest.mark.parametrize("rows", [1, 3, 200])
+@pytest.mark.parametrize(
+    ("path", "bad"),
+    [("lengths.AB", -1.0), ("loads.S", -0.5), ("loads.S.free", -1.0), ("joints.4-5.teeth.0", 20.5)],
+)
+def test_a_number_that_no_case_may_have_spoils_its_own_row_alone(rows: int, path: str, bad: float) -> None:
+    """A sweep refuses such a number, and so does the reader: it has no answer here either."""
+    text = FOUR_BAR.replace("D: [4, 0]", "D: [4, 0], K: [8, 0]").replace(
+        "loads:", "loads:\n  S: {spring: 2, free: 1, link: 4, at: C, to: A}"
+    )
+    text = text.replace("joints:", "joints:\n  - {pin: [5, 1], at: K}\n  - {gears: [4, 5], teeth: [20, 40]}")
+    case = icsolve.load(text)
+    values = np.full(rows, numbers_of(case)[path].value)
+    values[-1] = bad
+    with pytest.raises(ValueError, match="should"):
+        icsolve.sweep(case, {path: values})
+    call = icsolve.evaluator(case, inputs=(path,), want=("answers",), gradient=True)
+    for found in (call(values), call(bad)):
+        assert found.status.tolist() == ["ok"] * (len(found) - 1) + ["cannot-assemble"]
+        assert np.isfinite(found.answers["T12"]).tolist() == [True] * (len(found) - 1) + [False]
+        assert np.isnan(found.gradients["T12"][path][-1])
+
+
 @pytest.mark.skipif(shutil.which("node") is None, reason="no JavaScript engine")
 def test_the_generated_javascript_does_what_the_record_does() -> None:
     record, wanted, names, expected = recorded()

@@ -6,6 +6,7 @@ A roller that slides upright on an eccentric circle: R. L. Norton, Design of Mac
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from random import Random
 
@@ -123,7 +124,11 @@ def test_a_jump_past_a_value_is_no_place_of_it(seed: int) -> None:
     at = -math.degrees(math.asin(0.6))
     turn = {"2": [at - rng.uniform(2.0, 5.0), at + 5.0]}
     for share in (0.85, -0.7):
-        assert find(case, None, Query("value", "T12", 100.0 * side * share), drive=turn) == []
+        none = find(case, None, Query("value", "T12", 100.0 * side * share), drive=turn)
+        (told,) = (note for note in none.notes if "jumps" in note)
+        near, before, after = (float(x) for x in re.findall(r"(?:= |from |to )(-?[0-9.e+]+)", told)[:3])
+        assert none == [] and near == pytest.approx(at)
+        assert [before, after] == pytest.approx([-100.0 * side, 100.0 * side], rel=1e-5)
     (spot,) = find(case, None, Query("value", "T12", 100.0 * side * 0.99), drive=turn)
     assert abs(spot.at - at) == pytest.approx(
         math.degrees(math.acos(0.99 / math.sqrt(2.0))) - 45.0, abs=spot.error

@@ -13,7 +13,7 @@ from random import Random
 
 import numpy as np
 import pytest
-from mpmath import mp, mpf
+from mpmath import mp, mpc, mpf
 
 from cams import HEAD, swinging
 from icsolve.case import Case
@@ -166,3 +166,77 @@ def test_a_knife_edge_that_only_grazes_an_edge_rests_on_it(seed: int) -> None:
         q = (120 * mp.cos(w) - s) / 100
         true = -100 * (1 - mpf("1.2") * mp.sin(w) / mp.sqrt(1 - q * q))
         assert abs(value - true) <= error <= 4.0 * math.ulp(value), row
+
+
+def arm(corners: list[tuple[float, float]], d: float, reach: float, near: tuple[float, float]) -> Case:
+    """A knife edge on an arm about D at (d, 0) on a polygon that turns about A; M of 100 acts on the arm."""
+    shape = f"{{polygon: [{', '.join(f'[{x}, {y}]' for x, y in corners)}]}}"
+    text = (
+        f"{HEAD}points: {{A: [0, 0], D: [{d}, 0]}}\nlengths: {{DE: {reach}}}\n"
+        f"near: {{E: [{near[0]}, {near[1]}]}}\nprofile: {{2: {shape}, 3: {{knife: E}}}}\n"
+        "joints: [{pin: [1, 2], at: A}, {contact: [2, 3]}, {pin: [3, 1], at: D}]\nlinks: {3: [E]}\n"
+        "loads: {M: {torque: 100, link: 3}, T: {torque: unknown, link: 2}}\n"
+    )
+    return load(text)
+
+
+def tips_on(corners: list[tuple[float, float]], d: float, reach: float, row: float) -> list[tuple[mpc, mpf]]:
+    """The tip of the arm, on each edge (p, q) that it can reach, and the torque on the cam there: the tip is
+    p + x u, u from p to q, on the circle about the arm's pivot; T2 / T3 = -h2 / h3, the normal's arms."""
+    turn, pivot, found = mp.expj(mp.radians(mpf(repr(row)))), mpc(repr(d)), []
+    places = [mpc(repr(x), repr(y)) * turn for x, y in corners]
+    for p, q in zip(places, [*places[1:], places[0]], strict=True):
+        u, w = (q - p) / abs(q - p), p - pivot
+        along = (mp.conj(u) * w).real
+        square = along**2 - abs(w) ** 2 + mpf(repr(reach)) ** 2
+        for root in (mp.sqrt(square), -mp.sqrt(square)) if square > 0 else ():
+            if 0 <= root - along <= abs(q - p):
+                at, n = p + (root - along) * u, -1j * u
+                found.append((at, -100 * (mp.conj(at) * n).imag / (mp.conj(at - pivot) * n).imag))
+    return found
+
+
+@pytest.mark.parametrize("seed", range(8 if not FULL else 200))
+def test_a_knife_edge_on_an_arm_beside_a_corner_is_right_to_the_last_digit(seed: int) -> None:
+    """Also where it goes in through one edge and out again through the next, and with and without bounds."""
+    rng, tips = Random(f"arm {seed}"), []
+    while not tips:
+        count, base, d = rng.choice((3, 4, 5)), rng.uniform(0.0, 360.0), float(rng.randint(100, 130))
+        reach = round(rng.uniform(0.75, 0.95) * d, rng.choice((0, 2, 5)))
+        ways = [math.radians(base + 360.0 * k / count + rng.uniform(-15.0, 15.0)) for k in range(count)]
+        sizes = [rng.uniform(22.0, 40.0) for _ in ways]
+        corners = [
+            (round(r * math.cos(w), 3), round(r * math.sin(w), 3)) for r, w in zip(sizes, ways, strict=True)
+        ]
+        corner = mpc(*map(repr, rng.choice(corners)))
+        cosine = (abs(corner) ** 2 + mpf(d) ** 2 - mpf(repr(reach)) ** 2) / (2 * abs(corner) * d)
+        tips = [tip for tip, _ in tips_on(corners, d, reach, 0.0) if cosine < 1]
+    place = float(mp.degrees(mp.acos(cosine) * rng.choice((1, -1)) - mp.arg(corner)) % 360)
+    rows = [place + s * 10.0**-k * rng.uniform(0.3, 1.0) for k in range(2, 14) for s in (1.0, -1.0)]
+    highest = max(tips, key=lambda tip: tip.imag)
+    case = arm(corners, d, reach, (float(highest.real), float(highest.imag)))
+    turned = {"2": np.array(rows)}
+    bare, found = sweep(case, drive=turned), sweep(case, want=("answers", "status", "error"), drive=turned)
+    assert bare.status.tolist() == found.status.tolist()
+    assert set(found.status) <= {"ok", "cannot-assemble"}
+    for n in np.flatnonzero(found.status == "ok").tolist():
+        value, error = found.answers["T"][n], found.error["T"][n]
+        true = min((one for _, one in tips_on(corners, d, reach, rows[n])), key=lambda one: abs(one - value))
+        assert abs(value - true) <= error <= 4.0 * math.ulp(value), (rows[n], value, true)
+        assert abs(bare.answers["T"][n] - true) <= 1e-10 * abs(true), (rows[n], true)
+
+
+def test_a_knife_edge_that_just_passes_a_corner_has_no_answer_there() -> None:
+    """Of the last places in which it cuts the corner off doubles may miss one; of the next ones none is told
+    to have an answer."""
+    corners = [(6.121, 22.846), (-21.326, 12.508), (-26.814, -22.557), (12.109, -27.387), (39.309, 6.119)]
+    case, limit, told = arm(corners, 111.48582, 88.0, (20.3, 40.0)), 291.0287823673611, 0
+    rows = [limit + n * math.ulp(limit) for n in range(-8, 9)]
+    found = sweep(case, drive={"2": np.array(rows)})
+    for row, status, value in zip(rows, found.status, found.answers["T"], strict=True):
+        assert status in {"ok", "cannot-assemble", "unsupported"}
+        if status == "ok":
+            told += 1
+            (true,) = (one for _, one in tips_on(corners, 111.48582, 88.0, row) if abs(one - value) < 30.0)
+            assert abs(value - true) <= math.ulp(value)
+    assert told

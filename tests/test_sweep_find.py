@@ -423,6 +423,41 @@ loads:
     assert held(np.radians(one.at))["xy".index(load[-1])] == pytest.approx(3.0, abs=1e-12)
 
 
+@pytest.mark.parametrize("turns", ["free end", "drum"])
+def test_positions_in_which_a_rope_would_have_to_push_are_left_out(turns: str) -> None:
+    """A rod AB in a spring, held by a rope from B to a pulley at P: T (b x u) = -b x f, T > 0, with f of the
+    weight and the spring at B and u toward P; on a drum about P the torque on the drum holds the rope."""
+    rope, load = "{rope: [B, P, E], on: [2, 1]}", "{force: unknown, at: E}"
+    if turns == "drum":
+        rope = "{rope: [P, B], on: [3, 2], radii: {P: 0.001}, wraps: {P: ccw}}, {pin: [1, 3], at: P}"
+        load = "{torque: unknown, link: 3}"
+    case = icsolve.load(f"""icsolve: 1
+points: {{A: [0, 0], P: [80, 90], E: [40, -20]}}
+lengths: {{AB: 60}}
+angles: {{AB: 20}}
+joints: [{{pin: [1, 2], at: A}}, {rope}]
+loads:
+  W: {{weight: 100, link: 2, at: B}}
+  K: {{spring: 3, free: 10, link: 2, at: B, to: [0, -90]}}
+  T: {load}
+""")
+    at = np.linspace(-170.0, 190.0, 7201)
+    b = 60.0 * np.exp(1j * np.radians(at))
+    away = -90j - b
+    f, u = -100j + 3.0 * (1.0 - 10.0 / np.abs(away)) * away, (80 + 90j - b) / np.abs(80 + 90j - b)
+    pull = -np.imag(b.conj() * f) / np.imag(b.conj() * u)
+    for value in (300.0, 50.0, -50.0, -1000.0):
+        near = np.flatnonzero(((pull[:-1] - value) * (pull[1:] - value) < 0.0) & (np.abs(pull[1:]) < 1e5))
+        asked = value if turns == "free end" else -0.001 * value
+        spots = find(case, {"angles.AB": at[[0, -1]]}, Query("value", "T", asked))
+        assert len(near) == 2
+        if value < 0.0:
+            assert spots == [] and "rope would have to push" in spots.notes[-1]
+        else:
+            assert [spot.at for spot in spots] == pytest.approx(at[near], abs=0.06)
+            assert {spot.answer for spot in spots} == {asked}
+
+
 RACK = """icsolve: 1
 points: {A: [0, 0], C: [unknown, 0.405], O: [15.231, 1.863], P: [15.231, -0.095]}
 lengths: {AB: 2.33, BC: 8.759}

@@ -148,3 +148,30 @@ motion: {{point: C, link: 4, speed: 1, angle: {toward}}}
     assert rows.answers["T"][1] == pytest.approx(answer.answers["T"].value)
     assert answer.rates is not None
     assert np.sign(rows.rates["2"]).tolist() == [np.sign(answer.rates["2"])] * 4
+
+
+def test_the_powers_of_loads_are_those_of_loads_with_and_without_bounds() -> None:
+    """Friction's own power stands in an answer's terms, but is not that of a unit of any load."""
+    case = icsolve.load(FRICTIONAL_CRANK)
+    rows = {"angles.AB": np.linspace(20.0, 160.0, 8)}
+    bare = icsolve.sweep(case, rows, ("answers", "terms"))
+    told = icsolve.sweep(case, rows, ("answers", "terms", "error"))
+    assert bare.terms.keys() == told.terms.keys() == {"P", "T"}
+    for found in (bare, told):
+        assert np.isfinite(found.terms["P"] / found.terms["T"]).all()
+    assert bare.terms["P"] / bare.terms["T"] == pytest.approx(told.terms["P"] / told.terms["T"], rel=1e-9)
+
+
+FRICTIONAL_CRANK = """icsolve: 1
+points: {A: [0, 0], C: [unknown, 0]}
+lengths: {AB: 2, BC: 6}
+angles: {AB: 40}
+near: {C: [7, 0]}
+joints:
+  - {pin: [1, 2], at: A, mu: 0.2, radius: 0.3}
+  - {pin: [2, 3], at: B, mu: 0.1, radius: 0.2}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0, mu: 0.1}
+loads: {P: {force: 100, link: 4, at: C, angle: 180}, T: {torque: unknown, link: 2}}
+motion: {link: 2, turns: ccw}
+"""

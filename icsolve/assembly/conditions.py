@@ -9,7 +9,7 @@ a value.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Iterator
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -30,7 +30,7 @@ from icsolve.assembly.workspace import (
 from icsolve.case import Case, Number
 from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.screws.joints import Points
 from icsolve.screws.plane import Point
 from icsolve.structure.topology import topology
@@ -263,6 +263,25 @@ def refuse_misfit(case: Case, points: Points, scale: float) -> None:
         what = f"gears {a} and {b}" + (f" (line {line})" if line else "")
         ends = (*bond.pivots, "pivots")
         refuse_unfit(what, bond.joint.sizes, module, apart, ends, f" {case.units.length}")
+
+
+def teeth_margins(case: Case, points: Points, scale: float, a: Arithmetic) -> Iterator[Scalar]:
+    """In any arithmetic, numbers of which none is negative but where `refuse_misfit` may refuse: with r the
+    distance of the pivots over that of the pitch circles, (2 m (1 - m))^2 - (r^2 - 1)^2 of the misfit m."""
+    for bond in topology(case).bonds:
+        joint = bond.joint
+        if not isinstance(joint, Mesh) or joint.pitch is None or not {*bond.pivots} <= points.keys():
+            continue
+        (ax, ay), (bx, by) = (points[p] for p in bond.pivots)
+        module, inverse = joint.module, joint.diametral_pitch
+        first, second = map(a.given, joint.sizes)
+        fit = (first + second) * (0.5 * scale)
+        if module is not None:
+            fit = fit * a.given(module)
+        elif inverse is not None:
+            fit = fit / a.given(inverse)
+        off = ((bx - ax) * (bx - ax) + (by - ay) * (by - ay)) / (fit * fit) - 1.0
+        yield (2.0 * MISFIT * (1.0 - MISFIT)) ** 2 - off * off
 
 
 def refuse_unfit(

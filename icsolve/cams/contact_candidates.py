@@ -226,16 +226,18 @@ def meeting_of(curve: Curve, body: Body, side: float) -> Meeting:
         reach = dot(way, first.point)
         ties = [(o, way) for o in others if abs(dot(way, o.point) - reach) <= AT_ONE * curve.size]
         return _shared(Meeting(gap, foot, (way,), tuple(ties)), curve, ALONG)
-    if foot.is_corner and math.dist(foot.point, body.at) <= AT_ONE * curve.size:
-        return Meeting(gap, foot, foot.normals)
-    toward = _toward(foot, body, gap + body.radius)
     near = math.dist(foot.point, body.at) + AT_ONE * curve.size
-    feet = [o for o in curve.nearest(body.at)[1:] if math.dist(o.point, body.at) <= near]
+    own, *feet = (o for o in curve.nearest(body.at) if math.dist(o.point, body.at) <= near)
+    on_corner = foot.is_corner and math.dist(foot.point, body.at) <= AT_ONE * curve.size
     if body.kind != "roller":
-        knives = tuple((o, curve.normal(o.piece, o.u)) for o in feet)
-        return Meeting(gap, foot, (toward,), knives)
+        toward = foot.normals if on_corner else (_toward(foot, body, gap),)
+        knives = tuple((o, curve.normal(o.piece, o.u)) for o in ([own, *feet] if on_corner else feet))
+        return Meeting(gap, foot, toward, knives)
+    if on_corner:
+        return Meeting(gap, foot, foot.normals)
+    toward = (_toward(foot, body, gap + body.radius),)
     ways = tuple((o, unit(body.at[0] - o.point[0], body.at[1] - o.point[1])) for o in feet)
-    return _shared(Meeting(gap, foot, (toward,), ways), curve, TWICE)
+    return _shared(Meeting(gap, foot, toward, ways), curve, TWICE)
 
 
 ALONG = (

@@ -38,7 +38,14 @@ from icsolve.cams.enclosed_contact import (
 )
 from icsolve.cams.enclosed_contact import direction as direction_in_balls
 from icsolve.cams.pieces import Point, Straight, unit
-from icsolve.cams.words import corner_refusal, left_open, never_meets, piece_words, several_ways
+from icsolve.cams.words import (
+    corner_refusal,
+    left_open,
+    never_meets,
+    passes_corner,
+    piece_words,
+    several_ways,
+)
 from icsolve.case import Case, Contact, Coordinates, Direction, Joint, Number
 from icsolve.case.profiles import (
     Circle,
@@ -91,7 +98,7 @@ def found(case: Case, enclosed: bool = False) -> FoundContacts:
     for touch in case.profiles.touches:
         search = ContactSearch(case, case.profiles, touch, current)
         current, one = search.found(enclosed)
-        enclosed = search.enclosed is not None
+        enclosed = enclosed and search.enclosed is not None
         touching.append(one)
     used = (name for shape in case.profiles.shapes.values() for name in points_of(shape))
     return FoundContacts(current, tuple(touching), frozenset(used), enclosed)
@@ -122,8 +129,10 @@ class ContactSearch:
         """The case with this contact, and what was found of it; ``enclosed`` where that can be shown."""
         curve = self.curve()
         meeting = self._meeting(curve)
-        if enclosed and (shown := self._enclosed(curve, meeting)):
-            self.enclosed, meeting = shown[0], meeting._replace(foot=shown[1])
+        sense = -1.0 if self.freed is None else self.freed.sense  # a gap is no wider than the least
+        asked = enclosed or len(meeting.normals) > 1  # beside a corner, as near as doubles tell
+        if asked and self.touch.shown and (shown := self._enclosed(curve, meeting, sense)):
+            self.enclosed, meeting = shown[0], meeting._replace(foot=shown[1], normals=shown[1].normals[:1])
         if self.enclosed is None:
             self.refuse_shared(meeting)
         freed = self.freed
@@ -133,14 +142,14 @@ class ContactSearch:
             self.case = freed.datum.put(freed.case, exact_number(value, size, ""))
         return self.contact(self.case, curve, meeting, self.guide())
 
-    def short(self) -> Decimal | None:
+    def short(self, sense: float) -> Decimal | None:
         """How far the guide has still to take a follower whose place is given until it touches [case length,
-        or degrees]; None where that is not shown.
+        or degrees], from where the gap grows in this ``sense`` of its motion; None where that is not shown.
 
         Raises SceneError where it is far from that.
         """
         curve, guide = self.curve(), guided(self.case, self.guided)
-        found = self._enclosed(curve, self._meeting(curve), guide) if guide is not None else None
+        found = self._enclosed(curve, self._meeting(curve), sense, guide) if guide is not None else None
         return found and Decimal(exact_number(found[0].change, curve.size, "").digits)
 
     def curve(self) -> Curve:
@@ -170,31 +179,36 @@ class ContactSearch:
             raise SceneError(Status.UNSUPPORTED, f"{self.what}: {meeting.shared}")
 
     def _enclosed(
-        self, curve: Curve, meeting: Meeting, guide: FollowerGuide | None = None
+        self, curve: Curve, meeting: Meeting, sense: float, guide: FollowerGuide | None = None
     ) -> tuple[EnclosedContact, Foot] | None:
-        """The contact with all digits and what is touched: of all that doubles see as near, what is met
-        first; None where that is not shown. A follower whose place is given moves by a ``guide``, where one
-        is named.
+        """The contact with all digits and what is touched: of all that doubles see as near what is met first
+        by a follower that comes from where its gap grows, in this ``sense`` of its motion; None where that is
+        not shown. One whose place is given moves by a ``guide``, where one is named.
 
         Raises SceneError where it touches at several places.
         """
-        if len(meeting.normals) > 1:
+        feet = [*meeting.ties]
+        if len(meeting.normals) == 1:
+            feet.insert(0, (meeting.foot, meeting.normals[0]))
+        elif self.touch.normal is not None:
             return None
-        feet = [(meeting.foot, meeting.normals[0]), *meeting.ties]
         spots: dict[Point | int, tuple[Foot, Point]] = {}
         for foot, normal in feet:
             for spot, way in self._spots(curve, foot, normal, meeting.gap):
                 spots.setdefault(spot.point if spot.is_corner else spot.piece, (spot, way))
-        senses = {self._sense(spot, normal, guide) for spot, normal in spots.values()}
         outer: tuple[EnclosedContact, Foot] | None = None
         try:
             for spot, normal in spots.values():
                 one = self._enclosed_on(curve, meeting._replace(foot=spot, normals=(normal,)), guide)
-                if one and (outer is None or self._ahead(one, outer[0], min(senses), guide)):
+                if one is None or not at_least(one.opens * sense):  # met from within, on the way out
+                    continue
+                if outer is None or self._ahead(one, outer[0], sense, guide):
                     outer = one, spot
         except (MoreDigits, BelowZero, ZeroDivisionError):
             return None
-        return outer if len(senses) == 1 else None
+        if outer is None and guide is not None and isinstance(self.follower, Knife) and len(spots) > 1:
+            raise SceneError(Status.UNSUPPORTED, passes_corner(self.what))
+        return outer
 
     def _ahead(
         self, one: EnclosedContact, other: EnclosedContact, sense: float, guide: FollowerGuide | None
@@ -232,15 +246,6 @@ class ContactSearch:
                 (px, py), (nx, ny), (x, y) = foot.point, normal, at
                 normal = unit(px + out * nx - x, py + out * ny - y)
             yield Foot(at, foot.piece, end, (own, own)), normal
-
-    def _sense(self, foot: Foot, normal: Point, guide: FollowerGuide | None) -> float:
-        """1 where a follower is the farther out the more it is moved, else -1; a gap is the widest that it
-        can be."""
-        moves = guide or self.freed
-        if moves is None:
-            return -1.0
-        x, y = moves.freedom.velocity(self.trace(foot.point, normal))
-        return math.copysign(1.0, x * normal[0] + y * normal[1])
 
     def _enclosed_on(
         self, curve: Curve, meeting: Meeting, guide: FollowerGuide | None
@@ -292,7 +297,7 @@ class ContactSearch:
         if not all_ways:
             raise SceneError(Status.CANNOT_ASSEMBLE, never_meets(self.what, body.kind, None))
         chosen = self.meant(all_ways, freedom, datum, trial)
-        self.freed = Freed(self.case, datum, freedom, chosen.by)
+        self.freed = Freed(self.case, datum, freedom, chosen.by, chosen.sense)
         return datum.given(self.case, chosen.by, freedom), chosen
 
     def meant(self, all_ways: list[Candidate], freedom: Freedom, datum: Missing, trial: Case) -> Candidate:
@@ -497,12 +502,14 @@ class Missing(NamedTuple):
 
 
 class Freed(NamedTuple):
-    """A case whose follower is still free, the datum that fixes it, and how far doubles moved it."""
+    """A case whose follower is still free, the datum that fixes it, how far doubles moved it, and the sense
+    (1 or -1) in which its gap grows there."""
 
     case: Case
     datum: Missing
     freedom: Freedom
     by: float
+    sense: float
 
     def number(self, change: float) -> Number:
         """The datum, changed by so much [its unit] from where the search began."""

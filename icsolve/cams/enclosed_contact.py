@@ -101,13 +101,15 @@ class TouchingAbout(NamedTuple):
 
 class EnclosedContact(NamedTuple):
     """A contact in balls: the point [case length], the normal from the cam into the follower, the radius of
-    curvature of the profile there (None: straight), and how far its freedom has moved the follower [case
-    length, or degrees]."""
+    curvature of the profile there (None: straight), how far its freedom has moved the follower [case
+    length, or degrees], and how fast the gap grows as it moves on (only the sign counts; 0 where
+    it has no freedom)."""
 
     at: Vector
     normal: Vector
     radius: Scalar | None
     change: Scalar
+    opens: Scalar
 
 
 class FollowerPlaces(NamedTuple):
@@ -200,7 +202,12 @@ def enclosed_contact(
     if not locus.within(point, normal):
         return None
     change = balls.angle(*found[first:]) if turns else found[first] * size
-    return EnclosedContact(_times(point, size), normal, locus.radius(found[4]), change)
+    way = body.along or (0.0, 0.0)
+    if body.about is not None:
+        x, y = _less(point, _times(body.about, scale))
+        way = (0.0 - y, x)
+    opens = way[0] * normal[0] + way[1] * normal[1]
+    return EnclosedContact(_times(point, size), normal, locus.radius(found[4]), change, opens)
 
 
 def _times(v: Vector, factor: float) -> Vector:

@@ -55,6 +55,14 @@ def corner_refusal(what: str, before: float, spread: float, given: Number | None
     )
 
 
+def passes_corner(what: str) -> str:
+    """A knife edge that meets neither piece beside a corner, as all digits show, where doubles put it."""
+    return (
+        f"{what}: the knife edge passes a corner, so near that doubles put it there, and it is not told what "
+        "it meets beyond. Take a position beside it."
+    )
+
+
 def piece_words(shape: Shape, curve: Curve, foot: Foot) -> str:
     """Which part of a profile a place is on, counted ccw from where the case starts it."""
     if isinstance(shape, Circle):

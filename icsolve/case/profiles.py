@@ -80,13 +80,15 @@ Follower = Flat | Roller | Knife
 class Touch(NamedTuple):
     """A contact whose point and normal come from the profiles of its links.
 
-    ``place`` is where it stands among the joints of the case; ``normal`` chooses among those of a corner.
+    ``place`` is where it stands among the joints of the case; ``normal`` chooses among those of a corner;
+    ``shown`` is false where only doubles brought its follower to the cam, of which no bound can be told.
     """
 
     links: tuple[str, str]
     place: int
     normal: Number | None = None
     friction: Friction | None = None
+    shown: bool = True
 
 
 class Profiles(NamedTuple):

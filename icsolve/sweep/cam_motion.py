@@ -37,6 +37,7 @@ from icsolve.cams.words import not_guided
 from icsolve.case import Case, Contact, Coordinates, Length, Number, is_named
 from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Radii, Roller, Shape, points_of
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import turn_of
 from icsolve.numbers.balls import Balls
 from icsolve.numbers.replay import Array
 from icsolve.scene.refusals import rubs
@@ -186,7 +187,8 @@ class CamMotion:
         curve = placed(seeking.shape, places_of(self.whole, own), seeking.where)
         body = seeking.body(places_of(self.whole, points_of(seeking.follower)))
         side = min((1.0, -1.0), key=lambda side: abs(gap_of(curve, body, side)[0]))
-        normal = seeking.normal(meeting_of(curve, body, side))
+        outward = 0.0 if touch.links[0] == seeking.cam else 180.0
+        normal = turn_of(self.touching[k].normal + outward)
         x, y = freedom.velocity(seeking.trace(self.touching[k].at, normal))
         sense = math.copysign(1.0, x * normal[0] + y * normal[1])
         frame, written = self._frame(seeking.cam, own[0])
@@ -316,7 +318,7 @@ class Rows:
             sure, (rows,):
             the others are to be solved one by one.
         """
-        sure = np.logical_and.reduce([rested.sure for rested in self.rested]) & (self.codes == 0)
+        sure = np.logical_and.reduce([one.sure & one.within for one in self.rested]) & (self.codes == 0)
         contacts = tuple(follow.resting(self.course.whole) for follow in self.course.follows)
         start = self.work.start._replace(asked=asked._replace(contacts=contacts))
         values: dict[Key, Array] = {}
@@ -375,18 +377,22 @@ class Rows:
         profiles, touches = self.course.whole.profiles, self.course.case.profiles
         assert profiles is not None and touches is not None
         exact: dict[str, Decimal] = {}
+        at = list(touches.touches)
         for follow in self.course.follows:
             seeking = follow.seeking
             case = self.work.case_of(row, exact)
-            short = ContactSearch(self.course.case, profiles, seeking.touch, case).short()
-            if short is not None:
+            short = ContactSearch(self.course.case, profiles, seeking.touch, case).short(follow.sense)
+            if short is None:
+                n = at.index(seeking.touch)
+                at[n] = at[n]._replace(shown=False)
+            else:
                 exact[follow.driver] = CONTEXT.add(as_written(self.drivers[follow.driver][row]), short)
         case = self.work.case_of(row, exact)
         carries = {
             link: tuple(name for name in names if not name.startswith(MARKERS))
             for link, names in case.carries.items()
         }
-        return replace(case, profiles=profiles._replace(touches=touches.touches), carries=carries)
+        return replace(case, profiles=profiles._replace(touches=tuple(at)), carries=carries)
 
 
 def _point(place: Array) -> Point:

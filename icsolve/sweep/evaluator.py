@@ -22,11 +22,12 @@ from icsolve.numbers.arithmetic import turn_of
 from icsolve.numbers.record import Op, live, varies
 from icsolve.numbers.replay import BLOCK, Array, Code
 from icsolve.numbers.source import PYTHON, straight_line
+from icsolve.numbers.units import BOUNDS, NumberLimit
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.drivers import Drive
-from icsolve.sweep.numbers import find_number, with_numbers
+from icsolve.sweep.numbers import find_number, numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of
 from icsolve.sweep.request import RequestError, SweepRequest, request_of, told
 from icsolve.sweep.runner import Key, Rows, column
@@ -116,7 +117,7 @@ def evaluator(
         Where the case as written has no figure, or lies in space.
     ValueError
         For words that can't be wanted, no inputs, or one twice; gradients where rows are solved one by one
-        (friction, profiles, groups that Newton's method places).
+        (friction, profiles, ropes, screws, inertia forces, groups that Newton's method places).
     """
     paths = tuple(inputs) if not isinstance(inputs, str) else (inputs,)
     own = tuple(find_number(case, path).path for path in paths)
@@ -143,11 +144,13 @@ class Evaluator:
     def __init__(self, case: Case, names: dict[str, str], wanted: SweepRequest, gradients: bool) -> None:
         self.case, self.inputs, self.wanted = case, tuple(names), wanted
         self.own, self.gradients = tuple(names.values()), gradients
+        self.limits = limits_of(case, self.own)
         self.compiled = None if _one_by_one(case) else _compiled(case, names, wanted.asked, gradients)
         if self.compiled is None and gradients:
             raise RequestError(
                 "there are no gradients where each row is solved as a scene of its own: with friction, "
-                "profiles, or points that only together can be placed"
+                "profiles, ropes, screws or inertia forces, or where points can be placed only together or "
+                "nothing moves beside the case as written"
             )
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -167,7 +170,7 @@ class Evaluator:
         -------
         Evaluated
             n rows; one of plain numbers alone is one row. A row without an answer says so in ``status``; one
-            with a number that is not finite can't be assembled.
+            with a number that is not finite, or that no case may have there, can't be assembled.
 
         Raises
         ------
@@ -230,7 +233,7 @@ class Evaluator:
         for array in table.values.values():
             array[row] = np.nan
         numbers = [float(c[row] if c.ndim else c) for c in given]
-        if not all(map(isfinite, numbers)):
+        if not (all(map(isfinite, numbers)) and all(one.holds(numbers[n]) for n, one in self.limits)):
             table.codes[row] = CODE[Status.CANNOT_ASSEMBLE]
             return
         case = self.case_of(*numbers)
@@ -243,6 +246,12 @@ class Evaluator:
             table.refuse(row, refusal)
             return
         table.fill(row, answer)
+
+
+def limits_of(case: Case, own: Sequence[str]) -> list[tuple[int, NumberLimit]]:
+    """What inputs keep to in any case, by their place."""
+    known = numbers_of(case)
+    return [(n, limit) for n, path in enumerate(own) for limit in BOUNDS[known[path].bound]]
 
 
 def _one_by_one(case: Case) -> bool:
@@ -269,6 +278,7 @@ class _Compiled:
     ) -> None:
         record = compiled.record
         self.compiled, self.asked, self.names = compiled, asked, tuple(names)
+        self.bounds = limits_of(compiled.scene.case, tuple(names.values()))
         self.nodes = [compiled.inputs[own] for own in names.values()]
         self.parts = {key: len(values) for key, values in compiled.outputs.items()}
         values = [(key, part, v) for key, some in compiled.outputs.items() for part, v in enumerate(some)]
@@ -281,7 +291,8 @@ class _Compiled:
         shown = [*(v for *_, v in values), *(v for by in slopes.values() for v in by.values())]
         self.shown = [record.lifted(v).index for v in shown]
         alive = live(record, [v.index for v in shown if varies(v)])
-        self.positive = [*(r.radicand for k, r in record.roots.items() if k in set(alive)), *compiled.margins]
+        self.positive = [r.radicand for k, r in record.roots.items() if k in set(alive)]
+        self.positive += [*compiled.margins, *compiled.fits]
         divided = {record.nodes[k].b for k in alive if record.nodes[k].op == Op.DIV}
         self.apart = sorted(k for k in divided if record.nodes[k].row)
         self.apart += [v.index for v in answers.values() if varies(v)]
@@ -316,6 +327,8 @@ class _Compiled:
         if any(getattr(column, "shape", ()) or isinstance(column, list | tuple) for column in columns):
             return None
         try:
+            if not all(one.holds(columns[n]) for n, one in self.bounds):
+                return None
             found = self.one(*map(float, columns))  # type: ignore[arg-type]
         except (ArithmeticError, ValueError):
             return None
@@ -348,7 +361,7 @@ class _Compiled:
         for row in range(rows):
             numbers = [c[row] if isinstance(c, list) else c for c in columns]
             try:
-                found = self.one(*numbers)
+                found = self.one(*numbers) if all(b.holds(numbers[n]) for n, b in self.bounds) else None
             except (ArithmeticError, ValueError):
                 found = None
             if found is None:
@@ -369,6 +382,8 @@ class _Compiled:
                 target[start:stop] = array
             fine = np.ones(stop - start, dtype=bool)
             with np.errstate(invalid="ignore"):
+                for n, bound in self.bounds:
+                    fine &= bound.holds(here[self.nodes[n]])
                 for n, array in enumerate(found[shown:]):
                     fine &= ((array if n < positive else np.abs(array)) > self.limits[n]) & np.isfinite(array)
             if not fine.all():

@@ -54,6 +54,10 @@ SAID = (
 )
 UNSHOWN = "where the answer hardly changes, by less than its own rounding error, no position is told."
 HAS = "{load} has this value over whole stretches, of which the ends are given."
+JUMPED = (
+    "near {where} {load} jumps past this value, from {before:.6g} to {after:.6g}: where friction changes its "
+    "sense or a contact goes over to another place it has no value between, but perhaps at that very instant."
+)
 HOLDS = (
     "with friction and no motion {load} holds over a range, not at one value, so no position is looked for. "
     "Give a `motion`, or leave out the friction."
@@ -301,9 +305,11 @@ class Scenes:
         if shown is None:
             self.notes[UNSHOWN] = None
             return []
-        at, error, changed = shown
+        at, error, (before, after) = shown
         part = 2.0 * error / (stretch[1] - stretch[0])
-        if changed > JUMPS * math.sqrt(part) * abs(miss[1] - miss[0]):
+        if abs(after - before) > JUMPS * math.sqrt(part) * abs(miss[1] - miss[0]):
+            where = f"{self.columns.names[self.name]} = {at:.9g}"
+            self.notes[JUMPED.format(load=self.load, where=where, before=before, after=after)] = None
             return []
         return [FoundPosition(at, "value", self.query.value, error)]
 
@@ -329,16 +335,16 @@ class Scenes:
 
     def _shown(
         self, stretch: tuple[float, float], at: float, wide: float, value: float
-    ) -> Generator[Asked, SeenRows, tuple[float, float, float] | None]:
-        """A place with its error and the change within it, where rows with bounds show the answer on both
-        sides of a value; None where none do."""
+    ) -> Generator[Asked, SeenRows, tuple[float, float, tuple[float, float]] | None]:
+        """A place with its error and the answers before and behind that, where rows with bounds show these
+        on both sides of a value; None where none do."""
         wide = max(wide, self.width / 2.0)
         while True:
             ends = np.clip([at - wide, at + wide], *stretch)
             answers, _, errors = yield Asked(ends, True)
             miss = answers - value
             if (np.abs(miss) > errors + self.rounded).all() and (miss[0] < 0.0) != (miss[1] < 0.0):
-                return at, float(max(at - ends[0], ends[1] - at)), float(abs(miss[1] - miss[0]))
+                return at, float(max(at - ends[0], ends[1] - at)), (float(answers[0]), float(answers[1]))
             if (ends == stretch).all():
                 return None
             wide *= SECTIONS

@@ -86,7 +86,8 @@ def find(
     columns = columns_of(case, vary, drive)
     along = along_of(columns)
     if query.load not in {"", *(load.name for load in case.loads if is_unknown(load))}:
-        raise RequestError(f"{query.load} is no unknown load of this case")
+        known = ", ".join(load.name for load in case.loads if is_unknown(load))
+        raise RequestError(f"{query.load} is no unknown load of this case ({known or 'which has none'})")
     by_itself = rubs(case) or case.dynamic or (case.profiles is not None and bool(case.profiles.touches))
     start = None if by_itself else start_of(case, columns, RowRequest())
     if start is None or start.one_by_one:
@@ -156,7 +157,7 @@ class RangeSearch:
         if self.query.kind == "value":
             yield from self._values(answer, load)
         elif self.query.kind == "max":
-            yield from (self._spot(s, "max", load) for s in self._peaks(answer))
+            yield from (spot for s in self._peaks(answer) for spot in self._pulling(s, "max", load))
         else:
             yield from self._dead(answer, load)
 
@@ -170,8 +171,8 @@ class RangeSearch:
         limits = [s for s, _ in self._limits()]
         for s in [*self._zeros(miss), *(s for s in limits if self._is_nothing(miss, s))]:
             if not self._is_nothing(bottom, s):
-                spot = self._spot(s, "value", load)
-                yield spot if spot.answer is None else spot._replace(answer=self.query.value)
+                for spot in self._pulling(s, "value", load):
+                    yield spot if spot.answer is None else spot._replace(answer=self.query.value)
 
     def _dead(self, answer: Scalar, load: str) -> Iterator[FoundPosition]:
         """Where the unknown does no work, where the links reach their limit, where branches meet. Where the
@@ -260,6 +261,17 @@ class RangeSearch:
         """Places that tell whether a value is the same in the whole range."""
         low, high = map(as_written, self.ends)
         return [low + Decimal(k) * (high - low) for k in PROBES]
+
+    def _pulling(self, s: Decimal, kind: str, load: str) -> Iterator[FoundPosition]:
+        """The position at a value; none, and a note, where a rope would have to push there."""
+        if self.compiled.scene.case.ropes:
+            try:
+                solve_scene(self.scene(s))
+            except SceneError as refusal:
+                if refusal.status == Status.SLACK:
+                    self.notes[PUSHED] = None
+                    return
+        yield self._spot(s, kind, load)
 
     def _spot(self, s: Decimal, kind: str, load: str | None, error: float | None = None) -> FoundPosition:
         at = 0.0 if abs(s) < CLOSED else float(s)
@@ -478,6 +490,7 @@ POLE, GROWN = 1000, 30
 """Where places are so many times nearer to one another a function has grown by the second, at a pole."""
 ROUGH = 1e-12
 """Relative error of the place at which a group reaches its limit."""
+PUSHED = "positions in which a rope would have to push are left out."
 UNSHOWN = (
     "{count} parts of the range are left undecided: there the bounds are too wide to show what is there."
 )

@@ -49,6 +49,7 @@ class FirstContacts(NamedTuple):
     normal : unit normal there, from the cam into the follower, (n, 2)
     sure : in which rows this is decided, (n,); the others are left to `contact_candidates`
     centre : of the arc well within which it touches, (n, 2) [case length]; not a number on other pieces
+    within : in which rows it touches well within a piece, (n,), or the normal is the same on the next
     """
 
     by: Array
@@ -56,6 +57,7 @@ class FirstContacts(NamedTuple):
     normal: Array
     sure: Mask
     centre: Array
+    within: Mask
 
 
 class FirstContact:
@@ -136,10 +138,10 @@ class FirstContact:
                 return np.asarray((x - px) * dy - (y - py) * dx)
             return np.asarray((x - qx) ** 2 + (y - qy) ** 2 - square)
 
-        x, y, nx, ny, closed, centre = line.closed(chord, miss)
+        x, y, nx, ny, closed, centre, within = line.closed(chord, miss)
         by, _ = self._way(at, guide, x, y, nx, ny)
         point = np.stack([x - line.radius * nx, y - line.radius * ny], axis=1)
-        return FirstContacts(by, point, np.stack([nx, ny], axis=1), sure & closed, centre)
+        return FirstContacts(by, point, np.stack([nx, ny], axis=1), sure & closed, centre, within)
 
     def _grazed(self, off: Array, guide: Array) -> Mask:
         """Rows in which the way may pass twice through the piece over one chord, whose ends lie to one side
@@ -210,7 +212,7 @@ class FirstContact:
         rate = wx * dx + wy * dy
         by = -((px - x) * wx + (py - y) * wy) / rate
         sure &= (np.sign(rate) == self.sense) & (np.abs(rate) > CLOSE)
-        return FirstContacts(by, np.stack([x, y], axis=1), np.stack([wx, wy], axis=1), sure, centre)
+        return FirstContacts(by, np.stack([x, y], axis=1), np.stack([wx, wy], axis=1), sure, centre, sure)
 
     def _face_turned(self, at: Array, face: Array, about: Array) -> FirstContacts:
         """A face on an arm: by the angle of its normal, the gap is the arm's less the profile's reach."""
@@ -235,7 +237,7 @@ class FirstContact:
                 break
         sure &= (np.abs(step) <= 1e3 * AT_ONE) & smooth
         normal = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        return FirstContacts(_wrapped(angle - start), np.stack([x, y], axis=1), normal, sure, centre)
+        return FirstContacts(_wrapped(angle - start), np.stack([x, y], axis=1), normal, sure, centre, sure)
 
 
 def _outer(a: Array, b: Array) -> Array:
@@ -286,9 +288,9 @@ class _Line:
 
     def closed(
         self, chord: Which, miss: Callable[[Array, Array], Array]
-    ) -> tuple[Array, Array, Array, Array, Mask, Array]:
+    ) -> tuple[Array, Array, Array, Array, Mask, Array, Mask]:
         """Where a function of the place vanishes on a chord of each row: x, y, nx, ny, and where it does,
-        (rows,) each [frame]; and the centres of the arcs there, (rows, 2).
+        (rows,) each [frame]; the centres of the arcs there, (rows, 2); and ``within`` of `FirstContacts`.
         """
         first = self.first[chord]
         pieces = self.piece[first]
@@ -298,7 +300,8 @@ class _Line:
             return miss(x, y)
 
         u, there = _zero(value, self.u[first], self.u[first + 1])
-        return (*self.at(pieces, u), there, self.centres(pieces, u))
+        within = np.asarray(self.whole[pieces] | (self.radius > 0.0) | ((u > AT_END) & (u < 1.0 - AT_END)))
+        return (*self.at(pieces, u), there, self.centres(pieces, u), within)
 
     def centres(self, pieces: Which, u: Array) -> Array:
         """The centres of the arcs well within which places lie, (rows, 2); not a number elsewhere."""

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 
 from icsolve.assembly import Figure, Placement, place, placed_figure
-from icsolve.assembly.conditions import refuse_misfit
+from icsolve.assembly.conditions import refuse_misfit, teeth_margins
 from icsolve.assembly.driven.constraints import Constraint, Turning
 from icsolve.assembly.driven.mechanism import Mechanism, mechanism
 from icsolve.assembly.driven.motion import DrivenMotion, order_of, set_moving
@@ -119,6 +119,8 @@ class CompiledSweep(NamedTuple):
     refusal: SceneError | None
     margins: tuple[int, ...] = ()
     """of the figure as written, where it is another in each row: none may be negative"""
+    fits: tuple[int, ...] = ()
+    """of the teeth of a pitch that vary, or whose pivots do: where one is negative they may not fit"""
     delicate: bool = False
     """whether the mechanism moves only because its data are exact, or nearly so"""
     idle: bool = False
@@ -240,6 +242,7 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
     case, frame = setting.case, setting.figure.frame
     inputs: dict[str, int] = {}
     margins: tuple[int, ...] = ()
+    fits: tuple[int, ...] = ()
     motion: DrivenMotion | None = None
     if setting.first and setting.drive.order is not None:
         motion = _motion(setting, setting.first.pop(), nudge, inputs, signs)
@@ -250,6 +253,8 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
         if inputs:
             margins = tuple(m.index for step in placed.margins.values() for m in step if varies(m))
         names = _written(setting.figure, placed)
+        if inputs:
+            fits = tuple(m.index for m in teeth_margins(case, names, frame.scale, record) if varies(m))
         if setting.moves:
             motion = _motion(setting, mechanism(case, frame, record, names), nudge, inputs, signs)
         else:
@@ -268,6 +273,7 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
         spring_angles(scene),
         None,
         margins,
+        fits,
         rests=bool(asked.contacts),
     )
     if found is None:

@@ -81,7 +81,7 @@ class Runner:
         self.watched = [
             *(Watched(root.radicand, SHALLOW * _size_of(record, root)) for root in self.roots),
             *(Watched(k, SMALL * terms_of(nodes, k), sized=True) for k in _divisors(nodes, alive)),
-            *(Watched(k, CLOSE) for k in compiled.margins),
+            *(Watched(k, CLOSE) for k in (*compiled.margins, *compiled.fits)),
             *(Watched(k, -math.inf, AGREED, True) for k in _living(compiled, alive)),
         ]
         small = LEANING if compiled.rests else SMALL

@@ -256,8 +256,10 @@ class Table:
                 error = (abs(x) * UNIT, abs(y) * UNIT) if given else None
                 self.put("points", name, row, (x, y), error)
         self._fill_motion(row, answer)
+        loads = {load.name for load in case.loads}  # the power of friction is none of a unit of a load
         for term in answer.terms if asked.terms and 1 in (answer.mobility, len(answer.answers)) else ():
-            self.put("terms", term.load, row, term.factor)
+            if term.load in loads:
+                self.put("terms", term.load, row, term.factor)
         for pair in asked.centres if not missing else ():
             triple = _triple(answer, pair)
             if triple is not None:
