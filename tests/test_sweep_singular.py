@@ -167,7 +167,7 @@ loads: {{T14: {{torque: 10, link: 4}}, T12: {{torque: unknown, link: 2}}}}
 
 @pytest.mark.parametrize("near", ["C: [11.9, -4.8]", "C: [11.3, -5.6]"])
 def test_from_a_limit_as_written_the_rows_are_the_scenes_that_near_says(near: str) -> None:
-    """B, C and D in line: the sides 3, 4 and 5 of a triangle. Either way leads on; without `near` none does."""
+    """B, C and D in line: the sides 3, 4 and 5 of a triangle. Either way leads on, without `near` none."""
     case = icsolve.load(IN_LINE.format(d=14, ab=3, cd=3, angle=90, near=near))
     angles = [89.9, 85.0, 80.0]
     rows = icsolve.sweep(case, {"angles.AB": angles}, WANT)
@@ -194,7 +194,7 @@ def test_from_a_change_point_as_written_near_says_which_way(side: int) -> None:
 
 
 def test_a_rough_near_does_not_put_a_driven_figure_on_another_branch_than_it_is_written_on() -> None:
-    """B lies a little above the line AC, and its `near`, which only the figure's data need, a little below."""
+    """B lies a little above the line AC, and its `near`, which the data do not need, below."""
     text = IN_LINE.format(d=14, ab=2, cd=3.5, angle=64, near="C: [12.4, -3.9], B: [11.6, -5.6]")
     case = icsolve.load(text)
     b, c = icsolve.solve(case).points["B"], icsolve.solve(case).points["C"]
