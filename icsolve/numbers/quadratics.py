@@ -36,8 +36,8 @@ FINE_ENOUGH = 0.3
 """Radius, over that size, from which the derivatives' inverse is tried."""
 
 FLATTEST = 0.05
-"""Smallest radius over the largest of what is tried: on the rim of a circle a box is narrowed to so flat a one
-that nothing can be shown of it."""
+"""Smallest radius over the largest of what is tried: on the rim of a circle a box is narrowed to so flat a
+one that nothing can be shown of it."""
 
 
 class Zeros(NamedTuple):
