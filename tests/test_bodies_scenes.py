@@ -238,6 +238,24 @@ loads:
 # --- welds, several links on a pin, names ----------------------------------------------------------
 
 
+@pytest.mark.parametrize(("given", "taken"), [("5.015", True), ("5.035", False)])
+def test_half_a_unit_of_a_load_counts_as_often_as_the_load_does(given: str, taken: bool) -> None:
+    """P to two decimals, and Q four times P: 0.025 in all, and 0.0005 of R."""
+    text = """
+points: {A: [0, 0], B: [1, 0]}
+joints: [{pin: [1, 2], at: A}]
+loads:
+  P: {force: 1.00, link: 2, at: B, angle: 90}
+  Q: {force: {like: P, times: 4}, link: 2, at: B, angle: 90}
+  R: {force: %s, link: 2, at: B, angle: -90}
+"""
+    if taken:
+        assert any("within half a unit of the last decimals" in note for note in solved(text % given).notes)
+        return
+    with pytest.raises(SceneError, match="the known loads do not balance"):
+        solved(text % given)
+
+
 def test_weld_carries_a_couple_about_the_point_that_is_said() -> None:
     text = """
 points: {A: [0, 0], B: [2, 0], C: [5, 0]}

@@ -93,3 +93,23 @@ def test_a_slider_crank_at_its_dead_centres(pin: str, unknown: str, known: str, 
     text = f"points: {{A: [0, 0], B: [{pin}], C: [4, 0]}}\njoints: [{{pin: [1, 2], at: A}}, "
     text += "{pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {slide: [4, 1], at: C, along: 0}]\n"
     assert said in refused(text + f"loads: {{U: {unknown}, K: {known}}}\n")
+
+
+@pytest.mark.parametrize("on", ["3", "4"])
+def test_a_load_of_nothing_by_components_says_what_one_by_its_size_says(on: str) -> None:
+    """The slider of a crank in line with its rod."""
+    text = """icsolve: 1
+points: {{A: [0, 0], B: [1, 0], C: [4, 0]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{slide: [4, 1], at: C, along: 0}}
+loads: {{U: {{torque: unknown, link: 4}}, K: {{force: {load}, link: {on}, at: C}}}}
+"""
+    said = []
+    for load in ("[0, 0]", "0, angle: 30"):
+        with pytest.raises(SceneError) as caught:
+            icsolve.solve(icsolve.load(text.format(load=load, on=on)))
+        said.append(str(caught.value))
+    assert said[0] == said[1] and "(A, B and C lie on one line)" in said[0]

@@ -119,3 +119,27 @@ def test_a_drive_whose_links_close_is_that_of_the_derivatives(source: str) -> No
                     met += 1
                     assert closed._replace(order=None) == drive_of(held, *drivers)
     assert met > 20
+
+
+CLOSED = {
+    "a wheel that rolls on the frame": """
+points: {C: [0, 1], P: [0, 0], F: [3, 0]}
+joints: [{roll: [2, 1], at: P, radii: [1, 0]}, {pin: [2, 3], at: C}, {slide: [3, 1], at: F, along: 0}]
+""",
+    "a rope over pulleys on the frame": """
+points: {A: [0, 0], B: [1, 0.5], C: [1, 4], D: [3, 4], G: [3, 1]}
+joints: [{pin: [1, 2], at: A}, {rope: [B, C, D, G], on: [2, 1, 1, 3]}, {slide: [3, 1], at: G, along: 90}]
+""",
+    "a rope between two levers": """
+points: {A: [0, 0], B: [1, 0.5], G: [3, 1], E: [4, 0]}
+joints: [{pin: [1, 2], at: A}, {rope: [B, G], on: [2, 3]}, {pin: [3, 1], at: E}]
+""",
+}
+
+
+@pytest.mark.parametrize("name", CLOSED)
+def test_what_a_turned_link_draws_is_placed_in_closed_form(name: str) -> None:
+    """No group is left to Newton's method."""
+    setting = setting_of(icsolve.load("icsolve: 1" + CLOSED[name]), [], ["2"])
+    motion = compile_sweep(setting, RowRequest(answers=False)).motion
+    assert motion is not None and not motion.groups

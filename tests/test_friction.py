@@ -644,6 +644,28 @@ def test_random_mechanisms_by_brute_force() -> None:
     assert set(found) <= {"checked", "jams", "at rest", "nothing turns", "unsupported"}
 
 
+@pytest.mark.parametrize("turned", [0, 90, 180, 270])
+def test_a_rod_pulls_or_pushes_a_block_that_is_held_by_friction(turned: int) -> None:
+    """Pressed with 100 at mu 0.2 and driven by 5: a crank holds it from -15 to 25, through no force too."""
+    a, b, d = (1j ** (turned // 90) * place for place in (0, 2, 2 - 1j))
+    found = held(
+        f"""
+points: {{A: [{a.real}, {a.imag}], B: [{b.real}, {b.imag}], D: [{d.real}, {d.imag}]}}
+joints:
+  - {{slide: [2, 1], at: A, along: {turned}, mu: 0.2}}
+  - {{pin: [2, 3], at: A}}
+  - {{pin: [3, 4], at: B}}
+  - {{pin: [4, 1], at: D}}
+loads:
+  W: {{force: 100, link: 2, at: A, angle: {turned - 90}}}
+  P: {{force: 5, link: 2, at: A, angle: {turned}}}
+  T: {{torque: unknown, link: 4}}
+""",
+        "T",
+    )
+    assert found.holds == (exactly(-15), exactly(25))
+
+
 def test_a_range_without_an_end_says_which_way_it_locks() -> None:
     """A short drawer can be let slide back, but no pull opens it."""
     answer = solved(drawer(0.47, motion=""))

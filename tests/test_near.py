@@ -10,10 +10,12 @@ import yaml
 
 from figure_drafts import Draft, Place, framework, sequence
 from icsolve.assembly import case_point, modes, newton, solve_figure
+from icsolve.assembly.conditions import FigureEquation
 from icsolve.assembly.steps import PointGroup
-from icsolve.assembly.workspace import Workspace
+from icsolve.assembly.workspace import LENGTH, Workspace, data_of, frame_of, normalised
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import FLOATS
 from icsolve.read import load
 from sizes import MORE
 
@@ -191,6 +193,55 @@ def test_starts_are_spread_evenly_over_a_square() -> None:
         for east in (False, True):
             for north in (False, True):
                 assert 90 <= sum((x > 5.0, y > -2.0) == (east, north) for x, y in places) <= 110
+
+
+def rods(at: dict[str, Place], names: list[str]) -> tuple[Workspace, PointGroup]:
+    """All but the first two points as one group, placed by a rod from each of the two."""
+    a, b, *free = names
+    lengths = [(p, q, math.dist(at[p], at[q])) for q in free for p in (a, b)]
+    text = f"points: {{{a}: {[*at[a]]}, {b}: {[*at[b]]}}}\n"
+    text += f"lengths: {{{', '.join(f'{p}-{q}: {size!r}' for p, q, size in lengths)}}}\n"
+    case = load(f"icsolve: 1\n{text}joints: [{{pin: [1, 2], at: {a}}}]\n")
+    workspace = Workspace(case, frame_of(case), FLOATS)
+    workspace.points |= {p: normalised(workspace.frame, at[p]) for p in (a, b)}
+    data = [datum for datum in data_of(case) if datum.kind == LENGTH]
+    return workspace, PointGroup(tuple(free), tuple(map(FigureEquation, data)))
+
+
+@pytest.mark.parametrize("off", [1e-4, 1e-3, 1e-2])
+def test_two_ways_close_together_are_expected_where_they_are(off: float) -> None:
+    """Two rods nearly in line: from the middle of both places and from either, to second order; of rods that
+    do not reach none is."""
+    at = {"A": (0.0, 0.0), "B": (1.0, 0.0), "P": (0.4, off)}
+    workspace, group = rods(at, ["A", "B", "P"])
+    for x, y in ((0.4, 0.0), (0.4, 0.3 * off), (0.4, off), (0.4, -off)):
+        one, two = newton._pair(group, workspace, {"P": normalised(workspace.frame, (x, y))}, 0.6)
+        found = sorted(case_point(workspace.frame, start["P"])[1] for start in (one, two))
+        assert found == pytest.approx([-off, off], rel=0.02)
+    workspace.points["B"] = (workspace.points["B"][0] + 1e-3, 0.0)
+    assert not newton._pair(group, workspace, {"P": normalised(workspace.frame, (0.4, 0.0))}, 0.6)
+
+
+def test_starts_about_near_begin_opposite_to_what_was_found_and_lie_as_near() -> None:
+    near, end = {"P": (0.3, -0.2), "Q": (1.0, 0.5)}, {"P": (0.4, 0.1), "Q": (0.8, 0.6), "R": (0.1, 0.7)}
+    first, *others = newton._about(near, end)
+    assert len(others) == newton.SPREAD // 2 and first["R"] == end["R"]
+    for p, about in near.items():
+        assert [(u + v) / 2.0 for u, v in zip(first[p], end[p], strict=True)] == pytest.approx(about)
+    radius = max(math.dist(near[p], end[p]) for p in near)
+    for start in others:
+        for p, (x, y) in {**end, **near}.items():
+            assert max(abs(start[p][0] - x), abs(start[p][1] - y)) <= radius
+
+
+def test_of_the_starts_by_closed_forms_one_is_the_figure_that_near_is_exact_for() -> None:
+    """With one point held where it is, and its rods to the others: on whichever side these lie."""
+    for signs in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
+        at = {"A": (0.0, 0.0), "B": (1.0, 0.2), "P": (0.3, 0.6 * signs[0]), "Q": (0.5, 0.4 * signs[1])}
+        workspace, group = rods(at, ["A", "B", "P", "Q"])
+        places = {p: normalised(workspace.frame, at[p]) for p in "PQ"}
+        starts = list(newton._constructed(group, workspace, {"P": places["P"]}, ["P"], 0.6))
+        assert min(max(math.dist(start[p], places[p]) for p in "PQ") for start in starts) < 1e-12
 
 
 SIX = """

@@ -310,6 +310,23 @@ def test_a_band_brake_at_rest_holds_from_a_pull_upward() -> None:
     assert answer.answers["P"].holds == (exactly(100 * ratio / (ratio - 1) / 2), math.inf)
 
 
+def test_a_rope_ties_its_own_links_and_no_others() -> None:
+    """A weight that hangs on a rope is held; two links joined to one another alone are not."""
+    text = """
+points: {A: [0, 0], B: [1, 0], C: [1, 4], D: [3, 3]}
+joints: [{pin: [1, 2], at: A}, {rope: [B, C], on: [2, 1]}%s]
+loads: {P: {force: 8, link: 2, at: B, angle: -90}, T: {torque: unknown, link: 2}}
+"""
+    said = refused(text % ", {pin: [3, 4], at: D}")
+    assert (said.status, "links 3 and 4 are held by nothing" in said.message) == ("loose-link", True)
+    hanging = """
+points: {B: [1, 0], C: [1, 4], G: [1, -1]}
+joints: [{rope: [B, C], on: [2, 1]}, {pin: [2, 3], at: G}]
+loads: {W: {weight: 8, link: 2, at: B}, P: {force: unknown, link: 2, at: B, angle: 90}}
+"""
+    assert refused(hanging).status != "loose-link"
+
+
 def test_a_block_on_a_rough_slope_tied_over_a_pulley() -> None:
     """Q sin 30 -+ mu Q cos 30 is what the hanging weight may weigh."""
     text = """

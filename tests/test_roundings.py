@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from mpmath import mp
 
-from icsolve.assembly.loci import CircleLocus, LineLocus
+from icsolve.assembly.loci import CircleLocus, LineLocus, PlacedCircle, PlacedLine, crossing_sine
 from icsolve.assembly.steps import Meet
 from icsolve.assembly.walk import Gap, _rounded
 from icsolve.assembly.workspace import Apart, LineDirection
@@ -359,6 +359,20 @@ def test_the_radius_in_a_cell_is_that_of_the_operands_ends_and_two_ulps(name: st
         roundings = 2 if name == "root" else 1
         assert rad <= (spread + (roundings * 2.0**-51 + 2.0**-53) * abs(mid)) * (1 + HAIR)
         assert rad >= 2.0**-51 * abs(mid)
+
+
+def test_two_loci_cross_at_the_angle_of_their_tangents() -> None:
+    """Of lines and circles through a place, wherever it is."""
+    draw = Random("crossing")
+    for _ in range(60):
+        x, y, one, two = (draw.uniform(-3.0, 3.0) for _ in range(4))
+        made = []
+        for toward in (one, two):
+            c, s, radius = math.cos(toward), math.sin(toward), draw.uniform(0.1, 4.0)
+            line = PlacedLine((x - radius * c, y - radius * s), (c, s))
+            circle = PlacedCircle((x + radius * s, y - radius * c), radius)
+            made.append(draw.choice([line, circle]))
+        assert crossing_sine(*made, (x, y)) == pytest.approx(abs(math.sin(two - one)), abs=1e-13)
 
 
 # --- what rounding explains is zero ----------------------------------------------------------------

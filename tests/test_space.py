@@ -239,6 +239,8 @@ loads:
     assert answer.answers["T"].value == pytest.approx(moment / 1.5, rel=1e-13)
     assert answer.answers["U"].value == pytest.approx(moment / 3.0, rel=1e-13)
     assert answer.answers["T"].sense == "about -z"
+    back = solve(load(text.replace("S: {spring: 3, free: 3, ", "S: {spring: 3, free: 7, ")))
+    assert back.answers["T"].sense == "about z"
     total = reaction(answer, "F1-2@A").force
     assert total[0] == pytest.approx(6.0 * 0.6, rel=1e-12)  # at the height of E and F, so all at A
     assert total[1] == pytest.approx(-6.0 * 0.8, rel=1e-12)

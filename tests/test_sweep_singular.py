@@ -155,6 +155,55 @@ def test_beside_change_points_the_way_goes_straight_on(seed: int) -> None:
     assert np.isnan(there.answers["T12"]).all()
 
 
+IN_LINE = """icsolve: 1
+points: {{A: [10, -7], D: [{d}, -7]}}
+lengths: {{AB: {ab}, BC: 2, CD: {cd}}}
+angles: {{AB: {angle}}}
+near: {{{near}}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
+loads: {{T14: {{torque: 10, link: 4}}, T12: {{torque: unknown, link: 2}}}}
+"""
+
+
+@pytest.mark.parametrize("near", ["C: [11.9, -4.8]", "C: [11.3, -5.6]"])
+def test_from_a_limit_as_written_the_rows_are_the_scenes_that_near_says(near: str) -> None:
+    """B, C and D in line: the sides 3, 4 and 5 of a triangle. Either way leads on, without `near` none."""
+    case = icsolve.load(IN_LINE.format(d=14, ab=3, cd=3, angle=90, near=near))
+    angles = [89.9, 85.0, 80.0]
+    rows = icsolve.sweep(case, {"angles.AB": angles}, WANT)
+    for row, angle in enumerate(angles):
+        scene = icsolve.solve(with_numbers(case, {"angles.AB": angle}))
+        assert rows.points["C"][row] == pytest.approx(scene.points["C"], abs=1e-12)
+        assert rows.answers["T12"][row] == pytest.approx(scene.answers["T12"].value, rel=1e-12)
+    open_rows = icsolve.sweep(replace(case, near={}), {"angles.AB": angles}, WANT)
+    assert open_rows.status.tolist() == ["ambiguous"] * 3
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_from_a_change_point_as_written_near_says_which_way(side: int) -> None:
+    """A parallelogram in line: C goes along with B, or round D the other way."""
+    a, along = 10 - 7j, 0.6 + 0.8j
+    near = a + (2.6 + 0.9j * side) * along
+    text = IN_LINE.format(d=11.2, ab=1, cd=1, angle=0, near=f"C: [{near.real}, {near.imag}]")
+    case = icsolve.load(text.replace("11.2, -7", "11.2, -5.4").replace("AB: 0", "DAB: 0"))
+    for by in ({"vary": {"angles.DAB": [5.0]}}, {"drive": {"2": [5.0]}}):
+        (place,) = icsolve.sweep(case, want=("points",), **by).points["C"]  # type: ignore[arg-type]
+        b, c, d = a + complex(turned(5)) * along, complex(*place), a + 2 * along
+        assert abs(c - b) == pytest.approx(2.0, rel=1e-12) and abs(c - d) == pytest.approx(1.0, rel=1e-12)
+        assert (abs(c - b - 2 * along) < 1e-12) == (side > 0)
+
+
+def test_a_rough_near_does_not_put_a_driven_figure_on_another_branch_than_it_is_written_on() -> None:
+    """B lies a little above the line AC, and its `near`, which the data do not need, below."""
+    text = IN_LINE.format(d=14, ab=2, cd=3.5, angle=64, near="C: [12.4, -3.9], B: [11.6, -5.6]")
+    case = icsolve.load(text)
+    b, c = icsolve.solve(case).points["B"], icsolve.solve(case).points["C"]
+    assert (b[0] - 10) * (c[1] + 7) < (b[1] + 7) * (c[0] - 10)
+    assert (11.6 - 10) * (c[1] + 7) > (-5.6 + 7) * (c[0] - 10)
+    driven = icsolve.sweep(case, want=("points",), drive={"4": [0.0]})
+    assert driven.points["B"][0] == pytest.approx(b, abs=1e-12)
+
+
 # --- slider-cranks ----------------------------------------------------------------------------------
 
 

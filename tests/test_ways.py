@@ -237,6 +237,46 @@ def test_a_plate_on_three_guides_has_all_its_ways() -> None:
     assert_picked(case, found)
 
 
+def test_a_plate_by_its_angles_has_the_ways_that_it_has_by_its_sides() -> None:
+    """On three guides, without a length that leads to F; both ways are of one face."""
+    text = """icsolve: 1
+points: {A: [-2, 0], B: [2, 0], C: [0, 3]}
+lengths: {DE: 3, %s}
+%sjoints:
+  - {slot: [2, 1], at: D, along: 80, through: A}
+  - {slot: [2, 1], at: E, along: 110, through: B}
+  - {slot: [2, 1], at: F, along: 15, through: C}
+"""
+    sides = ways_of(load(text % ("DF: 3.5, EF: 2.5", "")))
+    cosines = (9 + 12.25 - 6.25) / 21, (9 + 6.25 - 12.25) / 15
+    at_d, at_e = (math.degrees(math.acos(c)) for c in cosines)
+    angles = ways_of(load(text.replace(", %s", "%s") % ("", f"angles: {{FDE: {at_d!r}, DEF: {at_e!r}}}\n")))
+    assert sides.complete and len(angles.ways) == len(sides.ways) == 2
+    for way in angles.ways:
+        assert min(apart({p: way.points[p] for p in "DEF"}, one.points) for one in sides.ways) < 1e-7
+
+
+PLATE = """icsolve: 1
+points: {{A: {a}, B: {b}, C: {c}}}
+lengths: {{{lengths}}}
+{more}joints: [{{pin: [1, 2], at: A}}, {{pin: [1, 3], at: B}}, {{pin: [1, 4], at: C}}]
+"""
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_way_whose_legs_lie_along_the_axes_is_among_them(sign: int) -> None:
+    """The pins of the plate lie on the very edges of where their legs let them be."""
+    plate = {"D": (0.0, 0.0), "E": (1.0, 0.5), "F": (0.25, 1.5)}
+    feet = {"A": (1.0 * sign, 0.0), "B": (1.0, 0.5 + 0.75 * sign), "C": (0.25 + 0.3, 1.5 + 0.4)}
+    at = plate | feet
+    pairs = ("DE", "EF", "DF", "AD", "BE", "CF")
+    lengths = ", ".join(f"{p}{q}: {math.dist(at[p], at[q])!r}" for p, q in pairs)
+    a, b, c = map(list, feet.values())
+    found = ways_of(load(PLATE.format(a=a, b=b, c=c, lengths=lengths, more="")))
+    assert found.complete
+    assert min(apart(plate, {p: way.points[p] for p in plate}) for way in found.ways) < 1e-9
+
+
 def test_a_point_whose_data_tell_the_same_is_anywhere_along_a_curve(monkeypatch: pytest.MonkeyPatch) -> None:
     """B is on the ray of AB, and where ABG is a straight angle: on the same line, all of it double."""
     monkeypatch.setattr(exclusion, "MOST_BOXES", 50_000)

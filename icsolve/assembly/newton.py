@@ -73,10 +73,7 @@ def every(group: PointGroup, workspace: Workspace) -> Converged:
     found = every_solution(group, workspace)
     if found.movable:
         return Converged([], Miss(Status.UNDERDETERMINED, _of(group, MOVABLE)), {}, False)
-    groups = []
-    for place in found.places:
-        start = tuple(place[t] for t in group.targets)
-        groups.append(_polished(group, workspace, place) or group._replace(start=start))
+    groups = [group._replace(start=tuple(place[t] for t in group.targets)) for place in found.places]
     miss = None if groups else _unreached(group, workspace, {})
     return Converged(groups, miss, {}, found.complete)
 

@@ -129,6 +129,11 @@ class Meet(NamedTuple):
         """The point placed."""
         return (self.target,)
 
+    @property
+    def touches(self) -> bool:
+        """Whether it is the one place where a circle only touches: beside it there are two."""
+        return self.sign == 0 and is_round(self.second)
+
     def loci(self, workspace: Workspace) -> tuple[PlacedLocus, PlacedLocus]:
         """Both loci where their points are."""
         return self.first.placed(workspace), self.second.placed(workspace)

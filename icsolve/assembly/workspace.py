@@ -263,7 +263,7 @@ def frame_of(case: Case) -> Frame:
     size = max(reach, rise, largest_of([length.value.value for length in case.lengths]))
     _resolved(case, xs, ys, size)
     _beside_its_size(case, (ox, oy), size)
-    exponent = min(max(math.frexp(size)[1], -1023), 1024) if size > 0.0 else 0
+    exponent = max(math.frexp(size)[1], -1023) if size > 0.0 else 0
     return Frame(ox, oy, math.ldexp(1.0, -exponent))
 
 

@@ -121,8 +121,8 @@ class Kennedy:
                 for pair in tuple(self.known):
                     self._spread(pair)
                 continue
-            # the missing pair that most lines wait for: it lets the most others follow
-            seed = max(self.missing, key=lambda pair: (len(self.lines.get(pair, ())), -pair[0], -pair[1]))
+            # the first missing pair that most lines wait for: it lets the most others follow
+            seed = max(sorted(self.missing), key=lambda pair: len(self.lines.get(pair, ())))
             twist = self.twist_of(seed)
             assert twist is not None
             self._offer(seed, LocatedCentre(unit(twist), ROUNDING, "loop equations"))

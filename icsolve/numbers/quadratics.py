@@ -35,6 +35,10 @@ FINEST = 1e-8
 FINE_ENOUGH = 0.3
 """Radius, over that size, from which the derivatives' inverse is tried."""
 
+FLATTEST = 0.05
+"""Smallest radius over the largest of what is tried: on the rim of a circle a box is narrowed to so flat a
+one that nothing can be shown of it."""
+
 
 class Zeros(NamedTuple):
     """The solutions found, (n,) each.
@@ -180,6 +184,7 @@ class _Exclusion:
         n = radius.shape[1]
         which = np.flatnonzero(small)
         j, r = slopes[which], radius[which] * 1.1 + SLACK
+        r = np.maximum(r, FLATTEST * r.max(axis=1, keepdims=True))
         inverse = _inverses(j)
         sure = np.isfinite(inverse).all(axis=(1, 2))
         inverse[~sure] = 0.0

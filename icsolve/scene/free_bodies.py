@@ -44,10 +44,9 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
 
     outcome = parts.outcome
     position = _position(parts.first._replace(outcome=outcome, arithmetic=FLOATS))
-    scene = FrictionScene(position, outcome.balance, outcome.solution, parts.speed)
-    scene = scene._replace(alone=parts.program.want.alone)
-    if parts.scene.certain:
-        scene = scene._replace(enclose=_enclose(parts), trace=lambda: parts.traced)
+    enclose, alone = _enclose(parts) if parts.scene.certain else None, parts.program.want.alone
+    place = position, outcome.balance, outcome.solution, parts.speed
+    scene = FrictionScene(*place, lambda: parts.traced, enclose, alone)
     return solved(scene, answer_with, reactions)
 
 

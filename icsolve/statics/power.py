@@ -161,7 +161,7 @@ def power_rows(
         if k is None:
             shares.append((len(unknown), _known(w, scale, arithmetic)))
         else:
-            shares.append((k, w.ratio * (w.measure / unknown[k].measure)))
+            shares.append((k, w.ratio))  # of the same kind, so of the same measure
     both = zip(b.factors, b.sizes, strict=True)
     rows = [_row(shares, factors, sizes, len(unknown) + 1, arithmetic) for factors, sizes in both]
     return unknown, scale, rows

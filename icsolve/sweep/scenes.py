@@ -12,6 +12,7 @@ from contextlib import suppress
 import numpy as np
 
 from icsolve.assembly import Figure, case_point, place, placed_figure
+from icsolve.assembly.steps import Meet
 from icsolve.assembly.workspace import Frame
 from icsolve.case import Case, is_named
 from icsolve.errors import SceneError, Status
@@ -155,9 +156,11 @@ def _shown(frame: Frame, points: Mapping[str, Point]) -> dict[str, Place]:
 
 
 def _places(case: Case) -> tuple[dict[str, Place] | None, str]:
-    """Where the points of a figure are, in case units; None, and why, where it does not assemble."""
+    """Where the points of a figure are, in case units, or what the case's `near` says where circles touch,
+    which tells no side; None, and why, where it does not assemble."""
     try:
         figure = placed_figure(case, *wanted_points(case))
     except SceneError as refusal:
         return None, refusal.status
-    return _shown(figure.frame, figure.points), Status.OK
+    touches = any(isinstance(step, Meet) and step.touches for step in figure.steps)
+    return dict(case.near) if touches else _shown(figure.frame, figure.points), Status.OK

@@ -9,7 +9,6 @@ import numpy as np
 
 from icsolve.assembly import place
 from icsolve.assembly.conditions import residual
-from icsolve.assembly.loci import is_round
 from icsolve.assembly.steps import Meet, PointGroup
 from icsolve.assembly.workspace import Workspace, data_in, data_of
 from icsolve.case import Case
@@ -53,10 +52,10 @@ def is_hard(setting: Setting) -> bool:
         return False
     if any(given.angle is not None for given in setting.case.motion):
         return True
-    return any(
-        isinstance(step, PointGroup) or (isinstance(step, Meet) and step.sign == 0 and is_round(step.second))
-        for step in setting.figure.steps
-    ) or any(_contradicts(setting, path) for path in shapes)
+    by_itself = (
+        isinstance(s, PointGroup) or (isinstance(s, Meet) and s.touches) for s in setting.figure.steps
+    )
+    return any(by_itself) or any(_contradicts(setting, path) for path in shapes)
 
 
 NUDGED = 1e-3

@@ -368,7 +368,7 @@ def _slopes(found: Slipping) -> dict[str, dict[str, float]]:
     """Slopes of every unknown load and of those like it, friction included."""
     scene, why = found.scene, found.proven.why
     try:
-        traced = None if why or scene.trace is None else scene.trace()
+        traced = None if why else scene.trace()
         by_root = {} if traced is None else slopes(scene.position, found.solved, found.senses, traced)
     except LookupError as error:
         why = error.args[0]
@@ -413,11 +413,11 @@ class FrictionScene(NamedTuple):
     balance: Balance
     solution: Solution
     speed: Speed
-    enclose: Enclose | None = None
-    """the same on balls, of as many digits as that takes, where bounds are asked for"""
-    trace: Callable[[], Bounded | None] | None = None
+    trace: Callable[[], Bounded | None]
     """the same on a tape"""
-    alone: bool = False
+    enclose: Enclose | None
+    """the same on balls, of as many digits as that takes, where bounds are asked for"""
+    alone: bool
     """whether what is said of other solutions is left out"""
 
 
