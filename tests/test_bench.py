@@ -367,6 +367,13 @@ def test_without_its_tools_it_says_what_to_install(missing: str, monkeypatch: py
     assert "icsolve[bench]" in ran.stderr
 
 
+def test_a_law_in_two_processes_is_that_in_one() -> None:
+    """Scenes are shared out by their seeds, so that the same ones are met."""
+    assert held(forward_error, FORWARD_FAMILIES[:2], 20, jobs=2) == held(
+        forward_error, FORWARD_FAMILIES[:2], 20
+    )
+
+
 def test_where_no_picture_can_be_written_nothing_is_measured(tmp_path: Path) -> None:
     target = tmp_path / "no folder" / "plot.svg"
     ran = CliRunner().invoke(command, ["bench", "-o", str(target)], standalone_mode=False)

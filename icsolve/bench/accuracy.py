@@ -6,15 +6,17 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from random import Random
 from statistics import median
 from typing import Any
 
 from icsolve.answer import Answer
-from icsolve.bench.families import ALL_JOINTS, BOUNDED, EXACT, RUBBING, SIX_BARS, Family, scaled
+from icsolve.bench.families import ALL_JOINTS, SIX_BARS, Family, scaled
 from icsolve.bench.rivals import Failed, Method, OtherData, RivalFigure, drawn
 from icsolve.case import Case, Force, Number, Pair
 from icsolve.errors import SceneError
+from icsolve.files import can_fork, started
 from icsolve.kinematics import speeds
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.numbers.units import ExactRatio, numbers_in
@@ -227,7 +229,6 @@ PESSIMISM = 100.0
 """Bound over error that a median may have."""
 SCALES = (-37, 11)
 """Powers of two for lengths and for loads."""
-SCENES_A_JOB = 50
 
 
 class Law(NamedTuple):
@@ -277,7 +278,6 @@ def bits_kept(case: Case) -> float:
 
 
 FORWARD_FAMILIES = (*SIX_BARS, ALL_JOINTS)
-HELD = (*FORWARD_FAMILIES, *BOUNDED, *EXACT, *RUBBING)
 
 
 def held(measure: Measure, families: Iterable[Family], scenes: int, jobs: int = 1) -> list[Law]:
@@ -285,15 +285,12 @@ def held(measure: Measure, families: Iterable[Family], scenes: int, jobs: int = 
     laws = []
     for family in families:
         count = scenes // family.weight
-        if jobs == 1 or family not in HELD:
-            values = list(_measured(measure, family, range(count)))
+        if jobs == 1 or not can_fork():
+            values = _measured(measure, family, range(count))
         else:
-            from multiprocessing import Pool
-
-            firsts = range(0, count, SCENES_A_JOB)
-            blocks = [(measure, HELD.index(family), k, min(k + SCENES_A_JOB, count)) for k in firsts]
-            with Pool(jobs) as pool:
-                values = [value for some in pool.starmap(_block, blocks) for value in some]
+            parts = [(_measured, (measure, family, range(k, count, jobs))) for k in range(jobs)]
+            with started(parts) as found:
+                values = [value for some in found() for value in some]
         sizes = [abs(value) for value in values]
         broken = sum(value < 0.0 for value in values)
         worst = max(sizes, default=math.nan)
@@ -301,18 +298,13 @@ def held(measure: Measure, families: Iterable[Family], scenes: int, jobs: int = 
     return laws
 
 
-def _block(measure: Measure, place: int, first: int, end: int) -> list[float]:
-    """Scenes in a process of their own, which finds the family by its place."""
-    return list(_measured(measure, HELD[place], range(first, end)))
-
-
-def _measured(measure: Measure, family: Family, seeds: Iterable[int]) -> Iterator[float]:
+def _measured(measure: Measure, family: Family, seeds: Iterable[int]) -> list[float]:
     """The law on the scenes that have an answer."""
+    found = []
     for seed in seeds:
-        try:
-            yield measure(load(family.draw(Random(f"{family.name} {seed}"))))
-        except SceneError:
-            continue
+        with suppress(SceneError):
+            found.append(measure(load(family.draw(Random(f"{family.name} {seed}")))))
+    return found
 
 
 # --- every number of a scene, and rows of sweeps ----------------------------------------------------
