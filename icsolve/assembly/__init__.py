@@ -24,7 +24,7 @@ from icsolve.assembly.workspace import (
     given_points,
     names_of,
 )
-from icsolve.case import Case
+from icsolve.case import Case, bare_name
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.plane import Point
@@ -112,7 +112,7 @@ def _drawn(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figur
     data = [d for d in data_of(case) if all(p in workspace.points for p in d.points)]
     notes = _compared(workspace, steps, data, goal) if data else ()
     points = {p: workspace.points[p] for p in goal}
-    return Figure(frame, points, steps, notes, tuple(p.lstrip("@") for p in names if p not in points))
+    return Figure(frame, points, steps, notes, tuple(bare_name(p) for p in names if p not in points))
 
 
 def _compared(

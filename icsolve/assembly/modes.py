@@ -37,7 +37,7 @@ from icsolve.assembly.workspace import (
     frame_of,
     names_of,
 )
-from icsolve.case import Case
+from icsolve.case import Case, bare_name
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.plane import Point
@@ -268,7 +268,7 @@ def construct(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Fi
         figure = _by_the_rest(case, frame, goal, names)
         if figure is None:
             raise
-    return figure._replace(skipped=tuple(p.lstrip("@") for p in names if p not in figure.points))
+    return figure._replace(skipped=tuple(bare_name(p) for p in names if p not in figure.points))
 
 
 def _by_the_rest(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figure | None:

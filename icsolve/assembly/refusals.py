@@ -40,7 +40,7 @@ from icsolve.assembly.workspace import (
     given_points,
     number_of,
 )
-from icsolve.case import Number
+from icsolve.case import Number, bare_name
 from icsolve.errors import Status
 from icsolve.numbers.arithmetic import Floats, turn_of
 from icsolve.numbers.units import numbers_in
@@ -50,7 +50,7 @@ from icsolve.wording.sentences import listed
 def plain(key: Key) -> str:
     """A point's name."""
     name = key if isinstance(key, str) else key[1]
-    return name.lstrip("@")
+    return bare_name(name)
 
 
 def joined(*points: str) -> str:

@@ -82,6 +82,11 @@ def is_named(point: str) -> bool:
     return not point.startswith(HIDDEN)
 
 
+def bare_name(name: str) -> str:
+    """What a place or body without a name of its own is called by: that of its joint, load or screw."""
+    return name.lstrip(HIDDEN)
+
+
 def is_link(name: str) -> bool:
     """Whether a link of the case, rather than what stands for one: the end of a rope that loads pull, a screw
     that they turn."""

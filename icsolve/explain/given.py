@@ -18,6 +18,7 @@ from icsolve.case import (
     TorsionSpring,
     Units,
     Weight,
+    bare_name,
     is_link,
     is_named,
     pair_name,
@@ -111,7 +112,7 @@ def gain_names(load: Load) -> tuple[Name, ...]:
 
 def rate_name(link: str) -> Name:
     """The angular velocity of a link, or of a screw."""
-    return Name(OMEGA, link.removeprefix("@").replace(" ", "_"))
+    return Name(OMEGA, bare_name(link).replace(" ", "_"))
 
 
 def speed_name(link: str) -> Name:

@@ -11,7 +11,7 @@ from typing import Any
 from icsolve.assembly.loci import Axis, CircleLocus, Locus
 from icsolve.assembly.steps import Given, Meet, Polar, Step
 from icsolve.assembly.workspace import LENGTH, RAY, Datum, X, number_of
-from icsolve.case import Case, Load, Number, is_named, pair_name
+from icsolve.case import Case, Load, Number, bare_name, is_named, pair_name
 from icsolve.draw.words import unit_word
 from icsolve.errors import CaseError
 from icsolve.numbers.units import numbers_in
@@ -69,7 +69,7 @@ def _points(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
         axes = [axis for axis in "xy" if f"points.{name}.{axis}" in held]
         fields = [_field(case, held[f"points.{name}.{axis}"], axis, f"{axis} of {name}") for axis in axes]
         if fields:
-            yield FieldLine(name.lstrip("@"), tuple(fields))
+            yield FieldLine(bare_name(name), tuple(fields))
 
 
 def _plain(case: Case, held: Mapping[str, Number], section: str) -> Iterable[FieldLine]:
