@@ -138,6 +138,58 @@ def test_a_jump_past_a_value_is_no_place_of_it(seed: int) -> None:
     assert jump.answer is not None and abs(jump.answer) == pytest.approx(100.0 * side, rel=1e-9)
 
 
+RUBBING = """icsolve: 1
+points: {A: [0, 0], C: [unknown, 0]}
+lengths: {AB: 2, BC: 6}
+angles: {AB: 30}
+near: {C: [7, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B, mu: 0.3, radius: 0.4}
+  - {pin: [3, 4], at: C, mu: 0.3, radius: 0.4}
+  - {slide: [4, 1], at: C, along: 0, mu: 0.2}
+loads:
+  P: {force: 20, link: 4, at: C, angle: 180}
+  V: {force: %d, link: 3, at: B, angle: -90}
+  T12: {torque: unknown, link: 2}
+motion: {link: 2, turns: ccw}
+"""
+
+
+def knife(*corner: int) -> Case:
+    """A knife edge on a polygon, over a corner at 45 degrees."""
+    return sliding(f"{{polygon: [[20, 20], {[*corner]}, [-20, -20], [20, -20]]}}", "{knife: B}")
+
+
+@pytest.mark.parametrize(
+    ("case", "drives", "jump"),
+    [
+        (knife(-20, 20), {"2": 0.0}, 45.0),
+        (knife(-10, 20), {"2": 0.0}, 45.0),
+        (knife(-80, 40), {"2": 0.0}, 45.0),
+        (knife(5, 38), {"2": 0.0}, 45.0),
+        *((load(RUBBING % v), {"angles.AB": 0.0}, at) for v in (10, 50, -80) for at in (0.0, 90.0, -90.0)),
+    ],
+)
+def test_a_peak_at_a_jump_is_told_wherever_the_range_begins(
+    case: Case, drives: dict[str, float], jump: float
+) -> None:
+    """The answer of the very instant of a jump is neither the one before nor the one behind, or none at all:
+    it makes no peak at an end of the range, and hides none within."""
+    (name,) = drives
+
+    def ends(*offs: float) -> dict[str, dict[str, list[float]]]:
+        return {"drive" if name == "2" else "vary": {name: [jump + off for off in offs]}}
+
+    rows = icsolve.sweep(case, **ends(-1e-2, -1e-6, 1e-6, 1e-2))
+    farther, before, after, beyond = abs(rows.answers["T12"])
+    is_peak = before > farther if before > after else after > beyond
+    for low, high in ((-10, 30), (-9, 17.1), (-4.7, 8.3), (-10, 0), (0, 10), (0, 7.3), (-1, 1)):
+        found = find(case, **{"vary": None, "drive": None, **ends(low, high)}, query=Query("max", "T12"))
+        here = [spot for spot in found if abs(spot.at - jump) <= max(spot.error, 1e-6)]
+        assert len(here) == (is_peak and low < 0 < high), (low, high, found)
+
+
 def test_of_a_stretch_that_has_a_value_the_ends_are_told() -> None:
     """A follower that rests on the base circle of a tangent cam, on which it takes no torque to hold it."""
     arcs = (

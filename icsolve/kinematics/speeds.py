@@ -7,7 +7,7 @@ combinations of them; what stays open is named as undetermined, never guessed.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from icsolve.assembly.workspace import PlacedCase
@@ -35,6 +35,8 @@ else:
 Twists = Mapping[str, Sequence[Triple]]
 STILL = ROUNDING_NOISE
 """In floats what moves slower than this fraction of the fastest link is at rest; normalised frame."""
+SLANT = math.sin(math.radians(1.0))
+"""The direction of a given motion may be that far from the path of its point (a sine)."""
 LOOSE = 5e4
 """In floats a combination of several motions is zero within so many times as much."""
 
@@ -219,7 +221,7 @@ def _rightward(v: Point, largest: float, a: Arithmetic) -> Point:
 
 def _check_direction(given: Given, v: Point, along: Point) -> None:
     sine: float = abs(v[0] * along[1] - v[1] * along[0]) / math.hypot(*v)
-    if sine > math.sin(math.radians(1.0)):
+    if sine > SLANT:
         own = math.degrees(math.atan2(v[1], v[0])) % 180.0
         assert given.angle is not None
         raise SceneError(
@@ -227,6 +229,33 @@ def _check_direction(given: Given, v: Point, along: Point) -> None:
             f"point {given.point} of link {given.link} can only move at {own:.4g} or {own + 180.0:.4g} deg "
             f"in this position, not at {given.angle.value:g} deg: correct the angle of `motion`.",
         )
+
+
+def motion_margins(place: PlacedCase, twists: Twists, *, sense: bool) -> Iterator[Scalar]:
+    """In any arithmetic, numbers of which none is negative but where `speed_of` may refuse or, where
+    ``sense`` counts, take the motion of a point in the other sense than in this position."""
+    case, a, largest = place.case, place.arithmetic, fastest(twists)
+    for given in case.motion:
+        link = twists[given.link]
+        if given.link == case.ground:
+            yield -1.0
+        elif len(link) > 1 or len(case.motion) > 1:
+            continue  # what they are together is no number
+        elif given.point is None:
+            rate = link[0][2]
+            share = rate / (float(rate) or 1.0)
+            yield share * share if abs(float(rate)) > STILL * largest else -1.0
+        else:
+            x, y = velocity(link[0], place.points[given.point])
+            if not _speed((x, y)) > STILL * largest:
+                yield -1.0
+                continue
+            assert given.angle is not None
+            size, (c, s) = a.sqrt(x * x + y * y), a.turn(given.angle)
+            off, along = (x * s - y * c) / size, (x * c + y * s) / size
+            yield SLANT * SLANT - off * off
+            if sense:
+                yield along if float(along) > 0.0 else -along
 
 
 def fastest(twists: Twists) -> float:

@@ -100,14 +100,22 @@ def _same_shapes(mechanism: Mechanism, other: Case) -> bool:
     frame, still = mechanism.frame, Still(mechanism.shape)
     names = [name for name in mechanism.shape.ref if is_named(name)]
     near = {name: case_point(frame, still.place((0, name))) for name in names}
-    figure = solve_figure(replace(other, near=near), [name for name in names if name in mechanism.owners])
+    known = mechanism.owners.keys() | mechanism.contacts.keys()
+    figure = solve_figure(replace(other, near=near), [name for name in names if name in known])
     at = {name: case_point(figure.frame, place) for name, place in figure.points.items()}
     places = {name: normalised(frame, place) for name, place in at.items()}
     return _unmoved(mechanism, places) and _unbent(mechanism, places)
 
 
 def _unbent(mechanism: Mechanism, places: Places) -> bool:
-    """Points of a link are as far apart as before."""
+    """Points of a link are as far apart as before, and so is a rolling contact from the centres."""
+    still = Still(mechanism.shape)
+    for at, contact in mechanism.contacts.items():
+        for centre in (contact.centre, contact.other):
+            if at in places and centre is not None and centre[1] in places:
+                before = math.dist(contact.place(still), still.place(centre))
+                if abs(math.dist(places[at], places[centre[1]]) - before) > SAME:
+                    return False
     for body, spots in mechanism.spots.items():
         names = [name for _, name in spots if name in places]
         for n, p in enumerate(names):

@@ -31,6 +31,7 @@ from icsolve.sweep.numbers import find_number, numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of
 from icsolve.sweep.request import RequestError, SweepRequest, request_of, told
 from icsolve.sweep.runner import Key, Rows, column
+from icsolve.sweep.start import drives
 from icsolve.sweep.table import CODE, WORDS, Table, by_kind
 from icsolve.tuples import NamedTuple, dataclass, field, replace
 
@@ -117,7 +118,8 @@ def evaluator(
         Where the case as written has no figure, or lies in space.
     ValueError
         For words that can't be wanted, no inputs, or one twice; gradients where rows are solved one by one
-        (friction, profiles, ropes, screws, inertia forces, groups that Newton's method places).
+        (friction, profiles, ropes, screws, inertia forces, numbers of a motion, groups that Newton's method
+        places).
     """
     paths = tuple(inputs) if not isinstance(inputs, str) else (inputs,)
     own = tuple(find_number(case, path).path for path in paths)
@@ -149,8 +151,8 @@ class Evaluator:
         if self.compiled is None and gradients:
             raise RequestError(
                 "there are no gradients where each row is solved as a scene of its own: with friction, "
-                "profiles, ropes, screws or inertia forces, or where points can be placed only together or "
-                "nothing moves beside the case as written"
+                "profiles, ropes, screws or inertia forces, by numbers of a motion, or where points can be "
+                "placed only together or nothing moves beside the case as written"
             )
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -415,7 +417,7 @@ def _root(value: float) -> float:
 def _compiled(case: Case, names: Mapping[str, str], asked: RowRequest, gradients: bool) -> _Compiled | None:
     """The record of the case with all inputs; None where its figure or its loads need a scene a row."""
     setting: Setting = setting_of(case, (), ())
-    if any(isinstance(step, PointGroup) for step in setting.figure.steps):
+    if any(map(drives, names.values())) or any(isinstance(s, PointGroup) for s in setting.figure.steps):
         return None
     setting = setting._replace(paths=tuple(names.values()), drive=Drive((), (), ()))
     asked = told(case, asked)

@@ -29,6 +29,9 @@ from icsolve.tuples import NamedTuple
 
 PLACES = 360
 """Places at which the range is searched."""
+ASIDE = math.sqrt(2.0) / 16.0
+"""Of a step: peaks are looked for at no round numbers, as of which an answer that jumps there has, for that
+instant, the value of neither side: it would make a peak beside it, or hide one."""
 RINGS, CLOSER = 8, 0.125
 """Toward each end so many more, each this many times as far from it as the one before."""
 SEARCHED, APART = 48, 4
@@ -70,9 +73,9 @@ FADED = 0.01
 have less than this part of what the longer one had, the answer passes through zero."""
 ROOM = 2.0**-6
 """To both sides of where a chord meets a value, as a part of the chord."""
-STEADY = 1e-9
-"""A peak is closed in on by doubles until it stands so little above what is beside it, relative to it; rows
-with bounds show the rest."""
+STEADY, SHARP = 1e-9, 1e-13
+"""A peak is closed in on by doubles until it stands so little above what is beside it, relative to it
+(``SHARP`` where it is a corner, which doubles tell so long); rows with bounds show the rest."""
 UNPROVEN = 1e-9
 """Relative error of an answer of which no bound is proven."""
 LEVELS, ENOUGH = 6, 24
@@ -195,6 +198,9 @@ class Scenes:
         """what a scene counts for"""
         self.scenes = 0.0
         self.width = max(CLOSED * float(np.ptp(values)), 4.0 * float(np.spacing(np.abs(values).max())))
+        if query.kind == "max":
+            self.places[1:-1] += ASIDE * (self.places[1] - self.places[0])
+            self.places[[0, -1]] += [self.width, -self.width]
         self.rounded = UNIT * abs(query.value)
         """how far the value may be from the decimal that it is written as"""
         self.notes: dict[str, None] = {}
@@ -459,12 +465,14 @@ class Scenes:
         it than that."""
         at, height = self.places[k - 1 : k + 2], measure(found[k - 1 : k + 2])
         size, tops, grows = float(np.abs(found[k])), [height[1]], False
-        while at[-1] - at[0] > self.width and height[1] - min(height[0], height[-1]) > STEADY * size:
+        drops = [height[1] - min(height[0], height[-1])]
+        while at[-1] - at[0] > self.width and drops[-1] > (STEADY if _bends(drops) else SHARP) * size:
             fine = np.insert(at, [1, 2], (at[:-1] + at[1:]) / 2.0)
             between = np.nan_to_num(measure((yield Asked(fine[1::2])).answers), nan=-np.inf)
             heights = np.insert(height, [1, 2], between)
             top = 1 + int(heights[1:-1].argmax())
             at, height, tops = fine[top - 1 : top + 2], heights[top - 1 : top + 2], [*tops, heights[top]]
+            drops.append(height[1] - min(height[0], height[-1]))
             grows = len(tops) > LEVELS and tops[-1] > 2.0 * abs(tops[-1 - LEVELS])
             if grows and len(tops) > ENOUGH and self.query.kind != "dead":
                 break
@@ -514,3 +522,9 @@ class Scenes:
             low, high = float(at[j]), float(at[j + 1])
             ends = np.array([ends[0], *np.abs(seen.answers), ends[1]])[j : j + 2]
         return low, high
+
+
+def _bends(drops: list[float]) -> bool:
+    """Whether what a peak stands above the places beside it falls as the square of their distance, while that
+    was halved four times, and not as the distance itself, as beside a corner."""
+    return len(drops) < 5 or 32.0 * drops[-1] < drops[-5]

@@ -15,9 +15,11 @@ from icsolve.assembly.driven.constraints import Constraint, Turning
 from icsolve.assembly.driven.mechanism import Mechanism, mechanism
 from icsolve.assembly.driven.motion import DrivenMotion, order_of, set_moving
 from icsolve.assembly.steps import Meet, Polar
-from icsolve.assembly.workspace import data_in, names_of, number_of
+from icsolve.assembly.workspace import PlacedCase, data_in, names_of, number_of
 from icsolve.case import Case, Pair, TorsionSpring, is_angle
 from icsolve.errors import SceneError, Status
+from icsolve.kinematics.motion import by_loops
+from icsolve.kinematics.speeds import speed_of
 from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.numbers.record import Record, varies
 from icsolve.scene import refusals
@@ -41,6 +43,7 @@ from icsolve.sweep.recorded_scene import (
     RecordedStatics,
     RestingContact,
     centre,
+    motion_fits,
     moved_scene,
     pressing,
     rates,
@@ -120,7 +123,8 @@ class CompiledSweep(NamedTuple):
     margins: tuple[int, ...] = ()
     """of the figure as written, where it is another in each row: none may be negative"""
     fits: tuple[int, ...] = ()
-    """of the teeth of a pitch that vary, or whose pivots do: where one is negative they may not fit"""
+    """of the teeth of a pitch that vary, or whose pivots do, and of given motions: where one is negative they
+    may not fit"""
     delicate: bool = False
     """whether the mechanism moves only because its data are exact, or nearly so"""
     idle: bool = False
@@ -146,8 +150,22 @@ def setting_of(case: Case, paths: Sequence[str], links: Sequence[str], *, posing
     refusals.refuse_no_direction(refusals.directions_of_joints(case), figure.points, FLOATS)
     setting = Setting(case, top, figure, own, tuple(links), Drive((), (), ()))
     if links or any(path.split(".")[0] in ("points", "lengths", "angles") for path in own):
-        return _driven(setting, posing=posing)
+        setting = _driven(setting, posing=posing)
+    if setting.moves:
+        _refuse_misdirected(setting)
     return setting
+
+
+def _refuse_misdirected(setting: Setting) -> None:
+    """Refuse a motion whose direction the position as written, from which it goes on, does not allow."""
+    if not any(given.angle is not None for given in setting.case.motion):
+        return
+    place = PlacedCase(setting.case, setting.figure.frame, setting.figure.points, FLOATS)
+    try:
+        speed_of(place, by_loops(place).twists)
+    except SceneError as refusal:
+        if refusal.status == Status.INCONSISTENT:
+            raise
 
 
 def wanted_points(case: Case) -> tuple[list[str], list[str]]:
@@ -278,7 +296,8 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
     )
     if found is None:
         return compiled
-    compiled = compiled._replace(delicate=found.delicate, idle=found.idle)
+    fits += motion_fits(scene, found, sense=asked.rates and not setting.moves)
+    compiled = compiled._replace(delicate=found.delicate, idle=found.idle, fits=fits)
     if not (asked.answers and refusals.rubs(case)):
         return compiled._replace(refusal=found.refusal)
     return (

@@ -318,6 +318,21 @@ def pressing(
             yield contact.joint.at, total
 
 
+def motion_fits(scene: RecordedScene, found: RecordedStatics, *, sense: bool) -> tuple[int, ...]:
+    """The nodes of `speeds.motion_margins` that vary.
+
+    Raises SceneError where the given motions can be in no row.
+    """
+    links, motions = {given.link for given in scene.case.motion}, found.motions
+    if not motions.twists.keys() >= links:
+        motions = motions_of(scene, {scene.top.body_of[link] for link in links})
+    margins = list(speeds.motion_margins(scene.place, motions.twists, sense=sense))
+    still = any(not varies(m) and float(m) <= 0.0 for m in margins)
+    if links and (still or len(scene.case.motion) > 1 or motions.mobility > 1):
+        speeds.speed_of(*_in_floats(scene.place, motions.twists))
+    return tuple(m.index for m in margins if varies(m))
+
+
 # --- rates and centres ----------------------------------------------------------------------------
 
 
@@ -338,9 +353,7 @@ def rates(scene: RecordedScene, found: motion.Motions) -> dict[str, Scalar]:
 
 def _scale(scene: RecordedScene, twists: Mapping[str, tuple[Triple, ...]]) -> tuple[Scalar, float]:
     """What the rates are divided by, and what they are scaled to."""
-    floats = {link: tuple((float(x), float(y), float(w)) for x, y, w in ts) for link, ts in twists.items()}
-    places = {name: (float(x), float(y)) for name, (x, y) in scene.points.items()}
-    speed = speeds.speed_of(PlacedCase(_plain(scene.case), scene.frame, places, FLOATS), floats)
+    speed = speeds.speed_of(*_in_floats(scene.place._replace(case=_plain(scene.case)), twists))
     (target,) = speed.particular
     if speed.reference is not None:
         link, point = speed.reference
@@ -351,8 +364,17 @@ def _scale(scene: RecordedScene, twists: Mapping[str, tuple[Triple, ...]]) -> tu
         given = scene.case.motion[0]
         forward = float(speed.divisor) > 0.0 if given.angle is None else _forward(v, given)
         return _signed(scene, v, forward), target
-    link = next(n for n in speeds.joint_order(scene.case) if max(map(abs, floats[n][0])) > 0.0)
+    link = next(n for n in speeds.joint_order(scene.case) if any(map(float, twists[n][0])))
     return _signed(scene, (twists[link][0][1], -twists[link][0][0]), float(speed.divisor) > 0.0), target
+
+
+def _in_floats(
+    place: PlacedCase, twists: Mapping[str, tuple[Triple, ...]]
+) -> tuple[PlacedCase, dict[str, tuple[Triple, ...]]]:
+    """A place and its twists, where the record was made."""
+    places = {name: (float(x), float(y)) for name, (x, y) in place.points.items()}
+    floats = {link: tuple((float(x), float(y), float(w)) for x, y, w in ts) for link, ts in twists.items()}
+    return place._replace(points=places, arithmetic=FLOATS), floats
 
 
 def _plain(case: Case) -> Case:

@@ -42,20 +42,23 @@ def runner(
 
 def is_hard(setting: Setting) -> bool:
     """Whether numbers are varied that reshape a figure whose construction holds as written only: with a
-    group that Newton's method places, with circles that touch, or with data that repeat others; or that the
-    direction of a given motion has to fit."""
+    group that Newton's method places, with circles that touch, or with data that repeat others; or that are
+    of a given motion."""
     reshaping = [path for path in setting.paths if path not in setting.drive.moving]
-    if any(path.startswith("motion.") for path in reshaping):
+    if any(map(drives, reshaping)):
         return True
     shapes = list(filter(_shapes, reshaping))
     if not shapes:
         return False
-    if any(given.angle is not None for given in setting.case.motion):
-        return True
     by_itself = (
         isinstance(s, PointGroup) or (isinstance(s, Meet) and s.touches) for s in setting.figure.steps
     )
     return any(by_itself) or any(_contradicts(setting, path) for path in shapes)
+
+
+def drives(path: str) -> bool:
+    """Whether a number is one of a given motion, of which no record tells."""
+    return path.startswith("motion.")
 
 
 NUDGED = 1e-3

@@ -1,0 +1,236 @@
+"""A row is a scene: every number of every case of the library, changed by a few amounts, has in a row of a
+sweep and of an evaluator the status and the value of `solve` with the number written in.
+
+A row may be another in three ways alone, all as the manual says: a sweep turns the mechanism as written where
+the figure read anew has links of other shapes; there the direction of a point's motion follows its path; and
+a branch goes on by continuity where `near`, as written, would pick another. The row as a case of its own
+then has the row's status and value.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import random
+from collections.abc import Iterator
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+import icsolve
+from icsolve.case import Case, Number
+from icsolve.case.joints import Guided
+from icsolve.numbers.units import BOUNDS
+from icsolve.scene import solve_scene
+from icsolve.sweep.evaluator import Evaluated
+from icsolve.sweep.numbers import numbers_of, with_numbers
+from icsolve.sweep.program import setting_of
+from icsolve.sweep.table import Sweep
+from icsolve.tuples import replace
+from library import FILES, sample
+from sizes import FULL
+
+Row = tuple[str, dict[str, tuple[float, float]]]
+"""Status, and unknown loads with their bounds."""
+WANT = ("answers", "status", "points")
+MANY = 30
+"""Rows that an evaluator runs as arrays."""
+
+
+def solved(case: Case) -> Row:
+    try:
+        found = solve_scene(case).answers
+    except icsolve.SceneError as refusal:
+        return refusal.status, {}
+    return "ok", {name: (a.value, a.error or 0.0) for name, a in found.items() if a.value is not None}
+
+
+def amounts(number: Number) -> list[float]:
+    """What else is written at a path, near to the number and far from it."""
+    path, value = number.path, number.value
+    if ".teeth" in path:
+        return [value + 1.0, value - 1.0]
+    turns = path.startswith("angles.") or path.endswith((".angle", ".along", ".normal"))
+    near = (
+        [0.02, 1.2, -1.2, 14.25, -40.0]
+        if turns
+        else [0.02, *(f * (value or 1.0) for f in (-0.02, 0.17, -0.31))]
+    )
+    return [v for v in (value + one for one in near) if all(b.holds(v) for b in BOUNDS[number.bound])]
+
+
+def shape(case: Case) -> list[float]:
+    """What a motion leaves as it is: distances on each link, places on the frame, and the frame's guides."""
+    points = solve_points(case)
+    found = [x for n in case.carries.get(case.ground, ()) for x in points.get(n, ())]
+    for names in case.carries.values():
+        found += [
+            math.dist(points[a], points[b]) for a, b in combinations(names, 2) if {a, b} <= points.keys()
+        ]
+    for joint in case.joints:
+        if isinstance(joint, Guided) and joint.guide.angle is not None and case.ground in joint.links:
+            (x, y), along = points[joint.guide.through or joint.at], math.radians(joint.guide.angle.value)
+            found += [x * math.sin(along) - y * math.cos(along)]
+    return found
+
+
+def solve_points(case: Case) -> dict[str, tuple[float, float]]:
+    figure = setting_of(case, (), ()).figure
+    ox, oy, scale = figure.frame
+    return {name: (float(x) / scale + ox, float(y) / scale + oy) for name, (x, y) in figure.points.items()}
+
+
+def is_reshaped(case: Case, other: Case) -> bool:
+    """Whether links of the case, read anew, have other shapes, or cannot be read so at all."""
+    with contextlib.suppress(icsolve.SceneError):
+        return shape(case) != pytest.approx(shape(other), rel=1e-9, abs=1e-9)
+    return True
+
+
+def agrees(row: Row, scene: Row) -> bool:
+    """Of the same status, and values within both bounds."""
+    (status, values), (other, found) = row, scene
+    return status == other and all(
+        abs(value - values[name][0]) <= error + values[name][1] for name, (value, error) in found.items()
+    )
+
+
+def rows_of(table: Sweep | Evaluated, scenes: list[Row]) -> Iterator[Row]:
+    """Rows as scenes are; one without a bound has that of the scene, and the digits that NEAR leaves it."""
+    errors = table.error if isinstance(table, Sweep) else {}
+    for n, (_, found) in enumerate(scenes):
+        values = {}
+        for name, (value, error) in found.items():
+            own = errors[name][n] if name in errors else math.nan
+            own = own if math.isfinite(own) else 4.0 * error + 1e-9 * abs(value)
+            values[name] = (table.answers[name][n] if name in table.answers else math.nan, own)
+        yield str(table.status[n]), values
+
+
+def misses(case: Case, path: str, values: list[float]) -> Iterator[tuple[str, float, Row, Row]]:
+    """Rows that are not the scenes that they should be."""
+    others = [with_numbers(case, {path: value}) for value in values]
+    scenes = list(map(solved, others))
+    call = icsolve.evaluator(case, (path,), WANT)
+    tables = [("evaluator", call(np.resize(values, count))) for count in (len(values), MANY)]
+    with contextlib.suppress(icsolve.SceneError):
+        tables.append(("sweep", icsolve.sweep(case, {path: values}, (*WANT, "error"))))
+    for who, table in tables:
+        for n, row in enumerate(rows_of(table, scenes)):
+            if not agrees(row, scenes[n]) and not is_elsewhere(case, path, others[n], table, n):
+                yield who, values[n], row, scenes[n]
+
+
+def is_elsewhere(case: Case, path: str, other: Case, table: Sweep | Evaluated, n: int) -> bool:
+    """Whether a row is a scene in another position than its number, read anew, has, and may be."""
+    near = {name: (float(at[n][0]), float(at[n][1])) for name, at in table.points.items()}
+    is_placed = case.near and all(math.isfinite(x) for at in near.values() for x in at)
+    if is_placed and holds(table, n, solved(replace(other, near=near))):
+        return True
+    if isinstance(table, Evaluated) or not (case.profiles or setting_of(case, (path,), ()).moves):
+        return False
+    goes_on = any(m.angle is not None for m in case.motion) and solved(other)[0] == "inconsistent"
+    told_anew = path.startswith("points.") and not case.ropes
+    if told_anew or not (goes_on or case.ropes or case.profiles or is_reshaped(case, other)):
+        return False
+    return table.status[n] == "cannot-assemble" or holds(table, n, solved(table.case_of(n)))
+
+
+def holds(table: Sweep | Evaluated, n: int, scene: Row) -> bool:
+    """Whether a row is this scene."""
+    return agrees(list(rows_of(table, [scene] * (n + 1)))[n], scene)
+
+
+@pytest.mark.parametrize("name", sample(FILES, 20, "rows are scenes"))
+def test_every_row_of_the_library_is_a_scene(name: str) -> None:
+    case = icsolve.load(FILES[name])
+    if case.unknowns or case.space is not None:
+        return
+    numbers, draw = list(numbers_of(case).values()), random.Random(name)
+    for number in numbers if FULL else draw.sample(numbers, min(2, len(numbers))):
+        assert list(misses(case, number.path, amounts(number))) == []
+
+
+SLIDER_CRANK = """icsolve: 1
+points: {A: [0, 0], C: [unknown, 0]}
+lengths: {AB: 2, BC: 6}
+angles: {AB: 60}
+near: {C: [7, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0}
+loads: {P: {force: 20, link: 4, at: C, angle: 180}, T: {torque: unknown, link: 2}}
+"""
+GOOD = (
+    "{link: 2, speed: 3 rad/s, turns: cw}",
+    "{link: 3, speed: 3 rad/s, turns: cw}",
+    "{point: C, link: 4, speed: 3, angle: 180.9}",
+    "{point: B, link: 2, speed: 3, angle: 150}",
+)
+BAD = (
+    "{point: C, link: 4, speed: 1, angle: 5}",
+    "{link: 1, turns: cw}",
+    "{link: 4, turns: cw}",
+    "[{link: 2, turns: cw}, {link: 3, turns: cw, speed: 3}]",
+)
+
+
+@pytest.mark.parametrize("motion", [*GOOD, *BAD])
+def test_a_motion_that_a_scene_refuses_is_refused_in_every_row(motion: str) -> None:
+    """Whatever the motion is (of the frame, of what does not turn, in a direction that is none of its path,
+    against another one), and whatever is varied; link 3 stands still for an instant at 90 degrees."""
+    case = icsolve.load(f"{SLIDER_CRANK}motion: {motion}\n")
+    numbers = numbers_of(case)
+    for path in numbers if FULL else ("angles.AB", "lengths.BC", "loads.P", "joints.4-1@C.along"):
+        values = [
+            numbers[path].value,
+            *amounts(numbers[path])[1:4],
+            *([90.0, 0.0] if path == "angles.AB" else []),
+        ]
+        if motion in BAD and path == "angles.AB":
+            with pytest.raises(icsolve.SceneError):
+                icsolve.sweep(case, {path: values})
+        assert list(misses(case, path, values)) == []
+
+
+@pytest.mark.parametrize("motion", GOOD)
+@pytest.mark.parametrize(
+    "path", ["angles.AB", "lengths.AB", "joints.4-1@C.along", "motion.speed", "motion.angle"]
+)
+def test_the_rates_of_an_evaluator_are_those_of_its_scenes(motion: str, path: str) -> None:
+    """As if written so: in the sense of the motion as written, at its speed."""
+    case = icsolve.load(f"{SLIDER_CRANK}motion: {motion}\n")
+    if path not in numbers_of(case):
+        return
+    call = icsolve.evaluator(case, (path,), ("status", "rates"))
+    written = numbers_of(case)[path]
+    values = [*amounts(written)[1:4], written.value + 180.0]
+    for found in (call(values), call(np.resize(values, MANY))):
+        for n, value in enumerate(values):
+            try:
+                scene = icsolve.solve(with_numbers(case, {path: value}), rates=True)
+            except icsolve.SceneError as refusal:
+                assert found.status[n] == refusal.status  # noqa: PT017
+                continue
+            assert found.status[n] == "ok"
+            for link, rate in scene.rates.items():
+                assert found.rates[link][n] == pytest.approx(rate, rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize("radii", ["[0.5, 0]", "[0.5, 1]", "[0.5, -1.5]"])
+@pytest.mark.parametrize("path", ["points.C.x", "points.P.x", "points.C.y"])
+def test_a_wheel_whose_contact_a_coordinate_leaves_behind_is_read_anew(radii: str, path: str) -> None:
+    """A contact that is no longer at the radius from the centre is another figure, and no rolling on."""
+    top = "" if radii == "[0.5, 0]" else "{pin: [1, 3], at: O}, {pin: [3, 2], at: C}, "
+    y = {"[0.5, 0]": 0, "[0.5, 1]": -1, "[0.5, -1.5]": 1.5}[radii]
+    case = icsolve.load(
+        f"icsolve: 1\npoints: {{C: [0, 0.5], P: [0, 0], O: [0, {y}]}}\n"
+        f"joints: [{top}{{roll: [2, 1], at: P, radii: {radii}}}]\n"
+        "loads: {F: {force: unknown, link: 2, at: C, angle: 0}, M: {torque: 3, link: 2}}\n"
+        "motion: {point: C, link: 2, speed: 2, angle: 0}\n"
+    )
+    assert solved(case)[0] == "ok"
+    assert list(misses(case, path, amounts(numbers_of(case)[path]))) == []
