@@ -233,3 +233,17 @@ def test_two_ends_with_a_stroke_between_may_be_a_quotient(text: str) -> None:
 def test_the_coordinates_of_a_place_may_be_about(mark: str) -> None:
     read = read_place(f"x{mark}-0.9, y{mark}1.2")
     assert (read.flag, read.x, read.y) == ("", -0.9, 1.2)
+
+
+@pytest.mark.parametrize("way", ["cw", "CW", "clockwise", "counter clockwise", "down", "+x"])
+@pytest.mark.parametrize("mark", [" in {}", " in. {}", "in {}", " in, {}", " (in {})"])
+def test_an_in_between_number_and_direction_may_be_inches(way: str, mark: str) -> None:
+    """Where no other unit stands and no noun makes it a preposition, a person looks."""
+    assert Reader("point").read("33.76" + mark.format(way)).flag == "ambiguous-unit"
+    for text in (f"33.76 in the {way} direction", f"33.76 in {way} direction"):
+        read = Reader("point").read(text)
+        assert (read.flag, read.unit) == ("", None) and read.direction is not None
+    unit = "N" if way in ("down", "+x") else "Nm"
+    for text in (f"64.5 {unit} in {way}", "64.5 N in tension", "64.5 in tension"):
+        read = Reader("point").read(text)
+        assert not read.flag and read.direction is not None

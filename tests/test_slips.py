@@ -879,6 +879,88 @@ def test_a_tolerance_is_read_as_people_write_it(one: str, other: str) -> None:
     assert parse_unit(said[0].unit or "m") == parse_unit(said[1].unit or "m")
 
 
+@pytest.mark.parametrize("share", ["2%", "2 %", "2 percent", "2 per cent", "2percent"])
+def test_a_share_is_read_as_people_write_it(share: str) -> None:
+    """Of a value and of a tolerance alike, and the schema takes it."""
+    expect = ("loads:", f"expect: {{T12: {{value: 34, within: {share}}}}}\nloads:")
+    assert icsolve.load(changed(expect)).expect[0][-5:-2] == (0.02, True, None)
+    both = changed(("loads:", f"tolerance: {{relative: {share}}}\nloads:"))
+    assert (
+        icsolve.load(both).tolerance == icsolve.load(changed(("loads:", "tolerance: 2%\nloads:"))).tolerance
+    )
+
+
+def told_of(text: str) -> list[str]:
+    """What is refused in a file, in its order."""
+    with pytest.raises(CaseError) as refused:
+        icsolve.load(text)
+    return [problem.message for problem in refused.value.problems]
+
+
+SPEEDS = [
+    ("E", "3", "'v E on 3' asks for a speed on link 3 at E, which is a point of link 4: write 'v E on 4'"),
+    ("E", "1", "'v E on 1' asks for a speed on link 1 at E, which is a point of link 4: write 'v E on 4'"),
+]
+
+
+@pytest.mark.parametrize(("point", "link", "said"), SPEEDS)
+def test_a_published_speed_on_a_link_without_its_point_is_told(point: str, link: str, said: str) -> None:
+    """As a load there is: by dimensions of another link it is refused, at a joint of others noted."""
+    asked = ("loads:", f"expect: {{v {point} on {link}: 3}}\nloads:")
+    assert told_of(changed(asked)) == [f"{said}, or 'links: {{{link}: [{point}]}}' if link {link} has it too"]
+    assert icsolve.load(changed(asked, ("loads:", f"links: {{{link}: [{point}]}}\nloads:"))).expect
+    elsewhere = icsolve.load(changed(("loads:", "expect: {v B on 4: 1, v E on 4: 1}\nloads:")))
+    assert [note.partition(";")[0] for note in elsewhere.noticed] == [
+        "'v B on 4' asks for a speed on link 4 at B, a joint of link 2 and link 3"
+    ]
+
+
+@pytest.mark.parametrize("slip", ["froce", "load", "Force"])
+def test_what_is_wrong_behind_a_wrong_kind_is_told_in_the_same_run(slip: str) -> None:
+    told = told_of(changed(("{force: 100, link: 4", f"{{{slip}: 1OO, lnk: 4")))
+    assert len(told) == 3 and told[0].endswith("did you mean 'force'?"), told
+    assert told[1:] == ["'1OO': there is no unit 'OO'", "load P has no key 'lnk'; did you mean 'link'?"]
+
+
+ROPE = """\
+icsolve: 1
+points: {A: [0, 0], D: [1, 0], P: [1, 1], B: [2, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {rope: [D, P, B], on: [2, 1]}
+loads:
+  P1: {force: unknown, at: B}
+  W: {force: 5, link: 2, at: D, angle: -90}
+expect: {T D-P-B: 5}
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("on: [2, 1]", "on: [2]", "'on' names 1 link"),
+        ("on: [2, 1]", "on: 2", "'on' of the rope D-P-B should be a list"),
+        ("on: [2, 1]", "on: [2, 1+]", "'1+' is not a name"),
+        (", on: [2, 1]", "", "needs 'on'"),
+        ("P1: {force: unknown", "P1: {froce: unknown", "did you mean 'force'?"),
+        ("P1: {force: unknown", "P1: {foo: 1", "load P1 has none of force"),
+        ("P1: {force: unknown", "P1: {force: 1OO", "there is no unit 'OO'"),
+    ],
+)
+def test_of_a_rope_and_the_load_at_its_free_end_each_slip_is_told_alone(
+    old: str, new: str, said: str
+) -> None:
+    icsolve.load(ROPE)
+    told = told_of(ROPE.replace(old, new))
+    assert len(told) == 1 and said in told[0], told
+
+
+@pytest.mark.parametrize("word", ["diameter", "dia", "Diameter"])
+def test_a_diameter_in_place_of_a_radius_is_half_of_it(word: str) -> None:
+    pin = ("at: A}", f"at: A, mu: 0.1, {word}: 0.2}}")
+    assert told_of(changed(pin)) == [f"the pin of 1 and 2 has no key '{word}'; write 'radius', half of it"]
+
+
 def test_teeth_are_counted_without_a_word() -> None:
     with pytest.raises(CaseError, match="a bare number is wanted here, without 'teeth'"):
         icsolve.load(template("gears").replace("[31, 57]", "[31 teeth, 57]"))

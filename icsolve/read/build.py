@@ -55,7 +55,8 @@ def build(root: Mapping, problems: Problems, name: str, units: Units) -> Case:
         check_given(reading)
         figure = FigureData(joints, parts["lengths"], parts["angles"], parts["points"], shaped)
         if not reading.problems.found:
-            reading.noticed += check_loads(reading, root, figure, loads, motion, parts["inertia"], ground)
+            given = (loads, motion, parts["inertia"], parts["expect"])
+            reading.noticed += check_loads(reading, root, figure, *given, ground)
             reading.noticed += (*check_guides(figure), *stray_points(reading, figure))
     links = tuple(reading.links or ())
     return Case(
@@ -127,11 +128,12 @@ def _parts(reading: Reading, root: Mapping) -> tuple[dict[str, Any], dict[str, t
 
         profiles = read_profiles(reading, section_of(reading, root, "profile"))
     points = read_points(reading, section_of(reading, root, "points"))
-    loads = read_section(reading, section_of(reading, root, "loads"), PLANE)
+    listed_loads = section_of(reading, root, "loads")
+    loads = read_section(reading, listed_loads, PLANE)
     if ropes:
         from icsolve.read.ropes import check_ends
 
-        check_ends(reading, ropes, joints, loads)
+        check_ends(reading, ropes, joints, listed_loads)
     links, inertia = read_links(reading, section_of(reading, root, "links"))
     near = read_near(reading, section_of(reading, root, "near"))
     motion = read_motion(reading, root.items["motion"]) if stands(root, "motion") else ()

@@ -323,12 +323,13 @@ def _within(entry: Entry, dimension: str) -> tuple[float | None, bool] | None:
     if node is None:
         return None, False
     text = node.text.strip() if type(node) is Scalar else ""
-    if not text.endswith("%"):
+    share = re.fullmatch(rf"(.*?) ?{_SHARE}", text)
+    if share is None:
         width = entry.number("within", dimension, "not negative")
         return (width.value, False) if width is not None else None
     assert type(node) is Scalar
     path = f"{entry.path}.within"
-    percent = quantity(entry.reading, node, text[:-1].strip(), "number", path)
+    percent = quantity(entry.reading, node, share[1].strip(), "number", path)
     if percent is not None and percent.value < 0.0:
         entry.refuse(node.mark, f"the width {text} should not be negative")
         return None
@@ -411,7 +412,8 @@ def _is_angle(text: str) -> bool:
     return parts is not None and parts[1] in ("", "deg", "°", "degrees")
 
 
-_PERCENT = r"(\d+(?:\.\d+)?|\.\d+) ?(?:%|per ?cent)$"
+_SHARE = "(?:%|per ?cent)"
+_PERCENT = rf"(\d+(?:\.\d+)?|\.\d+) ?{_SHARE}$"
 _COUNT = r"(?i)(\d{1,2}) ?(?:sf|s\.f\.|sig figs?|figures?|significant figures?)$"
 _WIDTH = r"(\d+(?:\.\d+)?(?:[eE][-+]?\d+)?|\.\d+) ?([^\d\s%].*)?$"
 _FORM = "write 1%, 3 sf, a width such as 0.5 N, or {drawing: 0.02 in}"
@@ -445,9 +447,10 @@ def tolerance_of(node: Node) -> Tolerance:
 
 def _with_part(found: Tolerance, key: str, text: str) -> Tolerance:
     """With one key of the mapping."""
-    if key == "relative" and text.endswith("%"):
+    share = re.search(f"{_SHARE}$", text)
+    if key == "relative" and share:
         return found._replace(relative=parse_tolerance(text).relative)
-    if key == "absolute" and not text.endswith("%"):
+    if key == "absolute" and not share:
         width = parse_tolerance(text)
         return found._replace(absolute=width.absolute, unit=width.unit)
     if key == "figures":

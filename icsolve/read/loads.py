@@ -25,7 +25,7 @@ from icsolve.numbers.units import exact_ratio, times
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, take_in
 from icsolve.read.entry import Entry, Values
 from icsolve.read.keys import LOADS, MOTION_OF_LINK, MOTION_OF_POINT, PULLS, EntryKind
-from icsolve.read.names import is_name, point_key, shown, suggestion, why_no_name
+from icsolve.read.names import is_name, meant_by, point_key, shown, suggestion, why_no_name
 from icsolve.read.reading import Reading
 from icsolve.tuples import Generic, NamedTuple
 
@@ -122,6 +122,15 @@ def _own_key(entry: Entry, forms: Forms[T]) -> str | None:
             likely = "; a force by its components is {force: [30, -40]}"
         mark = entry.mark(strange[0]) if strange else entry.node.mark
         entry.refuse(mark, f"{entry.what} has none of {', '.join(own)}{likely}")
+        meant = meant_by(strange[0], own) if strange else ""
+        if meant:  # a guess: what stands there is read on, nothing is missed
+            node = entry.node
+            node.items[meant], node.keys[meant] = node.items.pop(strange[0]), node.keys.pop(strange[0])
+            kind = forms.kinds["torsion spring" if _kind_of(node, forms) == "torsion spring" else meant]
+            entry.keys = {meant: kind.own, **kind.keys}
+            entry.reading.check_keys(node, parts | own.keys(), entry.what)
+            for one in entry.keys:
+                entry.form(one)
     return key if key and entry.reading.kinds[entry.path.removeprefix("loads.")] else None
 
 

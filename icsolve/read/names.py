@@ -110,7 +110,8 @@ _OTHER_WORDS = {
     "bore": "diameter dia piston",
     "teeth": "tooth numbers_of_teeth z",
     "wraps": "wrap sense",
-    "radii": "radius",
+    "radii": "radius diameters diameter dia",
+    "radius": "radii r diameter dia",
     "lead": "pitch",
     "normal": "direction angle",
 }
@@ -128,6 +129,8 @@ def suggestion(name: str, options: Iterable[str]) -> str:
     near = meant_by(name, options)
     if (latin := name.translate(_LATIN)) != name and latin in options:
         return f"; type '{latin}' anew, in Latin letters"
+    if near in ("radius", "radii") and name.lower().startswith("dia"):
+        return f"; write '{near}', half of it"
     return f"; did you mean '{near}'?" if near else ""
 
 

@@ -35,7 +35,7 @@ from icsolve.read.reading import Reading
 from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
-    pass
+    from icsolve.case.expected import Expected
 
 
 def carried(
@@ -122,21 +122,24 @@ def check_loads(
     loads: tuple[Load, ...],
     motion: tuple[Motion, ...],
     masses: dict[str, Inertia],
+    expect: tuple[Expected, ...],
     ground: str,
 ) -> tuple[str, ...]:
-    """Refuse loads, motions and masses at a point fixed to another link; sentences on what may be meant.
+    """Refuse loads, motions, masses and published speeds at a point fixed to another link; sentences on what
+    may be meant.
 
     A joint's point is at one place with the links that it does not join, and a load may act on these there:
     that is said, not refused. A point that dimensions fix to one link belongs to it and to no other.
     """
     bare, said = _Owners(figure, ground), []
     owners = _Owners(figure._replace(further=with_masses(figure.further, masses)), ground)
-    for what, link, point, key, way in _places(loads, motion, masses, ground):
+    places = (*_places(loads, motion, masses, ground), *_speeds(expect))
+    for what, link, point, key, way in places:
         others, fixed = (owners if key else bare).instead(link, point)
         if not others:
             continue
         whose = " and ".join(f"link {other}" for other in others[:2])
-        remedy = "write " + " or ".join(f"'{key}: {other}'" for other in others[:2])
+        remedy = "write " + " or ".join(f"'{key} {other}'" for other in others[:2])
         too, if_not = f"'links: {{{link}: [{point}]}}'", f"if one of these is meant, {remedy}"
         if not key:  # a mass is of its link: its point is the slip
             remedy, too = f"name a point of link {link}", f"'points: [{point}]'"
@@ -186,7 +189,8 @@ def _guide_points(joint: Joint) -> tuple[str, ...]:
 def _places(
     loads: tuple[Load, ...], motion: tuple[Motion, ...], masses: dict[str, Inertia], ground: str
 ) -> Iterator[tuple[str, str, str, str, tuple[str | int, ...]]]:
-    """What is put on which link at which point, the key of the link ('': none), and where that stands."""
+    """What is put on which link at which point, what the link is written after ('': nothing), and where that
+    stands."""
     for load in loads:
         if isinstance(load, Torque) or not is_link(load.link):
             continue
@@ -195,16 +199,24 @@ def _places(
         if isinstance(load, TorsionSpring) and len(load.corner) > 2:  # about a hinge of both
             placed.append((placed[-1][0], load.corner[1]))
         for link, point in placed[:own]:
-            yield f"load {load.name} acts on", link, point, "link", (*way, "link")
+            yield f"load {load.name} acts on", link, point, "link:", (*way, "link")
         end = "against" if getattr(load, "against", None) else "to" if isinstance(load, Spring) else "corner"
         for link, point in placed[own:]:
-            yield f"the other end of load {load.name} is fixed to", link, point, "against", (*way, end)
+            yield f"the other end of load {load.name} is fixed to", link, point, "against:", (*way, end)
     for index, given in enumerate(motion):
         if given.point:
-            yield "the motion is given on", given.link, given.point, "link", ("motion", index, "link")
+            yield "the motion is given on", given.link, given.point, "link:", ("motion", index, "link")
     for link, mass in masses.items():
         if mass.centre:
             yield "a mass is given on", link, mass.centre, "", ("links", link, "centre")
+
+
+def _speeds(expect: tuple[Expected, ...]) -> Iterator[tuple[str, str, str, str, tuple[str | int, ...]]]:
+    """The same of published speeds."""
+    for one in expect:
+        if one.key.startswith("v "):  # its target may not be imported where no case has values
+            _, point, on, link = one.key.split()
+            yield f"'{one.key}' asks for a speed on", link, point, f"v {point} {on}", ("expect", one.key)
 
 
 def _mark(root: Mapping, *way: str | int) -> Mark:

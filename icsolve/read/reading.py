@@ -81,7 +81,7 @@ class Reading:
         self.directed: list[str] = []
         self.unknowns: list[Unknown] = []
         self.touches: list[tuple[Touch, Mark]] = []
-        self.ends: dict[str, Rope] = {}
+        self.ends: dict[str, Rope | None] = {}
         self.ropes: set[str] = set()
         self.driven: set[frozenset[str]] = set()
         self.screws: list[Screw] = []

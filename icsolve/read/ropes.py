@@ -18,16 +18,18 @@ def read_ropes(reading: Reading, section: Sequence) -> tuple[tuple[Rope, ...], S
     """The ropes among the joints, and the other joints."""
     reading.forms.update(FORMS)
     others: list[Node] = []
-    found = []
+    found, ends = [], set[str]()
     for item in section.items:
         if type(item) is Mapping and "rope" in item.items:
             rope = _rope(reading, item)
             if rope is not None:
                 found.append(rope)
+            else:  # perhaps a free one
+                ends.update(_through(item)[-1:])
         else:
             others.append(item)
+    reading.ends.update(dict.fromkeys(ends))
     for rope in found:
-        reading.ropes.add(rope.name)
         if rope.is_free:
             reading.ends[rope.points[-1]] = rope
     return tuple(found), Sequence(others, section.mark)
@@ -41,6 +43,7 @@ def _rope(reading: Reading, node: Mapping) -> Rope | None:
     path = unlike(f"joints.{'-'.join(points) or '?'}", reading.marks)
     name = path.partition(".")[2]
     reading.marks[path] = node.mark
+    reading.ropes.add(name)
     entry = Entry(reading, node, path, f"the rope {name}", JOINTS["rope"].keys)
     if len(points) < 2 and names is not None:
         said = f"{entry.what} needs two points or more: its ends and its pulleys"
@@ -55,9 +58,9 @@ def _rope(reading: Reading, node: Mapping) -> Rope | None:
     return Rope(name, points, v["on"], radii, wraps, mu, v["length"], turns)
 
 
-def _through(entry: Entry) -> tuple[str, ...]:
+def _through(entry: Mapping) -> tuple[str, ...]:
     """The points that a rope runs through."""
-    node = entry.node.items["rope"]
+    node = entry.items["rope"]
     return tuple(i.text for i in node.items if type(i) is Scalar) if type(node) is Sequence else ()
 
 
@@ -67,7 +70,7 @@ def _links(entry: Entry, key: str, node: Node) -> tuple[str, ...] | None:
     if items is None:
         return None
     links = [entry.reading.link(item, f"'on' of {entry.what}") for item in items]
-    points = _through(entry)
+    points = _through(entry.node)
     if len(points) > 1 and (len(items) not in (len(points), len(points) - 1) or not items):
         said = f"{entry.what} runs through {len(points)} points, and 'on' names {plural(len(items), 'link')}"
         entry.refuse(node.mark, f"{said}: give one for each point, or one less where its last end is free")
@@ -77,7 +80,7 @@ def _links(entry: Entry, key: str, node: Node) -> tuple[str, ...] | None:
 
 def _by_place(entry: Entry, key: str, node: Node) -> tuple[Number | str | None, ...] | None:
     """What a mapping from points has for each place of the rope: a number, or a sense."""
-    own, points = entry.keys[key], _through(entry)
+    own, points = entry.keys[key], _through(entry.node)
     form = own.says.partition(" as in ")[2]
     mapping = entry.reading.mapping(node, f"'{key}' of {entry.what}", f"as in {form}")
     if mapping is None:
@@ -126,26 +129,26 @@ def _check_wraps(entry: Entry, points: tuple[str, ...], links: int) -> None:
 
 
 def read_pull(entry: Entry, name: str, kind: str) -> Load | None:
-    """A load without a link, which pulls the free end of a rope."""
+    """A load without a link, which pulls the free end of a rope; None where one of the two can't be read."""
     rope = entry.reading.ends[entry.text("at")]
     entry.keys = {kind: PULLS[kind].own, **PULLS[kind].keys}
     others = [key for key in entry.node.items if key not in entry.keys]
-    for key in others:
-        said = f"{entry.what} pulls the free end of the rope {rope.name}, along it: take out '{key}'"
-        entry.refuse(entry.mark(key), said)
+    if rope is not None:
+        said = f"{entry.what} pulls the free end of the rope {rope.name}, along it: take out"
+        for key in others:
+            entry.refuse(entry.mark(key), f"{said} '{key}'")
     value = entry.read(*others)[kind]
-    if not entry.whole:
+    if rope is None or not entry.whole:
         return None
     if kind in ("weight", "mass"):
         return Weight(name, rope.end, rope.points[-1], value, kind == "mass")
     return Force(name, rope.end, rope.points[-1], value, AlongRope(rope))
 
 
-def check_ends(
-    reading: Reading, ropes: tuple[Rope, ...], joints: tuple[Joint, ...], loads: tuple[Load, ...]
-) -> None:
+def check_ends(reading: Reading, ropes: tuple[Rope, ...], joints: tuple[Joint, ...], loads: Mapping) -> None:
     """A free end without a load pulls nothing; one on the pin of a wheel does not turn it, which is said."""
-    pulled = {load.link for load in loads}
+    pulling = [one.items for one in loads.items.values() if type(one) is Mapping and "link" not in one.items]
+    pulled = {node.text for one in pulling if type(node := one.get("at")) is Scalar}  # readable or not
     of_link = {
         link: [joint for joint in joints if link in joint.links] for rope in ropes for link in rope.links
     }
@@ -156,7 +159,7 @@ def check_ends(
                 said = f"the rope {rope.name} ends at {at}, the pin of link {link}, and so does not turn it"
                 drum = f"'radii' and 'wraps', as in {{{at}: 0.1}} and {{{at}: ccw}}"
                 reading.noticed.append(f"{said}; if it is wound on it as on a drum, give {drum}.")
-        if rope.is_free and rope.end not in pulled:
+        if rope.is_free and rope.points[-1] not in pulled:
             mark = reading.marks[f"joints.{rope.name}"]
             end = rope.points[-1]
             said = f"the last end {end} of the rope {rope.name} is free, and no load pulls it: give one,"

@@ -133,7 +133,7 @@ FORMS: dict[str, Schema] = {
     "number": _ref("number"),
     "with unit": _ref("with unit"),
     "power": _ref("with unit"),
-    "percent": _pattern(r"^\s*[0-9.]+ ?%\s*$"),
+    "percent": _pattern(r"^\s*[0-9.]+ ?(%|per ?cent)\s*$"),
     "width": _any({"type": "number", "minimum": 0}, _pattern(_QUANTITY)),
     "pair": _ref("pair"),
     "slope": _list(_ref("number"), 2, 2),

@@ -322,11 +322,19 @@ def _parted(text: str, read: WrittenAnswer) -> WrittenAnswer:
             fitting.append(read._replace(unit=unit, direction=way, note=unit.note if unit else ""))
     if not fitting:
         return flagged(TWO_VALUES if re.search(r"(?<![A-Za-z^\d.,])\d", text) else UNREAD)
-    return _checked(next(filter(_agrees, fitting), fitting[-1]) if len(fitting) > 1 else fitting[0])
+    agreeing = next(filter(_agrees, fitting), None) if len(fitting) > 1 else fitting[0]
+    way = fitting[-1].direction
+    if agreeing is None and way and way.kind != "axial" and _INCHES_OR_IN.match(text):
+        return flagged(AMBIGUOUS_UNIT)
+    return _checked(agreeing or fitting[-1])
 
 
 _PREPOSITION = re.compile(r"in (?!lb|pound|kip|oz|#)", re.IGNORECASE)
 """Not an inch, which stands in torques with pounds."""
+
+
+_INCHES_OR_IN = re.compile(r"[\[(]?in\b(?!.*\b(?:the|an?|directions?|dir|sense|way)\b)", re.IGNORECASE)
+"""Right after the number, ``in cw`` may be inches; with a noun, ``in cw direction``, it is a preposition."""
 
 
 def _unit(text: str) -> UnitWord | None:
