@@ -9,10 +9,13 @@ from __future__ import annotations
 import contextlib
 import math
 from collections.abc import Iterator
+from decimal import Decimal
+from fractions import Fraction
 from pathlib import Path
 from random import Random
 from typing import Any
 
+import numpy as np
 import pytest
 from mpmath import mp, mpf
 
@@ -315,3 +318,45 @@ def test_a_slow_link_is_not_told_to_rest(off: str) -> None:
     for link, (_, _, rate) in known.twists.items():
         assert rate == pytest.approx(rates[link], rel=1e-15, abs=0.0)
     assert known.turns("4") == (float(off) != 0.0)
+
+
+def lift(stages: int, wide: Decimal, high: Decimal) -> str:
+    """Scissors by coordinates alone: a load on the top, a force at the foot that slides."""
+    points = [f"{p}{k}: [{x}, {k * high}]" for k in range(stages + 1) for p, x in (("A", 0), ("B", wide))]
+    points += [f"M{k}: [{wide / 2}, {(2 * k + 1) * high / 2}]" for k in range(stages)]
+    joints = ["{pin: [1, 2], at: A0}", "{slot: [3, 1], at: B0, along: 0}"]
+    joints += [f"{{pin: [{2 + 2 * k}, {3 + 2 * k}], at: M{k}}}" for k in range(stages)]
+    for k in range(1, stages):
+        joints += [
+            f"{{pin: [{2 * k}, {2 * k + 3}], at: B{k}}}",
+            f"{{pin: [{2 * k + 1}, {2 * k + 2}], at: A{k}}}",
+        ]
+    loads = f"W: {{force: 100, link: {2 * stages}, at: B{stages}, angle: -90}}, "
+    loads += "P: {force: unknown, link: 3, at: B0, angle: 180}"
+    return f"icsolve: 1\npoints: {{{', '.join(points)}}}\njoints: [{', '.join(joints)}]\nloads: {{{loads}}}\n"
+
+
+@pytest.mark.parametrize("stages", [200, 300, 400])
+@pytest.mark.parametrize(("wide", "high"), [("1.2", "1.6"), ("1.9968", "0.112")])
+def test_tall_scissors_by_coordinates_are_not_too_near_to_anything(stages: int, wide: str, high: str) -> None:
+    """P is W's rise for each move of the foot, stages times wide over high: no digit of it is lost."""
+    w, h = Decimal(wide), Decimal(high)
+    found = icsolve.solve(icsolve.load(lift(stages, w, h))).answers["P"]
+    assert found.value == float(100 * stages * Fraction(w) / Fraction(h)) and found.error is not None
+
+
+def test_folded_scissors_have_no_answer_however_many_digits() -> None:
+    """All bars on one line: the foot's force has no power, whatever it is."""
+    with pytest.raises(SceneError) as one:
+        icsolve.solve(icsolve.load(lift(100, Decimal(2), Decimal(0))))
+    assert one.value.status != "near-singular"
+
+
+def test_rows_of_tall_scissors_are_their_closed_form() -> None:
+    """Rows that doubles leave open are scenes by coordinates, of as many links."""
+    case = icsolve.load(lift(220, Decimal("1.2"), Decimal("1.6")))
+    turns = np.array([-20.0, -7.5, 0.0, 11.0])
+    rows = icsolve.sweep(case, drive={"2": turns})
+    bars = np.arctan2(1.6, 1.2) + np.radians(turns)
+    assert list(rows.status) == ["ok"] * len(turns)
+    assert rows.answers["P"] == pytest.approx(22000.0 / np.tan(bars), rel=1e-13)

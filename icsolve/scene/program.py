@@ -245,14 +245,18 @@ MOST = 160
 def _arithmetics(program: Program) -> list[Callable[[], Showing]]:
     """Balls of more and more digits, by as many more as a chain costs.
 
-    Measured: a step that places a point costs some 1.1 digits, a group of the plan 0.1.
+    Measured: a step that places a point costs some 1.1 digits, a group of the plan 0.1; of scissors by
+    coordinates, each of whose stages hangs on the one before with both its bars, a link costs 0.4, which are
+    spent only where fewer leave a question open.
     """
     spent = 1.2 * len(program.figure.steps) + (0.15 * len(program.plan.groups) if program.plan else 0.0)
     extra = max(round(spent) - 12, 0)
+    unbounded = partial(Balls, PRECISIONS[1], highest=True, carried=0.0)
     if extra > MOST:
-        return [partial(Balls, PRECISIONS[1], highest=True, carried=0.0)]
-    last = PRECISIONS[-1]
-    return [partial(_balls, p + extra, p == last) for p in PRECISIONS]
+        return [unbounded]
+    last, dear = PRECISIONS[-1], round(0.4 * len(program.top.members)) - 12
+    more = [partial(_balls, last + min(dear, MOST), True)] if dear > extra else []
+    return [*(partial(_balls, p + extra, p == last) for p in PRECISIONS), *more, *[unbounded][: dear > MOST]]
 
 
 KEPT = 4096
