@@ -88,7 +88,7 @@ ROPED = (
 class Converged(NamedTuple):
     """What a search for the solutions of a group found: the nearest to `near` first.
 
-    ``miss`` says why there is none, or that the data are not met at ``closest``, where they are violated least
+    ``miss`` says why there is none, or that the data are not met at ``closest``, where they miss by the least
     downhill from `near`: a way that does not assemble, which may be nearer than those that do.
     ``complete`` where it is shown that no other solution is nearer to `near`.
     """
