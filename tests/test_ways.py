@@ -14,11 +14,12 @@ from click.testing import CliRunner
 
 from figure_drafts import Draft, Place, framework, sequence
 from icsolve import solve
-from icsolve.assembly import case_point, exclusion, solve_figure
+from icsolve.assembly import case_point, exclusion, solve_figure, walk
 from icsolve.assembly.conditions import residual
 from icsolve.assembly.modes import Ways, ways_of
 from icsolve.assembly.steps import PointGroup
 from icsolve.assembly.workspace import Workspace, data_in
+from icsolve.bench.growth import scissors
 from icsolve.case import Case
 from icsolve.cli.commands import icsolve
 from icsolve.errors import SceneError, Status
@@ -309,3 +310,12 @@ def test_a_case_of_given_centres_has_one_way_though_it_has_no_points(
     )
     assert exit_status("ways", str(path)) == 0
     assert capsys.readouterr().out.startswith("Black box: one way of assembling")
+
+
+def test_no_more_ways_are_placed_than_can_be_listed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Scissors of twenty stages have a million ways of sixty steps: a note says that there are more than those
+    told."""
+    monkeypatch.setattr(walk, "MOST_PLACED", 20 * 18)
+    found = ways_of(load(scissors(6)(Random(1))))
+    assert not found.complete and 0 < len(found.ways) <= 21
+    assert "there are more ways" in found.notes[0]

@@ -7,7 +7,7 @@ every way in which the figure assembles, whatever its `near` says.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.assembly.conditions import size_of
@@ -190,19 +190,22 @@ def distinct(modes: list[Mode], points: tuple[str, ...]) -> list[Mode]:
     """Each mode once."""
     out: list[Mode] = []
     for mode in modes:
-        if not any(not differing(mode, other, points) for other in out):
+        if all(any(_differing(mode, other, points)) for other in out):
             out.append(mode)
     return out
 
 
 def differing(one: Mode, two: Mode, points: tuple[str, ...]) -> list[str]:
     """The points that are not in the same place in both."""
-    out = []
+    return list(_differing(one, two, points))
+
+
+def _differing(one: Mode, two: Mode, points: tuple[str, ...]) -> Iterator[str]:
+    """The same, one after another."""
     for p in points:
         (ax, ay), (bx, by) = one.points[p], two.points[p]
         if math.hypot(ax - bx, ay - by) > SAME * (1.0 + math.hypot(ax, ay)):
-            out.append(p)
-    return out
+            yield p
 
 
 def _nearer(walk: Walk, one: Mode, two: Mode, points: tuple[str, ...]) -> bool:

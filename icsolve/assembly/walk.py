@@ -181,6 +181,8 @@ EVEN = 0.99
 MOST_MODES = 256
 MOST_WAYS = 4096
 """Ways at most where all are asked for."""
+MOST_PLACED = 40_000
+"""Steps at most of all these ways together: each is placed in all digits."""
 
 
 class Path(NamedTuple):
@@ -253,7 +255,7 @@ class Walk:
         self.near = {p: normalised(workspace.frame, xy) for p, xy in workspace.case.near.items()}
         self.checks = _due(order, self.used)
         self.budget = (10 if every else 1) * (20_000 + 20 * len(order.steps))
-        self.most = MOST_WAYS if every else MOST_MODES
+        self.most = min(MOST_WAYS, MOST_PLACED // max(len(order.steps), 1)) if every else MOST_MODES
         self.placed: dict[Key, Path] = {}
         self.decimals = Decimals(workspace, self.placed)
         self.modes: list[Mode] = []
