@@ -313,8 +313,8 @@ def test_a_case_of_given_centres_has_one_way_though_it_has_no_points(
 
 
 def test_no_more_ways_are_placed_than_can_be_listed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Scissors of twenty stages have a million ways of sixty steps: a note says that there are more than those
-    told."""
+    """Scissors of twenty stages have a million ways of sixty steps: a note says that there are more than
+    those told."""
     monkeypatch.setattr(walk, "MOST_PLACED", 20 * 18)
     found = ways_of(load(scissors(6)(Random(1))))
     assert not found.complete and 0 < len(found.ways) <= 21
