@@ -52,6 +52,8 @@ tell."""
 ONE = 3e-8
 """Solutions nearer than this, over their distance and the group's size, are one: so far apart are the two
 beside a fold where doubles no longer tell that there are two."""
+LITTLE = 1e-2
+"""By this part of the way to the nearest solution data may miss, for it to be said that these are meant."""
 MOST_BRANCHES = 64
 SPREAD = 16
 TOGETHER = 64
@@ -85,8 +87,8 @@ ROPED = (
 class Converged(NamedTuple):
     """What a search for the solutions of a group found: the nearest to `near` first.
 
-    ``miss`` says why there is none, or that the data are not met at ``closest``, where they miss by the least
-    downhill from `near`: a way that does not assemble, which may be nearer than those that do.
+    ``miss`` says why there is none, or none about `near`; ``closest`` is then the place about `near` where
+    the data are violated least.
     ``complete`` where it is shown that no other solution is nearer to `near`.
     """
 
@@ -146,7 +148,8 @@ def _searched(
     polished = [_polished(group, workspace, end) for end in search.found]
     settled = [option for option in polished if option is not None]
     if settled and polished[0] is not None:
-        if not search.beside:
+        first = dict(zip(group.targets, settled[0].start, strict=True))
+        if not search.leaves(first):
             return Converged(settled, None, {}, search.complete)
         return Converged(settled, _unreached(group, workspace, search.beside), search.beside, False)
     if polished:
@@ -185,7 +188,7 @@ class _NewtonSearch:
                 with suppress(SceneError):
                     for start in _pair(self.group, self.workspace, self.beside, self.reach):
                         self._try(start, MOST_STEPS)
-            if len(self.found) > known or self._is_found(self.beside):
+            if len(self.found) > known:
                 self.beside = {}
         work, most = 0, CLOSE_WORK if self.found else MOST_WORK
         for tried, descent in enumerate(self._descents(self._starts(list(held)))):
@@ -228,10 +231,18 @@ class _NewtonSearch:
         elif not any(_same(settled.places, other, self.reach) for other in self.found):
             self.found.append(settled.places)
 
-    def _is_found(self, place: Start) -> bool:
-        """Whether a place is a solution that was found, as near as its residual tells."""
-        reach = ARRIVED * self.reach
-        return any(all(math.dist(place[t], end[t]) < reach for t in place) for end in self.found)
+    def leaves(self, first: Start) -> bool:
+        """Whether the nearest solution lies elsewhere, and the data come close to being met at `near`: at a
+        place about it, or but for a little at one much nearer than the solution is."""
+        if not self.beside:
+            return False
+        found, beside = (max(math.dist(at[t], self.near[t]) for t in at) for at in (first, self.beside))
+        if found > self.reach / 2.0:
+            return beside < self.reach / 4.0
+        self.workspace.points.update(self.beside)
+        off = math.hypot(*self.group.system(self.workspace)[0])
+        small = off < LITTLE * self.reach * found and beside < found / 4.0
+        return small and not _pair(self.group, self.workspace, self.beside, self.reach)
 
     def _starts(self, held: list[str]) -> Iterator[Start]:
         group, near = self.group, self.near
