@@ -271,16 +271,9 @@ def calls_of(copy: Path, kept: Path) -> dict[str, tuple[float, list[str]]]:
     if not kept.exists():
         files = sorted(f.name for f in (copy / "tests").glob("test_*.py"))
         near = [f"tests/{name}" for name in files if not name.startswith(tuple(f"test_{a}" for a in APART))]
-        if not os.fork():
-            _enter(copy, mutated=False)
-            os._exit(pytest.main(["-q", "--tb=no", "-p", "no:cacheprovider", *near], [Calls(copy, kept)]))
-        os.wait()
+        _in_fork(copy, ["-q", "--tb=no", *near], Calls(copy, kept))
     there = copy / "there.json"
-    if not os.fork():
-        _enter(copy, mutated=False)
-        quiet = ["--collect-only", "-qq", "-p", "no:cacheprovider", "tests"]
-        os._exit(pytest.main(quiet, [Collected(there)]))
-    os.wait()
+    _in_fork(copy, ["--collect-only", "-qq", "tests"], Collected(there))
     names = set(json.loads(there.read_text()))
     return {name: call for name, call in json.loads(kept.read_text()).items() if name in names}
 
@@ -329,6 +322,14 @@ def _enter(copy: Path, mutated: bool) -> None:
     if mutated:  # compiled files are those of the tree as it is
         sys.dont_write_bytecode = True
         os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
+
+
+def _in_fork(copy: Path, arguments: list[str], plugin: object) -> None:
+    """The tests as they are, in a process of their own."""
+    if not os.fork():
+        _enter(copy, mutated=False)
+        os._exit(pytest.main(["-p", "no:cacheprovider", *arguments], [plugin]))
+    os.wait()
 
 
 def _run(copy: Path, tests: list[str], limit: float) -> str:

@@ -60,10 +60,8 @@ class Decimals:
         """The answer to a question about a step; None where the digits leave it open."""
         from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, MoreDigits
 
-        for digits, carried in (
-            *((digits, 1.0) for digits in (*PRECISIONS, LONG_CHAINS)),
-            (LONG_CHAINS, 0.0),
-        ):
+        rungs = [(digits, 1.0) for digits in (*PRECISIONS, LONG_CHAINS)]
+        for digits, carried in (*rungs, (LONG_CHAINS, 0.0)):
             if (digits, carried) not in self.runs:
                 balls = Balls(digits, digits >= PRECISIONS[-1], carried)
                 exact = Workspace(self.workspace.case, self.workspace.frame, balls)
