@@ -33,7 +33,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.screws.joints import Points
 from icsolve.screws.plane import Point
-from icsolve.structure.topology import topology
+from icsolve.structure.topology import Bond, topology
 from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:
@@ -251,27 +251,28 @@ MISFIT = 2e-3
 """Pivots may miss the distance of the pitch radii by this fraction of it."""
 
 
+def _pitched(case: Case, points: Points) -> Iterator[tuple[Bond, Mesh, float]]:
+    """The meshes of a given pitch whose pivots are among the points, and the module that this is."""
+    for bond in topology(case).bonds:
+        joint = bond.joint
+        if isinstance(joint, Mesh) and joint.pitch is not None and {*bond.pivots} <= points.keys():
+            yield bond, joint, joint.pitch
+
+
 def refuse_misfit(case: Case, points: Points, scale: float) -> None:
     """Refuse teeth whose pitch circles do not touch on their pivots, as far as these are among the points."""
-    for bond in topology(case).bonds:
-        if not isinstance(bond.joint, Mesh) or not {*bond.pivots} <= points.keys():
-            continue
-        if (module := bond.joint.pitch) is None:
-            continue
+    for bond, joint, module in _pitched(case, points):
         (a, b), apart = bond.links, math.dist(*(points[p] for p in bond.pivots)) / scale
         line, _ = case.marks.get(f"joints.{a}-{b}", (0, 0))
         what = f"gears {a} and {b}" + (f" (line {line})" if line else "")
         ends = (*bond.pivots, "pivots")
-        refuse_unfit(what, bond.joint.sizes, module, apart, ends, f" {case.units.length}")
+        refuse_unfit(what, joint.sizes, module, apart, ends, f" {case.units.length}")
 
 
 def teeth_margins(case: Case, points: Points, scale: float, a: Arithmetic) -> Iterator[Scalar]:
     """In any arithmetic, numbers of which none is negative but where `refuse_misfit` may refuse: with r the
     distance of the pivots over that of the pitch circles, (2 m (1 - m))^2 - (r^2 - 1)^2 of the misfit m."""
-    for bond in topology(case).bonds:
-        joint = bond.joint
-        if not isinstance(joint, Mesh) or joint.pitch is None or not {*bond.pivots} <= points.keys():
-            continue
+    for bond, joint, _ in _pitched(case, points):
         (ax, ay), (bx, by) = (points[p] for p in bond.pivots)
         module, inverse = joint.module, joint.diametral_pitch
         first, second = map(a.given, joint.sizes)

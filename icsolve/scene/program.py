@@ -255,8 +255,12 @@ def _arithmetics(program: Program) -> list[Callable[[], Showing]]:
     if extra > MOST:
         return [unbounded]
     last, dear = PRECISIONS[-1], round(0.4 * len(program.top.members)) - 12
-    more = [partial(_balls, last + min(dear, MOST), True)] if dear > extra else []
-    return [*(partial(_balls, p + extra, p == last) for p in PRECISIONS), *more, *[unbounded][: dear > MOST]]
+    rungs: list[Callable[[], Showing]] = [partial(_balls, p + extra, p == last) for p in PRECISIONS]
+    if dear > extra:
+        rungs.append(partial(_balls, last + min(dear, MOST), True))
+    if dear > MOST:
+        rungs.append(unbounded)
+    return rungs
 
 
 KEPT = 4096
