@@ -32,6 +32,10 @@ SMALL = 1e-3
 LARGE = 1e-3
 """A sum above this fraction of its terms is not zero by rounding alone."""
 
+LONG = 500
+"""On a tape of more values than this those that one was made from are sought first: they are few where a
+mechanism is long."""
+
 Operand = Union["Taped", float]
 
 
@@ -274,7 +278,7 @@ class Tape:
         weights = [0.0] * (last + 1)
         weights[last] = 1.0
         bound = 0.0
-        for k in range(last, 0, -1):
+        for k in self._reached(last) if last > LONG else range(last, 0, -1):
             w = weights[k]
             if w:
                 a, da, b, db, noise = self.nodes[k]
@@ -283,6 +287,18 @@ class Tape:
                 if b:
                     weights[b] += w * db
         return bound, weights
+
+    def _reached(self, last: int) -> list[int]:
+        """The values that the one at ``last`` was made from, and itself, the last first."""
+        found, seen = [last], {0, last}
+        for k in found:
+            a, _, b, _, _ = self.nodes[k]
+            for operand in (a, b):
+                if operand not in seen:
+                    seen.add(operand)
+                    found.append(operand)
+        found.sort(reverse=True)
+        return found
 
     def _sizes(self, last: int) -> list[float]:
         """Of the derivatives of the value at ``last``, the sum of the absolute values of their terms."""
