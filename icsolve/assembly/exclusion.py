@@ -15,7 +15,7 @@ import numpy as np
 from icsolve.assembly.loci import Axis, PlacedLine, intersection, sine_between
 from icsolve.assembly.steps import PointGroup
 from icsolve.assembly.workspace import GUIDE, LENGTH, RAY, Workspace, X, Y, data_in
-from icsolve.numbers.quadratics import SLACK, Array, Mask, Quadratics, every_zero
+from icsolve.numbers.quadratics import SLACK, Array, Mask, Narrowing, Quadratics, every_zero
 from icsolve.screws.plane import Point
 from icsolve.tuples import NamedTuple
 
@@ -53,19 +53,34 @@ class _Link(NamedTuple):
     square: float
 
 
-def every_solution(group: PointGroup, workspace: Workspace) -> FigureSolutions:
+def every_solution(
+    group: PointGroup,
+    workspace: Workspace,
+    about: Mapping[str, Point] | None = None,
+    within: float = math.inf,
+    most: int = MOST_BOXES,
+) -> FigureSolutions:
     """All solutions of a group, each once, by exclusion of boxes in which an equation has no zero.
 
     Parameters
     ----------
     group : equations that are quadratic in the coordinates (lengths, angles; not ropes)
     workspace : the points that are placed; those of the group are moved about
+    about, within : places of some of its points, and the root of the sum of squares of how far from these it
+        is searched [frame]
+    most : boxes at most
     """
     system = quadratics_of(group, workspace)
     low, high, bounded = _bounds(group, workspace)
     links = _links(group, workspace)
     size = math.sqrt(max((link.square for link in links), default=1.0)) or 1e-300
-    zeros = every_zero(system, low, high, MOST_BOXES, size, [partial(_narrow_length, link) for link in links])
+    narrowing: list[Narrowing] = [partial(_narrow_length, link) for link in links]
+    if about is not None:
+        places = [about.get(t, (math.nan, math.nan))[axis] for t in group.targets for axis in (0, 1)]
+        low, high = np.fmax(low, np.array(places) - within), np.fmin(high, np.array(places) + within)
+        bounded = bounded or (math.isfinite(within) and about.keys() >= set(group.targets))
+        narrowing.append(partial(_narrow_ball, np.array(places), within))
+    zeros = every_zero(system, low, high, most, size, narrowing)
     places = [
         {t: (float(z[2 * k]), float(z[2 * k + 1])) for k, t in enumerate(group.targets)} for z in zeros.found
     ]
@@ -169,6 +184,16 @@ def _distances(anchor: str, reach: Mapping[tuple[str, ...], float], own: set[str
     if anchor not in own:
         del far[anchor]
     return far
+
+
+def _narrow_ball(centre: Array, radius: float, low: Array, high: Array) -> None:
+    """Narrow boxes by a ball, whose centre is not a number where it reaches without end."""
+    squares = np.nan_to_num(np.clip(centre, low, high) - centre) ** 2
+    left = radius * radius + SLACK - squares.sum(axis=1, keepdims=True) + squares
+    reach = np.sqrt(np.maximum(left, 0.0)) + SLACK
+    np.fmax(low, centre - reach, out=low)
+    np.fmin(high, centre + reach, out=high)
+    high[(left < 0.0).any(axis=1)] = -np.inf
 
 
 def _narrow_length(link: _Link, low: Array, high: Array) -> None:

@@ -22,12 +22,12 @@ from icsolve.assembly.workspace import CORNER, LENGTH, LINE, ROPE, Frame, Key, W
 from icsolve.case import Case, Centroid, Coordinates, Corner, Direction, Joint, Length, Rope, Units
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
-from icsolve.numbers.linear import Row, inverse, solve_square
+from icsolve.numbers.linear import inverse
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:
-    from icsolve.numbers.quadratics import Quadratics
+    from icsolve.numbers.quadratics import Array, Quadratics
 
 Spot = tuple[float, float]
 Start = dict[str, Spot]
@@ -35,6 +35,10 @@ Start = dict[str, Spot]
 MOST_STEPS = 18
 MOST_NEAR_STEPS = 60
 """Steps from `near` itself, which is worth more patience than other starts."""
+MOST_DOWNHILL = 200
+"""Steps to where data are violated least: beside a fold the valley is flat and bent."""
+BENT = 0.75
+"""A step down a valley bends by less than this part of it."""
 LONGEST_STEP = 0.4
 """Longest move of a coordinate in one step, over the group's size."""
 CLOSED = 1e-9
@@ -52,14 +56,18 @@ tell."""
 ONE = 3e-8
 """Solutions nearer than this, over their distance and the group's size, are one: so far apart are the two
 beside a fold where doubles no longer tell that there are two."""
-LITTLE = 1e-2
-"""By this part of the way to the nearest solution data may miss, for it to be said that these are meant."""
 MOST_BRANCHES = 64
 SPREAD = 16
 TOGETHER = 64
 """Starts from which one descends at once."""
 MOST_WORK = 250_000
 """Steps times the square of the number of equations, over all starts but `near` itself."""
+BOX_WORK = 250_000
+"""Boxes times the square of the number of equations, in a search by exclusion."""
+FEW = 5
+"""Points of the largest group of which every solution is looked for."""
+CLEARLY = 1.02
+"""A solution that is so many times as far from `near` as another is no rival of it (`walk.EVEN`)."""
 CLOSE_WORK = 60_000
 """The same once a solution was found from `near` itself, and the starts about it were tried."""
 
@@ -87,8 +95,8 @@ ROPED = (
 class Converged(NamedTuple):
     """What a search for the solutions of a group found: the nearest to `near` first.
 
-    ``miss`` says why there is none, or none about `near`; ``closest`` is then the place about `near` where
-    the data are violated least.
+    ``miss`` says why there is none, or that the data are not met at ``closest``, where they are violated
+    least downhill from `near`: a way that does not assemble, which may be nearer than those that do.
     ``complete`` where it is shown that no other solution is nearer to `near`.
     """
 
@@ -143,13 +151,11 @@ def _searched(
         return Converged([], _vague(Status.AMBIGUOUS, _of(group, NEEDS_NEAR)), {}, False)
     search = _NewtonSearch(group, workspace, near)
     search.run()
-    held = [t for t in group.targets if t in near]
-    search.found.sort(key=lambda end: math.hypot(*(math.dist(end[t], near[t]) for t in held)))
+    search.found.sort(key=search.off)
     polished = [_polished(group, workspace, end) for end in search.found]
     settled = [option for option in polished if option is not None]
     if settled and polished[0] is not None:
-        first = dict(zip(group.targets, settled[0].start, strict=True))
-        if not search.leaves(first):
+        if not search.beside:
             return Converged(settled, None, {}, search.complete)
         return Converged(settled, _unreached(group, workspace, search.beside), search.beside, False)
     if polished:
@@ -180,16 +186,13 @@ class _NewtonSearch:
             if self.found and _alone(self.group, self.workspace, held, self.found[0]):
                 self.complete = True
                 return
-            known = len(self.found)
             with suppress(SceneError):
                 self.beside = _least_residual(self.group, self.workspace, held, self.reach)
-            if self.beside:
-                self._try(self.beside, MOST_STEPS)
-                with suppress(SceneError):
-                    for start in _pair(self.group, self.workspace, self.beside, self.reach):
-                        self._try(start, MOST_STEPS)
-            if len(self.found) > known:
-                self.beside = {}
+                if self.beside and self._meets(self.beside):
+                    self.beside = {}
+        if self._excluded():
+            self.complete = True
+            return
         work, most = 0, CLOSE_WORK if self.found else MOST_WORK
         for tried, descent in enumerate(self._descents(self._starts(list(held)))):
             self._keep(descent)
@@ -231,18 +234,37 @@ class _NewtonSearch:
         elif not any(_same(settled.places, other, self.reach) for other in self.found):
             self.found.append(settled.places)
 
-    def leaves(self, first: Start) -> bool:
-        """Whether the nearest solution lies elsewhere, and the data come close to being met at `near`: at a
-        place about it, or but for a little at one much nearer than the solution is."""
-        if not self.beside:
+    def _meets(self, lowest: Start) -> bool:
+        """Whether the data are met where their residual is least: there, or about as far from it as the two
+        places that are to be expected beside a fold."""
+        away = ARRIVED * self.reach
+        for start in (lowest, *_pair(self.group, self.workspace, lowest, self.reach)):
+            self._try(start, MOST_STEPS)
+            away = max(away, *(2.0 * math.dist(start[t], lowest[t]) for t in start))
+        return any(all(math.dist(end[t], lowest[t]) <= away for t in lowest) for end in self.found)
+
+    def _excluded(self) -> bool:
+        """Whether it is shown that all solutions are found, or all that are no farther from `near` than
+        one of them."""
+        group, near = self.group, {t: self.near[t] for t in self.group.targets if t in self.near}
+        if any(equation.datum.kind == ROPE for equation in group.equations):
             return False
-        found, beside = (max(math.dist(at[t], self.near[t]) for t in at) for at in (first, self.beside))
-        if found > self.reach / 2.0:
-            return beside < self.reach / 4.0
-        self.workspace.points.update(self.beside)
-        off = math.hypot(*self.group.system(self.workspace)[0])
-        small = off < LITTLE * self.reach * found and beside < found / 4.0
-        return small and not _pair(self.group, self.workspace, self.beside, self.reach)
+        from icsolve.assembly.exclusion import every_solution
+
+        most = BOX_WORK // len(group.equations) ** 2
+        radii = [math.inf] if len(group.targets) <= FEW else []
+        radii += [CLEARLY * min(self.off(end) for end in self.found)] if self.found else []
+        for radius in radii:
+            shown = every_solution(group, self.workspace, near, radius, most)
+            for place in shown.places:
+                self._keep(Descent(0.0, place, 0))
+            if shown.complete:
+                return True
+        return False
+
+    def off(self, end: Start) -> float:
+        """How far from `near` a place is: the root of the sum of squares."""
+        return math.hypot(*(math.dist(end[t], self.near[t]) for t in end if t in self.near))
 
     def _starts(self, held: list[str]) -> Iterator[Start]:
         group, near = self.group, self.near
@@ -280,12 +302,10 @@ def _pair(group: PointGroup, workspace: Workspace, end: Start, reach: float) -> 
     """
     import numpy as np
 
-    workspace.points.update(end)
-    values, rows = group.system(workspace)
-    slopes = np.array([[row.get(k, 0.0) for k in range(len(rows))] for row in rows])
+    values, slopes = _system(group, workspace, end)
     left, _, right = np.linalg.svd(slopes)
     u, v = left[:, -1].tolist(), right[-1].tolist()
-    step = max(BESIDE * reach, math.sqrt(math.hypot(*values)))
+    step = max(BESIDE * reach, math.sqrt(np.linalg.norm(values)))
     along = []
     for way in (-step, 0.0, step):
         workspace.points.update(_moved(end, v, -way))
@@ -339,40 +359,45 @@ def _alone(group: PointGroup, workspace: Workspace, near: Start, end: Start) -> 
 
 
 def _least_residual(group: PointGroup, workspace: Workspace, start: Start, reach: float) -> Start:
-    """Where the data of a group are violated least, downhill from a start (Levenberg and Marquardt)."""
+    """Where the data of a group are violated least, downhill from a start.
+
+    By damped steps of least squares (Levenberg and Marquardt) that bend with the valley: the data are squares
+    of distances, so what a step leaves is their second derivative along it, and half of what mends that is
+    added (M. K. Transtrum and J. P. Sethna, arXiv:1201.5885, 2012).
+    """
     if len(group.unknowns()) > MOST_SHOWN:
         return {}
-    at, damping = start, 1e-3 * reach * reach
-    workspace.points.update(at)
-    values, rows = group.system(workspace)
-    for _ in range(MOST_NEAR_STEPS):
-        after = _moved(at, _damped(rows, values, damping), 1.0)
-        workspace.points.update(after)
-        values_after, rows_after = group.system(workspace)
-        gain = math.hypot(*values) - math.hypot(*values_after)
-        if gain > 0.0:
-            done = gain < 1e-9 * math.hypot(*values)
-            at, rows, values, damping = after, rows_after, values_after, damping / 5.0
-            if done:
+    import numpy as np
+
+    at, held = start, np.eye(len(group.unknowns()))
+    damping, least, most = (share * reach * reach for share in (1e-1, 1e-16, 1e6))
+    values, slopes = _system(group, workspace, at)
+    for _ in range(MOST_DOWNHILL):
+        off, normal = np.linalg.norm(values), slopes.T @ slopes + damping * held
+        move = np.linalg.solve(normal, slopes.T @ values)
+        left = _system(group, workspace, _moved(at, move.tolist(), 1.0))[0] - values + slopes @ move
+        bend = np.linalg.solve(normal, slopes.T @ left)
+        after = _moved(at, (move + bend).tolist(), 1.0)
+        values_after, slopes_after = _system(group, workspace, after)
+        gain = off - np.linalg.norm(values_after)
+        if gain > 0.0 and np.linalg.norm(bend) <= BENT * np.linalg.norm(move):
+            at, values, slopes, damping = after, values_after, slopes_after, max(damping / 5.0, least)
+            if gain < 1e-9 * off:
                 break
         else:
             damping *= 5.0
-            if damping > 1e6 * reach * reach:
+            if damping > most:
                 break
     return at
 
 
-def _damped(rows: list[Row], values: list[float], damping: float) -> list[float]:
-    """The step of least squares, held back by a damping."""
-    n = len(rows)
-    normal = [[damping * (i == j) for j in range(n)] for i in range(n)]
-    slope = [0.0] * n
-    for row, value in zip(rows, values, strict=True):
-        for i, a in row.items():
-            slope[i] += a * value
-            for j, b in row.items():
-                normal[i][j] += a * b
-    return solve_square(normal, slope) or slope
+def _system(group: PointGroup, workspace: Workspace, at: Start) -> tuple[Array, Array]:
+    """How far a group's data are from being met at its places, (n,), and the derivatives of that, (n, n)."""
+    import numpy as np
+
+    workspace.points.update(at)
+    values, rows = group.system(workspace)
+    return np.array(values), np.array([[row.get(k, 0.0) for k in range(len(rows))] for row in rows])
 
 
 def _same(one: Start, two: Start, reach: float) -> bool:
