@@ -62,7 +62,8 @@ class Dense:
             row = np.zeros(len(self.x))
             for k, (x, y, m) in enumerate(units):
                 row[column + k] = (x, y, (m - px * y + py * x) * self.frame.size)[part]
-            open_ = np.abs(self.idle @ row).max(initial=0.0) > 1e-8 * np.abs(row).max(initial=1e-300)
+            size = np.abs(row).max(initial=1e-6)  # the couple of a force about its own point is rounding
+            open_ = np.abs(self.idle @ row).max(initial=0.0) > 1e-8 * size
             found.append(None if open_ else float(row @ self.x))
         return found[0], found[1], found[2]
 
