@@ -82,6 +82,24 @@ def test_a_group_takes_the_way_nearest_to_near(links: int, spread: float) -> Non
         assert nearest or apart(places, draft.at) < 1e-6, (links, seed)
 
 
+@pytest.mark.parametrize("links", [4, 5, 6, 7])
+def test_of_all_ways_of_a_group_none_is_nearer_however_rough_near_is(links: int) -> None:
+    """Off by about the length of a rod. Every way is listed by exclusion; the one that is taken is the nearest
+    of them."""
+    for seed in range(3 * MORE):
+        draft = linkage(9000 + 100 * links + seed, links)
+        for p in draft.names:
+            if p not in draft.points:
+                draft.approximately(p, 1.2)
+        case = draft.case()
+        places = unless_even(case)
+        if places is not None:
+            ways = modes.ways_of(case)
+            assert ways.complete
+            nearest = min(off(draft.near, way.points) for way in ways.ways)
+            assert off(draft.near, places) <= nearest * (1.0 + 1e-9), (links, seed)
+
+
 def test_of_two_ways_that_are_nearly_one_the_nearer_is_found() -> None:
     """The descent from `near` ends at one; the other lies 0.01 beside it and is nearer to `near`."""
     draft = linkage(91212, 12)

@@ -170,6 +170,12 @@ def _promise(walk: Walk, chosen: Mode, end: DeadEnd) -> Miss:
     return Miss(end.miss.status, message, end.miss.amount)
 
 
+NOT_SHOWN = (
+    "near: no way of assembling was found that lies nearer to it; that there is none is not shown (it is for "
+    "groups of few points, and where near is exact enough)"
+)
+
+
 def far_from_near(walk: Walk, chosen: Mode, points: tuple[str, ...]) -> tuple[str, ...]:
     """Notes on the points that lie farther from their `near` than half the figure."""
     workspace = walk.workspace
@@ -347,7 +353,7 @@ def _figure(walk: Walk, mode: Mode) -> Figure | Miss:
     if mode.offs:
         given = any(isinstance(step, Given) for step in order.steps)
         notes = refusals.notes_of(workspace, mode.offs, walk.used, given, size_of(workspace, order.points))
-    notes += far_from_near(walk, mode, order.points)
+    notes += (*far_from_near(walk, mode, order.points), *(() if walk.complete else (NOT_SHOWN,)))
     return Figure(workspace.frame, {p: mode.points[p] for p in order.points}, mode.steps, notes, ())
 
 

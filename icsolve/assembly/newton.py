@@ -190,15 +190,15 @@ class _NewtonSearch:
                 self.beside = _least_residual(self.group, self.workspace, held, self.reach)
                 if self.beside and self._meets(self.beside):
                     self.beside = {}
-        if self._excluded():
-            self.complete = True
-            return
+        self.complete = self._excluded()
+        if self.complete and (self.found or self.closest.end):
+            return  # else starts tell where the data come closest to being met
         work, most = 0, CLOSE_WORK if self.found else MOST_WORK
         for tried, descent in enumerate(self._descents(self._starts(list(held)))):
             self._keep(descent)
             work += descent.steps * len(self.group.equations) ** 2
             if work > most and not (self.found and tried < SPREAD // 2):
-                self.spent = True
+                self.spent = not self.complete
                 return
 
     def _try(self, start: Start, most: int) -> Descent:
