@@ -234,3 +234,37 @@ def test_a_wheel_whose_contact_a_coordinate_leaves_behind_is_read_anew(radii: st
     )
     assert solved(case)[0] == "ok"
     assert list(misses(case, path, amounts(numbers_of(case)[path]))) == []
+
+
+@pytest.mark.parametrize("written", [0.0, 0.5, -0.9])
+def test_a_wheel_rolls_on_what_each_row_says_that_it_rolls_on(written: float) -> None:
+    """A straight track is a round one in no row, nor a round one straight, whichever was written: row by row
+    (value and place, to rounding) the sweep of the angle alone of the case written with that radius."""
+
+    def rolling(radius: float) -> Case:
+        return icsolve.load(
+            f"icsolve: 1\npoints: {{C: [0, 0], O: [0, 0.3]}}\nlengths: {{OA: 0.2}}\nangles: {{OA: 150}}\n"
+            f"links: {{2: [O, A]}}\njoints: [{{roll: [2, 1], at: C, radii: [0.3, {radius}]}}]\n"
+            "loads: {W: {weight: 10, link: 2, at: A}, M: {torque: unknown, link: 2}}\n"
+        )
+
+    radii, want = [0.5, 0.2, 0.0, -0.5, -0.9, 0.3], ("answers", "status", "points")
+    found = icsolve.sweep(rolling(written), {"joints.C.radii.1": radii, "angles.OA": 120.0}, want)
+    for n, radius in enumerate(radii):
+        alone = icsolve.sweep(rolling(radius), {"angles.OA": 120.0}, want)
+        assert (found.status[n], alone.status[0]) == ("ok", "ok")
+        assert found.answers["M"][n] == pytest.approx(alone.answers["M"][0], rel=1e-12)
+        assert found.points["A"][n] == pytest.approx(alone.points["A"][0], abs=1e-12)
+
+
+@pytest.mark.parametrize("corner", [14.25, -14.25, 60.0, 170.0])
+def test_a_centre_of_mass_that_data_place_anew_is_no_slip(corner: float) -> None:
+    """A crank of another length turns the lever, and the angle on it that places its mass is another: G may
+    then lie opposite to where it was; every row has its scene's value, to rounding."""
+    case = icsolve.load(FILES["dynamics/quick_return_lever.yaml"])
+    cranks = [0.1, 0.117, 0.16, 0.05]
+    found = icsolve.sweep(case, {"lengths.AB": cranks, "angles.BOG": corner})
+    for n, crank in enumerate(cranks):
+        status, values = solved(with_numbers(case, {"lengths.AB": crank, "angles.BOG": corner}))
+        assert (found.status[n], status) == ("ok", "ok")
+        assert found.answers["T"][n] == pytest.approx(values["T"][0], rel=1e-12)

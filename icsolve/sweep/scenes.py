@@ -127,7 +127,8 @@ def families(case: Case, columns: Columns, moving: Iterable[str]) -> Iterator[tu
         closest = int(np.abs(np.array(done) - steps[n]).max(axis=1).argmin())
         placed = replace(changed, near=nears[closest])
         found, status = _places(placed)
-        if status == Status.INCONSISTENT:  # what data place anew may lie opposite to where it was
+        # what data place anew may lie opposite to where it was; a point that no joint needs is then left out
+        if status == Status.INCONSISTENT or (found is not None and not placed.near.keys() <= found.keys()):
             placed = changed
             found, _ = _places(placed)
         yield placed, np.flatnonzero(which.ravel() == n)
