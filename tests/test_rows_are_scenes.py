@@ -220,6 +220,36 @@ def test_the_rates_of_an_evaluator_are_those_of_its_scenes(motion: str, path: st
                 assert found.rates[link][n] == pytest.approx(rate, rel=1e-9, abs=1e-9)
 
 
+PAIRS = (
+    ("books/meriam_mass_on_parallel_links.yaml", ("angles.AB", "angles.DC")),
+    ("books/meriam_mass_on_parallel_links.yaml", ("lengths.AB", "lengths.DC")),
+    ("ch13/13_14_slider_drives_crank.yaml", ("points.B.y", "points.D.x")),
+    ("linkages/parallelogram_two_motors.yaml", ("points.A.x", "points.D.x")),
+)
+
+
+@pytest.mark.parametrize(("name", "paths"), PAIRS)
+def test_rates_of_rows_of_two_numbers_are_those_of_their_scenes(name: str, paths: tuple[str, str]) -> None:
+    """Numbers that are equal as written, as in a parallelogram, are not where both are varied; a point that
+    has a speed goes in the sense that the case says, through whatever places the rows lie (to rounding)."""
+    case = icsolve.load(FILES[name])
+    written = [numbers_of(case)[path] for path in paths]
+    rows = np.array([[number.value + off for number in written] for off in (0.0, 0.02, -0.05)])
+    rows = np.vstack([rows, [[written[0].value * a, written[1].value * b] for a, b in ((0.9, 1), (0, 1.1))]])
+    tables: list[Sweep | Evaluated] = [icsolve.evaluator(case, paths, ("status", "rates"))(*rows.T)]
+    if not setting_of(case, paths, ()).moves:
+        tables.append(icsolve.sweep(case, dict(zip(paths, rows.T, strict=True)), ("status", "rates")))
+    for n, row in enumerate(rows.tolist()):
+        try:
+            scene = icsolve.solve(with_numbers(case, dict(zip(paths, row, strict=True))), rates=True)
+        except icsolve.SceneError:
+            continue
+        for table in tables:
+            assert table.status[n] == "ok"
+            for link, rate in scene.rates.items():
+                assert table.rates[link][n] == pytest.approx(rate, rel=1e-9, abs=1e-9)
+
+
 @pytest.mark.parametrize("radii", ["[0.5, 0]", "[0.5, 1]", "[0.5, -1.5]"])
 @pytest.mark.parametrize("path", ["points.C.x", "points.P.x", "points.C.y"])
 def test_a_wheel_whose_contact_a_coordinate_leaves_behind_is_read_anew(radii: str, path: str) -> None:
