@@ -12,7 +12,6 @@ from icsolve.assembly.conditions import residual
 from icsolve.assembly.steps import Meet, PointGroup
 from icsolve.assembly.workspace import Workspace, data_in, data_of
 from icsolve.case import Case
-from icsolve.case.joints import Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.sweep.numbers import numbers_of, with_numbers
@@ -43,10 +42,10 @@ def runner(
 
 def is_hard(setting: Setting) -> bool:
     """Whether numbers are varied that reshape a figure whose construction holds as written only: with a
-    group that Newton's method places, with circles that touch, or with data that repeat others; radii of
-    what rolls on in a motion, which may become straight; or that are of a given motion."""
+    group that Newton's method places, with circles that touch, or with data that repeat others; radii in a
+    motion, of which one may be straight; or that are of a given motion."""
     reshaping = [path for path in setting.paths if path not in setting.drive.moving]
-    if any(map(drives, reshaping)) or (setting.moves and not _rolling(setting.case).isdisjoint(reshaping)):
+    if any(map(drives, reshaping)) or (setting.moves and any(".radii." in path for path in reshaping)):
         return True
     shapes = list(filter(_shapes, reshaping))
     if not shapes:
@@ -55,13 +54,6 @@ def is_hard(setting: Setting) -> bool:
         isinstance(s, PointGroup) or (isinstance(s, Meet) and s.touches) for s in setting.figure.steps
     )
     return any(by_itself) or any(_contradicts(setting, path) for path in shapes)
-
-
-def _rolling(case: Case) -> set[str]:
-    """The radii of what rolls."""
-    return {
-        radius.path for joint in case.joints if isinstance(joint, Rolling) for radius in joint.radii or ()
-    }
 
 
 def drives(path: str) -> bool:
