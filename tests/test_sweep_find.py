@@ -18,6 +18,7 @@ from icsolve.assembly import newton
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
 from icsolve.sweep import find_by_scenes, scenes
+from icsolve.sweep.closing import closed_in
 from icsolve.sweep.continuation import PathSegment
 from icsolve.sweep.exact import CONTEXT
 from icsolve.sweep.find_on_record import Query, RangeSearch, find
@@ -355,9 +356,8 @@ def test_a_pole_is_no_zero_and_costs_few_values(
         asked.append(s)
         return function(s)
 
-    search = RangeSearch.__new__(RangeSearch)
     with localcontext(CONTEXT):
-        found = list(search._closed(counted, Decimal(0), Decimal(1)))
+        found = list(closed_in(counted, Decimal(0), Decimal(1)))
     assert [round(float(s), 12) for s in found] == [float(s) for s in zeros]
     assert zeros or len(asked) < 100
 
@@ -517,3 +517,18 @@ def test_positions_all_but_in_one_place_are_found(height: str, digits: int | Non
         middle = [mpf("0.3")] if kind == "value" else []
         places = [mpf("0.3") - off, *middle, mpf("0.3") + off] if digits else middle
         assert [spot.at for spot in found] == [float(place) for place in places]
+
+
+@pytest.mark.parametrize("digits", [3, 6, 8, 10, 12])
+def test_positions_of_equilibrium_all_but_in_one_place_are_told_one_by_one(digits: int) -> None:
+    """The same block without the force: it rests where d = free, stably, and unstably at x = 0 between them
+    (stiffness k (1 - free h^2 / d^3), to the digits that the place as a double leaves of it)."""
+    h, apart = mpf("0.7"), mpf(10) ** -digits
+    free = mp.sqrt(h**2 + apart**2)
+    text = SPRUNG.format(height=h, free=mp.nstr(free, 50)).partition("  P:")[0]
+    rests = icsolve.solve(icsolve.load(text.replace("B: [0.7,", "B: [{unknown: [-1.9, 1.6]},"))).positions
+    assert [rest.stability for rest in rests] == ["stable", "unstable", "stable"]
+    for rest, off in zip(rests, (-apart, mpf(0), apart), strict=True):
+        assert abs(rest.at["points.B.x"] - (mpf("0.3") + off)) <= rest.error["points.B.x"] <= 2.0**-54
+        stiffness = 100 * (1 - free * h**2 / mp.hypot(h, off) ** 3)
+        assert rest.stiffness.value == pytest.approx(float(stiffness), rel=1e-15 * 10**digits)

@@ -10,7 +10,7 @@ and a note says so.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from decimal import Decimal, localcontext
 from itertools import pairwise
@@ -29,6 +29,7 @@ from icsolve.numbers.tape import UNIT
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
+from icsolve.sweep.closing import MOST_ORDER, NOTHING, zeros_between
 from icsolve.sweep.exact import APART, CONTEXT, STEP, Unreached, Values, as_written
 from icsolve.sweep.find_by_scenes import FoundPosition, FoundPositions, Mask, Query, Scenes
 from icsolve.sweep.parts import SweepPart, SweepParts
@@ -36,8 +37,6 @@ from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recheck import Recheck
 from icsolve.sweep.request import RequestError, along_of, columns_of
 from icsolve.sweep.start import start_of
-
-Function = Callable[[Decimal], Decimal]
 
 __all__ = ["FoundPosition", "FoundPositions", "Query", "find"]
 
@@ -51,10 +50,6 @@ NARROW = 2.0**-32
 """Cells that are this part of the range wide are at an end of it, or at a change point."""
 PLACES = 2048
 """Places at which groups are searched."""
-NOTHING = Decimal("1e-35")
-"""Below this fraction of its size elsewhere a value is zero."""
-CLOSED = Decimal("1e-45")
-"""Zeros are closed in to this."""
 
 
 def find(
@@ -210,7 +205,7 @@ class RangeSearch:
             return self._value(answer, s + STEP) - self._value(answer, s - STEP)
 
         for low, high, order in self._isolated(top, bottom, peaks=True):
-            turns = sorted(self._of_order(slope, low, high, order))
+            turns = sorted(zeros_between(slope, low, high, order))
             gaps = [b - a for a, b in pairwise([low, *turns, high]) if b > a]
             for s in turns:
                 value, wide = self._value(answer, s), min(gaps) / 1000
@@ -304,49 +299,7 @@ class RangeSearch:
         """The zeros of a cell, as `_of_order`."""
         if all(self._is_nothing(value, s) for s in (low, (low + high) / 2, high)):
             return  # three zeros are more than it has: it vanishes all over the cell, and has no sign there
-        yield from self._of_order(lambda s: self._value(value, s), low, high, order)
-
-    def _of_order(self, function: Function, low: Decimal, high: Decimal, order: int) -> Iterator[Decimal]:
-        """The zeros between two places of a function of which a derivative, of this order at most, keeps its
-        sign there: between those of its slope, which are found so, it is monotone."""
-        size = max(abs(function(low)), abs(function(high)))
-        ends = [(low, False)]
-        for turn in sorted(self._of_order(_slope(function), low, high, order - 1)) if order > 1 else ():
-            touches = abs(function(turn)) <= NOTHING * size
-            if touches:
-                yield turn
-            ends.append((turn, touches))
-        for (a, one), (b, two) in pairwise([*ends, (high, False)]):
-            if a < b and not (one or two):
-                yield from self._closed(function, a, b)
-
-    def _closed(self, function: Function, low: Decimal, high: Decimal) -> Iterator[Decimal]:
-        """A change of sign between two places, closed in by false position (Illinois); none where the
-        function grows as the places close in, through a pole."""
-        f, g = function(low), function(high)
-        if not f:
-            yield low
-        if not g:
-            yield high
-        if not f * g < 0:
-            return
-        side, wide, size = 0, (high - low) / POLE, Decimal("Infinity")
-        for _ in range(MOST_STEPS):
-            at = high - g * (high - low) / (g - f)
-            here = function(at)
-            if here.is_nan():
-                return
-            if (here > 0) == (g > 0):
-                moved, (high, g), f, side = high - at, (at, here), f / 2 if side > 0 else f, 1
-            else:
-                moved, (low, f), g, side = at - low, (at, here), g / 2 if side < 0 else g, -1
-            if not here or min(moved, high - low) <= CLOSED:
-                break
-            if high - low <= wide:
-                if min(abs(f), abs(g)) > GROWN * size:
-                    return
-                wide, size = (high - low) / POLE, max(abs(f), abs(g))
-        yield at
+        yield from zeros_between(lambda s: self._value(value, s), low, high, order)
 
     # --- cells ------------------------------------------------------------------------------------
 
@@ -496,12 +449,7 @@ BESIDE = 2.0**-4
 """This part of the longest step to both sides of a change point, where no bound is tight, is searched in"""
 RINGS = 24
 """rings, each half as far from it."""
-MOST_ORDER = 6
-"""No more than so many zeros lie where no bound tells them apart."""
 PROBES = ("0.2137", "0.4311", "0.7919")
-MOST_STEPS = 400
-POLE, GROWN = 1000, 30
-"""Where places are so many times nearer to one another a function has grown by the second, at a pole."""
 ROUGH = 1e-12
 """Relative error of the place at which a group reaches its limit."""
 PUSHED = "positions in which a rope would have to push are left out."
@@ -520,11 +468,6 @@ SEARCHED = (
     "a group of links has to be placed by Newton's method, or turns to be counted: the range was searched at "
     "{count} places, and two positions between two of them may be missed."
 )
-
-
-def _slope(function: Function) -> Function:
-    """The slope of a function, times a step."""
-    return lambda s: function(s + STEP) - function(s - STEP)
 
 
 def _may_touch(f: Array, slope: Array, step: Array) -> Mask:
