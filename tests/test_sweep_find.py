@@ -532,3 +532,10 @@ def test_positions_of_equilibrium_all_but_in_one_place_are_told_one_by_one(digit
         assert abs(rest.at["points.B.x"] - (mpf("0.3") + off)) <= rest.error["points.B.x"] <= 2.0**-54
         stiffness = 100 * (1 - free * h**2 / mp.hypot(h, off) ** 3)
         assert rest.stiffness.value == pytest.approx(float(stiffness), rel=1e-15 * 10**digits)
+
+
+def test_a_limit_that_two_points_share_is_told_once() -> None:
+    """Both corners of Peaucellier's rhombus come into line with its arms where OP = L - s, at 120 degrees."""
+    case = icsolve.load(FILES["linkages/peaucellier.yaml"])
+    (spot,) = find(case, {"angles.QP": np.array([-110.0, 230.0])}, Query("dead"))
+    assert (spot.at, spot.kind) == (120.0, "limit")

@@ -217,11 +217,13 @@ class RangeSearch:
         """Where the links assemble on one side only; with the error, where it is more than the last digit."""
         if self._follows_groups:
             yield from ((s, error) for s, error in self._ends_of_groups())
-        for root in self.roots:
-            for node, _ in root.margins:
-                for s in self._zeros(self.record.nodes[node]):
-                    if self._assembles(s - NEAR) != self._assembles(s + NEAR):
-                        yield s, None
+        seen: list[Decimal] = []
+        for node in dict.fromkeys(node for root in self.roots for node, _ in root.margins):
+            for s in self._zeros(self.record.nodes[node]):
+                here = all(abs(s - other) > NEAR for other in seen)
+                if here and self._assembles(s - NEAR) != self._assembles(s + NEAR):
+                    seen.append(s)  # of several groups that end in one place
+                    yield s, None
 
     def _assembles(self, s: Decimal) -> bool:
         try:
@@ -461,8 +463,8 @@ RINGED = (
     "as far from it: two positions in one ring may be missed."
 )
 TANGLED = (
-    "where the answer and its slopes all but vanish together, which no bound tells apart, positions were "
-    "looked for between those in which its derivatives vanish, up to the sixth."
+    "where no bound tells how the answer runs, beside a limit or where its slopes all but vanish with it, "
+    "positions were looked for between those in which its derivatives vanish, up to the sixth."
 )
 SEARCHED = (
     "a group of links has to be placed by Newton's method, or turns to be counted: the range was searched at "
