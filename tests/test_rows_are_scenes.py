@@ -298,3 +298,20 @@ def test_a_centre_of_mass_that_data_place_anew_is_no_slip(corner: float) -> None
         status, values = solved(with_numbers(case, {"lengths.AB": crank, "angles.BOG": corner}))
         assert (found.status[n], status) == ("ok", "ok")
         assert found.answers["T"][n] == pytest.approx(values["T"][0], rel=1e-12)
+
+
+@pytest.mark.parametrize("want", [("answers", "centres", "rates"), ("centres",), ("rates",)])
+def test_a_row_that_the_record_divides_by_zero_in_has_its_scenes_centres_and_rates(
+    want: tuple[str, ...],
+) -> None:
+    """Two points of the butterfly on its axis: the row is a scene of its own, whatever is wanted of it."""
+    case = icsolve.load(FILES["linkages/double_butterfly_symmetric.yaml"])
+    row = {"points.L.y": 0.0, "points.K.x": 5.02, "points.B.y": 0.02}
+    scene = icsolve.solve(with_numbers(case, row), rates=True, all_centres=True)
+    found = icsolve.sweep(case, {path: [value] for path, value in row.items()}, want)
+    assert scene.rates is not None
+    for link, rate in scene.rates.items() if "rates" in want else ():
+        assert found.rates[link][0] == pytest.approx(rate, rel=1e-12)
+    for (a, b), centre in scene.centres.items() if "centres" in want else ():
+        x, y, w = found.centres[f"{a}-{b}"][0].tolist()
+        assert centre.kind != "at" or (x / w, y / w) == pytest.approx(centre.place, rel=1e-12)

@@ -62,7 +62,8 @@ def _one(table: Table, row: int, case_of: Callable[[int], Case], missing: bool) 
     try:
         case = case_of(row)
         if missing:
-            answer = solve_scene(case, rates=table.lacks_rates(row), alone=True)
+            centres = table.lacks(row, "centres")
+            answer = solve_scene(case, rates=table.lacks(row), all_centres=centres, alone=True)
         else:
             answer = solve_scene(
                 case,
