@@ -315,3 +315,15 @@ def test_a_row_that_the_record_divides_by_zero_in_has_its_scenes_centres_and_rat
     for (a, b), centre in scene.centres.items() if "centres" in want else ():
         x, y, w = found.centres[f"{a}-{b}"][0].tolist()
         assert centre.kind != "at" or (x / w, y / w) == pytest.approx(centre.place, rel=1e-12)
+
+
+def test_two_links_on_a_pin_that_a_third_one_carries_have_their_centre_there_in_every_row() -> None:
+    """Also where the two all but move as one, as links 4 and 6 here (by 7e-12 of the others' rates)."""
+    case = icsolve.load(FILES["linkages/peaucellier.yaml"])
+    row = {"points.O.y": 0.0, "lengths.BP": 2.999999999999, "points.Q.x": 3.0}
+    scene = icsolve.solve(with_numbers(case, row), all_centres=True)
+    call = icsolve.evaluator(case, tuple(row), ("centres",))
+    for found in (icsolve.sweep(case, {p: [v] for p, v in row.items()}, ("centres",)), call(*row.values())):
+        for pair in (("4", "6"), ("5", "7"), ("4", "5")):
+            x, y, w = found.centres["-".join(pair)][0].tolist()
+            assert (x / w, y / w) == pytest.approx(scene.centres[pair].place, rel=1e-12)

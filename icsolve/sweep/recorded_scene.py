@@ -416,6 +416,9 @@ def _own(scene: RecordedScene, pair: Pair) -> Triple | None:
             basis = freedoms(bond, scene.points, scene.record)
             if len(basis) == 1:
                 return basis[0]
+    for joint in scene.case.joints:  # two links on a pin that a third one carries
+        if joint.pivot in scene.points and {*pair} <= {*joint.links} and len(bodies) > 1:
+            return (*scene.points[joint.pivot], 1.0)
     return None
 
 
