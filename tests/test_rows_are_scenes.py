@@ -327,3 +327,16 @@ def test_two_links_on_a_pin_that_a_third_one_carries_have_their_centre_there_in_
         for pair in (("4", "6"), ("5", "7"), ("4", "5")):
             x, y, w = found.centres["-".join(pair)][0].tolist()
             assert (x / w, y / w) == pytest.approx(scene.centres[pair].place, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["gears/gear_pair.yaml", "gears/belt_crossed.yaml"])
+def test_wheels_whose_pivots_come_to_one_place_are_refused_in_every_row(name: str) -> None:
+    """There is no direction in which they lie, whatever the record of the others says."""
+    case = icsolve.load(FILES[name])
+    wheels = [p for p in case.points if p in case.carries[case.ground]][:2]
+    one, two = (case.points[p] for p in wheels)
+    row = {axis.path: by.value for axis, by in ((two.x, one.x), (two.y, one.y))}
+    status, _ = solved(with_numbers(case, row))
+    assert status == "inconsistent"
+    assert icsolve.evaluator(case, tuple(row))(*row.values()).status[0] == status
+    assert icsolve.sweep(case, {path: [value] for path, value in row.items()}).status[0] == status

@@ -278,7 +278,9 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
             margins = tuple(m.index for step in placed.margins.values() for m in step if varies(m))
         names = _written(setting.figure, placed)
         if inputs:
-            fits = tuple(m.index for m in teeth_margins(case, names, frame.scale, record) if varies(m))
+            lines = refusals.direction_margins(refusals.directions_of_joints(case), names)
+            teeth = teeth_margins(case, names, frame.scale, record)
+            fits = tuple(m.index for m in (*teeth, *lines) if varies(m))
         if setting.moves:
             motion = _motion(setting, mechanism(case, frame, record, names), nudge, inputs, signs)
         else:
