@@ -200,7 +200,9 @@ def test_rates_and_centres_of_two_given_motions_have_bounds_that_hold() -> None:
     assert all(one.error is not None for one in answer.centres.values())
 
 
-@pytest.mark.parametrize("written", ["0.1", "2.7182818284590452353", "-123456.789", "1e-7"])
+@pytest.mark.parametrize(
+    "written", ["0.1", "1.00000000000000005", "3", "2.7182818284590452353", "-123456.789", "1e-7"]
+)
 def test_a_written_decimal_is_half_a_unit_of_its_double_off_and_no_more(written: str) -> None:
     """Of a number without a unit's factor the rounding is that of reading it: 2^-53 of it."""
     number = Number(float(written), 0.0, "lengths.AB", written)

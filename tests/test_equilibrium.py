@@ -33,7 +33,7 @@ from icsolve.report.derivation.known import known_of
 from icsolve.report.text import answer_text
 from icsolve.scene import solve_scene
 from icsolve.solve.rest import AT_LIMIT
-from icsolve.solve.stability import with_stability
+from icsolve.solve.stability import holding_values, with_stability
 from shell import Shell, exit_status
 from sizes import FULL
 
@@ -1068,6 +1068,21 @@ loads: {Q: {weight: 100, link: 2, at: C}, W: {force: 60, link: 2, at: C, angle: 
     found = json.loads(run(tmp_path, capsys, text, *words))["found"]
     rough = 5.0 * math.sqrt(3.0)
     assert [one["at"]["loads.W"] for one in found] == pytest.approx([50 - rough, 50 + rough], rel=1e-12)
+
+
+@pytest.mark.parametrize("mu", [0.05, 0.01, 1e-3, 1e-6, 1e-9])
+def test_a_range_that_holds_is_found_however_narrow_it_is(mu: float) -> None:
+    """The slope of before, ever smoother: to an ulp or two, wherever the range of loads begins."""
+    case = icsolve.load(
+        f"icsolve: 1\npoints: {{C: [0, 0]}}\njoints: [{{slide: [2, 1], at: C, along: 30, mu: {mu}}}]\n"
+        "loads: {Q: {weight: 100, link: 2, at: C}, W: {force: 60, link: 2, at: C, angle: 30}}\n"
+    )
+    rough = mu * 50.0 * math.sqrt(3.0)
+    for low, high in ((21.46, 110.19), (5.0, 61.7)):
+        found = holding_values(case, "loads.W", low, high)
+        assert [(one.before, one.after) for one in found] == [("slips", "holds"), ("holds", "slips")]
+        for one, place in zip(found, (50.0 - rough, 50.0 + rough), strict=True):
+            assert abs(one.value - place) <= one.error + 1e-14
 
 
 def test_positions_against_a_load_are_a_row_each(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -227,3 +227,33 @@ motion: {point: A, link: 2, speed: 1, angle: 0}
     monkeypatch.setattr(find_by_scenes, "PLACES", 20)
     spots = find(load(text), {"loads.P.angle": [0.0, 60.0]}, Query("value", "P", 3.8e199))
     assert len(spots) == 2
+
+
+JACK = """icsolve: 1
+points: {{B: [0.7, 0], S: [0.3, 1], O: [0, 0]}}
+links: {{1: [S, O]}}
+joints: [{{screw: [1, 2], at: B, along: 0, lead: 5 mm, radius: 10 mm, mu: {mu}}}]
+loads:
+  F: {{spring: 100 N/m, free: {free} m, link: 2, at: B, to: S}}
+  T: {{torque: unknown, screw: 1-2}}
+motion: {{point: B, link: 2, speed: 1, angle: {way}}}
+"""
+
+
+@pytest.mark.parametrize(("mu", "touches"), [(0.1, True), (0.09, True), (0.3, True), (0.05, False)])
+@pytest.mark.parametrize("way", [0, 180])
+def test_where_a_load_on_a_screw_changes_its_sense_the_torque_is_zero(
+    mu: float, touches: bool, way: int
+) -> None:
+    """A screw that locks itself is turned by a torque of one sense however it is loaded, which comes to zero
+    in a corner where the load changes its sense, on sides of unlike steepness; one that does not lock itself
+    passes through. No value beyond the corner is told."""
+    case = icsolve.load(JACK.format(mu=mu, way=way, free=1.01**0.5))
+    spots = find(case, {"points.B.x": [-2.0, 1.5]}, Query("value", "T"))
+    assert len(spots) == 3
+    for spot, place in zip(spots, (0.2, 0.3, 0.4), strict=True):
+        assert abs(spot.at - place) <= spot.error + 1e-15
+        assert spot.error <= 1e-11
+    beyond = -1e-9 if way == 0 else 1e-9
+    found = find(case, {"points.B.x": [0.35, 0.45]}, Query("value", "T", beyond))
+    assert len(found) == (0 if touches else 1)

@@ -220,6 +220,36 @@ def test_the_rates_of_an_evaluator_are_those_of_its_scenes(motion: str, path: st
                 assert found.rates[link][n] == pytest.approx(rate, rel=1e-9, abs=1e-9)
 
 
+PAIRS = (
+    ("books/meriam_mass_on_parallel_links.yaml", ("angles.AB", "angles.DC")),
+    ("books/meriam_mass_on_parallel_links.yaml", ("lengths.AB", "lengths.DC")),
+    ("ch13/13_14_slider_drives_crank.yaml", ("points.B.y", "points.D.x")),
+    ("linkages/parallelogram_two_motors.yaml", ("points.A.x", "points.D.x")),
+)
+
+
+@pytest.mark.parametrize(("name", "paths"), PAIRS)
+def test_rates_of_rows_of_two_numbers_are_those_of_their_scenes(name: str, paths: tuple[str, str]) -> None:
+    """Numbers that are equal as written, as in a parallelogram, are not where both are varied; a point that
+    has a speed goes in the sense that the case says, through whatever places the rows lie (to rounding)."""
+    case = icsolve.load(FILES[name])
+    written = [numbers_of(case)[path] for path in paths]
+    rows = np.array([[number.value + off for number in written] for off in (0.0, 0.02, -0.05)])
+    rows = np.vstack([rows, [[written[0].value * a, written[1].value * b] for a, b in ((0.9, 1), (0, 1.1))]])
+    tables: list[Sweep | Evaluated] = [icsolve.evaluator(case, paths, ("status", "rates"))(*rows.T)]
+    if not setting_of(case, paths, ()).moves:
+        tables.append(icsolve.sweep(case, dict(zip(paths, rows.T, strict=True)), ("status", "rates")))
+    for n, row in enumerate(rows.tolist()):
+        try:
+            scene = icsolve.solve(with_numbers(case, dict(zip(paths, row, strict=True))), rates=True)
+        except icsolve.SceneError:
+            continue
+        for table in tables:
+            assert table.status[n] == "ok"
+            for link, rate in scene.rates.items():
+                assert table.rates[link][n] == pytest.approx(rate, rel=1e-9, abs=1e-9)
+
+
 @pytest.mark.parametrize("radii", ["[0.5, 0]", "[0.5, 1]", "[0.5, -1.5]"])
 @pytest.mark.parametrize("path", ["points.C.x", "points.P.x", "points.C.y"])
 def test_a_wheel_whose_contact_a_coordinate_leaves_behind_is_read_anew(radii: str, path: str) -> None:
@@ -234,3 +264,79 @@ def test_a_wheel_whose_contact_a_coordinate_leaves_behind_is_read_anew(radii: st
     )
     assert solved(case)[0] == "ok"
     assert list(misses(case, path, amounts(numbers_of(case)[path]))) == []
+
+
+@pytest.mark.parametrize("written", [0.0, 0.5, -0.9])
+def test_a_wheel_rolls_on_what_each_row_says_that_it_rolls_on(written: float) -> None:
+    """A straight track is a round one in no row, nor a round one straight, whichever was written: row by row
+    (value and place, to rounding) the sweep of the angle alone of the case written with that radius."""
+
+    def rolling(radius: float) -> Case:
+        return icsolve.load(
+            f"icsolve: 1\npoints: {{C: [0, 0], O: [0, 0.3]}}\nlengths: {{OA: 0.2}}\nangles: {{OA: 150}}\n"
+            f"links: {{2: [O, A]}}\njoints: [{{roll: [2, 1], at: C, radii: [0.3, {radius}]}}]\n"
+            "loads: {W: {weight: 10, link: 2, at: A}, M: {torque: unknown, link: 2}}\n"
+        )
+
+    radii, want = [0.5, 0.2, 0.0, -0.5, -0.9, 0.3], ("answers", "status", "points")
+    found = icsolve.sweep(rolling(written), {"joints.C.radii.1": radii, "angles.OA": 120.0}, want)
+    for n, radius in enumerate(radii):
+        alone = icsolve.sweep(rolling(radius), {"angles.OA": 120.0}, want)
+        assert (found.status[n], alone.status[0]) == ("ok", "ok")
+        assert found.answers["M"][n] == pytest.approx(alone.answers["M"][0], rel=1e-12)
+        assert found.points["A"][n] == pytest.approx(alone.points["A"][0], abs=1e-12)
+
+
+@pytest.mark.parametrize("corner", [14.25, -14.25, 60.0, 170.0])
+def test_a_centre_of_mass_that_data_place_anew_is_no_slip(corner: float) -> None:
+    """A crank of another length turns the lever, and the angle on it that places its mass is another: G may
+    then lie opposite to where it was; every row has its scene's value, to rounding."""
+    case = icsolve.load(FILES["dynamics/quick_return_lever.yaml"])
+    cranks = [0.1, 0.117, 0.16, 0.05]
+    found = icsolve.sweep(case, {"lengths.AB": cranks, "angles.BOG": corner})
+    for n, crank in enumerate(cranks):
+        status, values = solved(with_numbers(case, {"lengths.AB": crank, "angles.BOG": corner}))
+        assert (found.status[n], status) == ("ok", "ok")
+        assert found.answers["T"][n] == pytest.approx(values["T"][0], rel=1e-12)
+
+
+@pytest.mark.parametrize("want", [("answers", "centres", "rates"), ("centres",), ("rates",)])
+def test_a_row_that_the_record_divides_by_zero_in_has_its_scenes_centres_and_rates(
+    want: tuple[str, ...],
+) -> None:
+    """Two points of the butterfly on its axis: the row is a scene of its own, whatever is wanted of it."""
+    case = icsolve.load(FILES["linkages/double_butterfly_symmetric.yaml"])
+    row = {"points.L.y": 0.0, "points.K.x": 5.02, "points.B.y": 0.02}
+    scene = icsolve.solve(with_numbers(case, row), rates=True, all_centres=True)
+    found = icsolve.sweep(case, {path: [value] for path, value in row.items()}, want)
+    assert scene.rates is not None
+    for link, rate in scene.rates.items() if "rates" in want else ():
+        assert found.rates[link][0] == pytest.approx(rate, rel=1e-12)
+    for (a, b), centre in scene.centres.items() if "centres" in want else ():
+        x, y, w = found.centres[f"{a}-{b}"][0].tolist()
+        assert centre.kind != "at" or (x / w, y / w) == pytest.approx(centre.place, rel=1e-12)
+
+
+def test_two_links_on_a_pin_that_a_third_one_carries_have_their_centre_there_in_every_row() -> None:
+    """Also where the two all but move as one, as links 4 and 6 here (by 7e-12 of the others' rates)."""
+    case = icsolve.load(FILES["linkages/peaucellier.yaml"])
+    row = {"points.O.y": 0.0, "lengths.BP": 2.999999999999, "points.Q.x": 3.0}
+    scene = icsolve.solve(with_numbers(case, row), all_centres=True)
+    call = icsolve.evaluator(case, tuple(row), ("centres",))
+    for found in (icsolve.sweep(case, {p: [v] for p, v in row.items()}, ("centres",)), call(*row.values())):
+        for pair in (("4", "6"), ("5", "7"), ("4", "5")):
+            x, y, w = found.centres["-".join(pair)][0].tolist()
+            assert (x / w, y / w) == pytest.approx(scene.centres[pair].place, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["gears/gear_pair.yaml", "gears/belt_crossed.yaml"])
+def test_wheels_whose_pivots_come_to_one_place_are_refused_in_every_row(name: str) -> None:
+    """There is no direction in which they lie, whatever the record of the others says."""
+    case = icsolve.load(FILES[name])
+    wheels = [p for p in case.points if p in case.carries[case.ground]][:2]
+    one, two = (case.points[p] for p in wheels)
+    row = {axis.path: by.value for axis, by in ((two.x, one.x), (two.y, one.y))}
+    status, _ = solved(with_numbers(case, row))
+    assert status == "inconsistent"
+    assert icsolve.evaluator(case, tuple(row))(*row.values()).status[0] == status
+    assert icsolve.sweep(case, {path: [value] for path, value in row.items()}).status[0] == status

@@ -18,6 +18,7 @@ from icsolve.assembly import newton
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
 from icsolve.sweep import find_by_scenes, scenes
+from icsolve.sweep.closing import closed_in
 from icsolve.sweep.continuation import PathSegment
 from icsolve.sweep.exact import CONTEXT
 from icsolve.sweep.find_on_record import Query, RangeSearch, find
@@ -355,16 +356,15 @@ def test_a_pole_is_no_zero_and_costs_few_values(
         asked.append(s)
         return function(s)
 
-    search = RangeSearch.__new__(RangeSearch)
     with localcontext(CONTEXT):
-        found = list(search._closed(counted, Decimal(0), Decimal(1)))
+        found = list(closed_in(counted, Decimal(0), Decimal(1)))
     assert [round(float(s), 12) for s in found] == [float(s) for s in zeros]
     assert zeros or len(asked) < 100
 
 
-@pytest.mark.parametrize("bent", [False, True])
+@pytest.mark.parametrize("order", [1, 2, 6])
 @pytest.mark.parametrize("zeros", [0, 1])
-def test_what_vanishes_over_a_whole_cell_has_no_zeros_there(bent: bool, zeros: int) -> None:
+def test_what_vanishes_over_a_whole_cell_has_no_zeros_there(order: int, zeros: int) -> None:
     """Its signs are those of rounding: the unknown does no work over a stretch of a range (a branch on which
     links have folded up), which is no row of dead centres. What has a zero at an end of the cell has it."""
     record, noise, asked = Record(), Random(7), []
@@ -377,7 +377,7 @@ def test_what_vanishes_over_a_whole_cell_has_no_zeros_there(bent: bool, zeros: i
     search = RangeSearch.__new__(RangeSearch)
     search.record, search._value = record, value  # type: ignore[method-assign]
     with localcontext(CONTEXT):
-        found = list(search._of_cell(s, Decimal(0), Decimal(1), bent))
+        found = list(search._of_cell(s, Decimal(0), Decimal(1), order))
     assert len(found) == zeros
     assert zeros or len(asked) == 3
 
@@ -490,3 +490,52 @@ def test_dead_centres_and_values_of_a_rack_that_a_crank_drives() -> None:
 
     spots = find(case, {"angles.AB": [5.0, 170.0]}, Query("value", "T", 180.17))
     assert [spot.at for spot in spots] == [float(mp.findroot(miss, mpf(guess))) for guess in (13.4, 164.3)]
+
+
+SPRUNG = """icsolve: 1
+points: {{B: [0.7, 0], S: [0.3, {height}], O: [0, 0]}}
+links: {{1: [S, O]}}
+joints: [{{slide: [2, 1], at: B, along: 0, through: O}}]
+loads:
+  F: {{spring: 100, free: {free}, link: 2, at: B, to: S}}
+  P: {{force: unknown, link: 2, at: B, angle: 0}}
+"""
+
+
+@pytest.mark.parametrize("height", ["0.7", "1"])
+@pytest.mark.parametrize("digits", [3, 6, 8, 10, 12, None])
+def test_positions_all_but_in_one_place_are_found(height: str, digits: int | None) -> None:
+    """A block on a guide and a spring across it, as long at rest as it stands off, or a little longer:
+    P = k (d - free) x / d is zero at x = 0 and where d = free, and largest where d^3 = free h^2; of free = h
+    these are one place, with no peak (the doubles nearest to closed forms in sixty digits)."""
+    h, apart = mpf(height), mpf(10) ** -digits if digits else mpf(0)
+    free = mp.sqrt(h**2 + apart**2)
+    case = icsolve.load(SPRUNG.format(height=height, free=mp.nstr(free, 50)))
+    peak = mp.sqrt((free * h**2) ** (mpf(2) / 3) - h**2) if digits else mpf(0)
+    for kind, off in (("value", apart), ("max", peak)):
+        found = find(case, {"points.B.x": np.array([-1.9, 1.6])}, Query(kind, "P"))
+        middle = [mpf("0.3")] if kind == "value" else []
+        places = [mpf("0.3") - off, *middle, mpf("0.3") + off] if digits else middle
+        assert [spot.at for spot in found] == [float(place) for place in places]
+
+
+@pytest.mark.parametrize("digits", [3, 6, 8, 10, 12])
+def test_positions_of_equilibrium_all_but_in_one_place_are_told_one_by_one(digits: int) -> None:
+    """The same block without the force: it rests where d = free, stably, and unstably at x = 0 between them
+    (stiffness k (1 - free h^2 / d^3), to the digits that the place as a double leaves of it)."""
+    h, apart = mpf("0.7"), mpf(10) ** -digits
+    free = mp.sqrt(h**2 + apart**2)
+    text = SPRUNG.format(height=h, free=mp.nstr(free, 50)).partition("  P:")[0]
+    rests = icsolve.solve(icsolve.load(text.replace("B: [0.7,", "B: [{unknown: [-1.9, 1.6]},"))).positions
+    assert [rest.stability for rest in rests] == ["stable", "unstable", "stable"]
+    for rest, off in zip(rests, (-apart, mpf(0), apart), strict=True):
+        assert abs(rest.at["points.B.x"] - (mpf("0.3") + off)) <= rest.error["points.B.x"] <= 2.0**-54
+        stiffness = 100 * (1 - free * h**2 / mp.hypot(h, off) ** 3)
+        assert rest.stiffness.value == pytest.approx(float(stiffness), rel=1e-15 * 10**digits)
+
+
+def test_a_limit_that_two_points_share_is_told_once() -> None:
+    """Both corners of Peaucellier's rhombus come into line with its arms where OP = L - s, at 120 degrees."""
+    case = icsolve.load(FILES["linkages/peaucellier.yaml"])
+    (spot,) = find(case, {"angles.QP": np.array([-110.0, 230.0])}, Query("dead"))
+    assert (spot.at, spot.kind) == (120.0, "limit")

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from decimal import Decimal
 from typing import Union
 
 from icsolve.numbers.arithmetic import Scalar, turn_of
@@ -320,9 +321,14 @@ class Tape:
                 yield bound / abs(value) if value else 0.0
 
 
+SHORT = 15
+"""A decimal of no more characters that rounds to a whole number is that number."""
+
+
 def decimal_noise(number: Number) -> float:
     """Bound on the rounding of a written decimal to a double (and of its unit's factor) [case units]."""
     value = number.value
-    if number.factor == 1.0 and value.is_integer() and abs(value) < 2.0**53:
+    whole = number.factor == 1.0 and value.is_integer() and abs(value) < 2.0**53
+    if whole and (len(number.digits) <= SHORT or Decimal(number.digits) == value):
         return 0.0
     return (UNIT if number.factor == 1.0 else 3.0 * UNIT) * abs(value)

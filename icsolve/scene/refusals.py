@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from icsolve.case import Case, TorsionSpring, Weight
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import Motions
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, all_vanish
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, all_vanish
 from icsolve.screws.joints import Points
 from icsolve.statics import load_wrenches, power
 from icsolve.structure.topology import Topology, reached, topology
@@ -73,6 +74,15 @@ def refuse_no_direction(lines: Directions, points: Points, arithmetic: Arithmeti
                 f"there is no direction for {what}: {sentences.listed((a, b))} lie at one place. Give it "
                 "by an angle, or correct the points.",
             )
+
+
+def direction_margins(lines: Directions, points: Points) -> Iterator[Scalar]:
+    """In any arithmetic, numbers of which none is zero but where `refuse_no_direction` may refuse:
+    squares of distances [frame]."""
+    for _, (a, b) in lines:
+        if a in points and b in points:
+            (ax, ay), (bx, by) = points[a], points[b]
+            yield (bx - ax) * (bx - ax) + (by - ay) * (by - ay)
 
 
 HANGS = 2e-3

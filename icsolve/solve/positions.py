@@ -402,17 +402,18 @@ def search_modes(
             if any(cluster[0] - branches.slack <= value <= cluster[1] + branches.slack for value in ends):
                 continue
             if not modes_meet(function, cluster):
-                position = in_range(function, in_open_cells(function, cluster), (low, high), whole)
-                if position is not None and (kept is None or branches.on(n, position.value) in kept):
-                    found.append((n, position))
+                places = in_open_cells(function, cluster)
+                there = [in_range(function, place, (low, high), whole) for place in places]
+                on = (one for one in there if one and (kept is None or branches.on(n, one.value) in kept))
+                found += [(n, one) for one in on]
                 continue
             for step in (-BESIDE * (high - low), BESIDE * (high - low)):
                 beside = branches.on(n, 0.5 * (cluster[0] + cluster[1]) + 8.0 * step)
                 if beside >= 0 and (kept is None or beside in kept):
-                    there = at_change_point(function, cluster, step, (low, high))
-                    found += [(n, one) for one in there]
+                    met = at_change_point(function, cluster, step, (low, high))
+                    found += [(n, one) for one in met]
                     if notes is not None:
-                        notes += [ESTIMATED.format(path=path, value=one.value) for one in there]
+                        notes += [ESTIMATED.format(path=path, value=one.value) for one in met]
     found += [(-1, position) for position in at_limits(functions, branches, kept, limits)]
     return found
 

@@ -118,19 +118,25 @@ def _rough(case: Case, row: Case) -> Case:
 def spare_friction(case: Case) -> float:
     """How far a mechanism under known loads is from slipping as written: the least load in either sense
     that would move it [case units], negative where it slips; infinite where none or any would."""
+    low, high = moving_loads(case)
+    return min(high, -low)
+
+
+def moving_loads(case: Case) -> tuple[float, float]:
+    """From what load to what load more on a link a mechanism under known loads holds still as written [case
+    units]: infinite where none would move it, or where any does (turned about)."""
     links = [link for link in joint_order(case) if link != case.ground]
     for some in (links, []):  # where nothing turns a force on a point holds it
         try:
             answer = held(replace(case, motion=(), expect=()), some)
         except SceneError as error:
             if error.status == Status.ANY_VALUE:  # the loads balance without friction
-                return math.inf
+                return -math.inf, math.inf
             continue
         if answer is not None:
             found = answer.answers[PROBE]
-            low, high = found.holds or (found.value, found.value)
-            return min(high, -low)
-    return -math.inf
+            return found.holds or (found.value, found.value)
+    return math.inf, -math.inf
 
 
 def edge_of_rest(spare: Callable[[float], float], inside: float, outside: float) -> tuple[float, float]:

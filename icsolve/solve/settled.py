@@ -23,6 +23,7 @@ from icsolve.scene import solve_scene
 from icsolve.solve.followed import rate_of
 from icsolve.solve.load_function import LoadFunction, given_at
 from icsolve.solve.rest import AT_LIMIT, PROBE, Rest, held
+from icsolve.sweep.closing import MOST_ORDER, zeros_between
 from icsolve.sweep.exact import (
     CONTEXT,
     ZERO,
@@ -44,6 +45,8 @@ DEGREES = 180.0 / math.pi
 MOST_STEPS = 12
 FASTER = 8
 """Newton's method closes in on a plain zero: each step is this many times shorter than the last, or more."""
+NEAR = Decimal("1e-40")
+"""Zeros of a higher order are told so near."""
 CLOSED = Decimal("1e-90")
 """A step of Newton's method after which no digit of a double changes."""
 APART = 1e-6
@@ -338,12 +341,24 @@ def units_of(function: LoadFunction) -> tuple[Decimal, str]:
         return per_torque / decimal_ratio(DEGREE) ** 2, f"{units.torque}/rad"
 
 
-def in_open_cells(function: LoadFunction, cluster: tuple[float, float]) -> tuple[float, float] | None:
-    """The position in cells that stayed open, where there is one: a zero of higher order, at which the
-    stiffness vanishes too."""
+def in_open_cells(function: LoadFunction, cluster: tuple[float, float]) -> list[tuple[float, float]]:
+    """The positions in cells that stayed open: zeros of higher order, at which the stiffness vanishes too, or
+    zeros that intervals do not tell apart, but digits do."""
     low, high = cluster
     width = max(high - low, 4.0 * math.ulp(abs(low) + abs(high)))
     low, high = low - width, high + width
+    with localcontext(CONTEXT):
+        ends = as_written(low), as_written(high)
+        zeros = zeros_between(lambda at: _values(function, at, [function.power])[0], *ends, MOST_ORDER)
+        found = [_rounded(at if abs(at) > NEAR else Decimal(0)) for at in sorted(zeros)]
+    if found:
+        return found
+    closest = _by_scenes(function, low, high)
+    return [closest] if closest is not None else []
+
+
+def _by_scenes(function: LoadFunction, low: float, high: float) -> tuple[float, float] | None:
+    """The position between two values by the scenes there, where there is one."""
     try:
         at_low, at_high = balancing_torque(function, low), balancing_torque(function, high)
         if (at_low > 0.0) != (at_high > 0.0):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import cache
 from itertools import pairwise
 
 from icsolve.answer import Answer, by_load
@@ -11,6 +12,7 @@ from icsolve.answer.equilibrium import Stiffness
 from icsolve.case import Case, ForceVector, Number
 from icsolve.errors import CaseError, Problem, SceneError, Status
 from icsolve.kinematics.speeds import joint_order
+from icsolve.numbers.roots import zero_between
 from icsolve.read.names import shown
 from icsolve.scene import solve_scene
 from icsolve.solve.positions import led_rest, moved_by, refuse_motion, rest_of
@@ -192,14 +194,26 @@ def _driven(case: Case) -> str:
 
 def holding_values(case: Case, path: str, low: float, high: float) -> list[TurningPower]:
     """The values of a number at which a mechanism under known loads begins or ceases to hold still."""
-    from icsolve.solve.resting import edge_of_rest, spare_friction
+    from icsolve.solve.resting import edge_of_rest, moving_loads
 
     own = find_number(case, path).path
 
+    @cache  # what was sampled is asked again where it is closed in on
+    def loads(value: float) -> tuple[float, float]:
+        return moving_loads(with_numbers(case, {own: value}))
+
     def spare(value: float) -> float:
-        return spare_friction(with_numbers(case, {own: value}))
+        return min(loads(value)[1], -loads(value)[0])
+
+    def middle(value: float) -> float:
+        both = sum(loads(value))
+        return both if math.isfinite(both) else 0.0
 
     values = [low + (high - low) * k / CUTS for k in range(CUTS + 1)]
+    for a, b in pairwise(tuple(values)):  # between two at which it slips in either sense it may hold
+        if max(spare(a), spare(b)) < 0.0 and middle(a) * middle(b) < 0.0:
+            values.append(zero_between(middle, a, b, middle(a), middle(b)))
+    values.sort()
     found = []
     for (a, holds), (b, held) in pairwise([(value, spare(value) >= 0.0) for value in values]):
         if holds != held:

@@ -164,6 +164,7 @@ class Top(NamedTuple):
     answer, height, error : the answer there, its measure, and the bound of their error [case units]
     reach, drop : so far to both sides of it the measure is less by so much, on one side at least
     grows : whether it grows as the place is closed in on, to infinity
+    corner : whether it falls from there as the distance, so that between places it may be ``drop`` larger
     measure : of answers
     """
 
@@ -174,6 +175,7 @@ class Top(NamedTuple):
     reach: float
     drop: float
     grows: bool
+    corner: bool
     measure: Measure
 
 
@@ -295,10 +297,23 @@ class Scenes:
                 yield self._crossing(k - 1, k + 1, miss)
             elif before * after > 0.0 and sign[k] * after >= 0.0:
                 least, most = sorted(size[[k - 1, k + 1]])
-                if size[k] <= least and size[k] <= most - size[k]:  # a parabola, or a corner, may reach it
+                bent = size[k] <= most - size[k]  # a parabola may reach it, or a corner
+                if size[k] <= least and (bent or any(self._meets(size, k, way) for way in (-1, 1))):
                     yield self._touching(k, float(after), found)
             elif sign[k] == 0.0:
                 yield self._having(k, before, after)
+
+    def _meets(self, size: Array, k: int, way: int) -> bool:
+        """Whether there may be a corner at the value beyond place ``k``: as it falls up to there, and rises
+        behind the next, two chords meet at less than half of what is left."""
+        if not 0 <= k + 2 * way < len(size):
+            return False
+        at, off = ([float(some[k + n * way]) for n in (-1, 0, 1, 2)] for some in (self.places, size))
+        fall, rise = (off[1] - off[0]) / (at[1] - at[0]), (off[3] - off[2]) / (at[3] - at[2])
+        if not fall * way < 0.0 < rise * way:
+            return False
+        meet = at[1] + (off[2] - off[1] + rise * (at[1] - at[2])) / (fall - rise)
+        return off[1] + fall * (meet - at[1]) <= 0.5 * off[1]
 
     def _crossing(self, k: int, n: int, miss: Array) -> Search:
         """The change of sign between two places."""
@@ -361,7 +376,7 @@ class Scenes:
         value, stretch = self.query.value, (float(self.places[k - 1]), float(self.places[k + 1]))
         top = yield from self._topmost(k, lambda answers: -side * (answers - value), found)
         top = top._replace(error=top.error + self.rounded)
-        if top.height < -top.error:
+        if top.height < -top.error - (top.drop if top.corner else 0.0):
             return []
         if top.height > top.error:
             spots = []
@@ -488,7 +503,7 @@ class Scenes:
             if measure(own.answers)[0] >= height[1]:
                 best = crest, own.answers[0], measure(own.answers)[0], own.errors[0]
         place, answer, most, error = map(float, best)
-        return Top(place, answer, most, error, float(reach), drop, grows, measure)
+        return Top(place, answer, most, error, float(reach), drop, grows, not _bends(drops, 8), measure)
 
     def _above(self, stretch: tuple[float, float], top: Top) -> Generator[Asked, SeenRows, float | None]:
         """The error of the place of a peak: as far away to both sides rows with bounds show less; None where
@@ -524,7 +539,7 @@ class Scenes:
         return low, high
 
 
-def _bends(drops: list[float]) -> bool:
+def _bends(drops: list[float], halved: int = 4) -> bool:
     """Whether what a peak stands above the places beside it falls as the square of their distance, while that
-    was halved four times, and not as the distance itself, as beside a corner."""
-    return len(drops) < 5 or 32.0 * drops[-1] < drops[-5]
+    was halved some times, and not as the distance itself, as beside a corner, whose sides may be unlike."""
+    return len(drops) <= halved or 2.0 ** (halved + halved // 2 - 1) * drops[-1] < drops[-1 - halved]

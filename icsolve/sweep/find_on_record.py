@@ -10,7 +10,7 @@ and a note says so.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from decimal import Decimal, localcontext
 from itertools import pairwise
@@ -29,6 +29,7 @@ from icsolve.numbers.tape import UNIT
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
+from icsolve.sweep.closing import MOST_ORDER, NOTHING, zeros_between
 from icsolve.sweep.exact import APART, CONTEXT, STEP, Unreached, Values, as_written
 from icsolve.sweep.find_by_scenes import FoundPosition, FoundPositions, Mask, Query, Scenes
 from icsolve.sweep.parts import SweepPart, SweepParts
@@ -49,10 +50,6 @@ NARROW = 2.0**-32
 """Cells that are this part of the range wide are at an end of it, or at a change point."""
 PLACES = 2048
 """Places at which groups are searched."""
-NOTHING = Decimal("1e-35")
-"""Below this fraction of its size elsewhere a value is zero."""
-CLOSED = Decimal("1e-45")
-"""Zeros are closed in to this."""
 
 
 def find(
@@ -207,9 +204,11 @@ class RangeSearch:
         def slope(s: Decimal) -> Decimal:
             return self._value(answer, s + STEP) - self._value(answer, s - STEP)
 
-        for low, high, _ in self._isolated(top, bottom, peaks=True):
-            for s in self._closed(slope, low, high):
-                value, wide = self._value(answer, s), (high - low) / 1000
+        for low, high, order in self._isolated(top, bottom, peaks=True):
+            turns = sorted(zeros_between(slope, low, high, order))
+            gaps = [b - a for a, b in pairwise([low, *turns, high]) if b > a]
+            for s in turns:
+                value, wide = self._value(answer, s), min(gaps) / 1000
                 beside = [self._value(answer, s + k * wide) for k in (-1, 1)]
                 if all(abs(value) > abs(other) for other in beside) and not self._is_nothing(bottom, s):
                     yield s
@@ -218,11 +217,13 @@ class RangeSearch:
         """Where the links assemble on one side only; with the error, where it is more than the last digit."""
         if self._follows_groups:
             yield from ((s, error) for s, error in self._ends_of_groups())
-        for root in self.roots:
-            for node, _ in root.margins:
-                for s in self._zeros(self.record.nodes[node]):
-                    if self._assembles(s - NEAR) != self._assembles(s + NEAR):
-                        yield s, None
+        seen: list[Decimal] = []
+        for node in dict.fromkeys(node for root in self.roots for node, _ in root.margins):
+            for s in self._zeros(self.record.nodes[node]):
+                here = all(abs(s - other) > NEAR for other in seen)
+                if here and self._assembles(s - NEAR) != self._assembles(s + NEAR):
+                    seen.append(s)  # of several groups that end in one place
+                    yield s, None
 
     def _assembles(self, s: Decimal) -> bool:
         try:
@@ -274,7 +275,7 @@ class RangeSearch:
         yield self._spot(s, kind, load)
 
     def _spot(self, s: Decimal, kind: str, load: str | None, error: float | None = None) -> FoundPosition:
-        at = 0.0 if abs(s) < CLOSED else float(s)
+        at = 0.0 if abs(s) < NEAR * NEAR else float(s)
         answer = None
         if load is not None:
             with suppress(SceneError):
@@ -290,62 +291,17 @@ class RangeSearch:
         if self._vanishes(value):
             return
         seen: list[Decimal] = []
-        for low, high, bent in self._isolated(value, None):
-            for s in self._of_cell(value, low, high, bent):
+        for low, high, order in self._isolated(value, None):
+            for s in self._of_cell(value, low, high, order):
                 if all(abs(s - other) > NEAR * NEAR for other in seen):
                     seen.append(s)
                     yield s
 
-    def _of_cell(self, value: Traced, low: Decimal, high: Decimal, bent: bool) -> Iterator[Decimal]:
-        """The zeros of a cell in which the function, or where it is ``bent`` its slope, is monotone."""
-
-        def function(s: Decimal) -> Decimal:
-            return self._value(value, s)
-
-        def slope(s: Decimal) -> Decimal:
-            return function(s + STEP) - function(s - STEP)
-
+    def _of_cell(self, value: Traced, low: Decimal, high: Decimal, order: int) -> Iterator[Decimal]:
+        """The zeros of a cell, as `_of_order`."""
         if all(self._is_nothing(value, s) for s in (low, (low + high) / 2, high)):
             return  # three zeros are more than it has: it vanishes all over the cell, and has no sign there
-        for turn in self._closed(slope, low, high) if bent else ():
-            size = max(abs(function(low)), abs(function(high)))
-            if abs(function(turn)) <= NOTHING * size:
-                yield turn
-            else:
-                yield from self._closed(function, low, turn)
-                yield from self._closed(function, turn, high)
-            return
-        yield from self._closed(function, low, high)
-
-    def _closed(
-        self, function: Callable[[Decimal], Decimal], low: Decimal, high: Decimal
-    ) -> Iterator[Decimal]:
-        """A change of sign between two places, closed in by false position (Illinois); none where the
-        function grows as the places close in, through a pole."""
-        f, g = function(low), function(high)
-        if not f:
-            yield low
-        if not g:
-            yield high
-        if not f * g < 0:
-            return
-        side, wide, size = 0, (high - low) / POLE, Decimal("Infinity")
-        for _ in range(MOST_STEPS):
-            at = high - g * (high - low) / (g - f)
-            here = function(at)
-            if here.is_nan():
-                return
-            if (here > 0) == (g > 0):
-                moved, (high, g), f, side = high - at, (at, here), f / 2 if side > 0 else f, 1
-            else:
-                moved, (low, f), g, side = at - low, (at, here), g / 2 if side < 0 else g, -1
-            if not here or min(moved, high - low) <= CLOSED:
-                break
-            if high - low <= wide:
-                if min(abs(f), abs(g)) > GROWN * size:
-                    return
-                wide, size = (high - low) / POLE, max(abs(f), abs(g))
-        yield at
+        yield from zeros_between(lambda s: self._value(value, s), low, high, order)
 
     # --- cells ------------------------------------------------------------------------------------
 
@@ -355,9 +311,10 @@ class RangeSearch:
 
     def _isolated(
         self, value: Scalar, bottom: Scalar | None, peaks: bool = False
-    ) -> Iterator[tuple[Decimal, Decimal, bool]]:
-        """Cells that may hold a zero: one where the function is monotone, two at most where its slope is (of
-        a quotient's slope, where ``peaks``)."""
+    ) -> Iterator[tuple[Decimal, Decimal, int]]:
+        """Cells that may hold a zero, and the order of the derivative that keeps its sign in each: 1 where
+        the function is monotone, 2 where its slope is, `MOST_ORDER` where no bound shows which (of a
+        quotient's slope, where ``peaks``)."""
         wanted = [v for v in (value, bottom) if v is not None]
         by = self._by_places if self._follows_groups else self._by_bounds
         cuts = [as_written(self.ends[0]), *self.touches, as_written(self.ends[1])]
@@ -372,11 +329,11 @@ class RangeSearch:
                     self.notes[RINGED] = None
                     wide = min(beside, (last - first) / 2)
                     ring = [touch + away * wide / 2**n for n in range(RINGS)]
-                    yield from ((min(pair), max(pair), False) for pair in pairwise(ring))
+                    yield from ((min(pair), max(pair), 1) for pair in pairwise(ring))
 
     def _by_bounds(
         self, wanted: Sequence[Scalar], peaks: bool, first: float, last: float
-    ) -> Iterator[tuple[Decimal, Decimal, bool]]:
+    ) -> Iterator[tuple[Decimal, Decimal, int]]:
         """By bounds of the function over whole cells, cut until each is decided."""
         given = self._reached(first, last)
         if given is None:
@@ -389,23 +346,30 @@ class RangeSearch:
         edges = np.linspace(first, last, CELLS + 1)
         mid, half = (edges[:-1] + edges[1:]) / 2.0, np.diff(edges) / 2.0
         seen, narrow, open_ = 0, (last - first) * NARROW, 0
-        found: list[tuple[Decimal, Decimal, float]] = []
+        found: list[tuple[Decimal, Decimal, float, int]] = []
         while mid.size:
             seen += mid.size
             if seen > MOST_CELLS:
                 open_ += mid.size
                 break
             whole, points = cells.run(mid, half)
-            there = np.ones(len(mid), dtype=bool)
+            there, inside = np.ones((2, len(mid)), dtype=bool)
             for radicand in whole[len(nodes) :]:
                 there &= ~(radicand.value.mid + radicand.value.rad < 0.0)
+                inside &= radicand.value.excludes_zero
+            for one in whole[: len(nodes)]:
+                inside &= np.isfinite(one.second.mid) & np.isfinite(one.second.rad)
             decide = _decided_peak if peaks else _decided
             empty, rises, bent = decide(whole[: len(nodes)], points[: len(nodes)], half)
             decided = (rises != 0.0) | bent
             done = ~there | empty | decided
-            for k in np.flatnonzero(there & ~empty & decided):
+            tangled = ~done & (half <= narrow) & inside  # beside an end there are no bounds, nor zeros
+            for k in np.flatnonzero((there & ~empty & decided) | tangled):
                 low, high = as_written(mid[k] - half[k]), as_written(mid[k] + half[k])
-                found.append((low, high, float(rises[k])))
+                order = MOST_ORDER if tangled[k] else 1 if rises[k] else 2
+                found.append((low, high, float(rises[k]), order))
+            if tangled.any():
+                self.notes[TANGLED] = None
             left = np.flatnonzero(~done & (half > narrow))
             mid, half = (
                 np.concatenate([mid[left] - half[left] / 2.0, mid[left] + half[left] / 2.0]),
@@ -413,13 +377,16 @@ class RangeSearch:
             )
         if open_:
             self.notes[UNSHOWN.format(count=open_)] = None
-        runs: list[tuple[Decimal, Decimal, float]] = []
-        for low, high, sign in sorted(found):  # cells side by side in which it rises, or falls, are one
-            if runs and sign and sign == runs[-1][2] and low - runs[-1][1] <= Decimal(narrow / 2.0):
-                runs[-1] = (runs[-1][0], high, sign)
+        runs: list[tuple[Decimal, Decimal, float, int]] = []
+        for low, high, sign, order in sorted(
+            found
+        ):  # cells side by side in which it rises, or falls, are one
+            side = bool(runs) and low - runs[-1][1] <= Decimal(narrow / 2.0)
+            if side and order != 2 and (sign, order) == runs[-1][2:]:
+                runs[-1] = (runs[-1][0], high, sign, order)
             else:
-                runs.append((low, high, sign))
-        yield from ((low, high, not sign) for low, high, sign in runs)
+                runs.append((low, high, sign, order))
+        yield from ((low, high, order) for low, high, _, order in runs)
 
     def _reached(self, first: float, last: float) -> Mapping[int, Decimal] | None:
         """The inputs at a place between two; None where the links reach one another at none that is tried."""
@@ -432,7 +399,7 @@ class RangeSearch:
 
     def _by_places(
         self, wanted: Sequence[Scalar], peaks: bool, first: float, last: float
-    ) -> Iterator[tuple[Decimal, Decimal, bool]]:
+    ) -> Iterator[tuple[Decimal, Decimal, int]]:
         """By the function and its slope at many places."""
         at = np.linspace(first, last, PLACES + 1)
         self.notes[SEARCHED.format(count=PLACES)] = None
@@ -445,7 +412,7 @@ class RangeSearch:
             turns = _may_touch(f, slopes[0], np.diff(at))
         changes = f[:-1] * f[1:] <= 0.0
         for k in np.flatnonzero(changes | turns):
-            yield as_written(at[k]), as_written(at[k + 1]), bool(turns[k])
+            yield as_written(at[k]), as_written(at[k + 1]), 1 + int(turns[k])
 
     def _sampled(self, value: Scalar, at: Array) -> tuple[Array, Array]:
         """A value and its slope at places; not a number where the links do not assemble."""
@@ -485,9 +452,6 @@ BESIDE = 2.0**-4
 RINGS = 24
 """rings, each half as far from it."""
 PROBES = ("0.2137", "0.4311", "0.7919")
-MOST_STEPS = 400
-POLE, GROWN = 1000, 30
-"""Where places are so many times nearer to one another a function has grown by the second, at a pole."""
 ROUGH = 1e-12
 """Relative error of the place at which a group reaches its limit."""
 PUSHED = "positions in which a rope would have to push are left out."
@@ -497,6 +461,10 @@ UNSHOWN = (
 RINGED = (
     "beside a change point, where no bound shows what is there, the range was searched in rings, each half "
     "as far from it: two positions in one ring may be missed."
+)
+TANGLED = (
+    "where no bound tells how the answer runs, beside a limit or where its slopes all but vanish with it, "
+    "positions were looked for between those in which its derivatives vanish, up to the sixth."
 )
 SEARCHED = (
     "a group of links has to be placed by Newton's method, or turns to be counted: the range was searched at "

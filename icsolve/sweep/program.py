@@ -6,7 +6,7 @@ rates and centres: each with the kernels that one scene has.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from contextlib import suppress
 
 from icsolve.assembly import Figure, Placement, place, placed_figure
@@ -230,6 +230,12 @@ NUDGES = (2.0**-9, -(2.0**-9), 2.0**-14, -(2.0**-14), 2.0**-6, -(2.0**-6))
 so that nothing in it is zero by chance."""
 
 
+def _apart(nudge: float, inputs: Collection[object]) -> float:
+    """How far the next input is nudged: each otherwise than those before, so that nothing is equal by chance
+    either (of a parallelogram whose sides are all varied)."""
+    return nudge * (1.0 - 0.5 * (0.6180339887 * len(inputs) % 1.0))
+
+
 YIELDS_HERE = (
     "the links move in the position as written alone, for an instant: beside it they form a structure, which "
     "no sweep can turn. Vary loads in this position, or take out a joint or a link that binds."
@@ -272,7 +278,9 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
             margins = tuple(m.index for step in placed.margins.values() for m in step if varies(m))
         names = _written(setting.figure, placed)
         if inputs:
-            fits = tuple(m.index for m in teeth_margins(case, names, frame.scale, record) if varies(m))
+            lines = refusals.direction_margins(refusals.directions_of_joints(case), names)
+            teeth = teeth_margins(case, names, frame.scale, record)
+            fits = tuple(m.index for m in (*teeth, *lines) if varies(m))
         if setting.moves:
             motion = _motion(setting, mechanism(case, frame, record, names), nudge, inputs, signs)
         else:
@@ -311,7 +319,7 @@ def _placed(setting: Setting, record: Record, nudge: float, inputs: dict[str, in
     for path in setting.paths:
         if path not in setting.drive.moving:
             value = numbers[path].value
-            node = record.input(path, value + (abs(value) or 1.0) * nudge)
+            node = record.input(path, value + (abs(value) or 1.0) * _apart(nudge, inputs))
             record.vary[path], inputs[path] = node, node.index
     return place(setting.figure, setting.case, record)
 
@@ -330,12 +338,12 @@ def _motion(
     record = held.shape.record
     drivers: list[Constraint] = []
     for link in setting.links:
-        node = record.input(link, 180.0 * nudge)
+        node = record.input(link, 180.0 * _apart(nudge, inputs))
         inputs[link] = node.index
         drivers.append(turning(held, link, node))
     for path in drive.moving:
         size = 180.0 if is_angle(path) else 1.0 / setting.figure.frame.scale
-        node = record.input(path, numbers[path].value + size * nudge)
+        node = record.input(path, numbers[path].value + size * _apart(nudge, inputs))
         record.vary[path], inputs[path] = node, node.index
         pose = pose_of(held, path)
         if pose is None:

@@ -361,7 +361,11 @@ def _scale(scene: RecordedScene, twists: Mapping[str, tuple[Triple, ...]]) -> tu
         if point is None:
             return w, target
         v = velocity((x, y, w), scene.points[point])
-        given = scene.case.motion[0]
+        given, record = scene.case.motion[0], scene.record
+        if given.angle is not None and not record.follows:  # a row as if written so goes as is written
+            c, s = record.turn(given.angle)
+            along = v[0] * c + v[1] * s
+            return _signed(scene, v, True) * (along / record.sqrt(along * along)), target
         forward = float(speed.divisor) > 0.0 if given.angle is None else _forward(v, given)
         return _signed(scene, v, forward), target
     link = next(n for n in speeds.joint_order(scene.case) if any(map(float, twists[n][0])))
@@ -412,6 +416,9 @@ def _own(scene: RecordedScene, pair: Pair) -> Triple | None:
             basis = freedoms(bond, scene.points, scene.record)
             if len(basis) == 1:
                 return basis[0]
+    for joint in scene.case.joints:  # two links on a pin that a third one carries
+        if joint.pivot in scene.points and {*pair} <= {*joint.links} and len(bodies) > 1:
+            return (*scene.points[joint.pivot], 1.0)
     return None
 
 

@@ -112,8 +112,9 @@ class SweepRun:
         recheck = Recheck(self.parts, part)
         for row in rows:
             self._place(recheck, row)
-        if self.start.asked.answers:
-            by_scenes(self.table, [row for row in rows if self.codes[row] == 0], recheck.case, missing=True)
+        asked = self.start.asked.answers
+        left = [row for row in rows if self.codes[row] == 0 and (asked or self.table.lacks(row))]
+        by_scenes(self.table, left, recheck.case, missing=True)
 
     def _place(self, recheck: Recheck, row: int) -> None:
         """The numbers of a row in high precision, each rounded once."""

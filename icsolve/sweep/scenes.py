@@ -62,7 +62,8 @@ def _one(table: Table, row: int, case_of: Callable[[int], Case], missing: bool) 
     try:
         case = case_of(row)
         if missing:
-            answer = solve_scene(case, rates=table.lacks_rates(row), alone=True)
+            centres = table.lacks(row, "centres")
+            answer = solve_scene(case, rates=table.lacks(row), all_centres=centres, alone=True)
         else:
             answer = solve_scene(
                 case,
@@ -127,7 +128,8 @@ def families(case: Case, columns: Columns, moving: Iterable[str]) -> Iterator[tu
         closest = int(np.abs(np.array(done) - steps[n]).max(axis=1).argmin())
         placed = replace(changed, near=nears[closest])
         found, status = _places(placed)
-        if status == Status.INCONSISTENT:  # what data place anew may lie opposite to where it was
+        # what data place anew may lie opposite to where it was; a point that no joint needs is then left out
+        if status == Status.INCONSISTENT or (found is not None and not placed.near.keys() <= found.keys()):
             placed = changed
             found, _ = _places(placed)
         yield placed, np.flatnonzero(which.ravel() == n)

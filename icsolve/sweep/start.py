@@ -42,10 +42,10 @@ def runner(
 
 def is_hard(setting: Setting) -> bool:
     """Whether numbers are varied that reshape a figure whose construction holds as written only: with a
-    group that Newton's method places, with circles that touch, or with data that repeat others; or that are
-    of a given motion."""
+    group that Newton's method places, with circles that touch, or with data that repeat others; radii in a
+    motion, of which one may be straight; or that are of a given motion."""
     reshaping = [path for path in setting.paths if path not in setting.drive.moving]
-    if any(map(drives, reshaping)):
+    if any(map(drives, reshaping)) or (setting.moves and any(".radii." in path for path in reshaping)):
         return True
     shapes = list(filter(_shapes, reshaping))
     if not shapes:

@@ -244,7 +244,7 @@ class Table:
             if found.holds is not None:
                 self.codes[row] = CODE["holds"]
                 self.holds.setdefault(name, np.full((self.rows, 2), np.nan))[row] = found.holds
-        if missing and not self.lacks_rates(row):
+        if missing and not self.lacks(row):
             return
         for one in answer.touching:
             angle = np.nan if one.pressure_angle is None else one.pressure_angle
@@ -260,7 +260,7 @@ class Table:
         for term in answer.terms if asked.terms and 1 in (answer.mobility, len(answer.answers)) else ():
             if term.load in loads:
                 self.put("terms", term.load, row, term.factor)
-        for pair in asked.centres if not missing else ():
+        for pair in asked.centres if not missing or self.lacks(row, "centres") else ():
             triple = _triple(answer, pair)
             if triple is not None:
                 first, second = sorted(pair, key=lambda link: link_order(case, link))
@@ -280,10 +280,11 @@ class Table:
                 if not isinstance(vector, str) and is_named(point):
                     self.put(kind, f"{point} on {on}", row, vector)
 
-    def lacks_rates(self, row: int) -> bool:
-        """Whether a link of a row has no rate: what scales the others stands still there."""
-        rates = [array[row] for (kind, _), array in self.values.items() if kind == "rates"]
-        return self.asked.rates and bool(np.isnan(rates).any())
+    def lacks(self, row: int, *kinds: str) -> bool:
+        """Whether a row lacks a number of what moves in it (or of some kinds of these), as where what scales
+        the others stands still, or where the record divides by what is zero there."""
+        some = [array for (kind, _), array in self.values.items() if kind in (kinds or ("rates", "centres"))]
+        return any(np.isnan(array[row]).any() for array in some)
 
     def sweep(
         self,
