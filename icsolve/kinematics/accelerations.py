@@ -18,9 +18,8 @@ from icsolve.case.joints import CentreAt, JointCentre, JointKind, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import LOOSE, NO_SPEED, fastest, meant, path_of, speed_of
 from icsolve.numbers.arithmetic import Scalar, all_vanish, decider, largest_of
-from icsolve.numbers.linear import General, Row, eliminate
+from icsolve.numbers.linear import SPENT, General, Row, eliminate
 from icsolve.numbers.tape import UNIT
-from icsolve.numbers.units import numbers_in
 from icsolve.screws.joints import centre_twist, freedoms, mesh_weights, rolling_centres, transmitted
 from icsolve.screws.plane import Point, Triple, add, cross, pairing, subtract, unit_between, velocity
 from icsolve.screws.ropes import part_changes, rope_parts
@@ -157,26 +156,12 @@ def _solved(place: PlacedCase, twists: Twists, drives: Sequence[Drive], slack: f
     """The rates of all bodies' twists in general, and whether there are any."""
     arithmetic, known = place.arithmetic, 3 * len(place.top.members)
     rows, sizes = rate_rows(place, twists, drives)
-    if not slack:
-        general = eliminate(rows, known, vanishes=decider(arithmetic))
-        largest = max(sizes, default=0.0)
-        return general, all(arithmetic.vanishes(row.get(known, 0.0), largest) for row in general.left)
-    near = min(NEAR, GROWN * max(slack, _last_decimals(place)))
-    told = [{**row, known + 1 + n: 1.0} for n, row in enumerate(rows)]  # of which rows one is the sum
-    general = eliminate(told, known, near)
-    return general, all(
-        abs(float(left.get(known, 0.0)))
-        <= near * sum(abs(float(left.get(known + 1 + n, 0.0))) * size for n, size in enumerate(sizes))
-        for left in general.left
-    )
-
-
-def _last_decimals(place: PlacedCase) -> float:
-    """By how much contacts may miss each other for the last decimals, or bits, of the finest number that is
-    written [frame]."""
-    written = numbers_in(place.case.points, place.case.lengths)
-    finest = min((number.half for number in written if "." in number.digits), default=0.0)
-    return max(UNIT, place.frame.scale * finest)
+    # contacts may happen to miss by less than their last bits let them: what follows does not
+    near, largest = min(NEAR, GROWN * max(slack, UNIT)) if slack else 0.0, max(sizes, default=0.0)
+    general = eliminate(rows, known, near or SPENT, None if slack else decider(arithmetic))
+    rest = [left.get(known, 0.0) for left in general.left]
+    fits = all(abs(float(a)) <= near * largest or arithmetic.vanishes(a, largest) for a in rest)
+    return general, fits
 
 
 def _rates(
