@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from random import Random
+from typing import Any
 
 import pytest
 import yaml
@@ -71,6 +73,29 @@ def test_a_group_takes_the_way_nearest_to_near(links: int, spread: float) -> Non
             continue
         nearest = off(draft.near, places) <= off(draft.near, draft.at) * (1.0 + 1e-9)
         assert nearest or apart(places, draft.at) < 1e-6, (links, seed)
+
+
+@pytest.mark.parametrize("seed", range(1, 4))
+def test_each_way_of_a_group_is_settled_on_once_however_many_starts_lead_to_it(
+    seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """And once more to the last digit, in each of the two searches of a figure: up to 54 times else."""
+    draft, settled = linkage(seed, 8), []
+
+    def noted(*given: Any) -> newton.Settled:
+        settled.append(settle(*given))
+        return settled[-1]
+
+    settle = newton._settled
+    monkeypatch.setattr(newton, "_settled", noted)
+    for p in draft.names:
+        if p not in draft.points:
+            draft.approximately(p, 0.15)
+    newton._searched.cache_clear()
+    unless_even(draft.case())
+    places = Counter(tuple(round(x, 7) for at in found.places.values() for x in at) for found in settled)
+    assert len(places) >= 15
+    assert max(places.values()) <= 4
 
 
 def test_of_two_ways_that_are_nearly_one_the_nearer_is_found() -> None:

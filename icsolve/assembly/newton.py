@@ -49,6 +49,8 @@ two."""
 MISSED = 1e-13
 """Residual [frame of size 1] above which what was arrived at is no solution: of a smaller one the decimals
 tell."""
+CLOSE = 1e-3
+"""Descents that end nearer to a solution than this, over the group's size, are likely to lead there."""
 ONE = 3e-8
 """Solutions nearer than this, over their distance and the group's size, are one: so far apart are the two
 beside a fold where doubles no longer tell that there are two."""
@@ -168,6 +170,8 @@ class _NewtonSearch:
         self.reach: float = max(lengths, default=0.0) or 1.0
         """the size of the group: its longest length"""
         self.found: list[Start] = []
+        self.rooms: dict[int, float] = {}
+        """by the number of a solution the `_room` about it, once something comes near"""
         self.closest = Descent(math.inf, {}, 0)
         self.beside: Start = {}
         self.complete = self.spent = False
@@ -225,11 +229,20 @@ class _NewtonSearch:
         if descent.off > CLOSED * self.reach * self.reach:
             self.closest = min(self.closest, descent, key=lambda each: each.off)
             return
+        if any(self._leads_to(n, descent.end) for n in range(len(self.found))):
+            return
         settled = _settled(self.group, self.workspace, descent.end)
         if settled.off > MISSED:
             self.closest = min(self.closest, descent, key=lambda each: each.off)
         elif not any(_same(settled.places, other, self.reach) for other in self.found):
             self.found.append(settled.places)
+
+    def _leads_to(self, n: int, end: Start) -> bool:
+        """Whether it is shown that Newton's method leads from places to the n-th solution that was found."""
+        found = self.found[n]
+        if n not in self.rooms and _apart(end, found) < CLOSE * self.reach:
+            self.rooms[n] = _room(self.group, self.workspace, found)
+        return _apart(end, found) < self.rooms.get(n, 0.0) / 2.0
 
     def leaves(self, first: Start) -> bool:
         """Whether the nearest solution lies elsewhere, and the data come close to being met at `near`: at a
@@ -315,27 +328,38 @@ MOST_SHOWN = 100
 """Equations of the largest group for which an inverse is taken."""
 
 
-def _alone(group: PointGroup, workspace: Workspace, near: Start, end: Start) -> bool:
-    """Whether it is shown that no other solution is as near to `near` as one that was found.
+def _room(group: PointGroup, workspace: Workspace, at: Start) -> float:
+    """The radius of a ball about places in which there is at most one solution; 0 where none is shown.
 
-    All points have a `near`. With Y the inverse of the derivatives J at `near`, there is at most one solution
-    in a ball where |Y (J(x) - J)| < 1: the mean of J between two solutions would be singular else.
+    With Y the inverse of the derivatives J there, that is where |Y (J(x) - J)| < 1: the mean of J between two
+    solutions would be singular else. About a solution Newton's method leads there from two thirds of it
+    (W. C. Rheinboldt, An adaptive continuation process, 1978).
     """
     if len(group.equations) > MOST_SHOWN:
-        return False
-    workspace.points.update(near)
+        return 0.0
+    workspace.points.update(at)
     _, rows = group.system(workspace)
     inverted = inverse([[row.get(k, 0.0) for k in range(len(rows))] for row in rows])
     if inverted is None:
-        return False
-    radius = math.hypot(*(math.dist(near[t], end[t]) for t in near)) * (1.0 + 1e-9)
+        return 0.0
     squares = dict.fromkeys(group.targets, 0.0)
     for equation in group.equations:
         share = STEEPEST.get(equation.datum.kind, 0.0)
         for p in {*equation.datum.points} & squares.keys():
             squares[p] += share * share
-    change = math.sqrt(max(squares.values())) * radius
-    return math.sqrt(sum(v * v for row in inverted for v in row)) * change < 1.0
+    change = math.sqrt(sum(v * v for row in inverted for v in row)) * math.sqrt(max(squares.values()))
+    return 1.0 / change if change else math.inf
+
+
+def _apart(one: Start, two: Start) -> float:
+    """How far two sets of places are apart, all coordinates taken together."""
+    return math.hypot(*(math.dist(one[t], two[t]) for t in one))
+
+
+def _alone(group: PointGroup, workspace: Workspace, near: Start, end: Start) -> bool:
+    """Whether it is shown that no other solution is as near to `near`, which all points have, as one that was
+    found."""
+    return _apart(near, end) * (1.0 + 1e-9) < _room(group, workspace, near)
 
 
 def _least_residual(group: PointGroup, workspace: Workspace, start: Start, reach: float) -> Start:
