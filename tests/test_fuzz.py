@@ -18,6 +18,7 @@ from fuzzing import FOUND, TOKENS, Dice, by_characters, by_lines, by_nodes, camp
 from icsolve.errors import CaseError
 from icsolve.manual import template
 from icsolve.read import load
+from icsolve.sweep import find_by_scenes
 from sizes import FULL
 
 SAMPLE = int(os.environ.get("ICSOLVE_FUZZ", "40"))
@@ -36,6 +37,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     if not FULL:
         monkeypatch.setattr("icsolve.assembly.exclusion.MOST_BOXES", 10_000)
         monkeypatch.setattr("icsolve.page.motion.COARSE", 15.0)  # rows that are solved one by one
+        monkeypatch.setattr(find_by_scenes, "PLACES", 60)
     return tmp_path
 
 
