@@ -32,10 +32,19 @@ from icsolve.numbers.record import Record
 from icsolve.report.derivation.known import known_of
 from icsolve.report.text import answer_text
 from icsolve.scene import solve_scene
+from icsolve.solve import resting
 from icsolve.solve.rest import AT_LIMIT
 from icsolve.solve.stability import with_stability
 from shell import Shell, exit_status
 from sizes import FULL
+
+
+@pytest.fixture(autouse=True)
+def sampled(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ranges that friction alone holds are looked for at fewer values: here all are wide."""
+    if not FULL:
+        monkeypatch.setattr(resting, "SAMPLES", 40)
+
 
 PENDULUM = """icsolve: 1
 points: {{A: [0, 0]{more}}}
