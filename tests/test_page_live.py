@@ -66,7 +66,7 @@ SOME = {
     "dynamics/hoist_starting": "inertia forces with a point's given motion",
 }
 """Mechanisms of all kinds, and what each is here for."""
-CHANGES = 30 if FULL else 8
+CHANGES = 30 if FULL else 5
 
 
 @pytest.fixture

@@ -24,7 +24,7 @@ from icsolve.case import Case
 from icsolve.cli.commands import icsolve
 from icsolve.errors import SceneError, Status
 from icsolve.read import load
-from library import FILES
+from library import FILES, sample
 from shell import exit_status
 from sizes import MORE
 from test_figure import BUTTERFLY, FOUR_BAR, LOOP, PINS, butterfly
@@ -288,7 +288,7 @@ def test_a_point_whose_data_tell_the_same_is_anywhere_along_a_curve(monkeypatch:
     assert refusal.value.status == Status.UNDERDETERMINED
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", sample(FILES, 2, "digits of ways"))
 def test_a_way_has_the_points_of_the_scene_digit_by_digit(name: str) -> None:
     """Each coordinate rounded once, as `solve` tells it: a zero is no rounding of one."""
     case = load(FILES[name])
