@@ -79,7 +79,7 @@ def test_a_group_takes_the_way_nearest_to_near(links: int, spread: float) -> Non
 def test_each_way_of_a_group_is_settled_on_once_however_many_starts_lead_to_it(
     seed: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """And once more to the last digit, in each of the two searches of a figure: up to 54 times else."""
+    """In each of the two searches of a figure: up to 54 times else."""
     draft, settled = linkage(seed, 8), []
 
     def noted(*given: Any) -> newton.Settled:
@@ -95,7 +95,7 @@ def test_each_way_of_a_group_is_settled_on_once_however_many_starts_lead_to_it(
     unless_even(draft.case())
     places = Counter(tuple(round(x, 7) for at in found.places.values() for x in at) for found in settled)
     assert len(places) >= 15
-    assert max(places.values()) <= 4
+    assert max(places.values()) <= 2
 
 
 def test_of_two_ways_that_are_nearly_one_the_nearer_is_found() -> None:

@@ -146,8 +146,8 @@ def _searched(
     search = _NewtonSearch(group, workspace, near)
     search.run()
     held = [t for t in group.targets if t in near]
-    search.found.sort(key=lambda end: math.hypot(*(math.dist(end[t], near[t]) for t in held)))
-    polished = [_polished(group, workspace, end) for end in search.found]
+    search.found.sort(key=lambda end: math.hypot(*(math.dist(end.places[t], near[t]) for t in held)))
+    polished = [_polished(group, end) for end in search.found]
     settled = [option for option in polished if option is not None]
     if settled and polished[0] is not None:
         first = dict(zip(group.targets, settled[0].start, strict=True))
@@ -169,7 +169,7 @@ class _NewtonSearch:
         lengths = (workspace.length(d) for d in data_in(group) if d.kind == LENGTH)
         self.reach: float = max(lengths, default=0.0) or 1.0
         """the size of the group: its longest length"""
-        self.found: list[Start] = []
+        self.found: list[Settled] = []
         self.rooms: dict[int, float] = {}
         """by the number of a solution the `_room` about it, once something comes near"""
         self.closest = Descent(math.inf, {}, 0)
@@ -181,7 +181,7 @@ class _NewtonSearch:
         held = {t: self.near[t] for t in self.group.targets if t in self.near}
         if len(held) == len(self.group.targets):
             self._try(held, MOST_NEAR_STEPS)
-            if self.found and _alone(self.group, self.workspace, held, self.found[0]):
+            if self.found and _alone(self.group, self.workspace, held, self.found[0].places):
                 self.complete = True
                 return
             known = len(self.found)
@@ -234,12 +234,12 @@ class _NewtonSearch:
         settled = _settled(self.group, self.workspace, descent.end)
         if settled.off > MISSED:
             self.closest = min(self.closest, descent, key=lambda each: each.off)
-        elif not any(_same(settled.places, other, self.reach) for other in self.found):
-            self.found.append(settled.places)
+        elif not any(_same(settled.places, other.places, self.reach) for other in self.found):
+            self.found.append(settled)
 
     def _leads_to(self, n: int, end: Start) -> bool:
         """Whether it is shown that Newton's method leads from places to the n-th solution that was found."""
-        found = self.found[n]
+        found = self.found[n].places
         if n not in self.rooms and _apart(end, found) < CLOSE * self.reach:
             self.rooms[n] = _room(self.group, self.workspace, found)
         return _apart(end, found) < self.rooms.get(n, 0.0) / 2.0
@@ -261,9 +261,9 @@ class _NewtonSearch:
         group, near = self.group, self.near
         for end in list(self.found):
             with suppress(SceneError):
-                yield from _pair(group, self.workspace, end, self.reach)
+                yield from _pair(group, self.workspace, end.places, self.reach)
         if self.found:
-            yield from _about(near, self.found[0])
+            yield from _about(near, self.found[0].places)
         if held:
             yield from _constructed(group, self.workspace, near, held, self.reach)
         for point in held[:2] if len(held) > 1 else ():
@@ -490,9 +490,8 @@ def _settled(group: PointGroup, workspace: Workspace, end: Start) -> Settled:
     return found
 
 
-def _polished(group: PointGroup, workspace: Workspace, end: Start) -> PointGroup | None:
-    """The group settled on a solution in full precision; None where it does not stand alone."""
-    settled = _settled(group, workspace, end)
+def _polished(group: PointGroup, settled: Settled) -> PointGroup | None:
+    """The group on a solution that was settled on; None where that does not stand alone."""
     return None if settled.flatness < FLAT else group._replace(start=tuple(settled.places.values()))
 
 
