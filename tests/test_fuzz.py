@@ -15,6 +15,7 @@ import pytest
 
 from corpus import ALL
 from fuzzing import FOUND, TOKENS, Dice, by_characters, by_lines, by_nodes, campaign, faults_of, run
+from icsolve.assembly import newton
 from icsolve.errors import CaseError
 from icsolve.manual import template
 from icsolve.read import load
@@ -36,8 +37,10 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setenv("ICSOLVE_DEBUG", "1")
     if not FULL:
         monkeypatch.setattr("icsolve.assembly.exclusion.MOST_BOXES", 10_000)
-        monkeypatch.setattr("icsolve.page.motion.COARSE", 15.0)  # rows that are solved one by one
-        monkeypatch.setattr(find_by_scenes, "PLACES", 60)
+        monkeypatch.setattr("icsolve.page.motion.COARSE", 45.0)  # rows that are solved one by one
+        monkeypatch.setattr(find_by_scenes, "PLACES", 20)
+        monkeypatch.setattr(newton, "MOST_WORK", 20_000)
+        monkeypatch.setattr(newton, "CLOSE_WORK", 5_000)
     return tmp_path
 
 
