@@ -468,14 +468,11 @@ def ten_links() -> str:
 
 
 def test_the_same_bytes_on_every_run(tmp_path: Path) -> None:
-    path = FILES["linkages/watt_six_bar.yaml"]
-    pages = []
-    for seed in ("1", "2"):
-        out = tmp_path / f"{seed}.html"
-        command = [sys.executable, "-m", "icsolve", "page", str(path), "-o", str(out)]
-        subprocess.run(command, cwd=ROOT, env={**os.environ, "PYTHONHASHSEED": seed}, check=True)
-        pages.append(out.read_bytes())
-    assert pages[0] == pages[1]
+    """Whatever order sets and dictionaries of another process have."""
+    name, out = "ch13/13_12_five_links.yaml", tmp_path / "page.html"
+    command = [sys.executable, "-m", "icsolve", "page", str(FILES[name]), "-o", str(out)]
+    subprocess.run(command, cwd=ROOT, env={**os.environ, "PYTHONHASHSEED": "1"}, check=True)
+    assert out.read_text(encoding="utf-8") == page_of(name)
 
 
 def test_the_command_writes_a_page(tmp_path: Path) -> None:
