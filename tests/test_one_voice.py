@@ -227,8 +227,8 @@ def test_what_is_told_is_taken_as_an_expected_value_and_as_an_answer(
 def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where each position is a scene of its own fewer are looked at, by the pages as by the others."""
     if not FULL:
-        monkeypatch.setattr("icsolve.page.motion.COARSE", 15.0)
-        monkeypatch.setattr(find_by_scenes, "PLACES", 60)
+        monkeypatch.setattr("icsolve.page.motion.COARSE", 45.0)
+        monkeypatch.setattr(find_by_scenes, "PLACES", 20)
 
 
 @cache
@@ -495,7 +495,7 @@ TELL = {
     },
     "gallery -o": ["shown"],
     "sweep --drive": ["2=0:2:1"],
-    "sweep --find": ["dead", "--drive", "2=0:2:1"],
+    "sweep --find": ["dead", "--drive", "2=0:0.002:0.001"],
     "export gift -o": ["quiz.gift"],
 }
 
