@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import shutil
 import sys
+from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 from random import Random
@@ -45,7 +46,7 @@ from icsolve.bench.full_turn import (
     ran,
     written_out,
 )
-from icsolve.bench.gates import Effort, Gate, gate_table, least, nothing, ratio
+from icsolve.bench.gates import Effort, Gate, cpu_seconds, gate_table, least, nothing, ratio
 from icsolve.bench.growth import butterflies, gears, scissors
 from icsolve.bench.picture import figure, picture
 from icsolve.bench.promises import SEED, STARTS, newton_in_c
@@ -321,6 +322,8 @@ def test_the_whole_benchmark_in_small(tmp_path: Path, monkeypatch: pytest.Monkey
     monkeypatch.setattr("icsolve.bench.promises.STARTS", STARTS[::7])
     monkeypatch.setattr("icsolve.bench.speed.PEERS", PEERS[:1])  # each is used in a test of its own
     monkeypatch.setattr("icsolve.bench.speed.SAMPLE", 4)  # positions of sixty digits
+    once = cache(lambda *command: cpu_seconds([*command]))  # of each process one run
+    monkeypatch.setattr("icsolve.bench.promises.cpu_seconds", lambda command: once(*command))
 
     def printed() -> tuple[int, str]:
         ran = CliRunner().invoke(command, ["bench", "-o", str(tmp_path / "plot.svg")], standalone_mode=False)
