@@ -40,12 +40,13 @@ def chromium() -> Iterator[Browser]:
 
 
 @pytest.fixture(scope="module", autouse=True)
-def forgotten() -> Iterator[None]:
-    """What the package keeps of cases that one module solved is not kept for the next."""
+def forgotten(request: pytest.FixtureRequest) -> Iterator[None]:
+    """What one module and the package keep of cases that it solved is not kept for the next."""
     yield
     rooms = [vars(room) for name, room in sys.modules.items() if name.startswith("icsolve.")]
-    for kept in [value for room in rooms for value in room.values() if isinstance(value, KEPT)]:
-        kept.cache_clear()
+    for kept in [value for room in (*rooms, vars(request.module)) for value in room.values()]:
+        if isinstance(kept, KEPT) and kept.__module__ != "library":  # which is for all modules
+            kept.cache_clear()
 
 
 @pytest.fixture

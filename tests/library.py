@@ -10,6 +10,8 @@ from functools import cache
 from pathlib import Path
 from zlib import crc32
 
+import pytest
+
 import icsolve
 from icsolve.page import page_html
 from icsolve.page.motion import PageMotion, motion_of
@@ -32,16 +34,27 @@ PAGED = sample(FILES, 8, "pages")
 
 @cache
 def known(name: str) -> Known:
-    return known_of(icsolve.load(FILES[name]))
+    """What is known of a case, with its reactions, as its page takes it."""
+    return known_of(icsolve.load(FILES[name]), reactions=True)
+
+
+@cache
+def turned(name: str) -> PageMotion | None:
+    """The motion of a case with the centres of its page."""
+    steps = needed_steps(known(name)) if known(name).whole is not None else ()
+    return motion_of(known(name), [step.centre.pair for step in steps])
 
 
 @cache
 def page_of(name: str) -> str:
-    return page_html(icsolve.load(FILES[name]))
+    """Its page; one in the plane asks for the motion once."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr("icsolve.page.motion_of", lambda *_: turned(name))
+        return page_html(known(name))
 
 
-@cache
 def motion(name: str) -> PageMotion:
-    found = motion_of(known(name), [step.centre.pair for step in needed_steps(known(name))])
+    """Its motion, which it has."""
+    found = turned(name)
     assert found is not None
     return found

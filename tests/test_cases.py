@@ -7,11 +7,12 @@ closed form give ten digits and more.
 from __future__ import annotations
 
 import math
+from functools import cache
 from pathlib import Path
 
 import pytest
 
-from icsolve import Case, load
+from icsolve import Answer, Case, load
 from icsolve.case import (
     Belt,
     Contact,
@@ -54,18 +55,32 @@ MECHANISMS = """
 """.split()
 
 
+@cache
+def read(name: str) -> Case:
+    return load(CASES[name])
+
+
+@cache
+def examined(name: str) -> Answer:
+    """All that is published of a case, solved for at once."""
+    want = wanted(read(name))
+    more = {"all_centres": want.all_centres, "rates": want.rates, "reactions": want.reactions}
+    return solve(read(name), examine=True, **more)
+
+
 @pytest.fixture(params=CASES)
-def case(request: pytest.FixtureRequest) -> Case:
+def name(request: pytest.FixtureRequest) -> str:
     """Each case of the library."""
-    return load(CASES[request.param])
+    return str(request.param)
 
 
-def test_published_values_agree_or_are_errata(case: Case) -> None:
-    want = wanted(case)
-    found = solve(
-        case, all_centres=want.all_centres, rates=want.rates, examine=True, reactions=want.reactions
-    )
-    rows = compare(found)
+@pytest.fixture
+def case(name: str) -> Case:
+    return read(name)
+
+
+def test_published_values_agree_or_are_errata(name: str) -> None:
+    rows = compare(examined(name))
     assert rows
     assert [row for row in rows if row.verdict not in (AGREES, ERRATUM)] == []
 
@@ -118,9 +133,9 @@ def test_every_kind_of_joint_and_load_has_a_case() -> None:
     assert loads == {Force, ForceVector, Torque, Weight, Spring, TorsionSpring}
 
 
-def test_errors_are_bounded_far_below_the_digits(case: Case) -> None:
+def test_errors_are_bounded_far_below_the_digits(name: str) -> None:
     """Every answer carries a bound of its rounding error, a billionth of it at most; with friction too."""
-    for name, found in solve(case).answers.items():
-        assert found.error is not None, name
+    for unknown, found in examined(name).answers.items():
+        assert found.error is not None, unknown
         assert math.isfinite(found.error)
-        assert found.error <= 1e-9 * abs(found.value), name
+        assert found.error <= 1e-9 * abs(found.value), unknown

@@ -295,7 +295,7 @@ def heavy(case: Case, rng: Random) -> Case:
 def test_power_and_free_bodies_agree_with_inertia_forces_in_random_mechanisms() -> None:
     """The unknown load by both routes; and its power is the rate of the kinetic energy less the others'."""
     compared, refused = 0, set()
-    for seed, case in enumerate(random_cases(500, 40 if MORE == 1 else 600)):
+    for seed, case in enumerate(random_cases(500, 20 if MORE == 1 else 600)):
         rates = icsolve.solve(replace(case, loads=(), expect=())).rates or {}
         link = next((q for q, rate in rates.items() if rate), case.ground)
         one = Number(1.0, 0.0, "motion.speed", "1")
@@ -312,7 +312,7 @@ def test_power_and_free_bodies_agree_with_inertia_forces_in_random_mechanisms() 
         assert sum(t.power for t in answer.terms) == pytest.approx(
             0.0, abs=1e-9 * max(abs(t.power) for t in answer.terms)
         )
-    assert compared >= (6 if MORE == 1 else 2000)
+    assert compared >= (4 if MORE == 1 else 2000)
     assert refused <= REFUSED
 
 

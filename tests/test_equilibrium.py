@@ -12,7 +12,7 @@ import csv
 import json
 import math
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
@@ -32,10 +32,20 @@ from icsolve.numbers.record import Record
 from icsolve.report.derivation.known import known_of
 from icsolve.report.text import answer_text
 from icsolve.scene import solve_scene
+from icsolve.solve import limits as limits_room
+from icsolve.solve import resting
 from icsolve.solve.rest import AT_LIMIT
 from icsolve.solve.stability import holding_values, with_stability
 from shell import Shell, exit_status
 from sizes import FULL
+
+
+@pytest.fixture(autouse=True)
+def sampled(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ranges that friction alone holds are looked for at fewer values: here all are wide."""
+    if not FULL:
+        monkeypatch.setattr(resting, "SAMPLES", 40)
+
 
 PENDULUM = """icsolve: 1
 points: {{A: [0, 0]{more}}}
@@ -409,6 +419,19 @@ def test_a_limit_at_the_end_of_the_range_belongs_to_it(free: str, limits: list[i
     assert [one.at["angles.AB"] for one in found] == limits
     assert {one.stability for one in found} == {"unstable"}
     assert answer.notes == ()
+
+
+def test_a_limit_at_zero_is_not_reached_through_all_small_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The last digit of zero is the smallest number there is: all distances are bounded at once."""
+    bounded: list[int] = []
+
+    def counted(record: Record, wanted: Sequence[int], given: dict[int, Interval]) -> list[Interval]:
+        bounded.append(max(len(one.low) for one in given.values()))
+        return enclose(record, wanted, given)
+
+    monkeypatch.setattr(limits_room, "enclose", counted)
+    assert places(STRETCHED.format(free="{unknown: [-90, 90]}"))[0] == 0.0
+    assert 1 <= len(bounded) <= 4 and max(bounded) > 1000
 
 
 STRETCHED = """icsolve: 1

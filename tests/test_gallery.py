@@ -49,7 +49,7 @@ def addresses(body: ElementTree.Element) -> list[str]:
 def gallery(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The gallery of a folder of the library, as a stranger makes it."""
     folder = tmp_path_factory.mktemp("gallery") / "out"
-    words = ["gallery", "cases/sliders", "cases/rolling", "-o", str(folder)]
+    words = ["gallery", "cases/springs", "cases/rolling", "-o", str(folder)]
     command = [sys.executable, "-m", "icsolve", *words]
     ran = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     assert (ran.stdout, ran.stderr) == ("", "")
@@ -59,7 +59,7 @@ def gallery(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_every_case_has_a_card_with_its_answer_its_figure_and_its_files(gallery: Path) -> None:
     body = page(gallery / "index.html")
     cards = {card.findtext("p[@class='soft']"): card for card in body.iter("article")}
-    sources = sorted(p for kind in ("sliders", "rolling") for p in (LIBRARY / kind).glob("*.yaml"))
+    sources = sorted(p for kind in ("springs", "rolling") for p in (LIBRARY / kind).glob("*.yaml"))
     assert set(cards) == {p.relative_to(ROOT).as_posix() for p in sources}
     for path in sources:
         card = cards[path.relative_to(ROOT).as_posix()]

@@ -117,8 +117,9 @@ def test_the_autograder_zip_runs_as_gradescope_runs_it(a_class: Class, tmp_path:
     (base / "submission" / "answers.txt").write_text("lever: 200 N*m ccw\npusher: -100\n")
     metadata = {"users": [{"email": "ann@x.test"}], "created_at": "2025-03-01T10:00:00Z"}
     (base / "submission_metadata.json").write_text(json.dumps(metadata))
-    check_gradescope(autograded(base))
-    assert autograded(base)["score"] == 5.0
+    graded = autograded(base)
+    check_gradescope(graded)
+    assert graded["score"] == 5.0
     (base / "submission" / "answers.txt").unlink()
     (base / "results" / "results.json").unlink()
     assert autograded(base)["score"] == 0

@@ -20,6 +20,7 @@ import numpy as np
 import pytest
 
 import icsolve
+import library
 import mechanisms
 import transcribe
 from icsolve.answer import Answer
@@ -36,11 +37,13 @@ from icsolve.report.derivation.known import Known, known_of
 from icsolve.report.derivation.ratios import answer_ratios
 from icsolve.report.text import answer_text
 from icsolve.statics.load_wrenches import reacting
+from icsolve.sweep import find_by_scenes
 from icsolve.sweep.find_on_record import Query, find
 from icsolve.wording.senses import direction_words, holding, spelt
 from library import FILES, PAGED, page_of, sample
 from loading import drawn
 from shell import exit_status
+from sizes import FULL
 
 MAKERS = (
     mechanisms.four_bar,
@@ -220,13 +223,24 @@ def test_what_is_told_is_taken_as_an_expected_value_and_as_an_answer(
         assert all(",wrong," in mark for mark in marks[1:])
 
 
-def solved(case: Case, **more: bool) -> Answer | None:
+@pytest.fixture(autouse=True)
+def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where each position is a scene of its own fewer are looked at, by the pages as by the others."""
+    if not FULL:
+        monkeypatch.setattr("icsolve.page.motion.COARSE", 45.0)
+        monkeypatch.setattr(find_by_scenes, "PLACES", 20)
+
+
+@cache
+def solved(name: str, *, more: bool = False) -> Answer | None:
+    """The answer of a case, with ``more`` its rates and all centres too; None where it has none."""
     try:
-        return icsolve.solve(case, **more)
+        return icsolve.solve(case_of(name), rates=more, all_centres=more)
     except SceneError:
         return None
 
 
+@cache
 def case_of(name: str) -> Case:
     """A case of the library or of another kind, or a random one by its maker's name and seed."""
     if name in OTHERS:
@@ -244,7 +258,12 @@ TOLD_OF = [*sample(NAMES, 3, "statuses and values"), *OTHERS]
 
 @cache
 def known(name: str) -> Known:
-    return known_of(case_of(name), reactions=True)
+    return library.known(name) if name in PAGED else known_of(case_of(name), reactions=True)
+
+
+@cache
+def explained(name: str) -> str:
+    return explain(known(name).case, known=known(name))
 
 
 @cache
@@ -273,15 +292,14 @@ def plain(text: str) -> str:
 @pytest.mark.parametrize("name", TOLD_OF)
 def test_statuses(name: str) -> None:
     """A case has an answer in every command, or none with one status."""
-    try:
-        icsolve.solve(case_of(name))
-        status = "ok"
-    except SceneError as refusal:
-        status = refusal.status
+    status = "ok"
+    if solved(name) is None:
+        with pytest.raises(SceneError) as refused:
+            icsolve.solve(case_of(name))
+        status = refused.value.status
     shown = known(name).refusal
     assert (shown.status if shown else "ok") == status
-    said = explain(known(name).case, known=known(name))
-    assert (f"(Status: {status}.)" in said) == (status != "ok")
+    assert (f"(Status: {status}.)" in explained(name)) == (status != "ok")
 
 
 ROUNDING = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?e-(?:1[5-9]|[2-9]\d|\d{3})")
@@ -291,9 +309,8 @@ BOUNDS = ("rounding may make", "Rounding can have moved", "agree with each other
 @pytest.mark.parametrize("name", TOLD_OF)
 def test_no_rounding_is_told_as_a_number(name: str) -> None:
     """What is zero is 0 in the words of every command, save where a bound is what is told."""
-    shown = known(name)
-    answer = solved(case_of(name), rates=True, all_centres=True)
-    texts = [explain(shown.case, known=shown), *([answer_text(answer)] if answer else [])]
+    answer = solved(name, more=True)
+    texts = [explained(name), *([answer_text(answer)] if answer else [])]
     lines = [line for text in texts for line in text.splitlines()]
     assert not [line for line in lines if ROUNDING.search(line) and not any(b in line for b in BOUNDS)]
 
@@ -301,13 +318,13 @@ def test_no_rounding_is_told_as_a_number(name: str) -> None:
 @pytest.mark.parametrize("name", TOLD_OF)
 def test_values_senses_and_ranges(name: str) -> None:
     """The value with its sense, or the range, in the words of one room."""
-    answer = solved(case_of(name))
+    answer = solved(name)
     if answer is None:
         return
     shown = known(name)
     told = {
         "report": (answer_text(answer), 6),
-        "explain": (explain(shown.case, known=shown), 6),
+        "explain": (explained(name), 6),
         "draw": (draw(shown.case, known=shown), 4),
     }
     for load, found in answer.answers.items():
@@ -329,7 +346,7 @@ def test_values_senses_and_ranges(name: str) -> None:
 
 @pytest.mark.parametrize("name", WITH_PAGE)
 def test_the_page_says_in_its_written_position_what_solve_says(name: str) -> None:
-    answer = solved(case_of(name))
+    answer = solved(name)
     if answer is None:
         return
     _, model = page(name)
@@ -359,7 +376,7 @@ def test_the_page_says_in_its_written_position_what_solve_says(name: str) -> Non
 def test_ratios_of_speeds(name: str) -> None:
     """The ratios that a solution works with, and those in the page's table, are those of the rates."""
     case = case_of(name)
-    answer = solved(case, rates=True)
+    answer = solved(name, more=True)
     ratios = answer_ratios(known(name))
     if answer is None or answer.rates is None or ratios is None or answer.mobility != 1:
         return
@@ -478,7 +495,7 @@ TELL = {
     },
     "gallery -o": ["shown"],
     "sweep --drive": ["2=0:2:1"],
-    "sweep --find": ["dead", "--drive", "2=0:2:1"],
+    "sweep --find": ["dead", "--drive", "2=0:0.002:0.001"],
     "export gift -o": ["quiz.gift"],
 }
 

@@ -17,6 +17,7 @@ from icsolve.solve import solve
 from icsolve.sweep import cam_sweep, sweep
 from icsolve.sweep.cam_sweep import SAID
 from icsolve.sweep.numbers import with_numbers
+from sizes import FULL
 
 E, R, ROLLER = 20.0, 40.0, 10.0
 CIRCLE = "{circle: C, radius: 40}"
@@ -106,7 +107,8 @@ def test_rows_are_the_scenes_as_if_written_so(name: str) -> None:
     found = sweep(case, drive={"2": TURN[:-1]}, want=("answers", "points", "rates", "status"))
     assert (found.status == "ok").all()
     start = next(a.value for a in case.angles)
-    for row, by in enumerate(TURN[:-1]):
+    first, step = (0, 1) if FULL else (len(name) % 2, 2)
+    for row, by in list(enumerate(TURN[:-1]))[first::step]:
         own = solve(found.case_of(row), rates=True)
         alone = [own]
         if "square" not in name:  # its corners are written for one position

@@ -21,7 +21,6 @@ from icsolve.bench.promises import MOVING
 from icsolve.manual import kinds, template
 from icsolve.read import load
 from icsolve.tuples import NamedTuple, dataclass, field, replace
-from sizes import FULL
 
 ROOT = Path(__file__).parent.parent
 
@@ -40,16 +39,13 @@ SCENES = [kind for kind in kinds() if not load(template(kind)).unknowns]
 OPTIONS: list[tuple[str, ...]] = [(), ("--json", "--all-centres", "--rates")]
 
 
-@pytest.mark.parametrize(
-    ("kind", "options"),
-    [(kind, each) for n, kind in enumerate(SCENES) for each in (OPTIONS if FULL else OPTIONS[n % 2 :][:1])],
-)
-def test_one_scene_needs_neither_numpy_nor_shapely(
-    tmp_path: Path, kind: str, options: tuple[str, ...]
-) -> None:
-    path = tmp_path / "one.yaml"
-    path.write_text(template(kind))
-    modules = imported("-m", "icsolve", "solve", *options, str(path))
+@pytest.mark.parametrize("options", OPTIONS)
+def test_scenes_of_no_kind_need_numpy_or_shapely(tmp_path: Path, options: tuple[str, ...]) -> None:
+    """One process for all kinds: what any of them imports is imported in it."""
+    paths = [tmp_path / f"{kind}.yaml" for kind in SCENES]
+    for kind, path in zip(SCENES, paths, strict=True):
+        path.write_text(template(kind))
+    modules = imported("-m", "icsolve", "solve", *options, *map(str, paths))
     assert "icsolve.solve" in modules
     assert not {name for name in modules if name.partition(".")[0] in {"numpy", "shapely"}}
 

@@ -69,11 +69,11 @@ def test_on_random_mechanisms() -> None:
             sweep = bounded(case, np.linspace(-7.3, 8.1, 23))
             assert sweep is not None
             found += pessimism(sweep, range(0, 23, 4 if FULL else 11))
-    for seed in range(8 * MORE):
+    for seed in range(160 if FULL else 4):
         scene = plain(random_mechanism(Random(seed)), seed)
         sweep = bounded(icsolve.load(transcribe.text(scene)), np.linspace(-2.3, 3.1, 11)) if scene else None
         found += pessimism(sweep, range(0, 11, 5)) if sweep else []
-    assert len(found) > 80
+    assert len(found) > 60
     assert np.median(found) < 100.0
 
 

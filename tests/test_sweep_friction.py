@@ -12,6 +12,7 @@ import icsolve
 from icsolve.files import can_fork
 from icsolve.solve import attempt
 from icsolve.sweep import scenes
+from sizes import FULL
 
 CASES = Path(__file__).parent.parent / "cases" / "ch13"
 WANT = ("answers", "status", "error", "points", "centres", "rates")
@@ -73,7 +74,7 @@ def test_a_row_is_the_scene_of_its_points(text: str, moved: dict[str, Any], more
     """Values, ranges and statuses, whichever senses the rubs have there."""
     more = "" if text == BLOCK and "4" in more else more
     found = icsolve.sweep(icsolve.load(text + more), **moved)
-    for row in range(len(found)):
+    for row in range(0, len(found), 1 if FULL else 2):
         _is_scene(found, row)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator
+from random import Random
 
 import numpy as np
 import pytest
@@ -13,10 +14,13 @@ import icsolve
 from icsolve.manual import kinds, template
 from icsolve.sweep.numbers import numbers_of
 from library import FILES, sample
+from sizes import FULL
 
 ALL = ("answers", "status", "error", "points", "centres", "rates")
 FEW = ("answers", "status", "error", "points")
 PLAIN = ("answers", "status", "points", "rates")
+SOME = 6
+"""So many of its numbers, drawn, are varied in each run."""
 MANY = 7
 """So many links have more centres than a quick test bounds."""
 
@@ -25,6 +29,8 @@ def sweeps(case: icsolve.Case) -> Iterator[icsolve.Sweep]:
     """A turn of every link, and a range of every number; those that can't be are refused."""
     turns = [({}, {link: np.arange(0.0, 361.0, 30.0)}) for link in case.links if link != case.ground]
     ranges = [({path: around(path, number.value)}, {}) for path, number in numbers_of(case).items()]
+    if not FULL and len(ranges) > SOME:
+        ranges = Random(case.title).sample(ranges, SOME)
     for vary, drive in (*turns, *ranges):
         with contextlib.suppress(icsolve.SceneError):
             want = PLAIN if vary else ALL if len(case.links) < MANY else FEW

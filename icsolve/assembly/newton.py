@@ -151,8 +151,8 @@ def _searched(
         return Converged([], _vague(Status.AMBIGUOUS, _of(group, NEEDS_NEAR)), {}, False)
     search = _NewtonSearch(group, workspace, near)
     search.run()
-    search.found.sort(key=search.off)
-    polished = [_polished(group, workspace, end) for end in search.found]
+    search.found.sort(key=lambda end: search.off(end.places))
+    polished = [_polished(group, end) for end in search.found]
     settled = [option for option in polished if option is not None]
     if settled and polished[0] is not None:
         if not search.beside:
@@ -173,7 +173,7 @@ class _NewtonSearch:
         lengths = (workspace.length(d) for d in data_in(group) if d.kind == LENGTH)
         self.reach: float = max(lengths, default=0.0) or 1.0
         """the size of the group: its longest length"""
-        self.found: list[Start] = []
+        self.found: list[Settled] = []
         self.closest = Descent(math.inf, {}, 0)
         self.beside: Start = {}
         self.complete = self.spent = False
@@ -183,7 +183,7 @@ class _NewtonSearch:
         held = {t: self.near[t] for t in self.group.targets if t in self.near}
         if len(held) == len(self.group.targets):
             self._try(held, MOST_NEAR_STEPS)
-            if self.found and _alone(self.group, self.workspace, held, self.found[0]):
+            if self.found and _alone(self.group, self.workspace, held, self.found[0].places):
                 self.complete = True
                 return
             with suppress(SceneError):
@@ -231,8 +231,8 @@ class _NewtonSearch:
         settled = _settled(self.group, self.workspace, descent.end)
         if settled.off > MISSED:
             self.closest = min(self.closest, descent, key=lambda each: each.off)
-        elif not any(_same(settled.places, other, self.reach) for other in self.found):
-            self.found.append(settled.places)
+        elif not any(_same(settled.places, other.places, self.reach) for other in self.found):
+            self.found.append(settled)
 
     def _meets(self, lowest: Start) -> bool:
         """Whether the data are met where their residual is least: there, or about as far from it as the two
@@ -241,7 +241,7 @@ class _NewtonSearch:
         for start in (lowest, *_pair(self.group, self.workspace, lowest, self.reach)):
             self._try(start, MOST_STEPS)
             away = max(away, *(2.0 * math.dist(start[t], lowest[t]) for t in start))
-        return any(all(math.dist(end[t], lowest[t]) <= away for t in lowest) for end in self.found)
+        return any(all(math.dist(end.places[t], lowest[t]) <= away for t in lowest) for end in self.found)
 
     def _excluded(self) -> bool:
         """Whether it is shown that all solutions are found, or all that are no farther from `near` than
@@ -253,7 +253,7 @@ class _NewtonSearch:
 
         most = BOX_WORK // len(group.equations) ** 2
         radii = [math.inf] if len(group.targets) <= FEW else []
-        radii += [CLEARLY * min(self.off(end) for end in self.found)] if self.found else []
+        radii += [CLEARLY * min(self.off(end.places) for end in self.found)] if self.found else []
         for radius in radii:
             shown = every_solution(group, self.workspace, near, radius, most)
             for place in shown.places:
@@ -270,9 +270,9 @@ class _NewtonSearch:
         group, near = self.group, self.near
         for end in list(self.found):
             with suppress(SceneError):
-                yield from _pair(group, self.workspace, end, self.reach)
+                yield from _pair(group, self.workspace, end.places, self.reach)
         if self.found:
-            yield from _about(near, self.found[0])
+            yield from _about(near, self.found[0].places)
         if held:
             yield from _constructed(group, self.workspace, near, held, self.reach)
         for point in held[:2] if len(held) > 1 else ():
@@ -491,9 +491,8 @@ def _settled(group: PointGroup, workspace: Workspace, end: Start) -> Settled:
     return found
 
 
-def _polished(group: PointGroup, workspace: Workspace, end: Start) -> PointGroup | None:
-    """The group settled on a solution in full precision; None where it does not stand alone."""
-    settled = _settled(group, workspace, end)
+def _polished(group: PointGroup, settled: Settled) -> PointGroup | None:
+    """The group on a solution that was settled on; None where that does not stand alone."""
     return None if settled.flatness < FLAT else group._replace(start=tuple(settled.places.values()))
 
 

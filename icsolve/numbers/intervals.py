@@ -80,10 +80,7 @@ def _ends(a: Array) -> tuple[Array, Array]:
 
 
 def _of(record: Record, k: int, found: Mapping[int, Array]) -> Array:
-    if k in found:
-        return found[k]
-    here, noise = _exactly(record.nodes[k].value), _still(record, k)
-    return _out(_numbers(here + noise)) if noise else here
+    return found[k] if k in found else _still(record, k)
 
 
 @lru_cache(maxsize=64)
@@ -92,11 +89,12 @@ def _live(record: Record, wanted: tuple[int, ...], given: frozenset[int]) -> tup
 
 
 @lru_cache(maxsize=4096)
-def _still(record: Record, k: int) -> float:
-    """A bound of the error of a value that is the same in every row."""
+def _still(record: Record, k: int) -> Array:
+    """A value that is the same in every row, widened by a bound of its error."""
     from icsolve.numbers.adjoint import still_noise
 
-    return 2.0 * still_noise(record, k)
+    here, noise = _exactly(record.nodes[k].value), 2.0 * still_noise(record, k)
+    return _out(_numbers(here + noise)) if noise else here
 
 
 def _numbers(a: Array) -> Array:

@@ -42,18 +42,23 @@ def solve_square(
     MoreDigits
         Of balls, where it is open whether a pivot is zero.
     """
-    n = len(matrix)
     work = [[*row, b] for row, b in zip(matrix, right, strict=True)]
-    sizes = [max(abs(entries[c]) for entries in matrix) for c in range(n)]
+    return _back(work, len(matrix)) if _is_triangular(work, vanishes) else None
+
+
+def _is_triangular(work: list[list[Scalar]], vanishes: Vanishes | None = None) -> bool:
+    """Make the first square of rows triangular, by partial pivoting; false where it is singular."""
+    n = len(work)
+    sizes = [max(abs(entries[c]) for entries in work) for c in range(n)]
     for c in range(n):
         r = _largest(work, c)
         pivot = work[r][c]
         if vanishes(pivot, sizes[c]) if vanishes else abs(pivot) <= SINGULAR * sizes[c]:
-            return None
+            return False
         work[c], work[r] = work[r], work[c]
         for below in work[c + 1 :]:
             _subtract(below, work[c], c)
-    return _back(work)
+    return True
 
 
 def _largest(work: list[list[Scalar]], c: int) -> int:
@@ -68,9 +73,10 @@ def _subtract(row: list[Scalar], pivot: list[Scalar], c: int) -> None:
             row[k] -= ratio * pivot[k]
 
 
-def _back(work: list[list[Scalar]]) -> list[Scalar]:
+def _back(work: list[list[Scalar]], column: int) -> list[Scalar]:
+    """The solution of triangular rows for one of the right sides behind their square."""
     n = len(work)
-    x = [row[n] for row in work]
+    x = [row[column] for row in work]
     for r in range(n - 1, -1, -1):
         for k in range(r + 1, n):
             x[r] -= work[r][k] * x[k]
@@ -81,10 +87,10 @@ def _back(work: list[list[Scalar]]) -> list[Scalar]:
 def inverse(matrix: Sequence[Sequence[float]]) -> list[list[float]] | None:
     """The inverse of a small matrix (n, n), by rows; None where it is singular (as in `solve_square`)."""
     n = len(matrix)
-    columns = [solve_square(matrix, [float(r == c) for r in range(n)]) for c in range(n)]
-    if any(column is None for column in columns):
+    work: list[list[Scalar]] = [[*row, *(float(r == c) for c in range(n))] for r, row in enumerate(matrix)]
+    if not _is_triangular(work):
         return None
-    return [[column[r] for column in columns if column is not None] for r in range(n)]
+    return [list(row) for row in zip(*(_back(work, n + c) for c in range(n)), strict=True)]
 
 
 # --- null space, by complete pivoting -------------------------------------------------------------------

@@ -51,15 +51,15 @@ def limits_of(functions: Sequence[LoadFunction], branches: Branches) -> list[Lim
 
 def _reach(function: LoadFunction, value: float, side: float, most: float) -> float:
     """So far on either side of a limit it is certain that a mode assembles, and that it does not."""
-    reach = math.ulp(value)
-    while reach < most:
-        about = np.array([value - side * reach, value + side * reach])
-        margins = enclose(function.record, function.margins, function.enclosed(Interval(about, about)))
-        ends = [(np.ravel(margin.low)[0], np.ravel(margin.high)[-1]) for margin in margins]
-        if all(inside > 0.0 for inside, _ in ends) and any(outside < 0.0 for _, outside in ends):
-            break
-        reach *= 2.0
-    return reach
+    least = math.ulp(value)
+    count = max(math.frexp(most)[1] - math.frexp(least)[1], 0) + 1
+    reach = np.ldexp(least, np.arange(count + 1))
+    about = np.concatenate([value - side * reach, value + side * reach])
+    margins = enclose(function.record, function.margins, function.enclosed(Interval(about, about)))
+    inside = np.all([np.broadcast_to(margin.low, len(about)) > 0.0 for margin in margins], axis=0)
+    outside = np.any([np.broadcast_to(margin.high, len(about)) < 0.0 for margin in margins], axis=0)
+    certain = (inside[: count + 1] & outside[count + 1 :]) | (reach >= most)
+    return float(reach[np.argmax(certain)])
 
 
 def _last(function: LoadFunction, inside: float, outside: float) -> float:
