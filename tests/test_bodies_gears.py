@@ -75,6 +75,12 @@ def test_teeth_that_do_not_fit_their_pivots_are_refused_with_the_line() -> None:
     assert "2.75 in" in str(caught.value)
 
 
+@pytest.mark.parametrize("pitch", ["16 1/in", "16.0 / in", "16 /in", "16 in^-1"])
+def test_a_diametral_pitch_may_have_its_unit(pitch: str) -> None:
+    bare, named = (solved(pair(tooth=f"diametral pitch: {p}")).answers["T2"].value for p in ("16", pitch))
+    assert named == bare
+
+
 def test_without_a_pressure_angle_the_bearing_loads_are_open_and_the_torque_is_not() -> None:
     answer = solved(pair(tooth="diametral pitch: 16"))
     tooth = force(answer, "F23")

@@ -611,6 +611,8 @@ def check_random(seed: int) -> str:
             continue
         if any("does not rub" in note for note in mine.notes):
             return "at rest"
+        if any("is lost" in note for note in mine.notes):
+            return "parts"  # at rest a contact does not pull
         theirs = rubbing.against_the_motion(case, points, rubbing.motion_sense(case, points), every=False)
         assert theirs.unknowns is not None, text
         assert mine.answers["U"].value == pytest.approx(theirs.unknowns["U"], rel=1e-8), text
@@ -641,7 +643,7 @@ def check_laws(answer: Answer) -> None:
 def test_random_mechanisms_by_brute_force() -> None:
     found = [check_random(seed) for seed in range(900, 900 + (320 if FULL else 8))]
     assert found.count("checked") >= len(found) // 5
-    assert set(found) <= {"checked", "jams", "at rest", "nothing turns", "unsupported"}
+    assert set(found) <= {"checked", "jams", "at rest", "parts", "nothing turns", "unsupported"}
 
 
 @pytest.mark.parametrize("turned", [0, 90, 180, 270])

@@ -253,7 +253,7 @@ def test_a_face_rests_on_the_end_of_a_flank_that_it_meets_first(lean: int, side:
             assert found.value == 0.0
 
 
-@pytest.mark.parametrize("seed", range(2 * MORE))
+@pytest.mark.parametrize("seed", sorted({*range(2 * MORE), 7}))
 @pytest.mark.parametrize("follower", ["roller", "knife"])
 def test_a_roller_or_a_knife_edge_goes_over_from_an_edge_to_the_next(follower: str, seed: int) -> None:
     """Of a triangle C, P, Q, about whose corners the roller turns."""

@@ -37,6 +37,8 @@ MOST_NEAR_STEPS = 60
 """Steps from `near` itself, which is worth more patience than other starts."""
 MOST_DOWNHILL = 200
 """Steps to where data are violated least: beside a fold the valley is flat and bent."""
+LARGEST = 1e100
+"""Of data that miss by more squares are beyond all doubles."""
 BENT = 0.75
 """A step down a valley bends by less than this part of it."""
 LONGEST_STEP = 0.4
@@ -372,6 +374,8 @@ def _least_residual(group: PointGroup, workspace: Workspace, start: Start, reach
     at, held = start, np.eye(len(group.unknowns()))
     damping, least, most = (share * reach * reach for share in (1e-1, 1e-16, 1e6))
     values, slopes = _system(group, workspace, at)
+    if math.hypot(*values, *slopes.flat) > LARGEST:
+        return {}
     for _ in range(MOST_DOWNHILL):
         off, normal = np.linalg.norm(values), slopes.T @ slopes + damping * held
         move = np.linalg.solve(normal, slopes.T @ values)

@@ -130,7 +130,7 @@ class ContactSearch:
         curve = self.curve()
         meeting = self._meeting(curve)
         sense = -1.0 if self.freed is None else self.freed.sense  # a gap is no wider than the least
-        asked = enclosed or len(meeting.normals) > 1  # beside a corner, as near as doubles tell
+        asked = enclosed or meeting.shared or len(meeting.normals) > 1  # as near as doubles tell
         if asked and self.touch.shown and (shown := self._enclosed(curve, meeting, sense)):
             self.enclosed, meeting = shown[0], meeting._replace(foot=shown[1], normals=shown[1].normals[:1])
         if self.enclosed is None:

@@ -296,7 +296,7 @@ _NO_UNITS = {
     r",\d": "write a decimal point, not a comma",
     r"[- ]?\d+/\d": "write the fraction as decimals, 3.5 for 3 1/2",
     r"['’]\s*\d+(?:\.\d+)?\s*[\"”]$": "write feet and inches as one number with one unit, 14 in for 1'2\"",
-    r"\d|[_'’]\d": "write the digits of a number without separators",
+    r"\d(?!/[a-z])|[_'’]\d": "write the digits of a number without separators",
     r"[a-z]+\.?\s*\d+\.?\d*\s*[a-z]+$": "write it with one number and one unit, as decimals",
     r"%$": "write the number itself, 0.2 for 20 %",
     r"/\s*\d+$": "write the quotient as one decimal number",
