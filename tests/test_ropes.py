@@ -19,6 +19,7 @@ from icsolve.case import Force, Number, Rope
 from icsolve.errors import CaseError, SceneError
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.ropes import rope_parts
+from icsolve.sweep.path_tracking import PathTracker
 from sizes import MORE
 
 CASES = Path(__file__).parent.parent / "cases"
@@ -787,3 +788,26 @@ def test_what_a_turn_winds_or_rolls_has_all_digits(
     with mp.workdps(80):
         gone = mpf(after.digits) - mpf(before.digits)
         assert abs(gone - mpf(per) * mpf(repr(degrees)) * mp.pi / 180) < mpf(10) ** -50
+
+
+def test_what_is_beyond_a_limit_is_looked_for_a_few_times_a_turn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A band brake whose lever is bound by its band: as it was a turn before it is beyond the limit too, but
+    no motion leads on from there. Of some hundreds of bits of such a line a few are followed."""
+    again, asked = PathTracker._again, []
+
+    def counted(*given: Any) -> Any:
+        asked.append(given)
+        return again(*given)
+
+    monkeypatch.setattr(PathTracker, "_again", counted)
+    case = icsolve.load("""icsolve: 1
+points: {O: [-0.3, 0], A: [-0.2, -0.3], C: [0.2, -0.3], L: [-90, -0.3]}
+joints:
+  - {pin: [1, 2], at: O}
+  - {pin: [3, 2], at: A}
+  - {rope: [A, O, C], on: [1, 2, 3], radii: {O: 0.2}, wraps: {O: cw}}
+loads: {P: {force: unknown, link: 3, at: L, angle: -90}, M: {torque: 20, link: 2}}
+""")
+    for link in ("2", "3"):
+        icsolve.sweep(case, None, ("status", "points"), drive={link: np.arange(-180.0, 180.1, 5.0)})
+    assert 0 < len(asked) <= 100

@@ -31,6 +31,9 @@ FIRST = 2.0**-5
 """The first step, as a part of the longest."""
 SHORTEST = 2.0**-16
 """A line that needs shorter steps, as a part of the longest, has come to a limit."""
+AGAIN = 8
+"""Segments at most in each turn beyond a limit: where what is as it was a turn before leads nowhere, more
+are bits of a line that is not one."""
 TRIALS = 64
 QUICK = 6
 """Rounds of Newton's method that a step may take."""
@@ -223,7 +226,9 @@ class PathTracker:
 
     def _beyond(self, last: Step, end: float, known: Sequence[Step]) -> Iterator[PathSegment]:
         """Segments beyond a limit, where it is as it was a turn before."""
-        while abs(last[0] - end) > self.line.widest * SHORTEST:
+        left = int(AGAIN * (1.0 + abs(last[0] - end) / (self.line.period or math.inf)))
+        while left and abs(last[0] - end) > self.line.widest * SHORTEST:
+            left -= 1
             again = self._again(last, end, known)
             if again is None:
                 break
