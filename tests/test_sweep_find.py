@@ -17,8 +17,8 @@ import icsolve
 from icsolve.assembly import newton
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
+from icsolve.numbers.roots import closed_in
 from icsolve.sweep import find_by_scenes, scenes
-from icsolve.sweep.closing import closed_in
 from icsolve.sweep.continuation import PathSegment
 from icsolve.sweep.exact import CONTEXT
 from icsolve.sweep.find_on_record import Query, RangeSearch, find

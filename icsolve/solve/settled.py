@@ -18,12 +18,11 @@ from icsolve.numbers.arithmetic import DEGREE
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import terms_of
 from icsolve.numbers.replay import Array, Code
-from icsolve.numbers.roots import last_that_holds
+from icsolve.numbers.roots import MOST_ORDER, last_that_holds, zeros_between
 from icsolve.scene import solve_scene
 from icsolve.solve.followed import rate_of
 from icsolve.solve.load_function import LoadFunction, given_at
 from icsolve.solve.rest import AT_LIMIT, PROBE, Rest, held
-from icsolve.sweep.closing import MOST_ORDER, zeros_between
 from icsolve.sweep.exact import (
     CONTEXT,
     ZERO,

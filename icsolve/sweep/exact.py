@@ -33,8 +33,6 @@ ZERO = Decimal("1e-40")
 VANISHED = Decimal("1e-60")
 """What is divided by, or under a root, is zero below this fraction of its terms: fewer digits are lost on the
 way."""
-STEP = Decimal("1e-30")
-"""Derivatives are differences over such steps: exact to twice as many digits as this has."""
 ROUNDS = 2 * DIGITS + 20
 """Steps of Newton's method: so many bring all digits where each leaves a third of the error (where a straight
 part of a rope ends), and half of the digits where it leaves half: where two solutions have become one."""

@@ -25,12 +25,12 @@ from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.jets import BallArray, Cells, Jet
 from icsolve.numbers.record import Op, Record, Traced, live, terms_of
 from icsolve.numbers.replay import Array
+from icsolve.numbers.roots import MOST_ORDER, NOTHING, STEP, zeros_between
 from icsolve.numbers.tape import UNIT
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
-from icsolve.sweep.closing import MOST_ORDER, NOTHING, zeros_between
-from icsolve.sweep.exact import APART, CONTEXT, STEP, Unreached, Values, as_written
+from icsolve.sweep.exact import APART, CONTEXT, Unreached, Values, as_written
 from icsolve.sweep.find_by_scenes import FoundPosition, FoundPositions, Mask, Query, Scenes
 from icsolve.sweep.parts import SweepPart, SweepParts
 from icsolve.sweep.program import RowRequest

@@ -18,7 +18,8 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.record import Root
 from icsolve.numbers.replay import Array
-from icsolve.sweep.exact import APART, CONTEXT, STEP, ZERO, RowScenes, Unreached, as_written
+from icsolve.numbers.roots import STEP
+from icsolve.sweep.exact import APART, CONTEXT, ZERO, RowScenes, Unreached, as_written
 from icsolve.sweep.parts import SweepPart, SweepParts
 
 CLEAR = 2.0**-12
