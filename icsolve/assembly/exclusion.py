@@ -75,10 +75,10 @@ def every_solution(
     links = _links(group, workspace)
     size = math.sqrt(max((link.square for link in links), default=1.0)) or 1e-300
     narrowing: list[Narrowing] = [partial(_narrow_length, link) for link in links]
-    if about is not None:
+    if about is not None and within < math.inf:
         places = [about.get(t, (math.nan, math.nan))[axis] for t in group.targets for axis in (0, 1)]
         low, high = np.fmax(low, np.array(places) - within), np.fmin(high, np.array(places) + within)
-        bounded = bounded or (math.isfinite(within) and about.keys() >= set(group.targets))
+        bounded = bounded or about.keys() >= set(group.targets)
         narrowing.append(partial(_narrow_ball, np.array(places), within))
     zeros = every_zero(system, low, high, most, size, narrowing)
     places = [

@@ -123,7 +123,7 @@ def zeros_between(function: ExactFunction, low: Decimal, high: Decimal, order: i
         function = cache(function)
     size = max(abs(function(low)), abs(function(high)))
     ends = [(low, False)]
-    for turn in sorted(zeros_between(_slope(function), low, high, order - 1)) if order > 1 else ():
+    for turn in sorted(zeros_between(slope(function), low, high, order - 1)) if order > 1 else ():
         touches = abs(function(turn)) <= NOTHING * size
         if touches:
             yield turn
@@ -133,8 +133,8 @@ def zeros_between(function: ExactFunction, low: Decimal, high: Decimal, order: i
             yield from closed_in(function, a, b)
 
 
-def _slope(function: ExactFunction) -> ExactFunction:
-    """The slope of a function, times a step."""
+def slope(function: ExactFunction) -> ExactFunction:
+    """The slope of a function, times two steps."""
     return lambda s: function(s + STEP) - function(s - STEP)
 
 

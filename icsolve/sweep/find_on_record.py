@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from decimal import Decimal, localcontext
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -25,7 +26,7 @@ from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.jets import BallArray, Cells, Jet
 from icsolve.numbers.record import Op, Record, Traced, live, terms_of
 from icsolve.numbers.replay import Array
-from icsolve.numbers.roots import MOST_ORDER, NOTHING, STEP, zeros_between
+from icsolve.numbers.roots import MOST_ORDER, NOTHING, STEP, slope, zeros_between
 from icsolve.numbers.tape import UNIT
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
@@ -201,11 +202,9 @@ class RangeSearch:
         if self._vanishes(bottom) or max(probed) - min(probed) <= NOTHING * abs(probed[0]):
             return
 
-        def slope(s: Decimal) -> Decimal:
-            return self._value(answer, s + STEP) - self._value(answer, s - STEP)
-
+        rise = slope(partial(self._value, answer))
         for low, high, order in self._isolated(top, bottom, peaks=True):
-            turns = sorted(zeros_between(slope, low, high, order))
+            turns = sorted(zeros_between(rise, low, high, order))
             gaps = [b - a for a, b in pairwise([low, *turns, high]) if b > a]
             for s in turns:
                 value, wide = self._value(answer, s), min(gaps) / 1000
@@ -298,10 +297,10 @@ class RangeSearch:
                     yield s
 
     def _of_cell(self, value: Traced, low: Decimal, high: Decimal, order: int) -> Iterator[Decimal]:
-        """The zeros of a cell, as `_of_order`."""
+        """The zeros of a cell, as `zeros_between`."""
         if all(self._is_nothing(value, s) for s in (low, (low + high) / 2, high)):
             return  # three zeros are more than it has: it vanishes all over the cell, and has no sign there
-        yield from zeros_between(lambda s: self._value(value, s), low, high, order)
+        yield from zeros_between(partial(self._value, value), low, high, order)
 
     # --- cells ------------------------------------------------------------------------------------
 
@@ -378,9 +377,8 @@ class RangeSearch:
         if open_:
             self.notes[UNSHOWN.format(count=open_)] = None
         runs: list[tuple[Decimal, Decimal, float, int]] = []
-        for low, high, sign, order in sorted(
-            found
-        ):  # cells side by side in which it rises, or falls, are one
+        # cells side by side in which it rises, or falls, are one
+        for low, high, sign, order in sorted(found):
             side = bool(runs) and low - runs[-1][1] <= Decimal(narrow / 2.0)
             if side and order != 2 and (sign, order) == runs[-1][2:]:
                 runs[-1] = (runs[-1][0], high, sign, order)
