@@ -233,7 +233,7 @@ def test_a_number_that_no_case_may_have_spoils_its_own_row_alone(rows: int, path
 @pytest.mark.skipif(shutil.which("node") is None, reason="no JavaScript engine")
 def test_the_generated_javascript_does_what_the_record_does() -> None:
     record, wanted, names, expected = recorded()
-    text = straight_line(record, wanted, names, JAVASCRIPT)
+    text = straight_line(record.nodes, wanted, names, JAVASCRIPT)
     script = f"{JAVASCRIPT_FUNCTIONS}let {', '.join(text.names)};const x=0.7,y=2.3;\n" + "\n".join(text.lines)
     script += f"\nconsole.log(JSON.stringify([{','.join(text.wanted)}]));"
     ran = subprocess.run(["node", "-e", script], capture_output=True, text=True, check=True)

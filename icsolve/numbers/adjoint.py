@@ -128,7 +128,7 @@ def gradient(record: Record, target: Scalar, inputs: Iterable[int]) -> dict[int,
         return result
     kind = RecordedAdjoints(record)
     weights: dict[int, Scalar] = {target.index: 1.0}
-    for k in reversed(live(record, (target.index,))):
+    for k in reversed(live(record.nodes, (target.index,))):
         weight = weights.pop(k, None)
         if weight is None:
             continue

@@ -85,7 +85,7 @@ def _of(record: Record, k: int, found: Mapping[int, Array]) -> Array:
 
 @lru_cache(maxsize=64)
 def _live(record: Record, wanted: tuple[int, ...], given: frozenset[int]) -> tuple[int, ...]:
-    return tuple(live(record, wanted, given))
+    return tuple(live(record.nodes, wanted, given))
 
 
 @lru_cache(maxsize=4096)

@@ -204,7 +204,7 @@ class Cells:
 
     def __init__(self, record: Record, wanted: Sequence[int], main: int, inputs: Mapping[int, float]) -> None:
         self.record, self.wanted, self.main, self.inputs = record, tuple(wanted), main, inputs
-        self.order = live(record, self.wanted)
+        self.order = live(record.nodes, self.wanted)
         last = {n: k for k in self.order for n in record.nodes[k].of}
         self.gone: dict[int, list[int]] = {}
         """by node, those that no later one needs"""

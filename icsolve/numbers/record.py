@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Container, Iterable, Sequence
-from typing import Any
+from typing import Any, cast
+from weakref import ref
 
 from icsolve.numbers.arithmetic import DEGREE, ROUNDING_NOISE, Scalar, turn_of
 from icsolve.numbers.tape import UNIT, decimal_noise
@@ -47,7 +48,9 @@ class Traced:
 
     Attributes
     ----------
-    record : that of all its operands; ``index`` its place there
+    recorder : gives the record, that of all its operands, which has to be kept: a number does not keep it, so
+        that a record that is no longer used is gone at once, without the garbage collector
+    index : its place in the record
     op : the operation
     a, b : places of its operands, 0 where there is none; ``of`` has those that there are
     value : in the position in which the record was made
@@ -55,7 +58,7 @@ class Traced:
     noise : bounds the rounding of a constant
     """
 
-    __slots__ = ("a", "b", "index", "noise", "of", "op", "record", "row", "value")
+    __slots__ = ("a", "b", "index", "noise", "of", "op", "recorder", "row", "value")
 
     def __init__(
         self,
@@ -68,35 +71,35 @@ class Traced:
         noise: float = 0.0,
         of: tuple[int, ...] = (),
     ) -> None:
-        self.record, self.index = record, len(record.nodes)
+        self.recorder, self.index = record.itself, len(record.nodes)
         self.op, self.a, self.b, self.of = op, a, b, of
         self.value, self.row, self.noise = value, row, noise
         record.nodes.append(self)
 
     def __add__(self, other: Scalar) -> Scalar:
-        return self.record.add(self, other)
+        return self.recorder().add(self, other)
 
     __radd__ = __add__
 
     def __sub__(self, other: Scalar) -> Scalar:
-        return self.record.subtract(self, other)
+        return self.recorder().subtract(self, other)
 
     def __rsub__(self, other: Scalar) -> Scalar:
-        return self.record.subtract(other, self)
+        return self.recorder().subtract(other, self)
 
     def __mul__(self, other: Scalar) -> Scalar:
-        return self.record.multiply(self, other)
+        return self.recorder().multiply(self, other)
 
     __rmul__ = __mul__
 
     def __truediv__(self, other: Scalar) -> Scalar:
-        return self.record.divide(self, other)
+        return self.recorder().divide(self, other)
 
     def __rtruediv__(self, other: Scalar) -> Scalar:
-        return self.record.divide(other, self)
+        return self.recorder().divide(other, self)
 
     def __neg__(self) -> Scalar:
-        return self.record.negate(self)
+        return self.recorder().negate(self)
 
     def __abs__(self) -> float:
         return abs(self.value)
@@ -169,6 +172,7 @@ class Record:
     """The nodes in order; an `icsolve.numbers.arithmetic.Arithmetic` whose numbers are `Traced` or floats."""
 
     def __init__(self) -> None:
+        self.itself = cast("Callable[[], Record]", ref(self))
         self.nodes: list[Traced] = []
         self.inputs: dict[str, Traced] = {}
         self.roots: dict[int, Root] = {}
@@ -438,12 +442,11 @@ class Record:
         return node.op == Op.CONST and not node.noise
 
 
-def live(record: Record, wanted: Iterable[int], given: Container[int] = ()) -> list[int]:
-    """The nodes that vary and lead to the wanted ones from the given ones, in the order of the record.
+def live(nodes: Sequence[Traced], wanted: Iterable[int], given: Container[int] = ()) -> list[int]:
+    """The nodes that vary and lead to the wanted ones from the given ones, in the order of their record.
 
     Nodes that are the same in every row are left out: their values stand in the record.
     """
-    nodes = record.nodes
     seen = {k for k in wanted if nodes[k].row}
     stack = list(seen)
     while stack:

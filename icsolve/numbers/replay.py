@@ -47,22 +47,22 @@ class Code:
     """
 
     def __init__(self, record: Record, wanted: Sequence[int], keep: bool = False) -> None:
-        self.record, self.keep = record, keep
+        self.nodes, self.keep = record.nodes, keep
         self.wanted = tuple(wanted)
-        found = live(record, wanted)
-        self.given = tuple(k for k in found if record.nodes[k].op == Op.INPUT)
-        self.order = [k for k in found if record.nodes[k].op != Op.INPUT]
+        found, nodes = live(record.nodes, wanted), record.nodes
+        self.given = tuple([k for k in found if nodes[k].op == Op.INPUT])
+        self.order = [k for k in found if nodes[k].op != Op.INPUT]
         self.place, self.buffers = self._allocated()
         self._bound: dict[tuple[int, int], tuple[list[Step], Array]] = {}
         self.singles = 0
         """runs of one row so far"""
         self._columns = [self.place.get(k, 0) for k in self.wanted]
         self._still = [n for n, k in enumerate(self.wanted) if k not in self.place]
-        self._constants = np.array([[record.nodes[self.wanted[n]].value] for n in self._still]).reshape(-1, 1)
+        self._constants = np.array([[nodes[self.wanted[n]].value] for n in self._still]).reshape(-1, 1)
 
     def _allocated(self) -> tuple[dict[int, int], int]:
         """The buffer of every node, and how many there are."""
-        nodes = [self.record.nodes[k] for k in self.order]
+        nodes = [self.nodes[k] for k in self.order]
         last = {n: at for at, node in enumerate(nodes) for n in node.of}
         keep = {*self.wanted, *self.given, *(self.order if self.keep else ())}
         place = {k: at for at, k in enumerate(self.given)}
@@ -102,7 +102,7 @@ class Code:
         return self._bound[key]
 
     def _steps(self, buffers: Array) -> Iterable[Step]:
-        nodes, rows = self.record.nodes, list(buffers)
+        nodes, rows = self.nodes, list(buffers)
         held = {k: rows[place] for k, place in self.place.items()}
 
         def value(k: int) -> Array:
@@ -136,7 +136,7 @@ class Code:
 
     def held(self, k: int, buffers: Array) -> Array:
         """The whole buffer of a node, (room,), among those of `bound`; () where it does not vary."""
-        found: Array = buffers[self.place[k]] if k in self.place else np.array(self.record.nodes[k].value)
+        found: Array = buffers[self.place[k]] if k in self.place else np.array(self.nodes[k].value)
         return found
 
     def run(self, given: Mapping[int, Array], rows: int) -> list[Array]:
@@ -178,17 +178,14 @@ class Code:
     @cached_property
     def _one(self) -> Callable[..., tuple[float, ...]]:
         """The wanted nodes of one row of floats, by the same operations; it raises what is not finite."""
-        key = ("python", self.wanted)
-        if key not in self.record.kept:
-            names = {k: f"x{n}" for n, k in enumerate(self.given)}
-            text = straight_line(self.record, self.wanted, names, PYTHON)
-            lines = [*text.lines, f"return ({''.join(f'{value},' for value in text.wanted)})"]
-            source = f"def one({', '.join(names.values())}):\n" + "".join(f"    {line}\n" for line in lines)
-            scope: dict[str, Any] = {"turn": _turned, "root": _root, "atan2": np.arctan2, "degrees": _degrees}
-            exec(compile(source, "<record>", "exec"), scope)
-            self.record.kept[key] = scope["one"]
-        found: Callable[..., tuple[float, ...]] = self.record.kept[key]
-        return found
+        names = {k: f"x{n}" for n, k in enumerate(self.given)}
+        text = straight_line(self.nodes, self.wanted, names, PYTHON)
+        lines = [*text.lines, f"return ({''.join(f'{value},' for value in text.wanted)})"]
+        source = f"def one({', '.join(names.values())}):\n" + "".join(f"    {line}\n" for line in lines)
+        scope: dict[str, Any] = {"turn": _turned, "root": _root, "atan2": np.arctan2, "degrees": _degrees}
+        exec(compile(source, "<record>", "exec"), scope)
+        one: Callable[..., tuple[float, ...]] = scope["one"]
+        return one
 
     def fill(self, given: Mapping[int, Array], rows: int) -> Array:
         """As `run`, for values that are then asked for one by one: the buffers, (buffers + SCRATCH, room)."""

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from itertools import chain
 
-from icsolve.numbers.record import Op, Record, live
+from icsolve.numbers.record import Op, Traced, live
 from icsolve.tuples import NamedTuple
 
 DEEPEST = 12
@@ -87,13 +87,13 @@ class Text(NamedTuple):
 
 
 def straight_line(
-    record: Record, wanted: Sequence[int], inputs: Mapping[int, str], language: Language
+    nodes: Sequence[Traced], wanted: Sequence[int], inputs: Mapping[int, str], language: Language
 ) -> Text:
     """The source of a program from the inputs to the wanted nodes.
 
     Parameters
     ----------
-    record : the record
+    nodes : of the record
     wanted : indices of nodes
     inputs : by node, the name of the variable that has it; every other input keeps the value with which it
         was recorded
@@ -105,8 +105,8 @@ def straight_line(
     Text
         Lines without indentation, to be run in order. Angles are in degrees.
     """
-    order = live(record, wanted, inputs)
-    uses = Counter(chain(wanted, *(record.nodes[k].of for k in order if k not in inputs)))
+    order = live(nodes, wanted, inputs)
+    uses = Counter(chain(wanted, *(nodes[k].of for k in order if k not in inputs)))
     text: dict[int, tuple[str, int]] = {k: (name, 0) for k, name in inputs.items()}
     lines: list[str] = []
     names: list[str] = []
@@ -114,11 +114,11 @@ def straight_line(
 
     def form(k: int) -> tuple[str, int]:
         if k not in text:  # the same in every row
-            text[k] = (language.number(record.nodes[k].value), 0)
+            text[k] = (language.number(nodes[k].value), 0)
         return text[k]
 
     for k in order:
-        node = record.nodes[k]
+        node = nodes[k]
         if k in text:
             continue
         if node.op in (Op.COS, Op.SIN):
@@ -131,7 +131,7 @@ def straight_line(
         if node.op == Op.INPUT:
             form(k)
             continue
-        parts = [form(n) for n in record.nodes[k].of]
+        parts = [form(n) for n in nodes[k].of]
         value = language.forms[node.op].format(a=parts[0][0], b=parts[-1][0])
         depth = 1 + max(d for _, d in parts)
         if uses[k] > 1 or depth > DEEPEST:

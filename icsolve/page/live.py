@@ -299,7 +299,7 @@ class _ProgramWriter:
         """The program: a function a step, and one for each of the other parts, which end at these nodes."""
         flat = [v for step in steps for v in step.values] + list(_leaves(list(parts.values())))
         wanted = [self.record.lifted(v).index for v in flat]
-        text = straight_line(self.record, wanted, self.names, JAVASCRIPT)
+        text = straight_line(self.record.nodes, wanted, self.names, JAVASCRIPT)
         given = iter(text.wanted)
         functions = []
         for step in steps:

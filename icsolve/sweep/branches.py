@@ -139,7 +139,7 @@ class Radicands:
     def _radicand(self, root: Root, at: Array) -> Array:
         """The radicand of a branch; not a number where those before it have no place to meet."""
         record = self.compiled.record
-        behind = set(live(record, [root.radicand]))
+        behind = set(live(record.nodes, [root.radicand]))
         before = [r for r in self.roots if r.node in behind]
         nodes = [n for r in before for margin in r.margins for n in margin]
         radicand, *margins = self.values([root.radicand, *nodes], at)
@@ -337,7 +337,7 @@ def live_roots(compiled: CompiledSweep) -> list[Root]:
 def _live_roots(record: Record, stack: list[int]) -> list[Root]:
     alive: set[int] = set()
     while stack:
-        alive.update(live(record, stack))
+        alive.update(live(record.nodes, stack))
         parts = [v for group in record.implicit if alive.intersection(group.solved) for v in group.parts]
         stack = [v.index for v in parts if isinstance(v, Traced) and v.row and v.index not in alive]
     return [record.roots[k] for k in sorted(alive) if k in record.roots]

@@ -292,7 +292,7 @@ class _Compiled:
         self.slopes = [(name, path) for name in slopes for path in self.names]
         shown = [*(v for *_, v in values), *(v for by in slopes.values() for v in by.values())]
         self.shown = [record.lifted(v).index for v in shown]
-        alive = live(record, [v.index for v in shown if varies(v)])
+        alive = live(record.nodes, [v.index for v in shown if varies(v)])
         self.positive = [r.radicand for k, r in record.roots.items() if k in set(alive)]
         self.positive += [*compiled.margins, *compiled.fits]
         divided = {record.nodes[k].b for k in alive if record.nodes[k].op == Op.DIV}
@@ -307,7 +307,7 @@ class _Compiled:
         """The same for one row of floats; None where the row has to be looked at."""
         record, names = self.compiled.record, {k: f"x{n}" for n, k in enumerate(self.nodes)}
         wanted = [*self.shown, *self.positive, *self.apart]
-        text = straight_line(record, wanted, names, PYTHON)
+        text = straight_line(record.nodes, wanted, names, PYTHON)
         count, limits = len(self.shown), self.limits.tolist()
         watched = text.wanted[count:]
         tests = [f"{w}>{limit!r}" for w, limit in zip(watched, limits, strict=False)][: len(self.positive)]

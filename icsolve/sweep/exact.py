@@ -164,7 +164,7 @@ class ExactRecord:
     def _found(self, wanted: Sequence[int], given: Mapping[int, Decimal]) -> Mapping[int, Decimal]:
         key, nodes = tuple(wanted), self.record.nodes
         if key not in self.orders:
-            order = [k for k in live(self.record, wanted) if nodes[k].op != Op.INPUT]
+            order = [k for k in live(self.record.nodes, wanted) if nodes[k].op != Op.INPUT]
             steps = [(k, nodes[k].op, *_pair(nodes[k])) for k in order]
             judged = [b for _, op, _, b in steps if op in (Op.DIV, Op.SQRT) and b not in self.least]
             self.least |= {b: VANISHED * Decimal(terms_of(nodes, b)) for b in judged}

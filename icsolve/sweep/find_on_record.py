@@ -189,7 +189,7 @@ class RangeSearch:
         """What is divided by on the way to the answer: without its zeros that is bounded."""
         nodes = self.record.nodes
         wanted = [answer.index] if isinstance(answer, Traced) else []
-        quotients = (nodes[k] for k in live(self.record, wanted) if nodes[k].op == Op.DIV)
+        quotients = (nodes[k] for k in live(self.record.nodes, wanted) if nodes[k].op == Op.DIV)
         for k in dict.fromkeys(node.b for node in quotients if nodes[node.b].row):
             yield nodes[k]
 

@@ -75,7 +75,7 @@ class Runner:
         wanted = [index for _, _, index in self.moving]
         self.rubs = compiled.rubbing.nodes if compiled.rubbing is not None else []
         nodes = record.nodes
-        alive = [k for k in live(record, [*wanted, *self.rubs]) if nodes[k].op != Op.INPUT]
+        alive = [k for k in live(record.nodes, [*wanted, *self.rubs]) if nodes[k].op != Op.INPUT]
         answers = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
         self.roots = [record.roots[k] for k in alive if k in record.roots]
         self.watched = [
@@ -104,7 +104,7 @@ class Runner:
             return ()
         if self.sequential:
             return tuple(compiled.inputs)
-        behind = set(live(compiled.record, [root.radicand for root in self.roots]))
+        behind = set(live(compiled.record.nodes, [root.radicand for root in self.roots]))
         return tuple(name for name, k in compiled.inputs.items() if k in behind)
 
     @cached_property
@@ -258,7 +258,7 @@ def _living(compiled: CompiledSweep, alive: Sequence[int]) -> list[int]:
     """The checks of links that bear on what is asked."""
     checks = compiled.motion.checks if compiled.motion else ()
     known = set(alive)
-    return [k for k in checks if known.intersection(live(compiled.record, [k]))]
+    return [k for k in checks if known.intersection(live(compiled.record.nodes, [k]))]
 
 
 def column(array: Array, part: int) -> Array:
