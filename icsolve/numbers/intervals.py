@@ -8,12 +8,13 @@ there is none the root is 0: whoever asks whether a figure exists asks the radic
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
 import numpy as np
 
-from icsolve.numbers.record import Op, Record, live
+from icsolve.numbers.record import Op, Record, Traced, live
 from icsolve.numbers.replay import Array
 from icsolve.tuples import NamedTuple
 
@@ -61,6 +62,72 @@ def enclose(record: Record, wanted: Sequence[int], given: Mapping[int, Interval]
             parts = [_of(record, n, found) for n in record.nodes[k].of]
             found[k] = _run(node.op, parts, node.a == node.b)
     return [Interval(*_ends(_of(record, k, found))) for k in wanted]
+
+
+Span = tuple[float, float]
+"""Lower and upper end of one range."""
+WIDENED = 2.0**-51
+"""By this part of its ends, and `LEAST`, a span is widened for the roundings of an operation."""
+LEAST = 1e-300
+WHOLE: Span = (-math.inf, math.inf)
+
+
+def span(nodes: Sequence[Traced], wanted: int, given: Mapping[int, Span]) -> Span:
+    """As `enclose`, of one node that varies over one range, in a tenth of the time; an angle has no bounds.
+
+    Parameters
+    ----------
+    nodes : of a record; constants are as they were recorded
+    wanted : index of a node
+    given : by node, the ends of an input's range, for every input that leads there; degrees for angles
+
+    Raises
+    ------
+    KeyError
+        Where an input that leads there is not given.
+    """
+    found = dict(given)
+    for k in live(nodes, (wanted,)):
+        if k not in found:
+            node = nodes[k]
+            parts = [found[n] if nodes[n].row else (nodes[n].value, nodes[n].value) for n in node.of]
+            low, high = _spanned(node, *parts[0], *parts[-1])
+            slack = WIDENED * (abs(low) + abs(high)) + LEAST
+            found[k] = (low - slack, high + slack)
+    return found[wanted]
+
+
+def _spanned(node: Traced, a: float, b: float, c: float, d: float) -> Span:
+    """Of one operation on (a, b) and (c, d)."""
+    op = node.op
+    if op == Op.MUL:
+        if node.a == node.b:
+            return (0.0 if a <= 0.0 <= b else min(a * a, b * b)), max(a * a, b * b)
+        products = (a * c, a * d, b * c, b * d)
+        return min(products), max(products)
+    if op == Op.ADD:
+        return a + c, b + d
+    if op == Op.SUB:
+        return a - d, b - c
+    if op == Op.NEG:
+        return -b, -a
+    if op == Op.DIV and (c > 0.0 or d < 0.0):
+        quotients = (a / c, a / d, b / c, b / d)
+        return min(quotients), max(quotients)
+    if op == Op.SQRT:
+        return math.sqrt(max(a, 0.0)), math.sqrt(max(b, 0.0))
+    if op in (Op.COS, Op.SIN):
+        return _turning(a, b, 0.0 if op == Op.COS else 90.0)
+    return WHOLE
+
+
+def _turning(low: float, high: float, crest: float) -> Span:
+    """Cosine of angles less ``crest`` degrees: as `_wave`."""
+    ends = [math.cos(math.radians(math.remainder(x, 360.0) - crest)) for x in (low, high)]
+    first, last = math.ceil((low - crest) / 180.0 - 1e-12), math.floor((high - crest) / 180.0 + 1e-12)
+    ends += [1.0 - 2.0 * (k % 2) for k in range(first, min(last, first + 1) + 1)]
+    slack = TURN_ULPS * 2.0**-53
+    return max(min(ends) - slack, -1.0), min(max(ends) + slack, 1.0)
 
 
 # --- operations on (2, n): minus the lower ends and the upper ones, so that upward is outward -------------

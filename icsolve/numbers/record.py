@@ -48,9 +48,9 @@ class Traced:
 
     Attributes
     ----------
-    recorder : gives the record, that of all its operands, which has to be kept: a number does not keep it, so
-        that a record that is no longer used is gone at once, without the garbage collector
-    index : its place in the record
+    record : that of all its operands, which has to be kept: a number does not keep it, so that one that is no
+        longer used is gone at once, without the garbage collector
+    index : its place there
     op : the operation
     a, b : places of its operands, 0 where there is none; ``of`` has those that there are
     value : in the position in which the record was made
@@ -75,6 +75,10 @@ class Traced:
         self.op, self.a, self.b, self.of = op, a, b, of
         self.value, self.row, self.noise = value, row, noise
         record.nodes.append(self)
+
+    @property
+    def record(self) -> Record:
+        return self.recorder()
 
     def __add__(self, other: Scalar) -> Scalar:
         return self.recorder().add(self, other)

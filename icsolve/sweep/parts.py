@@ -7,11 +7,12 @@ followed from the position as written, the main input last.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from icsolve.case import is_angle
+from icsolve.numbers.intervals import span
 from icsolve.numbers.replay import BLOCK, Array, code_of
 from icsolve.sweep.branches import (
     MOST_CELLS,
@@ -129,30 +130,36 @@ class SweepParts:
         if others:
             clear = self._clear(runner.compiled, main, others)
             return (SweepPart(runner, rows[clear]) if clear.any() else None), rows[~clear]
-        if self._meets_nothing(runner.compiled, main):
+        if self._meets_nothing(runner, main):
             return SweepPart(runner, rows, ordered=True), rows[:0]
         return None, rows
 
-    def _meets_nothing(self, compiled: CompiledSweep, main: str) -> bool:
+    def _meets_nothing(self, runner: Runner, main: str) -> bool:
         """Whether no branch comes near a change point or a limit between the position as written and the
         rows, all of which can then be run at once."""
-        at, kept, radicands = (
-            self.arrays[main],
-            compiled.record.kept,
-            [r.radicand for r in live_roots(compiled)],
-        )
-        low, high, key = float(at.min()), float(at.max()), (f"{CLEAR} {main}", tuple(radicands))
-        least, most = kept.get(key, (math.inf, -math.inf))  # within these it is known
+        record, at, start = runner.compiled.record, self.arrays[main], self._written(main)
+        radicands = tuple([root.radicand for root in runner.roots])
+        low, high = min(float(at.min()), start), max(float(at.max()), start)
+        least, most = record.kept.get((f"{CLEAR} {main}", radicands), (math.inf, -math.inf))
         if least <= low and high <= most:
-            return True
-        code = code_of(compiled.record, radicands)
-        grid = grid_of([low, high], self._way(compiled, main, {}))
-        for start in range(0, len(grid) - 1, BLOCK):
-            here = grid[start : start + BLOCK + 1]
-            if any(map(may_vanish, code.run({compiled.inputs[main]: here}, len(here)))):
+            return True  # as is known
+        way = {runner.compiled.inputs[main]: (low, high)}
+        if not all(span(record.nodes, radicand, way)[0] > 0.0 for radicand in radicands):
+            grid = grid_of([low, high], self._way(runner.compiled, main, {}))
+            if not self._glanced(runner.compiled, main, radicands, grid):
                 return False
-        if len(grid) < MOST_CELLS:  # else it is coarser than that of fewer rows
-            kept[key] = (min(least, low), max(most, high))
+            if len(grid) >= MOST_CELLS:  # it is coarser than that of fewer rows
+                return True
+        record.kept[f"{CLEAR} {main}", radicands] = (min(least, low), max(most, high))
+        return True
+
+    def _glanced(self, compiled: CompiledSweep, main: str, radicands: Sequence[int], grid: Array) -> bool:
+        """Whether radicands show no sign of a zero at or between places in order, (places,)."""
+        code, node = code_of(compiled.record, radicands), compiled.inputs[main]
+        for first in range(0, len(grid) - 1, BLOCK):
+            here = grid[first : first + BLOCK + 1]
+            if any(map(may_vanish, code.run({node: here}, len(here)))):
+                return False
         return True
 
     def _clear(self, compiled: CompiledSweep, main: str, others: list[str]) -> Mask:
