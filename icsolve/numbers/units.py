@@ -419,10 +419,12 @@ BOUNDS = {
 
 def numbers_in(*values: object) -> Iterator[Number]:
     """The numbers that values of a case hold, in their order: in tuples, named ones too, and in dicts."""
-    for value in values:
+    left = list(values[::-1])
+    while left:
+        value = left.pop()
         if isinstance(value, Number):
             yield value
-        elif isinstance(value, dict):
-            yield from numbers_in(*value.values())
         elif isinstance(value, tuple):
-            yield from numbers_in(*value)
+            left += value[::-1]
+        elif isinstance(value, dict):
+            left += reversed(value.values())
