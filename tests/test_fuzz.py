@@ -36,7 +36,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("ICSOLVE_DEBUG", "1")
     if not FULL:
-        monkeypatch.setattr("icsolve.assembly.exclusion.MOST_BOXES", 10_000)
+        monkeypatch.setattr(newton, "MOST_BOXES", 3_000)
         monkeypatch.setattr("icsolve.page.motion.COARSE", 45.0)  # rows that are solved one by one
         monkeypatch.setattr(find_by_scenes, "PLACES", 20)
         monkeypatch.setattr(newton, "MOST_WORK", 20_000)

@@ -14,7 +14,7 @@ from click.testing import CliRunner
 
 from figure_drafts import Draft, Place, framework, sequence
 from icsolve import solve
-from icsolve.assembly import case_point, exclusion, solve_figure, walk
+from icsolve.assembly import case_point, exclusion, newton, solve_figure, walk
 from icsolve.assembly.conditions import residual
 from icsolve.assembly.modes import Ways, ways_of
 from icsolve.assembly.steps import PointGroup
@@ -191,8 +191,8 @@ def test_a_platform_on_three_legs_has_as_many_ways_as_its_plates_turned_over(
     rng = Random(3)
     search, searched = exclusion.every_solution, []
 
-    def kept(group: PointGroup, workspace: Workspace) -> exclusion.FigureSolutions:
-        found = search(group, workspace)
+    def kept(group: PointGroup, workspace: Workspace, most: int) -> exclusion.FigureSolutions:
+        found = search(group, workspace, most)
         for places in found.places:
             workspace.points.update(places)
             searched.append(max(abs(residual(workspace, datum)[0]) for datum in data_in(group)))
@@ -280,7 +280,7 @@ def test_a_way_whose_legs_lie_along_the_axes_is_among_them(sign: int) -> None:
 
 def test_a_point_whose_data_tell_the_same_is_anywhere_along_a_curve(monkeypatch: pytest.MonkeyPatch) -> None:
     """B is on the ray of AB, and where ABG is a straight angle: on the same line, all of it double."""
-    monkeypatch.setattr(exclusion, "MOST_BOXES", 50_000)
+    monkeypatch.setattr(newton, "MOST_BOXES", 50_000)
     pivot = "joints: [{pin: [1, 2], at: A}]\nlinks: {2: [B, G]}\n"
     text = "points: {A: [0, 0]}\nlengths: {AG: 4}\nangles: {AB: 20, ABG: 180, AG: 20}\n" + pivot
     with pytest.raises(SceneError, match="B may lie anywhere along a curve") as refusal:

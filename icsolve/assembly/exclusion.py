@@ -19,7 +19,6 @@ from icsolve.numbers.quadratics import SLACK, Array, Mask, Narrowing, Quadratics
 from icsolve.screws.plane import Point
 from icsolve.tuples import NamedTuple
 
-MOST_BOXES = 600_000
 SHALLOW = 1e-3
 """Sine of the smallest angle of two guides that bound the points on them."""
 UNBOUNDED = 50.0
@@ -56,9 +55,9 @@ class _Link(NamedTuple):
 def every_solution(
     group: PointGroup,
     workspace: Workspace,
+    most: int,
     about: Mapping[str, Point] | None = None,
     within: float = math.inf,
-    most: int = MOST_BOXES,
 ) -> FigureSolutions:
     """All solutions of a group, each once, by exclusion of boxes in which an equation has no zero.
 
@@ -66,9 +65,9 @@ def every_solution(
     ----------
     group : equations that are quadratic in the coordinates (lengths, angles; not ropes)
     workspace : the points that are placed; those of the group are moved about
+    most : boxes at most
     about, within : places of some of its points, and the root of the sum of squares of how far from these it
         is searched [frame]
-    most : boxes at most
     """
     system = quadratics_of(group, workspace)
     low, high, bounded = _bounds(group, workspace)

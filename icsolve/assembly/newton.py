@@ -64,8 +64,10 @@ TOGETHER = 64
 """Starts from which one descends at once."""
 MOST_WORK = 250_000
 """Steps times the square of the number of equations, over all starts but `near` itself."""
+MOST_BOXES = 600_000
+"""Of a search for every solution, by exclusion of boxes."""
 BOX_WORK = 250_000
-"""Boxes times the square of the number of equations, in a search by exclusion."""
+"""Boxes times the square of the number of equations, in a search about one solution."""
 FEW = 5
 """Points of the largest group of which every solution is looked for."""
 CLEARLY = 1.02
@@ -80,7 +82,7 @@ def every(group: PointGroup, workspace: Workspace) -> Converged:
         raise SceneError(Status.UNSUPPORTED, ROPED)
     from icsolve.assembly.exclusion import every_solution
 
-    found = every_solution(group, workspace)
+    found = every_solution(group, workspace, MOST_BOXES)
     if found.movable:
         return Converged([], Miss(Status.UNDERDETERMINED, _of(group, MOVABLE)), {}, False)
     groups = [group._replace(start=tuple(place[t] for t in group.targets)) for place in found.places]
@@ -257,7 +259,7 @@ class _NewtonSearch:
         radii = [math.inf] if len(group.targets) <= FEW else []
         radii += [CLEARLY * min(self.off(end.places) for end in self.found)] if self.found else []
         for radius in radii:
-            shown = every_solution(group, self.workspace, near, radius, most)
+            shown = every_solution(group, self.workspace, most, near, radius)
             for place in shown.places:
                 self._keep(Descent(0.0, place, 0))
             if shown.complete:
