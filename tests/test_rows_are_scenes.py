@@ -340,3 +340,44 @@ def test_wheels_whose_pivots_come_to_one_place_are_refused_in_every_row(name: st
     assert status == "inconsistent"
     assert icsolve.evaluator(case, tuple(row))(*row.values()).status[0] == status
     assert icsolve.sweep(case, {path: [value] for path, value in row.items()}).status[0] == status
+
+
+def reduction(draw: random.Random, wheels: int) -> str:
+    """Wheels in a row that reduce a speed by hundreds each; motion and loads are at any of them."""
+    at, places, joints, links = 0.0, [], [], range(2, wheels + 2)
+    for k in links:
+        places.append(f"P{k}: [{at:.2f}, 0]")
+        joints.append(f"  - {{pin: [1, {k}], at: P{k}}}\n")
+        if k > 2:
+            pair, teeth = (
+                f"[{k - 1}, {k}]",
+                f"[{draw.randrange(9, 20)}, {draw.choice([-1, 1]) * draw.randrange(2000, 6000)}]",
+            )
+            joints.append(f"  - {{gears: {pair}, teeth: {teeth}}}\n")
+        at += draw.uniform(100.0, 300.0)
+    known, unknown = draw.sample(links, 2)
+    speed = draw.choice(["", f"motion: {{link: {draw.choice(links)}, speed: {draw.uniform(1, 9):.2f}}}\n"])
+    return (
+        f"icsolve: 1\npoints: {{{', '.join(places)}}}\njoints:\n{''.join(joints)}"
+        f"loads: {{K: {{torque: 7.5, link: {known}}}, U: {{torque: unknown, link: {unknown}}}}}\n{speed}"
+    )
+
+
+@pytest.mark.parametrize("seed", range(400 if FULL else 30))
+def test_rows_of_a_long_reduction_keep_the_slowest_wheel(seed: int) -> None:
+    """What is 1e-14 and less of the fastest is no zero: its digits are known. Answers, rates and centres."""
+    draw = random.Random(f"reduction {seed}")
+    case = icsolve.load(reduction(draw, draw.randrange(4, 16)))
+    scene = icsolve.solve(case, rates=True, all_centres=True)
+    want = ("answers", "rates", "centres", "error")
+    rows = icsolve.sweep(case, drive={draw.choice(['2', '3']): [0.0, 7.0]}, want=want)
+    assert list(rows.status) == ["ok", "ok"]
+    assert rows.answers["U"] == pytest.approx(scene.answers["U"].value, rel=1e-13)
+    assert (rows.errors["answers"]["U"] <= 1e-13 * abs(rows.answers["U"])).all()
+    assert scene.rates is not None
+    for link, rate in scene.rates.items():
+        assert rows.rates[link] == pytest.approx(rate, rel=1e-13, abs=0.0), link
+    for (a, b), centre in (scene.centres or {}).items():
+        if centre.place is not None:
+            x, y, w = rows.centres[f"{a}-{b}"][0]
+            assert (x / w, y / w) == pytest.approx(centre.place, rel=1e-9, abs=1e-9), (a, b)

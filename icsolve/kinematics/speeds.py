@@ -16,7 +16,6 @@ from icsolve.case import Motion as Given
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import (
     FLOATS,
-    ROUNDING_NOISE,
     Arithmetic,
     Scalar,
     all_vanish,
@@ -33,8 +32,6 @@ else:
     linear = LateModule("icsolve.numbers.linear")
 
 Twists = Mapping[str, Sequence[Triple]]
-STILL = ROUNDING_NOISE
-"""In floats what moves slower than this fraction of the fastest link is at rest; normalised frame."""
 SLANT = math.sin(math.radians(1.0))
 """The direction of a given motion may be that far from the path of its point (a sine)."""
 LOOSE = 5e4
@@ -244,10 +241,10 @@ def motion_margins(place: PlacedCase, twists: Twists, *, sense: bool) -> Iterato
         elif given.point is None:
             rate = link[0][2]
             share = rate / (float(rate) or 1.0)
-            yield share * share if abs(float(rate)) > STILL * largest else -1.0
+            yield share * share if not a.vanishes(rate, largest) else -1.0
         else:
             x, y = velocity(link[0], place.points[given.point])
-            if not _speed((x, y)) > STILL * largest:
+            if all_vanish(a, ((x, largest), (y, largest))):
                 yield -1.0
                 continue
             assert given.angle is not None

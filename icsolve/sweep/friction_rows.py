@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.kinematics.motion import Motions
-from icsolve.kinematics.speeds import STILL, fastest
+from icsolve.kinematics.speeds import fastest
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Traced, varies
 from icsolve.numbers.replay import Array
@@ -174,7 +174,8 @@ def rubbing(scene: RecordedScene, motions: Motions, balance: Balance) -> Frictio
         rate = motions.twists[turned.link][0][2]
         drive = -rate if turned.turns == "cw" else rate
     largest = fastest(motions.twists)
-    if any(abs(r) <= STILL * largest and varies(r) for r in (*rates, *(() if drive is None else (drive,)))):
+    turning = () if drive is None else (drive,)
+    if any(scene.record.vanishes(r, largest) and varies(r) for r in (*rates, *turning)):
         return None
     load, forces = _reduced(statics, pressing)
     ratios = {w.load.name: w.ratio for w in balance.wrenches if w.root in statics.roots}

@@ -20,6 +20,7 @@ from icsolve.case import Case, Pair, TorsionSpring, is_angle
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import by_loops
 from icsolve.kinematics.speeds import speed_of
+from icsolve.numbers.adjoint import BoundedRecord
 from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.numbers.record import Record, varies
 from icsolve.scene import refusals
@@ -187,13 +188,13 @@ def wanted_points(case: Case) -> tuple[list[str], list[str]]:
 def _driven(setting: Setting, *, posing: bool) -> Setting:
     """The setting with what moves, found on a record: where it is not that of the program, thrown away."""
     case, figure, paths, links = setting.case, setting.figure, setting.paths, setting.links
-    record = Record()
+    record = BoundedRecord()
     held = mechanism(case, figure.frame, record, _written(figure, place(figure, case, record)))
     poses = [path for path in paths if posing or _poses(case, figure, held, path)]
     drive = closed_drive(held, poses, links)
     if drive is not None:
         return setting._replace(drive=drive, first=[held] if drive.moving == paths else None)
-    scratch = mechanism(case, figure.frame, Record(), figure.points)
+    scratch = mechanism(case, figure.frame, BoundedRecord(), figure.points)
     return setting._replace(drive=drive_of(scratch, poses, links))
 
 
@@ -271,7 +272,7 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
     if setting.first and setting.drive.order is not None:
         motion = _motion(setting, setting.first.pop(), nudge, inputs, signs)
     else:
-        record = Record()
+        record = BoundedRecord()
         record.follows = setting.moves
         placed = _placed(setting, record, nudge, inputs)
         if inputs:

@@ -329,7 +329,7 @@ def motion_fits(scene: RecordedScene, found: RecordedStatics, *, sense: bool) ->
     margins = list(speeds.motion_margins(scene.place, motions.twists, sense=sense))
     still = any(not varies(m) and float(m) <= 0.0 for m in margins)
     if links and (still or len(scene.case.motion) > 1 or motions.mobility > 1):
-        speeds.speed_of(*_in_floats(scene.place, motions.twists))
+        speeds.speed_of(scene.place, motions.twists)
     return tuple(m.index for m in margins if varies(m))
 
 
@@ -339,7 +339,7 @@ def motion_fits(scene: RecordedScene, found: RecordedStatics, *, sense: bool) ->
 def rates(scene: RecordedScene, found: motion.Motions) -> dict[str, Scalar]:
     """Angular velocity of every link in rad/s, scaled as in one scene; those left open are not there."""
     if found.mobility > 1:
-        speed = speeds.speed_of(scene.place._replace(arithmetic=FLOATS), found.twists)
+        speed = speeds.speed_of(scene.place, found.twists)
         told = speeds.link_rates(scene.case, found.twists, speed)
         return {link: rate for link, rate in told.items() if not isinstance(rate, str)}
     divisor, target = _scale(scene, found.twists)
@@ -347,13 +347,13 @@ def rates(scene: RecordedScene, found: motion.Motions) -> dict[str, Scalar]:
     shown = {}
     for link in scene.case.links:
         rate = found.twists[link][0][2]
-        shown[link] = 0.0 if abs(rate) <= speeds.STILL * largest else rate * target / divisor
+        shown[link] = 0.0 if scene.record.vanishes(rate, largest) else rate * target / divisor
     return shown
 
 
 def _scale(scene: RecordedScene, twists: Mapping[str, tuple[Triple, ...]]) -> tuple[Scalar, float]:
     """What the rates are divided by, and what they are scaled to."""
-    speed = speeds.speed_of(*_in_floats(scene.place._replace(case=_plain(scene.case)), twists))
+    speed = speeds.speed_of(scene.place._replace(case=_plain(scene.case)), twists)
     (target,) = speed.particular
     if speed.reference is not None:
         link, point = speed.reference
@@ -372,15 +372,6 @@ def _scale(scene: RecordedScene, twists: Mapping[str, tuple[Triple, ...]]) -> tu
     return _signed(scene, (twists[link][0][1], -twists[link][0][0]), float(speed.divisor) > 0.0), target
 
 
-def _in_floats(
-    place: PlacedCase, twists: Mapping[str, tuple[Triple, ...]]
-) -> tuple[PlacedCase, dict[str, tuple[Triple, ...]]]:
-    """A place and its twists, where the record was made."""
-    places = {name: (float(x), float(y)) for name, (x, y) in place.points.items()}
-    floats = {link: tuple((float(x), float(y), float(w)) for x, y, w in ts) for link, ts in twists.items()}
-    return place._replace(points=places, arithmetic=FLOATS), floats
-
-
 def _plain(case: Case) -> Case:
     """A point's given direction holds as written only; in a sweep its sense goes on."""
     return replace(case, motion=tuple(m._replace(angle=None) if m.point else m for m in case.motion))
@@ -397,7 +388,7 @@ def centre(scene: RecordedScene, found: motion.Motions, pair: Pair) -> Triple | 
     if own is None:
         relative = [subtract(b, a) for a, b in zip(*(found.twists[link] for link in pair), strict=True)]
         largest = speeds.fastest(found.twists)
-        moving = [t for t in relative if max(abs(float(x)) for x in t) > speeds.STILL * largest]
+        moving = [t for t in relative if not all(scene.record.vanishes(x, largest) for x in t)]
         if len(moving) != 1:
             return None
         (own,) = moving
