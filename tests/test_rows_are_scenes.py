@@ -370,7 +370,7 @@ def test_rows_of_a_long_reduction_keep_the_slowest_wheel(seed: int) -> None:
     case = icsolve.load(reduction(draw, draw.randrange(4, 16)))
     scene = icsolve.solve(case, rates=True, all_centres=True)
     want = ("answers", "rates", "centres", "error")
-    rows = icsolve.sweep(case, drive={draw.choice(['2', '3']): [0.0, 7.0]}, want=want)
+    rows = icsolve.sweep(case, drive={draw.choice(["2", "3"]): [0.0, 7.0]}, want=want)
     assert list(rows.status) == ["ok", "ok"]
     assert rows.answers["U"] == pytest.approx(scene.answers["U"].value, rel=1e-13)
     assert (rows.errors["answers"]["U"] <= 1e-13 * abs(rows.answers["U"])).all()
@@ -381,3 +381,39 @@ def test_rows_of_a_long_reduction_keep_the_slowest_wheel(seed: int) -> None:
         if centre.place is not None:
             x, y, w = rows.centres[f"{a}-{b}"][0]
             assert (x / w, y / w) == pytest.approx(centre.place, rel=1e-9, abs=1e-9), (a, b)
+
+
+SHORT = {
+    "four-bar": "points: {{A: [0, 0], D: [4, 0.5]}}\nlengths: {{AB: {r}, BC: 3.5, CD: 2.5}}\n"
+    "near: {{C: [2.7, 2.3]}}\njoints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}},\n"
+    "  {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]\n"
+    "loads: {{K: {{torque: 10, link: 4}}, U: {{torque: unknown, link: 2}}}}\n",
+    "slider-crank": "points: {{A: [0, 0], Q: [0, 0.4]}}\nlengths: {{AB: {r}, BC: 3}}\nnear: {{C: [3, 0.4]}}\n"
+    "joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}},\n"
+    "  {{slide: [4, 1], at: C, along: 0, through: Q}}]\nlinks: {{1: [Q]}}\n"
+    "loads: {{K: {{force: 10, link: 4, at: C, angle: 0}}, U: {{torque: unknown, link: 2}}}}\n",
+    "slotted arm": "points: {{A: [0, 0], D: [4, 0.5]}}\nlengths: {{AB: {r}}}\n"
+    "joints: [{{pin: [1, 2], at: A}}, {{slot: [2, 4], at: B, along: [B, D]}}, {{pin: [4, 1], at: D}}]\n"
+    "loads: {{K: {{torque: 10, link: 4}}, U: {{torque: unknown, link: 2}}}}\n",
+}
+
+
+@pytest.mark.parametrize("seed", range(300 if FULL else 12))
+@pytest.mark.parametrize("kind", SHORT)
+def test_rows_of_a_crank_that_is_next_to_nothing_are_scenes(kind: str, seed: int) -> None:
+    """Down to 1e-13 of the frame the crank moves all else, by as little."""
+    draw = random.Random(f"{kind} {seed}")
+    crank = f"{draw.uniform(1, 9):.3f}e-{draw.randrange(1, 14)}"
+    text = f"icsolve: 1\nangles: {{AB: 40}}\n{SHORT[kind].format(r=crank)}"
+    turns = [round(draw.uniform(0.0, 360.0), 2) for _ in range(2)]
+    rows = icsolve.sweep(icsolve.load(text), {"angles.AB": turns}, want=("answers", "rates", "error"))
+    for n, turn in enumerate(turns):
+        scene = icsolve.solve(icsolve.load(text, {"angles.AB": str(turn)}), rates=True)
+        assert rows.status[n] == "ok"
+        own = rows.answers["U"][n]
+        assert own and abs(own - scene.answers["U"].value) <= rows.errors["answers"]["U"][n] + 2e-16 * abs(
+            own
+        )
+        for link, rate in (scene.rates or {}).items():
+            off = rows.errors["rates"][link][n] + 2e-16 * abs(rate)
+            assert abs(rows.rates[link][n] - rate) <= off, link

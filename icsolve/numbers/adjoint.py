@@ -205,13 +205,13 @@ def _rounding(record: Record, k: int) -> float:
     return ANGLE_NOISE if node.op == Op.ANGLE else ROUNDINGS.get(node.op, UNIT) * abs(node.value)
 
 
-KNOWN = 1e-6
-"""What is known to so much of it is not zero, however small it is beside what it is compared with."""
+KNOWN = 0.25
+"""What is four times its bound is not zero, however small it is beside what it is compared with."""
 
 
 class BoundedRecord(Record):
-    """A record that looks at the bound of what seems to be zero: the rates of long reductions are small, and
-    known to many digits; what rounding has left of terms that cancel is known to none."""
+    """A record that looks at the bound of what seems to be zero. Rates of long reductions, and by short
+    cranks, are small and known; what rounding leaves of terms that cancel is small and unknown."""
 
     def vanishes(self, value: Scalar, size: float) -> bool:
         """Zero in every row, as its value in this one and the bound of that tell."""
