@@ -401,9 +401,9 @@ SHORT = {
 @pytest.mark.parametrize("seed", range(300 if FULL else 12))
 @pytest.mark.parametrize("kind", SHORT)
 def test_rows_of_a_crank_that_is_next_to_nothing_are_scenes(kind: str, seed: int) -> None:
-    """Down to 1e-13 of the frame the crank moves all else, by as little."""
+    """Down to 1e-15 of the frame the crank moves all else, by as little."""
     draw = random.Random(f"{kind} {seed}")
-    crank = f"{draw.uniform(1, 9):.3f}e-{draw.randrange(1, 14)}"
+    crank = f"{draw.uniform(1, 9):.3f}e-{draw.randrange(1, 16)}"
     text = f"icsolve: 1\nangles: {{AB: 40}}\n{SHORT[kind].format(r=crank)}"
     turns = [round(draw.uniform(0.0, 360.0), 2) for _ in range(2)]
     rows = icsolve.sweep(icsolve.load(text), {"angles.AB": turns}, want=("answers", "rates", "error"))
@@ -417,3 +417,25 @@ def test_rows_of_a_crank_that_is_next_to_nothing_are_scenes(kind: str, seed: int
         for link, rate in (scene.rates or {}).items():
             off = rows.errors["rates"][link][n] + 2e-16 * abs(rate)
             assert abs(rows.rates[link][n] - rate) <= off, link
+
+
+@pytest.mark.parametrize("seed", range(300 if FULL else 10))
+@pytest.mark.parametrize("kind", SHORT)
+def test_rows_of_loads_that_all_but_cancel_are_scenes(kind: str, seed: int) -> None:
+    """What is left of two loads 1e4 to 1e18 times as large has its digits, whether 1e-8 of them or nothing at
+    all is left of theirs in doubles."""
+    draw = random.Random(f"{kind} {seed}")
+    large, left = 10 ** draw.randrange(4, 19), draw.choice([0, 1, -3])
+    pair = f"L1: {{torque: {large + left}, link: 2}}, L2: {{torque: {-large}, link: 2}}, K:"
+    text = "icsolve: 1\nangles: {AB: 40}\n" + SHORT[kind].format(r=1.25).replace("K:", pair)
+    path = draw.choice(["angles.AB", "loads.K"])
+    values = [round(draw.uniform(10.0, 80.0), 2) for _ in range(2)]
+    rows = icsolve.sweep(icsolve.load(text), {path: values}, want=("answers", "error"))
+    evaluated = icsolve.evaluator(icsolve.load(text), inputs=(path,), want=("answers",))(np.array(values))
+    for n, value in enumerate(values):
+        scene = icsolve.solve(icsolve.load(text, {path: str(value)})).answers["U"]
+        assert rows.status[n] == evaluated.status[n] == "ok"
+        off = abs(rows.answers["U"][n] - scene.value)
+        assert off <= rows.errors["answers"]["U"][n] + 2e-16 * abs(scene.value)
+        assert off <= 1e-9 * abs(scene.value)
+        assert abs(evaluated.answers["U"][n] - scene.value) <= 1e-9 * abs(scene.value)

@@ -217,4 +217,9 @@ class BoundedRecord(Record):
         """Zero in every row, as its value in this one and the bound of that tell."""
         if not super().vanishes(value, size):
             return False
-        return not (isinstance(value, Traced) and still_noise(self, value.index) < KNOWN * abs(value))
+        noise = noise_of(self, value)
+        if isinstance(value, Traced) and noise:
+            if noise < KNOWN * abs(value):
+                return False
+            self.spent.append(value.index)
+        return True

@@ -27,10 +27,11 @@ from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.drivers import Drive
+from icsolve.sweep.exact import hides
 from icsolve.sweep.numbers import find_number, numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of
 from icsolve.sweep.request import RequestError, SweepRequest, request_of, told
-from icsolve.sweep.runner import Key, Rows, column
+from icsolve.sweep.runner import Key, Rows, column, usual_and_terms
 from icsolve.sweep.start import drives
 from icsolve.sweep.table import CODE, WORDS, Table, by_kind
 from icsolve.tuples import NamedTuple, dataclass, field, replace
@@ -299,7 +300,9 @@ class _Compiled:
         self.apart = sorted(k for k in divided if record.nodes[k].row)
         self.apart += [v.index for v in answers.values() if varies(v)]
         watched = [*self.positive, *self.apart]
-        self.limits = np.array([NEAR * (abs(record.nodes[k].value) or 1.0) for k in watched])
+        terms = {v.index: usual_and_terms(record, v.index)[1] for v in answers.values() if varies(v)}
+        sizes = [terms.get(k) or abs(record.nodes[k].value) or 1.0 for k in watched]
+        self.limits = NEAR * np.array(sizes)
         self.code = Code(record, [*self.shown, *watched])
         self.one = self._python()
 
@@ -425,7 +428,7 @@ def _compiled(case: Case, names: Mapping[str, str], asked: RowRequest, gradients
         compiled = compile_sweep(setting, asked)
     except SceneError:  # beside the case as written nothing moves: it does so by exact data alone
         return None
-    alone = compiled.refusal is not None or compiled.delicate or compiled.idle
+    alone = compiled.refusal is not None or compiled.delicate or compiled.idle or hides(compiled)
     return None if alone else _Compiled(compiled, asked, names, gradients)
 
 

@@ -319,6 +319,31 @@ def decimal_ratio(exact: ExactRatio) -> Decimal:
 # --- rows as scenes --------------------------------------------------------------------------------
 
 
+def hides(compiled: CompiledSweep) -> bool:
+    """Whether something that doubles took as zero in every row is none: terms that all but cancel."""
+    if not compiled.spent:
+        return False
+    kept = compiled.record.kept
+    if HIDES not in kept:
+        kept[HIDES] = _hides(compiled)
+    found: bool = kept[HIDES]
+    return found
+
+
+HIDES: tuple[str, tuple[int, ...]] = ("hides", ())
+
+
+def _hides(compiled: CompiledSweep) -> bool:
+    exact, nodes = exact_record(compiled), compiled.record.nodes
+    given = {one.index: Decimal(one.value) for one in compiled.record.inputs.values()}
+    try:
+        found = exact.values([nodes[k] for k in compiled.spent], given)
+    except Unreached:
+        return True
+    sizes = [Decimal(terms_of(nodes, k)) for k in compiled.spent]
+    return any(value.is_nan() or abs(value) > ZERO * size for value, size in zip(found, sizes, strict=True))
+
+
 class RowScenes:
     """Rows of a compiled sweep as cases: all points by coordinates, directions as they have turned."""
 

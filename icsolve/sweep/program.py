@@ -134,6 +134,8 @@ class CompiledSweep(NamedTuple):
     """of a case with friction whose unknown loads can be had in all rows at once"""
     rests: bool = False
     """whether contacts are told row by row"""
+    spent: tuple[int, ...] = ()
+    """what was taken as zero in answers and rates, though doubles do not show it"""
 
 
 def setting_of(case: Case, paths: Sequence[str], links: Sequence[str], *, posing: bool = False) -> Setting:
@@ -302,6 +304,7 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
         margins,
         fits,
         rests=bool(asked.contacts),
+        spent=found.spent if found is not None else (),
     )
     if found is None:
         return compiled
@@ -389,6 +392,7 @@ def _outputs(
         out |= {("terms", w.load.name): (factor * w.measure,) for w, factor in pairs}
     if asked.rates:
         out |= {("rates", link): (rate,) for link, rate in rates(scene, found.motions).items()}
+    found = found._replace(spent=tuple(scene.record.spent))
     for pair in asked.centres:
         triple = centre(scene, found.motions, pair)
         if triple is not None:

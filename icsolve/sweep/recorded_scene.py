@@ -80,12 +80,14 @@ class RecordedStatics(NamedTuple):
     motions : by link, one twist a freedom, expressions [frame length/s, frame length/s, rad/s]
     refusal : why there are no answers in any row; None where there are
     balance : factors of the loads
+    spent : nodes of what was taken as zero in answers and rates, though doubles do not show it
     """
 
     answers: dict[str, Scalar]
     motions: motion.Motions
     refusal: SceneError | None
     balance: power.Balance
+    spent: tuple[int, ...] = ()
 
     @property
     def delicate(self) -> bool:
@@ -273,6 +275,7 @@ def statics(scene: RecordedScene, everything: bool) -> RecordedStatics:
     some = unknown and not (everything or case.ropes or case.screws)
     wanted = frozenset(top.body_of[link] for link in links) if some else None
     motions = motions_of(scene, wanted)
+    scene.record.spent.clear()  # of what the motions were found by
     wrenches = load_wrenches.wrenches(place)
     balance = power.balance(wrenches, motions.twists, motions.mobility)
     solution = power.solve_balance(balance, scene.record)

@@ -26,14 +26,12 @@ from icsolve.tuples import NamedTuple, cached_property
 SHALLOW = 1e-9
 """A radicand below this fraction of its terms makes its row doubtful."""
 SMALL = 1e-7
-"""Below this fraction of the terms that it is summed from (where the record was made) a divisor makes its row
-doubtful, and so does an answer that many times smaller or larger than there."""
+"""Below this fraction of the terms that it is summed from (where the record was made) a divisor or an answer
+makes its row doubtful, and so does an answer that many times larger than there."""
 CLOSE = 1e-7
 """Below this a margin of the figure makes its row doubtful (normalised)."""
 AGREED = 1e-9
 """Conditions that were not needed to place the links are met to this (normalised)."""
-NOTHING = 1e-13
-"""An answer below this fraction of its terms where the record was made is nothing in every row."""
 LEANING = 1e-4
 """The same of an answer where contacts are told row by row: their places are rounded."""
 BATCH = 8
@@ -86,8 +84,8 @@ class Runner:
         ]
         small = LEANING if compiled.rests else SMALL
         for k in (wanted[n] for n in answers):
-            usual = _usual(record, k)
-            self.watched += [Watched(k, small * usual, usual / small, True)] if usual else []
+            usual, terms = usual_and_terms(record, k)
+            self.watched += [Watched(k, small * terms, usual / small, True)] if usual else []
         self.code = Code(record, [*wanted, *(one.node for one in self.watched), *self.rubs])
 
     @cached_property
@@ -266,12 +264,13 @@ def column(array: Array, part: int) -> Array:
     return array if array.ndim == 1 else array[:, part]
 
 
-def _usual(record: Record, k: int) -> float:
-    """The size of an answer where the record was made; 0 where it is nothing in every row."""
+def usual_and_terms(record: Record, k: int) -> tuple[float, float]:
+    """The size of an answer where the record was made, and of the terms that it is summed from."""
     nodes, top = record.nodes, k
     while nodes[top].op in (Op.DIV, Op.NEG) or (nodes[top].op == Op.MUL and not nodes[nodes[top].b].row):
         top = nodes[top].a
-    return abs(nodes[k].value) if abs(nodes[top].value) > NOTHING * terms_of(nodes, top) else 0.0
+    usual, size = abs(nodes[k].value), abs(nodes[top].value)
+    return (usual, usual * (terms_of(nodes, top) / size)) if size else (0.0, 0.0)
 
 
 def _divisors(nodes: Sequence[Traced], alive: Sequence[int]) -> list[int]:

@@ -14,6 +14,7 @@ from icsolve.assembly.workspace import Workspace, data_in, data_of
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
+from icsolve.sweep.exact import hides
 from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, Signs, compile_sweep, setting_of
 from icsolve.sweep.request import Columns
@@ -99,6 +100,11 @@ class Start(NamedTuple):
     def runner(self, signs: Signs = ()) -> Runner:
         """The runner; the branches in ``signs`` have theirs as inputs."""
         return runner(self.case, self.paths, self.links, self.asked, signs)
+
+    @property
+    def hides(self) -> bool:
+        """Whether doubles lose what is asked: each row is then a scene in its position."""
+        return hides(self.compiled())
 
     def compiled(self, signs: Signs = ()) -> CompiledSweep:
         """What the runner runs."""

@@ -88,7 +88,8 @@ def sweep(
     start = start_of(case, columns, told(case, wanted.asked))
     if start.one_by_one:
         return _family(start, columns, wanted, progress)
-    if case.ropes or wanted.asked.in_motion or (_rubs(case) and not _rubs_at_once(start, wanted)):
+    alone = case.ropes or wanted.asked.in_motion or start.hides
+    if alone or (_rubs(case) and not _rubs_at_once(start, wanted)):
         return _by_scenes(start, columns, wanted, progress)
     return _together(start, columns, wanted, progress)
 
