@@ -15,6 +15,7 @@ from mpmath import mp, mpf
 
 import icsolve
 from icsolve.assembly import newton
+from icsolve.bench.full_turn import FOUR_BAR_CASE
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
 from icsolve.numbers.roots import closed_in
@@ -539,3 +540,17 @@ def test_a_limit_that_two_points_share_is_told_once() -> None:
     case = icsolve.load(FILES["linkages/peaucellier.yaml"])
     (spot,) = find(case, {"angles.QP": np.array([-110.0, 230.0])}, Query("dead"))
     assert (spot.at, spot.kind) == (120.0, "limit")
+
+
+@pytest.mark.parametrize("large", [10**7, 10**11, 10**17])
+def test_loads_that_all_but_cancel_hide_no_position(large: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two equal torques against each other on the crank change nothing, however large they are."""
+    monkeypatch.setattr(find_by_scenes, "PLACES", 40)
+    pair = f"L1: {{torque: {large}, link: 2}}, L2: {{torque: {-large}, link: 2}}, T4:"
+    plain, paired = icsolve.load(FOUR_BAR_CASE), icsolve.load(FOUR_BAR_CASE.replace("T4:", pair))
+    turns = {"angles.AB": np.array([70.0, 250.0])}
+    for query in (Query("value", "T2", -2.0), Query("value", "T2", 0.0), Query("max", "T2")):
+        wanted, got = find(plain, turns, query), find(paired, turns, query)
+        assert len(got) == len(wanted) > 0
+        for one, other in zip(got, wanted, strict=True):
+            assert abs(one.at - other.at) <= one.error + other.error
