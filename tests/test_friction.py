@@ -830,3 +830,15 @@ def test_solutions_that_multiply_are_not_counted_for_long(monkeypatch: pytest.Mo
     assert len(homotopy.all_roots(alike(4)) or ()) == 16
     monkeypatch.setattr(homotopy, "MOST_BOXES", 10_000)
     assert homotopy.all_roots(alike(12)) is None
+
+
+@pytest.mark.parametrize("large", [10**k for k in range(7, 18, 2)])
+@pytest.mark.parametrize("text", [QUICK_RETURN, SIX_BAR], ids=["quick return", "six-bar"])
+def test_two_torques_against_each_other_change_nothing(text: str, large: int) -> None:
+    """However large they are: power and free bodies are compared beside what both are summed from."""
+    first, last = (f"  L{n}: {{torque: {one}, link: 2}}\n" for n, one in ((1, large), (2, -large)))
+    plain, paired = (
+        icsolve.solve(icsolve.load(f"icsolve: 1\n{one}motion: {{link: 2, turns: cw}}\n"))
+        for one in (text, text.replace("loads:\n", f"loads:\n{first}") + last)
+    )
+    assert paired.answers["T"].value == pytest.approx(plain.answers["T"].value, rel=1e-12)

@@ -28,7 +28,6 @@ from icsolve.statics.reactions import names_by_tie, notes_of, reactions_of, tens
 from icsolve.statics.witness import (
     bounds_of,
     compared,
-    powers_of,
     refuse_doubt,
     terms_of,
     unknowns_of,
@@ -107,7 +106,7 @@ def told(
         roundings = None
         if a is FLOATS and position.mobility:
             terms = terms_of(statics, parameters)
-            roundings = bounds_of(statics, powers_of(statics, balance), position.twists, terms)
+            roundings = bounds_of(statics, balance, position.twists, terms)
         both = compared(power, solved.unknowns, roundings, position.slack, statics, parameters, a)
     reactions = Reactions()
     if asked or statics.general.free or any(tie.joint.only_pushes for tie in statics.ties):

@@ -15,7 +15,7 @@ from icsolve.numbers.linear import Row, inverse, solve_square
 from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Components, Equilibrium, T
 from icsolve.statics.load_wrenches import L
-from icsolve.statics.power import PowerFactors
+from icsolve.statics.power import PowerFactors, known_value
 from icsolve.tuples import LateModule
 from icsolve.wording.sentences import plural
 
@@ -113,25 +113,29 @@ def independent(rows: Sequence[Sequence[Scalar]], count: int) -> list[list[Scala
 
 def bounds_of(
     statics: Equilibrium[T],
-    powers: Sequence[Sequence[float]],
+    balance: PowerFactors[L],
     twists: Mapping[str, Sequence[Components]],
     terms: Terms,
 ) -> dict[str, float]:
     """What rounding can make of the difference between power and free bodies, by unknown load [case units].
 
-    The residual of every equation, and the rounding of its terms, does power on the motions; divided by
-    the power of a unit of the unknown that is its error (the motions are the adjoint solution). inf where the
-    motions do not determine the loads.
+    The residual of every equation, and the rounding of its terms, does power on the motions, beside the
+    rounding of the known loads' own power; divided by the power of a unit of the unknown that is its error
+    (the motions are the adjoint solution). inf where the motions do not determine the loads.
 
     Parameters
     ----------
     statics : as solved
-    powers : (motions, unknowns), the power of a unit of each unknown load
+    balance : power of the loads
     twists : by link, one a motion
     terms : of the solution
     """
     count = len(statics.roots)
-    lost = (_lost(twists, terms, m) for m in range(len(powers)))
+    powers = powers_of(statics, balance)
+    lost = (
+        _lost(twists, terms, m) + ROUNDINGS * _known_size(balance, m) * statics.scale
+        for m in range(len(powers))
+    )
     rows = independent([[*row, rest] for row, rest in zip(powers, lost, strict=True)], count)
     by_motion = inverse([row[:-1] for row in rows]) if len(rows) == count else None
     if by_motion is None:
@@ -150,6 +154,12 @@ def powers_of(statics: Equilibrium[T], balance: PowerFactors[L]) -> list[list[fl
         powers = [float(w.ratio) * float(f) * w.measure for w, f in both]
         rows.append([sum(powers[n] for n in ns) for ns in columns])
     return rows
+
+
+def _known_size(balance: PowerFactors[L], motion: int) -> float:
+    """The sum of the sizes of the known loads' powers on a motion [case units times its speed]."""
+    both = zip(balance.wrenches, balance.factors[motion], strict=True)
+    return sum(abs((known_value(w) or 0.0) * float(w.ratio) * float(f) * w.measure) for w, f in both)
 
 
 def _lost(twists: Mapping[str, Sequence[Components]], terms: Terms, motion: int) -> float:

@@ -42,7 +42,6 @@ from icsolve.statics.space.reactions import (
 from icsolve.statics.witness import (
     bounds_of,
     compared,
-    powers_of,
     refuse_doubt,
     residual,
     terms_of,
@@ -96,7 +95,7 @@ def _solve(case: Case, a: Showing) -> Answer:
     statics = solved.statics
     refuse_unbalanced(solved)
     terms = terms_of(statics, solved.parameters)
-    bounds = bounds_of(statics, powers_of(statics, solved.powers), solved.twists, terms)
+    bounds = bounds_of(statics, solved.powers, solved.twists, terms)
     unknowns = unknowns_of(statics)
     if unknowns is None:
         refuse_doubt(0, solved.mobility)
