@@ -19,7 +19,7 @@ import numpy as np
 import pytest
 
 import icsolve
-from icsolve.case import Case, Number
+from icsolve.case import Case, Number, Torque
 from icsolve.case.joints import Guided
 from icsolve.numbers.units import BOUNDS
 from icsolve.scene import solve_scene
@@ -439,3 +439,32 @@ def test_rows_of_loads_that_all_but_cancel_are_scenes(kind: str, seed: int) -> N
         assert off <= rows.errors["answers"]["U"][n] + 2e-16 * abs(scene.value)
         assert off <= 1e-9 * abs(scene.value)
         assert abs(evaluated.answers["U"][n] - scene.value) <= 1e-9 * abs(scene.value)
+
+
+@pytest.mark.parametrize("name", sample(FILES, 12, "torques against each other"))
+def test_two_torques_against_each_other_change_no_row(name: str) -> None:
+    """However large they are, on the first link that moves of any case of the library."""
+    case = icsolve.load(FILES[name])
+    if case.space is not None or case.unknowns or not case.loads:
+        return
+    link = next(link for link in case.links if link != case.ground)
+    large = 10.0 ** random.Random(name).choice([9, 13, 17])
+    first, last = (
+        Torque(n, link, Number(v, 0.0, f"loads.{n}", repr(v))) for n, v in (("+", large), ("-", -large))
+    )
+    paired = replace(case, loads=(first, *case.loads, last))
+    rows, found = (turned(one, link) for one in (case, paired))
+    if isinstance(rows, str) or isinstance(found, str):
+        assert rows == found
+        return
+    assert list(found.status) == list(rows.status)
+    for load, values in rows.answers.items():
+        assert found.answers[load] == pytest.approx(values, rel=1e-9, abs=0.0, nan_ok=True), load
+
+
+def turned(case: Case, link: str) -> Sweep | str:
+    """Two rows in which a link is turned, or why there are none."""
+    try:
+        return icsolve.sweep(case, drive={link: [-1.0, 2.0]})
+    except icsolve.SceneError as refusal:
+        return refusal.status

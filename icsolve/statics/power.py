@@ -293,6 +293,18 @@ def _workless(rows: Sequence[PowerRow], roots: Sequence[str]) -> str:
     return next(idle, roots[0] if roots else "")
 
 
+CANCELLED = 1e-7
+"""Known loads whose powers leave less than this fraction of them all but cancel."""
+
+
+def known_sizes(b: PowerFactors[L], motion: int) -> tuple[float, float]:
+    """The power of the known loads in a motion in floats, and the sum of its terms' sizes [case units times
+    the motion's speed]."""
+    both = zip(b.wrenches, b.factors[motion], strict=True)
+    powers = [(known_value(w) or 0.0) * float(w.ratio) * float(f) * w.measure for w, f in both]
+    return sum(powers), sum(map(abs, powers))
+
+
 def known_power(b: Balance, m: int, arithmetic: Arithmetic) -> Scalar:
     """The power of the known loads in motion m [force units times frame length, a unit of the motion], times
     `force_scale`.

@@ -15,7 +15,7 @@ from icsolve.numbers.linear import Row, inverse, solve_square
 from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Components, Equilibrium, T
 from icsolve.statics.load_wrenches import L
-from icsolve.statics.power import PowerFactors, known_value
+from icsolve.statics.power import PowerFactors, known_sizes
 from icsolve.tuples import LateModule
 from icsolve.wording.sentences import plural
 
@@ -133,7 +133,7 @@ def bounds_of(
     count = len(statics.roots)
     powers = powers_of(statics, balance)
     lost = (
-        _lost(twists, terms, m) + ROUNDINGS * _known_size(balance, m) * statics.scale
+        _lost(twists, terms, m) + ROUNDINGS * known_sizes(balance, m)[1] * statics.scale
         for m in range(len(powers))
     )
     rows = independent([[*row, rest] for row, rest in zip(powers, lost, strict=True)], count)
@@ -154,12 +154,6 @@ def powers_of(statics: Equilibrium[T], balance: PowerFactors[L]) -> list[list[fl
         powers = [float(w.ratio) * float(f) * w.measure for w, f in both]
         rows.append([sum(powers[n] for n in ns) for ns in columns])
     return rows
-
-
-def _known_size(balance: PowerFactors[L], motion: int) -> float:
-    """The sum of the sizes of the known loads' powers on a motion [case units times its speed]."""
-    both = zip(balance.wrenches, balance.factors[motion], strict=True)
-    return sum(abs((known_value(w) or 0.0) * float(w.ratio) * float(f) * w.measure) for w, f in both)
 
 
 def _lost(twists: Mapping[str, Sequence[Components]], terms: Terms, motion: int) -> float:

@@ -42,7 +42,7 @@ from icsolve.numbers.balls import Balls
 from icsolve.numbers.replay import Array
 from icsolve.scene.refusals import rubs
 from icsolve.sweep.branches import signs_of
-from icsolve.sweep.exact import CONTEXT, as_written
+from icsolve.sweep.exact import CONTEXT, as_written, hides
 from icsolve.sweep.first_contact import FirstContact, FirstContacts, Mask
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recorded_scene import RestingContact
@@ -330,6 +330,7 @@ class Rows:
                 or compiled.delicate
                 or runner.sequential
                 or rubs(compiled.scene.case)
+                or hides(compiled)
             ):
                 return {}, np.zeros(len(sure), dtype=bool)
             given, good = self.work.parts.given(part)

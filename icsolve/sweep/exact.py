@@ -320,7 +320,10 @@ def decimal_ratio(exact: ExactRatio) -> Decimal:
 
 
 def hides(compiled: CompiledSweep) -> bool:
-    """Whether something that doubles took as zero in every row is none: terms that all but cancel."""
+    """Whether doubles lose what is asked of the rows: known loads all but cancel, or something that was taken
+    as zero in every row is none."""
+    if compiled.cancels and any(map(float, _answers(compiled))):
+        return True
     if not compiled.spent:
         return False
     kept = compiled.record.kept
@@ -328,6 +331,10 @@ def hides(compiled: CompiledSweep) -> bool:
         kept[HIDES] = _hides(compiled)
     found: bool = kept[HIDES]
     return found
+
+
+def _answers(compiled: CompiledSweep) -> list[Scalar]:
+    return [value for (kind, _), (value, *_) in compiled.outputs.items() if kind == "answers"]
 
 
 HIDES: tuple[str, tuple[int, ...]] = ("hides", ())

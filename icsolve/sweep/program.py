@@ -134,6 +134,8 @@ class CompiledSweep(NamedTuple):
     """of a case with friction whose unknown loads can be had in all rows at once"""
     rests: bool = False
     """whether contacts are told row by row"""
+    cancels: bool = False
+    """whether the powers of the known loads all but cancel where the record is made"""
     spent: tuple[int, ...] = ()
     """what was taken as zero in answers and rates, though doubles do not show it"""
 
@@ -304,6 +306,7 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
         margins,
         fits,
         rests=bool(asked.contacts),
+        cancels=found is not None and found.cancels,
         spent=found.spent if found is not None else (),
     )
     if found is None:

@@ -90,6 +90,12 @@ class RecordedStatics(NamedTuple):
     spent: tuple[int, ...] = ()
 
     @property
+    def cancels(self) -> bool:
+        """Whether the powers of the known loads all but cancel."""
+        sizes = [power.known_sizes(self.balance, m) for m in range(len(self.balance.factors))]
+        return any(0.0 < abs(left) < power.CANCELLED * size for left, size in sizes)
+
+    @property
     def delicate(self) -> bool:
         """Whether it moves only because its data are exact, or nearly so."""
         return bool(self.motions.redundant or self.motions.slack)

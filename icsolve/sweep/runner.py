@@ -82,13 +82,10 @@ class Runner:
             *(Watched(k, CLOSE) for k in (*compiled.margins, *compiled.fits)),
             *(Watched(k, -math.inf, AGREED, True) for k in _living(compiled, alive)),
         ]
-        self.cancels = False
-        """whether an answer is next to nothing beside its terms where the record was made"""
         small = LEANING if compiled.rests else SMALL
         for k in (wanted[n] for n in answers):
             usual, terms = usual_and_terms(record, k)
             self.watched += [Watched(k, small * terms, usual / small, True)] if usual else []
-            self.cancels |= usual < SMALL * terms
         self.code = Code(record, [*wanted, *(one.node for one in self.watched), *self.rubs])
 
     @cached_property
