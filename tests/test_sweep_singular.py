@@ -155,6 +155,34 @@ def test_beside_change_points_the_way_goes_straight_on(seed: int) -> None:
     assert np.isnan(there.answers["T12"]).all()
 
 
+@pytest.mark.parametrize("seed", range(32 if FULL else 8))
+def test_a_change_point_is_missed_by_whatever_the_decimals_miss_it(seed: int) -> None:
+    """Links that miss the line by 1e-9 to 1e-30: too long or too short to fold, they are held up beside it;
+    else C turns back before the line, and stays on its side of it."""
+    rng = Random(f"missed {seed}")
+    a, d, c = mpf(rng.randint(5, 30)), mpf(rng.randint(60, 80)), mpf(rng.randint(35, 55))
+    folded, held = bool(seed & 1), bool(seed & 2)
+    off = mpf(10) ** -rng.randint(9, 30) * (1 if folded != held else -1)
+    b, place = (d + a - c + off, 180) if folded else (d - a + c + off, 0)
+    reach = b + c if folded else b - c
+    written, sign = place - 35, rng.choice((-1, 1))
+    start = meets(a * turned(written), d, b, c, sign)
+    text = written_as(*(mp.nstr(x, 40) for x in (a, b, c, d)), "AB", written, "C", start)
+    found = find(icsolve.load(text), {"angles.AB": [place - 20.0, place + 20.0]}, Query("dead"))
+    assert "change-point" not in {spot.kind for spot in found}, off
+    limit = mp.acos((a * a + d * d - reach * reach) / (2 * a * d)) if held else None
+    aside = mp.pi - limit if folded and limit else limit
+    limits = [float(place + k * mp.degrees(aside)) for k in (-1, 1)] if held else []
+    places = [spot.at for spot in found if spot.kind == "limit"]
+    assert places == pytest.approx(limits, rel=1e-15, abs=0.0), (off, places, limits)
+    rows = icsolve.sweep(icsolve.load(text), {"angles.AB": [place - 20.0, place + 20.0]}, WANT)
+    for n, degrees in enumerate((place - 20, place + 20)):
+        there = meets(a * turned(degrees), d, b, c, sign)
+        assert complex(*rows.points["C"][n]) == pytest.approx(complex(there), abs=1e-12), (off, degrees)
+    assert not any("change point" in note for note in rows.notes)
+    assert any("do not reach" in note for note in rows.notes) == held
+
+
 IN_LINE = """icsolve: 1
 points: {{A: [10, -7], D: [{d}, -7]}}
 lengths: {{AB: {ab}, BC: 2, CD: {cd}}}

@@ -8,7 +8,7 @@ row itself. The varied numbers are the shortest decimals that name their doubles
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Context, Decimal, DivisionByZero, localcontext
 from functools import lru_cache
 
@@ -20,10 +20,10 @@ from icsolve.numbers.balls import Ball, Balls, BelowZero, MoreDigits
 from icsolve.numbers.linear import solve_square
 from icsolve.numbers.record import Implicit, Op, Root, Traced, live, terms_of
 from icsolve.numbers.replay import BINARY
+from icsolve.numbers.roots import STEP
 from icsolve.numbers.units import ExactRatio
-from icsolve.sweep.branches import live_roots
 from icsolve.sweep.numbers import numbers_of, with_numbers
-from icsolve.sweep.program import CompiledSweep
+from icsolve.sweep.program import CompiledSweep, live_roots
 from icsolve.tuples import replace
 
 ADD, SUB, MUL = Op.ADD, Op.SUB, Op.MUL
@@ -262,6 +262,40 @@ def exact_record(compiled: CompiledSweep) -> ExactRecord:
     if found is None:
         found = compiled.record.kept[EXACT] = ExactRecord(compiled)
     return found
+
+
+def lowest(
+    exact: ExactRecord, root: Root, along: Callable[[Decimal], Mapping[int, Decimal]], near: float
+) -> Decimal:
+    """Where on a line a branch comes nearest to changing: its radicand is lowest there.
+
+    Parameters
+    ----------
+    along : the inputs by node at a place of the line; may raise Unreached
+    near : a place near it
+
+    Returns
+    -------
+    Decimal
+        ``near`` itself where it does not lead there.
+    """
+    at, radicand = as_written(near), exact.record.nodes[root.radicand]
+    with localcontext(CONTEXT):
+        for _ in range(12):
+            try:
+                low, here, high = (exact.values([radicand], along(at + k * STEP))[0] for k in (-1, 0, 1))
+            except Unreached:
+                return as_written(near)
+            bend = (high - 2 * here + low) / STEP
+            if not bend > 0:
+                return at
+            move = (low - high) / (2 * bend)
+            if abs(move) > Decimal("1e-3"):
+                return as_written(near)
+            if abs(move) < STEP:
+                break
+            at += move
+    return at
 
 
 def _result(op: int, a: Decimal, b: Decimal) -> Decimal:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from decimal import Decimal, localcontext
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +26,7 @@ from icsolve.sweep.continuation import (
     goes_on,
     segment_of,
 )
+from icsolve.sweep.exact import CONTEXT, Unreached, as_written
 from icsolve.sweep.program import CompiledSweep
 
 FIRST = 2.0**-5
@@ -100,6 +102,22 @@ class PathTracker:
         if not (self.last is not None and np.array_equal(self.last[0], s)):
             self.last = (s, *self._given(s))
         return self.last[1], self.last[2]
+
+    def exactly(self, s: Decimal) -> dict[int, Decimal]:
+        """All inputs by node at a place of the line, those of the line itself in all digits.
+
+        Raises Unreached where the groups have no solution.
+        """
+        floats, good = self.given(np.array([float(s)]))
+        if not good.all():
+            raise Unreached
+        line, inputs = self.line, self.compiled.inputs
+        given = {k: Decimal(float(np.ravel(v)[0])) for k, v in floats.items()}
+        with localcontext(CONTEXT):
+            for name, base in line.base.items():
+                if name in inputs:
+                    given[inputs[name]] = as_written(base) + as_written(line.slope.get(name, 0.0)) * s
+        return given
 
     def _given(self, s: Array) -> tuple[dict[int, Array], Mask]:
         given, good = self._plain(s), np.ones(len(s), dtype=bool)

@@ -21,7 +21,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import by_loops
 from icsolve.kinematics.speeds import speed_of
 from icsolve.numbers.arithmetic import FLOATS, Scalar
-from icsolve.numbers.record import Record, varies
+from icsolve.numbers.record import Record, Root, Traced, live, varies
 from icsolve.scene import refusals
 from icsolve.screws.plane import Point
 from icsolve.statics.load_wrenches import points_of, spring_angle
@@ -133,6 +133,28 @@ class CompiledSweep(NamedTuple):
     """of a case with friction whose unknown loads can be had in all rows at once"""
     rests: bool = False
     """whether contacts are told row by row"""
+
+
+def live_roots(compiled: CompiledSweep) -> list[Root]:
+    """The branches that bear on what is asked, in order."""
+    record = compiled.record
+    stack = [
+        v.index for values in compiled.outputs.values() for v in values if isinstance(v, Traced) and v.row
+    ]
+    key = ("live roots", tuple(stack))
+    if key not in record.kept:
+        record.kept[key] = _live_roots(record, stack)
+    found: list[Root] = record.kept[key]
+    return found
+
+
+def _live_roots(record: Record, stack: list[int]) -> list[Root]:
+    alive: set[int] = set()
+    while stack:
+        alive.update(live(record, stack))
+        parts = [v for group in record.implicit if alive.intersection(group.solved) for v in group.parts]
+        stack = [v.index for v in parts if isinstance(v, Traced) and v.row and v.index not in alive]
+    return [record.roots[k] for k in sorted(alive) if k in record.roots]
 
 
 def setting_of(case: Case, paths: Sequence[str], links: Sequence[str], *, posing: bool = False) -> Setting:
