@@ -12,6 +12,7 @@ from __future__ import annotations
 import contextlib
 import math
 import random
+import re
 from collections.abc import Iterator
 from itertools import combinations
 
@@ -315,6 +316,59 @@ def test_a_row_that_the_record_divides_by_zero_in_has_its_scenes_centres_and_rat
     for (a, b), centre in scene.centres.items() if "centres" in want else ():
         x, y, w = found.centres[f"{a}-{b}"][0].tolist()
         assert centre.kind != "at" or (x / w, y / w) == pytest.approx(centre.place, rel=1e-12)
+
+
+UPRIGHT = (
+    "{torque: unknown, screw: 8-7}",
+    "{force: unknown, link: 6, at: H, angle: 90}",
+    "{torque: unknown, link: 2}",
+)
+MOVING = (("rates",), ("centres",), ("rates", "centres"), ("rates", "velocities"))
+
+
+@pytest.mark.parametrize("want", MOVING)
+@pytest.mark.parametrize("load", UPRIGHT)
+@pytest.mark.parametrize("screw", [True, False])
+def test_what_a_scene_leaves_open_no_row_tells(want: tuple[str, ...], load: str, screw: bool) -> None:
+    """A scissor jack whose arms lie on one another, upright: R and L coincide, and no motion fixes how the
+    screw between them turns, which it never does in the other rows, nor how its blocks move."""
+    text = FILES["tools/scissor_jack.yaml"].read_text(encoding="utf-8").split("expect:")[0]
+    text = text.replace("{torque: unknown, screw: 8-7}", load)
+    if not screw:
+        text = re.sub(r"  - {screw.*", "", text).replace(", 8]", "]").replace(", 7]", "]")
+        text = text.replace("screw: 8-7", "link: 2")
+    case = icsolve.load(text)
+    for others in ([], [-160.0]):
+        rows = {"points.L.x": [*others, 0.0], "points.R.x": [*(-x for x in others), 0.0]}
+        for table in (
+            icsolve.sweep(case, rows, ("status", *want)),
+            icsolve.sweep(case, rows, (*WANT, *want)),
+        ):
+            moves_as(table, with_numbers(case, {path: values[-1] for path, values in rows.items()}))
+
+
+def moves_as(table: Sweep, case: Case) -> None:
+    """The last row tells of what moves as the scene does: nothing of what that leaves open."""
+    try:
+        scene = icsolve.solve(case, rates=True, all_centres=True)
+    except icsolve.SceneError as refusal:
+        assert not table.answers or table.status[-1] == refusal.status  # noqa: PT017
+        return
+    assert table.status[-1] == "ok"
+    assert scene.rates is not None and scene.velocities is not None
+    for link, array in table.rates.items():
+        rate = scene.rates[link]
+        assert array[-1] == pytest.approx(math.nan if isinstance(rate, str) else rate, nan_ok=True), link
+    for (point, on), v in scene.velocities.items():
+        if f"{point} on {on}" in table.velocities:
+            row = table.velocities[f"{point} on {on}"][-1]
+            assert row == pytest.approx([math.nan] * 2 if isinstance(v, str) else v, abs=1e-12, nan_ok=True)
+    for (a, b), centre in scene.centres.items():
+        row = table.centres.get(f"{a}-{b}", np.full((1, 3), np.nan))[-1]
+        if centre.kind == "undetermined":
+            assert np.isnan(row).all(), (a, b)
+        elif f"{a}-{b}" in table.centres:
+            assert (centre.kind in ("at", "toward")) == row.any(), (a, b)
 
 
 def test_two_links_on_a_pin_that_a_third_one_carries_have_their_centre_there_in_every_row() -> None:
