@@ -9,6 +9,7 @@ then has the row's status and value.
 
 from __future__ import annotations
 
+import cmath
 import contextlib
 import math
 import random
@@ -394,3 +395,69 @@ def test_wheels_whose_pivots_come_to_one_place_are_refused_in_every_row(name: st
     assert status == "inconsistent"
     assert icsolve.evaluator(case, tuple(row))(*row.values()).status[0] == status
     assert icsolve.sweep(case, {path: [value] for path, value in row.items()}).status[0] == status
+
+
+CRANKED = """icsolve: 1
+points: {{A: [{x}, {y}]}}
+lengths: {{AB: {ab}, BC: {bc}}}
+angles: {{AB: {first}, ABC: {corner}{more}}}
+links: {{2: [B, C]}}
+joints: [{{pin: [1, 2], at: A}}]
+loads: {{W: {{force: 10, link: 2, at: C, angle: 20}}, V: {{force: 3, link: 2, at: B, angle: 10}},
+         T: {{torque: unknown, link: 2}}}}
+"""
+
+
+@pytest.mark.parametrize("seed", range(24 if FULL else 6))
+def test_an_angle_is_met_on_an_arm_however_short_it_is(seed: int) -> None:
+    """The direction of an arm of 1e-6 to 1e-40 of the other, and of one of length 0, is what the data say,
+    not what doubles leave of it; an angle of the long arm that is off by a degree is refused beside any."""
+    draw = random.Random(f"short arm {seed}")
+    x, y, size = (draw.randint(-40, 40) / 10 for _ in range(3))
+    size = abs(size) + 1.0
+    first, corner = draw.randint(1, 359), draw.randint(1, 359)
+    third = (first + 180 + corner) % 360
+    short = [*(10.0 ** -draw.randint(6 * k, 6 * k + 5) for k in range(1, 7)), 0.0]
+    path, told = f"lengths.{'BC' if seed % 2 else 'AB'}", bool(seed & 2)
+    more = f", BC: {third}" if told else ""
+    case = icsolve.load(CRANKED.format(x=x, y=y, ab=size, bc=size, first=first, corner=corner, more=more))
+    tables = (
+        icsolve.sweep(case, {path: short}, WANT),
+        icsolve.evaluator(case, (path,), WANT)(np.array(short)),
+    )
+    for n, length in enumerate(short):
+        scene = icsolve.solve(with_numbers(case, {path: length}))
+        ab, bc = (length, size) if path == "lengths.AB" else (size, length)
+        at = complex(x, y) + cmath.rect(ab, math.radians(first)) + cmath.rect(bc, math.radians(third))
+        assert complex(*scene.points["C"]) == pytest.approx(at, abs=1e-13)
+        for table in tables:
+            assert table.status[n] == "ok"
+            assert table.answers["T"][n] == pytest.approx(scene.answers["T"].value, rel=1e-12)
+        if told and ab and path == "lengths.AB":
+            assert solved(with_numbers(case, {path: length, "angles.ABC": corner + 1.0}))[0] == "inconsistent"
+
+
+@pytest.mark.parametrize(
+    ("data", "path", "values"),
+    [
+        ("angles: {AB: 0}", "points.B.x", [1.0, 0.5, -0.5]),
+        ("angles: {ABC: -90}", "points.C.y", [2.0, 3.0, -1.0]),
+        ("angles: {ABC: -90}", "points.B.x", [1.0, 0.5, 0.0, -1.0]),
+        ("lengths: {AB: 1}", "points.B.x", [1.0, 0.5, -1.0]),
+    ],
+)
+def test_a_row_contradicts_data_that_repeat_others_as_its_scene_does(
+    data: str, path: str, values: list[float]
+) -> None:
+    """Coordinates that are varied, and a length or an angle between them that is not; or the sense alone."""
+    case = icsolve.load(
+        f"icsolve: 1\npoints: {{A: [0, 0], B: [1, 0], C: [1, 2]}}\n{data}\nlinks: {{2: [B, C]}}\n"
+        "joints: [{pin: [1, 2], at: A}]\nloads: {W: {force: 10, link: 2, at: C, angle: -90}, V: {force: 3, "
+        "link: 2, at: B, angle: 10}, T: {torque: unknown, link: 2}}\n"
+    )
+    assert {solved(with_numbers(case, {path: value}))[0] for value in values[1:]} >= {"inconsistent"}
+    assert list(misses(case, path, values)) == []
+    tables = (icsolve.sweep(case, {path: values}), icsolve.evaluator(case, (path,))(np.array(values)))
+    for n, value in enumerate(values):
+        for table in tables:
+            assert table.status[n] == solved(with_numbers(case, {path: value}))[0], value

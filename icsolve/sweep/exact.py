@@ -47,6 +47,7 @@ LEAST = Decimal("1e-145")
 SHORT = Context(prec=160)
 """Coordinates of a row have so many digits: more than any scene is decided by."""
 APART = "the links do not reach one another in this row."
+AGAINST = "an angle that repeats other data is met but for its sense: it points the other way in this row."
 ANYWHERE = "change point: two links have come to lie so that a point of them may be anywhere on a circle."
 CONTEXT = Context(prec=DIGITS, Emin=-999_999, Emax=999_999, traps=[DivisionByZero])
 """What is not a number compares with nothing."""
@@ -374,6 +375,9 @@ class RowScenes:
             margins += exact.values([compiled.record.nodes[k] for k in compiled.margins], given)
             if any(m < -ZERO for m in margins if not m.is_nan()):
                 raise SceneError(Status.CANNOT_ASSEMBLE, APART)
+            senses = exact.values([compiled.record.nodes[k] for k in compiled.senses], given)
+            if any(sense < -ZERO for sense in senses if not sense.is_nan()):
+                raise SceneError(Status.INCONSISTENT, AGAINST)
             checks = [compiled.record.nodes[k] for k in compiled.motion.checks] if compiled.motion else []
             off = exact.values(checks, given)
         except Unreached:

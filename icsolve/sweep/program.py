@@ -10,12 +10,12 @@ from collections.abc import Collection, Sequence
 from contextlib import suppress
 
 from icsolve.assembly import Figure, Placement, place, placed_figure
-from icsolve.assembly.conditions import refuse_misfit, teeth_margins
+from icsolve.assembly.conditions import ahead, refuse_misfit, teeth_margins
 from icsolve.assembly.driven.constraints import Constraint, Turning
 from icsolve.assembly.driven.mechanism import Mechanism, mechanism
 from icsolve.assembly.driven.motion import DrivenMotion, order_of, set_moving
-from icsolve.assembly.steps import Meet, Polar
-from icsolve.assembly.workspace import PlacedCase, data_in, names_of, number_of
+from icsolve.assembly.steps import Meet, Polar, spare_data
+from icsolve.assembly.workspace import CORNER, RAY, PlacedCase, data_in, names_of, number_of
 from icsolve.case import Case, Pair, TorsionSpring, is_angle
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import by_loops
@@ -123,8 +123,10 @@ class CompiledSweep(NamedTuple):
     margins: tuple[int, ...] = ()
     """of the figure as written, where it is another in each row: none may be negative"""
     fits: tuple[int, ...] = ()
-    """of the teeth of a pitch that vary, or whose pivots do, and of given motions: where one is negative they
-    may not fit"""
+    """of the teeth of a pitch that vary, or whose pivots do, of angles that repeat other data, and of given
+    motions: where one is negative they may not fit"""
+    senses: tuple[int, ...] = ()
+    """those of angles: where one is negative its arm points the other way"""
     delicate: bool = False
     """whether the mechanism moves only because its data are exact, or nearly so"""
     idle: bool = False
@@ -289,6 +291,7 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
     inputs: dict[str, int] = {}
     margins: tuple[int, ...] = ()
     fits: tuple[int, ...] = ()
+    senses: tuple[int, ...] = ()
     motion: DrivenMotion | None = None
     if setting.first and setting.drive.order is not None:
         motion = _motion(setting, setting.first.pop(), nudge, inputs, signs)
@@ -302,7 +305,9 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
         if inputs:
             lines = refusals.direction_margins(refusals.directions_of_joints(case), names)
             teeth = teeth_margins(case, names, frame.scale, record)
-            fits = tuple(m.index for m in (*teeth, *lines) if varies(m))
+            angles = [d for d in spare_data(setting.figure, case) if d.kind in (RAY, CORNER)]
+            senses = tuple(m.index for m in (ahead(placed.workspace, d) for d in angles) if varies(m))
+            fits = (*(m.index for m in (*teeth, *lines) if varies(m)), *senses)
         if setting.moves:
             motion = _motion(setting, mechanism(case, frame, record, names), nudge, inputs, signs)
         else:
@@ -322,6 +327,7 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
         None,
         margins,
         fits,
+        senses,
         rests=bool(asked.contacts),
     )
     if found is None:
