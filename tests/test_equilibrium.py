@@ -1108,6 +1108,52 @@ def test_a_range_that_holds_is_found_however_narrow_it_is(mu: float) -> None:
             assert abs(one.value - place) <= one.error + 1e-14
 
 
+HELD = {
+    "block with length": (
+        "points: {{C: [0, 0], D: [0, 30]}}\nlinks: {{2: [D]}}\n"
+        "joints: [{{slide: [2, 1], at: C, along: 20, length: 40, mu: {mu}}}]\n"
+        "loads: {{W: {{weight: 100, link: 2, at: D}}, F: {{force: {load}, link: 2, at: D, angle: 10}}}}\n"
+    ),
+    "screw": (
+        "units: {{length: mm, force: N, torque: N*m}}\npoints: {{B: [0, 100]}}\n"
+        "joints: [{{screw: [1, 2], at: B, along: 90, lead: 6 mm, radius: 11 mm, mu: {mu}}}]\n"
+        "loads: {{W: {{weight: 4 kN, link: 2, at: B}}, F: {{torque: {load}, screw: 1-2}}}}\n"
+    ),
+    "slider-crank": (
+        "points: {{A: [0, 0], C: [unknown, 20]}}\nlengths: {{AB: 50, BC: 160}}\nangles: {{AB: 40}}\n"
+        "near: {{C: [195, 20]}}\njoints: [{{pin: [1, 2], at: A, mu: {mu}, radius: 10}}, "
+        "{{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C, mu: {mu}, radius: 6}}, "
+        "{{slide: [4, 1], at: C, along: 0, mu: {mu}}}]\n"
+        "loads: {{P: {{force: 2000, link: 4, at: C, angle: 180}}, F: {{torque: {load}, link: 2}}}}\n"
+    ),
+    "capstan": (
+        "points: {{A: [0, 0], B: [0.9, -0.6], C: [-0.7, -0.5]}}\n"
+        "joints: [{{slide: [3, 1], at: C, along: 90}}, "
+        "{{rope: [C, A, B], on: [3, 1], radii: {{A: 0.2}}, wraps: {{A: cw}}, mu: {{A: {mu}}}}}]\n"
+        "loads: {{W: {{weight: 200, link: 3, at: C}}, F: {{force: {load}, at: B}}}}\n"
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", HELD)
+@pytest.mark.parametrize("mu", ["0.02", "1e-7", "1e-12", "1e-13"])
+def test_a_load_holds_as_a_known_one_where_it_does_as_an_unknown(kind: str, mu: str) -> None:
+    """Also where a torque on the link that moves would do no work, and holds by pressing alone; to an ulp or
+    two, however little friction there is."""
+
+    def case(load: str) -> icsolve.Case:
+        return icsolve.load("icsolve: 1\n" + HELD[kind].format(mu=mu, load=load))
+
+    unknown = icsolve.solve(case("unknown")).answers["F"]
+    assert unknown.holds is not None and unknown.error is not None
+    size = abs(unknown.holds[0])
+    low, high = unknown.holds[0] - 0.31 * size, unknown.holds[1] + 0.43 * size
+    found = holding_values(case(str(round(low))), "loads.F", low, high)
+    assert [(one.before, one.after) for one in found] == [("slips", "holds"), ("holds", "slips")]
+    for one, place in zip(found, unknown.holds, strict=True):
+        assert abs(one.value - place) <= one.error + unknown.error
+
+
 def test_positions_against_a_load_are_a_row_each(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = pendulum("T: {torque: 8, link: 2}")
     out = run(tmp_path, capsys, text, "sweep", "CASE", "--vary", "loads.T=10:30:10")
