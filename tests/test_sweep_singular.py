@@ -732,3 +732,34 @@ def test_a_group_is_followed_to_its_fold_from_wherever_it_is_written(seed: int) 
                 assert set(sweep.status) == {"ok"}, (sizes, start, sweep.status)
                 assert np.all(np.diff(away) < 1e-12)
     assert met
+
+
+FAR = """icsolve: 1
+points: {{A: [0, 0], B: [{b}, 0], C: [{c.real}, {c.imag}], D: [{d.real}, {d.imag}]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
+loads: {{T14: {{torque: 10, link: 4}}, T12: {{torque: unknown, link: 2}}}}
+"""
+
+
+@pytest.mark.parametrize("seed", range(24 if FULL else 6))
+def test_links_that_are_all_but_parallel_and_very_long_are_followed(seed: int) -> None:
+    """Rod and rocker a million to a hundred million times the crank: what doubles leave open of a row its own
+    digits settle, and no limit is told where there is none."""
+    rng = Random(f"far {seed}")
+    b, d = rng.randint(100, 300), complex(rng.randint(350, 500), rng.randint(40, 120))
+    c = complex(10 ** rng.randint(8, 10), rng.randint(200, 500))
+    case = icsolve.load(FAR.format(b=b, c=c, d=d))
+    pin, end, top = mpf(b), mp.mpc(d), mp.mpc(c)
+    rod, rocker = abs(top - pin), abs(top - end)
+    sign = 1 if ((top - pin) * mp.conj(end - pin)).imag > 0 else -1
+    rows = [round(0.07 * k, 2) for k in range(30)]
+    sweep = icsolve.sweep(case, drive={"2": rows}, want=WANT)
+    for n, row in enumerate(rows):
+        at = b * turned(mpf(repr(row)))
+        place = meets(at, end, rod, rocker, sign)
+        assert place is not None and sweep.status[n] == "ok", row
+        truth = torque(0, at, end, place)
+        assert abs(mpf(float(sweep.answers["T12"][n])) - truth) <= sweep.error["T12"][n], row
+    assert (sweep.error["T12"] <= 1e-4 * abs(sweep.answers["T12"]).max()).all()
+    spots = find(case, None, Query("dead"), drive={"2": [0.0, 2.0]})
+    assert [spot.kind for spot in spots] == []
