@@ -179,7 +179,7 @@ class Radicands:
             return margin
         exact, along = exact_record(self.compiled), self.tracker.exactly
         with localcontext(CONTEXT), suppress(Unreached):
-            (more,) = exact.margins([root], along(lowest(exact, root, along, at)))
+            (more,) = exact.margins([root], along(lowest(exact, root.radicand, along, at)))
             return float(more) if abs(more) > ZERO else 0.0
         return 0.0
 

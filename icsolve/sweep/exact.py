@@ -266,12 +266,13 @@ def exact_record(compiled: CompiledSweep) -> ExactRecord:
 
 
 def lowest(
-    exact: ExactRecord, root: Root, along: Callable[[Decimal], Mapping[int, Decimal]], near: float
+    exact: ExactRecord, node: int, along: Callable[[Decimal], Mapping[int, Decimal]], near: float
 ) -> Decimal:
-    """Where on a line a branch comes nearest to changing: its radicand is lowest there.
+    """Where on a line a value is lowest: a branch comes nearest to changing where its radicand is.
 
     Parameters
     ----------
+    node : of the value
     along : the inputs by node at a place of the line; may raise Unreached
     near : a place near it
 
@@ -280,11 +281,11 @@ def lowest(
     Decimal
         ``near`` itself where it does not lead there.
     """
-    at, radicand = as_written(near), exact.record.nodes[root.radicand]
+    at, value = as_written(near), exact.record.nodes[node]
     with localcontext(CONTEXT):
         for _ in range(12):
             try:
-                low, here, high = (exact.values([radicand], along(at + k * STEP))[0] for k in (-1, 0, 1))
+                low, here, high = (exact.values([value], along(at + k * STEP))[0] for k in (-1, 0, 1))
             except Unreached:
                 return as_written(near)
             bend = (high - 2 * here + low) / STEP

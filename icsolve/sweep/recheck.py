@@ -212,7 +212,9 @@ class Recheck:
             assert self.tracker is not None
             motion = self.compiled.motion
             root = next(r for r in self.scenes.roots if motion and motion.branches[r.node] == name)
-            self.change_points[name, near] = lowest(self.scenes.exact, root, self.tracker.exactly, near)
+            self.change_points[name, near] = lowest(
+                self.scenes.exact, root.radicand, self.tracker.exactly, near
+            )
         return self.change_points[name, near]
 
 
