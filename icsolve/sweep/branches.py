@@ -181,7 +181,7 @@ class Radicands:
         with localcontext(CONTEXT), suppress(Unreached):
             (more,) = exact.margins([root], along(lowest(exact, root.radicand, along, at)))
             return float(more) if abs(more) > ZERO else 0.0
-        return 0.0
+        return margin if abs(margin) > TOUCH else 0.0
 
 
 def _share(margin: Array, size: Array) -> Array:
