@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from mpmath import mp, mpf
 
 import icsolve
 import mechanisms
@@ -18,6 +19,8 @@ from equilibrium import push
 from icsolve.answer import Answer
 from icsolve.answer.bodies import Reaction
 from icsolve.errors import SceneError
+from icsolve.solve import attempt
+from sizes import FULL
 
 
 def solved(text: str, **options: Any) -> Answer:
@@ -90,6 +93,56 @@ def test_a_joint_left_out_of_a_truss_is_said_whether_its_loads_balance_or_not(jo
     answer = icsolve.solve(icsolve.load(TRUSS.replace(joint, "")))
     assert answer.mobility and "a joint is missing" in answer.notes[-1]
     assert ("do not balance" in answer.notes[-1]) is ("[1, 2], at: A" not in joint)
+
+
+TURNED = """icsolve: 1
+points: {{A: {a}, B: {b}, C: {c}}}
+links: {{1: [A, B]}}
+joints:
+  - {{slide: [2, 1], at: A, along: {along}}}
+  - {{pin: [2, 3], at: A}}
+  - {{pin: [2, 4], at: B}}
+  - {{pin: [3, 4], at: C}}
+loads: {{P: {{{load}, link: 3, at: C}}}}
+"""
+
+
+def turned_truss(degrees: float, slip: float, kind: str) -> str:
+    """A truss that may slide along its lower chord, and a load across that, as a program writes them, each
+    number the double next to it: the whole turned by an angle, the load by ``slip`` more."""
+    with mp.workdps(40):
+        turned = mpf(degrees) - 90 + mpf(slip)
+        along, across = (mp.expjpi(angle / 180) for angle in (mpf(degrees), turned))
+        places = [mp.mpc(1.3, 0.7) + mp.mpc(*at) * along for at in ((0, 0), (4, 0), (2, 2))]
+        a, b, c, components = ([float(p.real), float(p.imag)] for p in (*places, across))
+    load = {
+        "components": f"force: {components}",
+        "slope": f"force: 100, slope: {components}",
+        "angle": f"force: 100, angle: {float(turned)!r}",
+    }[kind]
+    return TURNED.format(a=a, b=b, c=c, along="[A, B]", load=load)
+
+
+@pytest.mark.parametrize("kind", ["components", "slope", "angle"])
+def test_loads_that_a_program_wrote_balance_to_their_last_digits(kind: str) -> None:
+    """What a turned truss is left with is 1e-16 of its load, which the last digits of its numbers explain:
+    every command tells its reactions, and says so. A millionth of a degree more is no matter of digits."""
+    dice = Random(kind)
+    for _ in range(30 if FULL else 8):
+        degrees = dice.uniform(0.0, 180.0)
+        case = icsolve.load(turned_truss(degrees, 0.0, kind))
+        answer, shown = icsolve.solve(case, reactions=True), attempt(case, reactions=True).answer
+        assert shown is not None and shown.reactions is not None and answer.reactions is not None
+        for key, one in answer.reactions.items():
+            assert shown.reactions[key].magnitude == pytest.approx(one.magnitude, rel=1e-12)
+        for told in (answer, shown, icsolve.solve(case)):
+            assert not any("do not balance" in note for note in told.notes)
+            assert any("half a unit" in note for note in told.notes) or answer.notes == told.notes
+        off = icsolve.load(turned_truss(degrees, 1e-6, kind))
+        assert any("do not balance" in note for note in icsolve.solve(off).notes)
+        with pytest.raises(SceneError) as refused:
+            icsolve.solve(off, reactions=True)
+        assert refused.value.status == "unbalanced"
 
 
 def test_what_loads_leave_is_a_force_along_the_motion_of_the_first_link() -> None:

@@ -5,6 +5,9 @@ Tolerances are those of the format: a bare value agrees when the found one round
 
 from __future__ import annotations
 
+import random
+from decimal import Decimal, localcontext
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -29,6 +32,7 @@ from icsolve.read import load
 from icsolve.report.check import Row, compare, wanted
 from icsolve.solve import solve
 from made import four_bar_answer, four_bar_case, number, published
+from sizes import FULL
 
 T12 = LoadIs("T12")
 
@@ -154,6 +158,46 @@ def test_distances_run_between_centres_and_points() -> None:
     assert row(DistanceIs(("2", "4"), "A"), "1.5139").verdict == "agrees"
     assert row(DistanceIs(("2", "4"), "D"), "4.4583").verdict == "agrees"
     assert row(DistanceIs(("1", "2"), ("2", "4")), "1.5138").verdict == "disagrees"
+
+
+BESIDE = """icsolve: 1
+points: {{A: [{a[0]}, {a[1]}], B: [{b[0]}, {b[1]}], C: [{c[0]}, {c[1]}], D: [{d[0]}, {d[1]}],
+         P: [{p[0]}, {p[1]}], Q: [{q[0]}, {q[1]}]}}
+links: {{2: [P], 4: [Q]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
+loads: {{M: {{torque: 10, link: 4}}, T: {{torque: unknown, link: 2}}}}
+expect: {{I12-P: {near}, I24-Q: {far}}}
+"""
+
+
+@pytest.mark.parametrize("seed", range(100 if FULL else 12))
+def test_a_distance_is_compared_by_its_own_digits_however_short_it_is(seed: int) -> None:
+    """Points 1e-3 to 1e-13 beside the pin A, and to 1e-30 beside I24, where BC meets AD, far from the origin:
+    what is published in four digits agrees, and disagrees with a last digit that is two off."""
+    draw = random.Random(f"beside {seed}")
+    (ax, ay), (bx, by), (cx, cy), (dx, dy) = places = [
+        (Fraction(draw.randint(at, at + 300), 100), Fraction(draw.randint(low, low + 200), 100))
+        for at, low in ((700, -1000), (700, -700), (1100, -600), (1200, -1000))
+    ]
+    rod, frame = (cx - bx, cy - by), (dx - ax, dy - ay)
+    share = ((bx - ax) * rod[1] - (by - ay) * rod[0]) / (frame[0] * rod[1] - frame[1] * rod[0])
+    meets = (ax + share * frame[0], ay + share * frame[1])
+    off = [(draw.randint(1000, 9999), draw.randint(6, most)) for most in (16, 33)]
+    beside = [
+        tuple(c + part * n / 10**k for c, part in zip(at, (Fraction(3, 5), Fraction(-4, 5)), strict=True))
+        for at, (n, k) in zip((places[0], meets), off, strict=True)
+    ]
+
+    def digits(at: tuple[Fraction, ...]) -> tuple[str, ...]:
+        with localcontext(prec=60):
+            return tuple(str(Decimal(c.numerator) / c.denominator) for c in at)
+
+    for change, verdict in ((0, "agrees"), (2, "disagrees")):
+        near, far = (f"{n + change}e-{k}" for n, k in off)
+        a, b, c, d, p, q = map(digits, (*places, *beside))
+        text = BESIDE.format(a=a, b=b, c=c, d=d, p=p, q=q, near=near, far=far)
+        rows = compare(solve(load(text), all_centres=True, examine=True))
+        assert [one.verdict for one in rows] == [verdict] * 2, rows
 
 
 def test_no_distance_to_a_centre_at_infinity() -> None:

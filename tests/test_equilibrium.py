@@ -17,10 +17,12 @@ from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import mpmath
 import numpy as np
 import pytest
+from mpmath import mp, mpf
 
 import icsolve
 from equilibrium_cases import POTENTIALS
@@ -1106,6 +1108,126 @@ def test_a_range_that_holds_is_found_however_narrow_it_is(mu: float) -> None:
         assert [(one.before, one.after) for one in found] == [("slips", "holds"), ("holds", "slips")]
         for one, place in zip(found, (50.0 - rough, 50.0 + rough), strict=True):
             assert abs(one.value - place) <= one.error + 1e-14
+
+
+FOLDING = """icsolve: 1
+points: {{A: [0, 0], D: [{d}, 0]}}
+lengths: {{AB: {a}, BC: {b}, CD: {c}}}
+angles: {{AB: {{unknown: [{low}, {high}]}}}}
+near: {{C: [{x}, {y}]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
+loads: {{P: {{force: 100, link: 4, at: C, angle: {push}}}, Q: {{torque: {q}, link: 2}}}}
+"""
+
+
+@pytest.mark.parametrize("seed", range(32 if FULL else 8))
+def test_a_branch_goes_through_a_change_point_that_the_decimals_meet_and_through_none_that_they_miss(
+    seed: int,
+) -> None:
+    """Crank and frame in line: links that miss it by 1e-12 to 1e-30 are held up there, or C turns back before
+    it. Zeros of Q and of P on the way of C, farther from there than a degree, by forty digits."""
+    dice = random.Random(f"folding {seed}")
+    a, d, c = dice.randint(8, 30), dice.randint(60, 80), dice.randint(35, 55)
+    way = ("through", "back", "held")[seed % 3]
+    off = {"through": "", "back": "9" * dice.randint(10, 28), "held": "0" * dice.randint(10, 28) + "1"}[way]
+    b = f"{d - a + c - (way == 'back')}.{off or 0}"
+    push, q = dice.randint(10, 350), dice.choice((-1, 1)) * dice.randint(50, 900)
+    with mp.workdps(40):
+        sizes = [mpf(x) for x in (a, b, c, d)]
+
+        def at(degrees: Any, sign: int) -> Any:
+            pin = sizes[0] * mp.expjpi(mpf(degrees) / 180)
+            span = abs(sizes[3] - pin)
+            along = (sizes[1] ** 2 - sizes[2] ** 2 + span**2) / (2 * span)
+            up = mp.sqrt(sizes[1] ** 2 - along**2)
+            return pin + (sizes[3] - pin) / span * (along + mp.mpc(0, sign) * up)
+
+        def power(degrees: Any, sign: int) -> Any:
+            h = mpf(10) ** -18
+            slope = (at(degrees + h, sign) - at(degrees - h, sign)) / (2 * h) * 180 / mp.pi
+            return q + (100 * mp.expjpi(-mpf(push) / 180) * slope).real
+
+        def arc(*ways: tuple[int, int]) -> list[Any]:
+            return [at(3.0 * side * k, sign) for side, sign in ways for k in range(1, 29)]
+
+        def clear(sign: int) -> tuple[Any, Any]:
+            own = {(1, sign), *({(-1, -sign if way == "through" else sign)} if way != "held" else ())}
+            others = arc(*({(1, 1), (1, -1), (-1, 1), (-1, -1)} - own))
+            return max(
+                ((min(abs(place - other) for other in others), place) for place in arc((1, sign))),
+                key=lambda pair: pair[0],
+            )
+
+        first = max((1, -1), key=lambda sign: clear(sign)[0])
+        start = clear(first)[1]  # C is nowhere near it on another branch
+        sides = [(1.0, 85.0, first)]
+        if way != "held":
+            sides.append((-85.0, -1.0, -first if way == "through" else first))
+        zeros = []
+        for low, high, sign in sides:
+            grid = [low + (high - low) * k / 200 for k in range(201)]
+            values = [power(v, sign) for v in grid]
+            zeros += [
+                float(mp.findroot(lambda v, s=sign: power(v, s), (grid[k], grid[k + 1]), solver="anderson"))
+                for k in range(200)
+                if values[k] * values[k + 1] < 0
+            ]
+    text = FOLDING.format(
+        a=a, b=b, c=c, d=d, low=-85, high=85, x=float(start.real), y=float(start.imag), push=push, q=q
+    )
+    try:
+        found = icsolve.solve(icsolve.load(text)).positions or ()
+    except SceneError as refusal:
+        assert refusal.status == "no-value"  # noqa: PT017
+        found = ()
+    places = [place.at["angles.AB"] for place in found]
+    assert [place for place in places if abs(place) > 1.0] == pytest.approx(sorted(zeros), abs=1e-9), way
+
+
+HELD = {
+    "block with length": (
+        "points: {{C: [0, 0], D: [0, 30]}}\nlinks: {{2: [D]}}\n"
+        "joints: [{{slide: [2, 1], at: C, along: 20, length: 40, mu: {mu}}}]\n"
+        "loads: {{W: {{weight: 100, link: 2, at: D}}, F: {{force: {load}, link: 2, at: D, angle: 10}}}}\n"
+    ),
+    "screw": (
+        "units: {{length: mm, force: N, torque: N*m}}\npoints: {{B: [0, 100]}}\n"
+        "joints: [{{screw: [1, 2], at: B, along: 90, lead: 6 mm, radius: 11 mm, mu: {mu}}}]\n"
+        "loads: {{W: {{weight: 4 kN, link: 2, at: B}}, F: {{torque: {load}, screw: 1-2}}}}\n"
+    ),
+    "slider-crank": (
+        "points: {{A: [0, 0], C: [unknown, 20]}}\nlengths: {{AB: 50, BC: 160}}\nangles: {{AB: 40}}\n"
+        "near: {{C: [195, 20]}}\njoints: [{{pin: [1, 2], at: A, mu: {mu}, radius: 10}}, "
+        "{{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C, mu: {mu}, radius: 6}}, "
+        "{{slide: [4, 1], at: C, along: 0, mu: {mu}}}]\n"
+        "loads: {{P: {{force: 2000, link: 4, at: C, angle: 180}}, F: {{torque: {load}, link: 2}}}}\n"
+    ),
+    "capstan": (
+        "points: {{A: [0, 0], B: [0.9, -0.6], C: [-0.7, -0.5]}}\n"
+        "joints: [{{slide: [3, 1], at: C, along: 90}}, "
+        "{{rope: [C, A, B], on: [3, 1], radii: {{A: 0.2}}, wraps: {{A: cw}}, mu: {{A: {mu}}}}}]\n"
+        "loads: {{W: {{weight: 200, link: 3, at: C}}, F: {{force: {load}, at: B}}}}\n"
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", HELD)
+@pytest.mark.parametrize("mu", ["0.02", "1e-7", "1e-12", "1e-13"])
+def test_a_load_holds_as_a_known_one_where_it_does_as_an_unknown(kind: str, mu: str) -> None:
+    """Also where a torque on the link that moves would do no work, and holds by pressing alone; to an ulp or
+    two, however little friction there is."""
+
+    def case(load: str) -> icsolve.Case:
+        return icsolve.load("icsolve: 1\n" + HELD[kind].format(mu=mu, load=load))
+
+    unknown = icsolve.solve(case("unknown")).answers["F"]
+    assert unknown.holds is not None and unknown.error is not None
+    size = abs(unknown.holds[0])
+    low, high = unknown.holds[0] - 0.31 * size, unknown.holds[1] + 0.43 * size
+    found = holding_values(case(str(round(low))), "loads.F", low, high)
+    assert [(one.before, one.after) for one in found] == [("slips", "holds"), ("holds", "slips")]
+    for one, place in zip(found, unknown.holds, strict=True):
+        assert abs(one.value - place) <= one.error + unknown.error
 
 
 def test_positions_against_a_load_are_a_row_each(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -9,9 +9,11 @@ then has the row's status and value.
 
 from __future__ import annotations
 
+import cmath
 import contextlib
 import math
 import random
+import re
 from collections.abc import Iterator
 from itertools import combinations
 
@@ -317,6 +319,59 @@ def test_a_row_that_the_record_divides_by_zero_in_has_its_scenes_centres_and_rat
         assert centre.kind != "at" or (x / w, y / w) == pytest.approx(centre.place, rel=1e-12)
 
 
+UPRIGHT = (
+    "{torque: unknown, screw: 8-7}",
+    "{force: unknown, link: 6, at: H, angle: 90}",
+    "{torque: unknown, link: 2}",
+)
+MOVING = (("rates",), ("centres",), ("rates", "centres"), ("rates", "velocities"))
+
+
+@pytest.mark.parametrize("want", MOVING)
+@pytest.mark.parametrize("load", UPRIGHT)
+@pytest.mark.parametrize("screw", [True, False])
+def test_what_a_scene_leaves_open_no_row_tells(want: tuple[str, ...], load: str, screw: bool) -> None:
+    """A scissor jack whose arms lie on one another, upright: R and L coincide, and no motion fixes how the
+    screw between them turns, which it never does in the other rows, nor how its blocks move."""
+    text = FILES["tools/scissor_jack.yaml"].read_text(encoding="utf-8").split("expect:")[0]
+    text = text.replace("{torque: unknown, screw: 8-7}", load)
+    if not screw:
+        text = re.sub(r"  - {screw.*", "", text).replace(", 8]", "]").replace(", 7]", "]")
+        text = text.replace("screw: 8-7", "link: 2")
+    case = icsolve.load(text)
+    for others in ([], [-160.0]):
+        rows = {"points.L.x": [*others, 0.0], "points.R.x": [*(-x for x in others), 0.0]}
+        for table in (
+            icsolve.sweep(case, rows, ("status", *want)),
+            icsolve.sweep(case, rows, (*WANT, *want)),
+        ):
+            moves_as(table, with_numbers(case, {path: values[-1] for path, values in rows.items()}))
+
+
+def moves_as(table: Sweep, case: Case) -> None:
+    """The last row tells of what moves as the scene does: nothing of what that leaves open."""
+    try:
+        scene = icsolve.solve(case, rates=True, all_centres=True)
+    except icsolve.SceneError as refusal:
+        assert not table.answers or table.status[-1] == refusal.status  # noqa: PT017
+        return
+    assert table.status[-1] == "ok"
+    assert scene.rates is not None and scene.velocities is not None
+    for link, array in table.rates.items():
+        rate = scene.rates[link]
+        assert array[-1] == pytest.approx(math.nan if isinstance(rate, str) else rate, nan_ok=True), link
+    for (point, on), v in scene.velocities.items():
+        if f"{point} on {on}" in table.velocities:
+            row = table.velocities[f"{point} on {on}"][-1]
+            assert row == pytest.approx([math.nan] * 2 if isinstance(v, str) else v, abs=1e-12, nan_ok=True)
+    for (a, b), centre in scene.centres.items():
+        row = table.centres.get(f"{a}-{b}", np.full((1, 3), np.nan))[-1]
+        if centre.kind == "undetermined":
+            assert np.isnan(row).all(), (a, b)
+        elif f"{a}-{b}" in table.centres:
+            assert (centre.kind in ("at", "toward")) == row.any(), (a, b)
+
+
 def test_two_links_on_a_pin_that_a_third_one_carries_have_their_centre_there_in_every_row() -> None:
     """Also where the two all but move as one, as links 4 and 6 here (by 7e-12 of the others' rates)."""
     case = icsolve.load(FILES["linkages/peaucellier.yaml"])
@@ -468,3 +523,69 @@ def turned(case: Case, link: str) -> Sweep | str:
         return icsolve.sweep(case, drive={link: [-1.0, 2.0]})
     except icsolve.SceneError as refusal:
         return refusal.status
+
+
+CRANKED = """icsolve: 1
+points: {{A: [{x}, {y}]}}
+lengths: {{AB: {ab}, BC: {bc}}}
+angles: {{AB: {first}, ABC: {corner}{more}}}
+links: {{2: [B, C]}}
+joints: [{{pin: [1, 2], at: A}}]
+loads: {{W: {{force: 10, link: 2, at: C, angle: 20}}, V: {{force: 3, link: 2, at: B, angle: 10}},
+         T: {{torque: unknown, link: 2}}}}
+"""
+
+
+@pytest.mark.parametrize("seed", range(24 if FULL else 6))
+def test_an_angle_is_met_on_an_arm_however_short_it_is(seed: int) -> None:
+    """The direction of an arm of 1e-6 to 1e-40 of the other, and of one of length 0, is what the data say,
+    not what doubles leave of it; an angle of the long arm that is off by a degree is refused beside any."""
+    draw = random.Random(f"short arm {seed}")
+    x, y, size = (draw.randint(-40, 40) / 10 for _ in range(3))
+    size = abs(size) + 1.0
+    first, corner = draw.randint(1, 359), draw.randint(1, 359)
+    third = (first + 180 + corner) % 360
+    short = [*(10.0 ** -draw.randint(6 * k, 6 * k + 5) for k in range(1, 7)), 0.0]
+    path, told = f"lengths.{'BC' if seed % 2 else 'AB'}", bool(seed & 2)
+    more = f", BC: {third}" if told else ""
+    case = icsolve.load(CRANKED.format(x=x, y=y, ab=size, bc=size, first=first, corner=corner, more=more))
+    tables = (
+        icsolve.sweep(case, {path: short}, WANT),
+        icsolve.evaluator(case, (path,), WANT)(np.array(short)),
+    )
+    for n, length in enumerate(short):
+        scene = icsolve.solve(with_numbers(case, {path: length}))
+        ab, bc = (length, size) if path == "lengths.AB" else (size, length)
+        at = complex(x, y) + cmath.rect(ab, math.radians(first)) + cmath.rect(bc, math.radians(third))
+        assert complex(*scene.points["C"]) == pytest.approx(at, abs=1e-13)
+        for table in tables:
+            assert table.status[n] == "ok"
+            assert table.answers["T"][n] == pytest.approx(scene.answers["T"].value, rel=1e-12)
+        if told and ab and path == "lengths.AB":
+            assert solved(with_numbers(case, {path: length, "angles.ABC": corner + 1.0}))[0] == "inconsistent"
+
+
+@pytest.mark.parametrize(
+    ("data", "path", "values"),
+    [
+        ("angles: {AB: 0}", "points.B.x", [1.0, 0.5, -0.5]),
+        ("angles: {ABC: -90}", "points.C.y", [2.0, 3.0, -1.0]),
+        ("angles: {ABC: -90}", "points.B.x", [1.0, 0.5, 0.0, -1.0]),
+        ("lengths: {AB: 1}", "points.B.x", [1.0, 0.5, -1.0]),
+    ],
+)
+def test_a_row_contradicts_data_that_repeat_others_as_its_scene_does(
+    data: str, path: str, values: list[float]
+) -> None:
+    """Coordinates that are varied, and a length or an angle between them that is not; or the sense alone."""
+    case = icsolve.load(
+        f"icsolve: 1\npoints: {{A: [0, 0], B: [1, 0], C: [1, 2]}}\n{data}\nlinks: {{2: [B, C]}}\n"
+        "joints: [{pin: [1, 2], at: A}]\nloads: {W: {force: 10, link: 2, at: C, angle: -90}, V: {force: 3, "
+        "link: 2, at: B, angle: 10}, T: {torque: unknown, link: 2}}\n"
+    )
+    assert {solved(with_numbers(case, {path: value}))[0] for value in values[1:]} >= {"inconsistent"}
+    assert list(misses(case, path, values)) == []
+    tables = (icsolve.sweep(case, {path: values}), icsolve.evaluator(case, (path,))(np.array(values)))
+    for n, value in enumerate(values):
+        for table in tables:
+            assert table.status[n] == solved(with_numbers(case, {path: value}))[0], value

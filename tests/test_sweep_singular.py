@@ -155,6 +155,34 @@ def test_beside_change_points_the_way_goes_straight_on(seed: int) -> None:
     assert np.isnan(there.answers["T12"]).all()
 
 
+@pytest.mark.parametrize("seed", range(32 if FULL else 8))
+def test_a_change_point_is_missed_by_whatever_the_decimals_miss_it(seed: int) -> None:
+    """Links that miss the line by 1e-9 to 1e-30: too long or too short to fold, they are held up beside it;
+    else C turns back before the line, and stays on its side of it."""
+    rng = Random(f"missed {seed}")
+    a, d, c = mpf(rng.randint(5, 30)), mpf(rng.randint(60, 80)), mpf(rng.randint(35, 55))
+    folded, held = bool(seed & 1), bool(seed & 2)
+    off = mpf(10) ** -rng.randint(9, 30) * (1 if folded != held else -1)
+    b, place = (d + a - c + off, 180) if folded else (d - a + c + off, 0)
+    reach = b + c if folded else b - c
+    written, sign = place - 35, rng.choice((-1, 1))
+    start = meets(a * turned(written), d, b, c, sign)
+    text = written_as(*(mp.nstr(x, 40) for x in (a, b, c, d)), "AB", written, "C", start)
+    found = find(icsolve.load(text), {"angles.AB": [place - 20.0, place + 20.0]}, Query("dead"))
+    assert "change-point" not in {spot.kind for spot in found}, off
+    limit = mp.acos((a * a + d * d - reach * reach) / (2 * a * d)) if held else None
+    aside = mp.pi - limit if folded and limit else limit
+    limits = [float(place + k * mp.degrees(aside)) for k in (-1, 1)] if held else []
+    places = [spot.at for spot in found if spot.kind == "limit"]
+    assert places == pytest.approx(limits, rel=1e-15, abs=0.0), (off, places, limits)
+    rows = icsolve.sweep(icsolve.load(text), {"angles.AB": [place - 20.0, place + 20.0]}, WANT)
+    for n, degrees in enumerate((place - 20, place + 20)):
+        there = meets(a * turned(degrees), d, b, c, sign)
+        assert complex(*rows.points["C"][n]) == pytest.approx(complex(there), abs=1e-12), (off, degrees)
+    assert not any("change point" in note for note in rows.notes)
+    assert any("do not reach" in note for note in rows.notes) == held
+
+
 IN_LINE = """icsolve: 1
 points: {{A: [10, -7], D: [{d}, -7]}}
 lengths: {{AB: {ab}, BC: 2, CD: {cd}}}
@@ -704,3 +732,34 @@ def test_a_group_is_followed_to_its_fold_from_wherever_it_is_written(seed: int) 
                 assert set(sweep.status) == {"ok"}, (sizes, start, sweep.status)
                 assert np.all(np.diff(away) < 1e-12)
     assert met
+
+
+FAR = """icsolve: 1
+points: {{A: [0, 0], B: [{b}, 0], C: [{c.real}, {c.imag}], D: [{d.real}, {d.imag}]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
+loads: {{T14: {{torque: 10, link: 4}}, T12: {{torque: unknown, link: 2}}}}
+"""
+
+
+@pytest.mark.parametrize("seed", range(24 if FULL else 6))
+def test_links_that_are_all_but_parallel_and_very_long_are_followed(seed: int) -> None:
+    """Rod and rocker a million to a hundred million times the crank: what doubles leave open of a row its own
+    digits settle, and no limit is told where there is none."""
+    rng = Random(f"far {seed}")
+    b, d = rng.randint(100, 300), complex(rng.randint(350, 500), rng.randint(40, 120))
+    c = complex(10 ** rng.randint(8, 10), rng.randint(200, 500))
+    case = icsolve.load(FAR.format(b=b, c=c, d=d))
+    pin, end, top = mpf(b), mp.mpc(d), mp.mpc(c)
+    rod, rocker = abs(top - pin), abs(top - end)
+    sign = 1 if ((top - pin) * mp.conj(end - pin)).imag > 0 else -1
+    rows = [round(0.07 * k, 2) for k in range(30)]
+    sweep = icsolve.sweep(case, drive={"2": rows}, want=WANT)
+    for n, row in enumerate(rows):
+        at = b * turned(mpf(repr(row)))
+        place = meets(at, end, rod, rocker, sign)
+        assert place is not None and sweep.status[n] == "ok", row
+        truth = torque(0, at, end, place)
+        assert abs(mpf(float(sweep.answers["T12"][n])) - truth) <= sweep.error["T12"][n], row
+    assert (sweep.error["T12"] <= 1e-4 * abs(sweep.answers["T12"]).max()).all()
+    spots = find(case, None, Query("dead"), drive={"2": [0.0, 2.0]})
+    assert [spot.kind for spot in spots] == []

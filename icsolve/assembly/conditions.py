@@ -26,11 +26,12 @@ from icsolve.assembly.workspace import (
     Workspace,
     X,
     Y,
+    data_of,
 )
 from icsolve.case import Case, Number
 from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
 from icsolve.screws.joints import Points
 from icsolve.screws.plane import Point
 from icsolve.structure.topology import Bond, topology
@@ -173,7 +174,9 @@ class FigureEquation(NamedTuple):
 
 
 TOO_CLOSE = 1e-12
-"""Points nearer than this (normalised) have no direction to one another."""
+"""Points nearer than this (normalised) have no direction to one another that doubles tell."""
+NEAR = 1e-6
+"""Of points nearer than this (normalised) it is looked at in more digits."""
 
 
 Residual = tuple[float, bool]
@@ -234,14 +237,45 @@ def scale_of(workspace: Workspace, datum: Datum) -> Scale:
     if kind == RAY:
         return 1.0, bool(ahead(workspace, datum) > TOO_CLOSE or math.dist(*at) <= TOO_CLOSE)
     if kind == CORNER:  # the angle's error, on the longer arm
-        p, q = math.dist(at[0], at[1]), math.dist(at[2], at[1])
-        if min(p, q) <= TOO_CLOSE:
-            return max(p, q), None
+        arms = [(x - at[1][0], y - at[1][1]) for x, y in (at[0], at[2])]
+        p, q = (math.hypot(*map(float, arm)) for arm in arms)
+        if none := [
+            end for end, arm in zip(datum.points[::2], arms, strict=True) if _is_none(workspace, arm)
+        ]:
+            sure = decider(workspace.arithmetic) and all(
+                _is_told(workspace, {p, datum.points[1]}) for p in none
+            )
+            return max(p, q), True if sure else None
         return min(p, q), bool(ahead(workspace, datum) > 0.0)
     if kind == LINE:
-        size = math.dist(*at[2:])
-        return size, True if size > TOO_CLOSE else None
+        (ax, ay), (bx, by) = at[2:]
+        return math.hypot(float(bx - ax), float(by - ay)), None if _is_none(
+            workspace, (bx - ax, by - ay)
+        ) else True
     return 1.0, True
+
+
+def is_vague(workspace: Workspace, datum: Datum) -> bool:
+    """Whether doubles leave open what the points make of a datum: it goes by the direction between two of
+    them that lie near to each other."""
+    if datum.kind not in (CORNER, LINE):
+        return False
+    size, ahead = scale_of(workspace, datum)
+    return ahead is None or size < NEAR
+
+
+def _is_none(workspace: Workspace, arm: Point) -> bool:
+    """Whether a vector has no direction: its length is zero, or doubles do not tell.
+
+    Raises MoreDigits where balls leave it open.
+    """
+    vanishes = decider(workspace.arithmetic)
+    return all(vanishes(part, 1.0) for part in arm) if vanishes else math.hypot(*arm) <= TOO_CLOSE
+
+
+def _is_told(workspace: Workspace, points: set[str]) -> bool:
+    """Whether the distance of two points is a datum: an arm that is given as zero may have any angle."""
+    return any(d.kind == LENGTH and {*d.points} == points for d in data_of(workspace.case))
 
 
 # --- whether teeth of a given pitch or module fit the pivots of their wheels ---

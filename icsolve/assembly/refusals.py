@@ -7,7 +7,16 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from icsolve.assembly.conditions import CONDITIONS, ROUNDING, parts_of, residual, scale_of
+from icsolve.assembly.conditions import (
+    CONDITIONS,
+    ROUNDING,
+    TOO_CLOSE,
+    Residual,
+    is_vague,
+    parts_of,
+    residual,
+    scale_of,
+)
 from icsolve.assembly.loci import (
     ArcLocus,
     Axis,
@@ -302,6 +311,8 @@ def _clash(workspace: Workspace, datum: Datum, off: float, ahead: bool) -> str:
     if kind == MEAN:
         of = ", ".join(map(plain, points[1:]))
         return f"{name} is {measure(workspace, abs(off))} off the centroid of {of}"
+    if kind == CORNER and (none := [p for p in points[::2] if _apart(workspace, p, points[1]) <= TOO_CLOSE]):
+        return f"{datum_words(datum)} has no direction: {plain(none[0])} and {plain(points[1])} are one point"
     if kind in (LENGTH, ROPE, RAY, CORNER, X, Y):
         subject, value, found = _values(workspace, datum, off)
         given = {*given_points(workspace.case)} >= {*points}
@@ -312,6 +323,10 @@ def _clash(workspace: Workspace, datum: Datum, off: float, ahead: bool) -> str:
     along = joined(*points[2:]) if kind == LINE else f"{number_of(workspace.case, datum).value:.6g} deg"
     line = f"the line through {plain(points[1])} along {along}"
     return f"{name} is {measure(workspace, abs(off))} off its guide, {line}"
+
+
+def _apart(workspace: Workspace, p: Key, q: Key) -> float:
+    return math.dist(workspace.points[p], workspace.points[q])
 
 
 def _values(workspace: Workspace, datum: Datum, off: float) -> tuple[str, str, str]:
@@ -344,6 +359,8 @@ def _angle(workspace: Workspace, datum: Datum) -> str:
 # --- data that the construction did not need: compared with the figure, and said so ---
 
 
+SURE = 1e-12
+"""A residual (normalised) is known where its bound is less than this."""
 OF_SIZE = 0.002
 """Data that are off by more of the figure's size contradict it, whatever their last decimals are."""
 
@@ -355,6 +372,8 @@ def compare(
     offs: dict[Datum, float] = {}
     for datum in data:
         off, ahead = residual(workspace, datum)
+        if is_vague(workspace, datum):
+            off, ahead = _closely(workspace, steps, datum) or (off, ahead)
         if not ahead:
             return clash(workspace, datum, off, ahead), offs
         offs[datum] = abs(off)
@@ -363,6 +382,26 @@ def compare(
         if abs(off) > OF_SIZE * size or abs(off) > _allowance(workspace, steps, datum):
             return clash(workspace, datum, off, ahead), offs
     return None, offs
+
+
+def _closely(workspace: Workspace, steps: tuple[Step, ...], datum: Datum) -> Residual | None:
+    """The residual in as many digits as it takes; None where none tell it."""
+    from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, MoreDigits
+
+    for digits in PRECISIONS:
+        balls = Balls(digits, highest=digits == PRECISIONS[-1])
+        exact = Workspace(workspace.case, workspace.frame, balls)
+        try:
+            for step in leading_to(datum.points, steps):
+                step.place(exact)
+            off, ahead = residual(exact, datum)
+            values = [CONDITIONS[datum.kind](exact, datum, part).value for part in parts_of(datum)]
+            open_ = max(float(getattr(value, "radius", 0.0)) for value in values)
+            if open_ <= SURE * (scale_of(exact, datum)[0] or 1.0):
+                return off, ahead
+        except (MoreDigits, BelowZero, ZeroDivisionError):
+            continue
+    return None
 
 
 def _allowance(workspace: Workspace, steps: tuple[Step, ...], datum: Datum) -> float:

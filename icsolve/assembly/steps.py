@@ -30,6 +30,7 @@ from icsolve.assembly.workspace import (
     Span,
     Workspace,
     data_in,
+    data_of,
     keys_in,
 )
 from icsolve.case import Case
@@ -375,6 +376,12 @@ class Figure(NamedTuple):
     steps: tuple[Step, ...]
     notes: tuple[str, ...] = ()
     skipped: tuple[str, ...] = ()
+
+
+def spare_data(figure: Figure, case: Case) -> list[Datum]:
+    """The data of a figure's points that its construction does not need: they are compared with it."""
+    used = {datum for step in figure.steps for datum in data_in(step)}
+    return [d for d in data_of(case) if d not in used and figure.points.keys() >= {*d.points}]
 
 
 class Miss(NamedTuple):

@@ -15,7 +15,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
-from icsolve.assembly.conditions import TOO_CLOSE, agrees, residual, size_of
+from icsolve.assembly.conditions import TOO_CLOSE, agrees, is_vague, residual, size_of
 from icsolve.assembly.loci import PlacedCircle, gaps_of, is_ray, is_round, side
 from icsolve.assembly.order import Order
 from icsolve.assembly.steps import CLOSED_FORMS, Meet, Miss, Step, aims, needs
@@ -443,6 +443,8 @@ class Walk:
 
     def _clash(self, depth: int) -> Miss | None:
         for datum in self.checks.get(depth, ()):
+            if is_vague(self.workspace, datum):
+                continue
             off, ahead = residual(self.workspace, datum)
             reach = 1.0 + max(abs(c) for p in datum.points for c in self.workspace.points[p])
             if not ahead or abs(off) > COARSE * reach:

@@ -24,7 +24,7 @@ from icsolve.case import Pair, is_named, ordered_pair
 from icsolve.kinematics.twists import Closure, is_dead, products, rate_sizes
 from icsolve.numbers.arithmetic import ROUNDING, ROUNDING_NOISE, Arithmetic, Showing, all_vanish
 from icsolve.screws.joints import freedoms, joint_freedoms, joint_points, pitch_point
-from icsolve.screws.plane import Triple, cross, subtract
+from icsolve.screws.plane import Point, Triple, cross, subtract
 from icsolve.structure.topology import Bond, Topology
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
@@ -272,6 +272,15 @@ class CentreFinder:
         search = Kennedy(self.twists, joints, guides, self.moving, self.top.ground)
         search.find(ordered(self.top.body_of[a], self.top.body_of[b]) for a, b in pairs)
         return {pair: self._centre(pair, search, primaries, slack) for pair in pairs}
+
+    def placed(self, pair: Pair) -> Point:
+        """The centre of a pair that has one at no infinity [frame of size 1], in the arithmetic."""
+        bodies = ordered(*(self.top.body_of[link] for link in pair))
+        own = self._own(pair) or (self.moving(bodies) and self._by_inspection()[0].get(bodies))
+        found = own[0] if own else self.relative(*bodies)
+        assert found is not None
+        x, y, w = found
+        return x / w, y / w
 
     def _moving(self, pair: BodyPair) -> Triple | None:
         """The relative twist in floats of two bodies that have one centre in all motions meant; else None."""

@@ -461,13 +461,15 @@ class Balls:
 
 
 class HalfUnits(Balls):
-    """Numbers of 15 digits or more stand for all that round to them: what half a unit of their last digits
-    may make zero, is zero."""
+    """Numbers of 15 digits or more stand for all that round to them, those of 17 at most for all that round
+    to their double: what half a unit of their last digits may make zero, is zero."""
 
     def _read(self, number: Number) -> Ball:
         found = super()._read(number)
         if is_long(number):
-            half = number.half or math.ulp(number.value) / 2.0
+            half = number.half
+            if not half or _digits(number) <= DOUBLE:
+                half = max(half, math.ulp(number.value) / 2.0)
             found = Ball(self, found.value, half * UP, found.size + half, INEXACT)
         return found
 
@@ -503,12 +505,19 @@ COARSE = 1e-9
 """Half units that put a zero in doubt by more than this fraction of its terms explain nothing."""
 LONG = 15
 """Digits from which on a number was written by a program."""
+DOUBLE = 17
+"""Digits that a double is written with at most: its spacing may be more than their last unit."""
 
 
 def is_long(number: Number) -> bool:
     """Whether a number has at least 15 digits, as programs write them."""
+    return _digits(number) >= LONG
+
+
+def _digits(number: Number) -> int:
+    """How many digits a number is written with, zeros before the first left out."""
     digits = number.digits.lower().partition("e")[0]
-    return len(digits.replace(".", "").lstrip("+-−0")) >= LONG
+    return len(digits.replace(".", "").lstrip("+-−0"))
 
 
 GUARD = 10

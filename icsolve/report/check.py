@@ -24,6 +24,7 @@ from icsolve.case.expected import (
     Target,
     TensionIs,
 )
+from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.report.published import found_value, place_of
 from icsolve.scene.parts import scene_of, sense_with
@@ -218,7 +219,7 @@ def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
         case CentreIs(pair):
             return _place(answer, pair, "at" if expected.toward is None else "toward")
         case DistanceIs(a, b):
-            return (math.dist(_end(answer, a), _end(answer, b)),)
+            return (_distance(answer, a, b),)
         case RatioIs(over, under):
             return (_ratio(answer, over, under),)
         case RateIs(link):
@@ -304,6 +305,18 @@ def _otherwise(centre: Centre) -> str:
     if centre.kind == "toward":
         return f"is at infinity, toward {_digits(centre.place[0])}: no distance and no place compare with it"
     return f"is {centre.kind}: {centre.why}"
+
+
+def _distance(answer: Answer, a: Pair | str, b: Pair | str) -> float:
+    """Of two places that are near to each other their rounded coordinates have few digits left: the scene has
+    more."""
+    near, scene = math.dist(_end(answer, a), _end(answer, b)), scene_of(answer)
+    if scene is None:
+        return near
+    try:
+        return scene.apart(a, b)
+    except SceneError:  # so near to a singular position that no digits tell
+        return near
 
 
 def _end(answer: Answer, end: Pair | str) -> tuple[float, ...]:

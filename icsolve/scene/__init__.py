@@ -10,6 +10,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from functools import lru_cache
 
 from icsolve.answer import Answer
@@ -96,7 +97,7 @@ def _solved(case: Case, want: Want, bound: bool, reactions: bool) -> Answer:
     """Position, centres, power: the answer of a planar case whose contacts are given."""
     program = prepare(case, want)  # the steps that are needed, and the figure in its position
     try:  # the twist of every link, and the power of the loads on them
-        return judged(AnswerBuilder(EvaluatedScene(program, bound)), reactions)
+        return judged(balanced(AnswerBuilder(EvaluatedScene(program, bound))), reactions)
     except SceneError as refusal:
         if bound and refusal.status in INEXACT and _has_long_numbers(case):
             try:
@@ -120,6 +121,19 @@ def _has_long_numbers(case: Case) -> bool:
     from icsolve.scene.sensitivity import numbers_of
 
     return any(map(is_long, numbers_of(case).values()))
+
+
+def balanced(parts: AnswerBuilder) -> AnswerBuilder:
+    """The scene; where its known loads balance but for the last digits of numbers that a program rounded, as
+    explained by these."""
+    scene, motions = parts.scene, parts.first.outcome.motions
+    done = parts.in_equilibrium or scene.explained or not (scene.certain and motions.mobility)
+    if _asks(parts.case) or done or not _has_long_numbers(parts.case):
+        return parts
+    with suppress(SceneError):
+        explained = AnswerBuilder(EvaluatedScene(parts.program, True, explained=True))
+        return explained if explained.in_equilibrium else parts
+    return parts
 
 
 def judged(parts: AnswerBuilder, reactions: bool) -> Answer:

@@ -180,6 +180,24 @@ class AnswerBuilder:
         """The centres that are asked for."""
         return self.scene.ask(_centres)
 
+    def apart(self, *ends: Pair | str) -> float:
+        """How far two centres or points are from one another [case length], rounded once."""
+
+        def asked(found: Evaluation) -> float:
+            a, (_, _, scale), points = (
+                found.arithmetic,
+                found.program.figure.frame,
+                found.outcome.place.points,
+            )
+            (px, py), (qx, qy) = (points[e] if isinstance(e, str) else _finder(found).placed(e) for e in ends)
+            x, y = px - qx, py - qy
+            size = largest_of((1.0, px, py, qx, qy))
+            if all(a.vanishes(part, size) for part in (x, y)):
+                return 0.0
+            return a.rounded(a.sqrt(x * x + y * y) / scale)[0]
+
+        return self.scene.ask(asked)
+
     @cached_property
     def twists(self) -> dict[str, Triple]:
         """The motion of every link as ``omega * (x, y, 1)`` in case units, where it is determined."""
@@ -327,12 +345,17 @@ def _centres(found: Evaluation) -> dict[Pair, Centre]:
     same at every speed, 0 among them."""
     program, motions = found.program, found.outcome.motions
     case, twists = program.case, motions.twists
-    if case.motion and motions.mobility > 1:
+    pairs = [pair for pair in wanted_pairs(case, program.want) if {*pair} <= twists.keys()]
+    return _finder(found).find(pairs, motions.slack)
+
+
+def _finder(found: Evaluation) -> CentreFinder:
+    motions = found.outcome.motions
+    twists = motions.twists
+    if found.program.case.motion and motions.mobility > 1:
         speed = speed_of(found)
         twists = {link: speeds.meant(twists, speed, link) for link in twists}
-    finder = CentreFinder(found.outcome.place, twists, found.arithmetic)
-    pairs = [pair for pair in wanted_pairs(case, program.want) if {*pair} <= twists.keys()]
-    return finder.find(pairs, motions.slack)
+    return CentreFinder(found.outcome.place, twists, found.arithmetic)
 
 
 OPEN = (SceneError, ZeroDivisionError, BelowZero, MoreDigits)

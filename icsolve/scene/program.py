@@ -200,7 +200,7 @@ class EvaluatedScene:
         self.program, self.certain, self.explained, self.run = program, certain, explained, run
         self._arithmetics: list[Callable[[], Showing]] = [lambda: FLOATS]
         if certain:
-            self._arithmetics = [lambda: HalfUnits(PRECISIONS[0])] if explained else _arithmetics(program)
+            self._arithmetics = [lambda: HalfUnits(PRECISIONS[-1])] if explained else _arithmetics(program)
         self._found: list[Evaluation | None] = []
 
     def ask(self, question: Callable[[Evaluation], T]) -> T:

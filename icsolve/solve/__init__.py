@@ -11,7 +11,7 @@ from __future__ import annotations
 from icsolve.answer import Answer
 from icsolve.case import Case, Coordinates
 from icsolve.errors import SceneError, Status
-from icsolve.scene import judged, solve_scene, wanted, without_inertia
+from icsolve.scene import balanced, judged, solve_scene, wanted, without_inertia
 from icsolve.scene.parts import AnswerBuilder, scene_of
 from icsolve.scene.program import EvaluatedScene, Want, prepare
 from icsolve.statics.power import is_unknown
@@ -114,7 +114,7 @@ def attempt(case: Case, *, reactions: bool = False) -> Attempt:
         return _touching(case, reactions)
     want = wanted(case, Want(True, True, False, reactions))
     try:
-        parts = AnswerBuilder(EvaluatedScene(prepare(case, want), certain=True))
+        parts = balanced(AnswerBuilder(EvaluatedScene(prepare(case, want), certain=True)))
     except SceneError:  # of a link or point that the answer does not need, it may be
         return _tried(case, reactions)
     try:

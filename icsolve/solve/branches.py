@@ -10,6 +10,8 @@ that stay open to the last, which are handed on.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
+from decimal import Decimal, localcontext
 from itertools import pairwise
 
 import numpy as np
@@ -20,6 +22,8 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.replay import Array, Code
 from icsolve.solve.load_function import LoadFunction
+from icsolve.sweep.branches import may_vanish
+from icsolve.sweep.exact import CONTEXT, ZERO, Unreached, exact_record, lowest
 from icsolve.tuples import NamedTuple
 
 SAMPLES = 720
@@ -78,7 +82,8 @@ class Branches:
                 n = int(np.argmin(off))
                 stays = self.whole[m, k] and m not in taken
                 if off[n] < np.inf and (not stays or off[n] < 0.25 * off[m]):
-                    taken[n] = int(ids[m, k - 1]) if self._joined(m, n, k) else -1
+                    meets = self._meets(m, n, k)
+                    taken[m if meets > 0 else n] = int(ids[m, k - 1]) if meets >= 0 else -1
                 elif stays:
                     taken[m] = int(ids[m, k - 1])
             for n in range(modes):
@@ -111,15 +116,38 @@ class Branches:
         before = np.flatnonzero(ids[:, k - 2] == ids[m, k - 1])
         return np.asarray(2.0 * here - self.places[before[0], k - 2] if before.size else here)
 
-    def _joined(self, m: int, n: int, k: int) -> bool:
-        """Whether two modes come so near to one another that a branch may pass from one to the other."""
+    def _meets(self, m: int, n: int, k: int) -> int:
+        """Between two samples: 0 where a branch passes from one mode to another that it meets there, 1 where
+        it turns back before it does, and -1 where it ends."""
         if m == n:
-            return True
+            return 0
         if not (self.whole[m, k] and self.whole[n, k - 1]):
-            return False
+            return -1
         gap = min(np.abs(self.places[m, j] - self.places[n, j]).max() for j in (k - 1, k))
         step = np.abs(self.places[m, k] - self.places[m, k - 1]).max()
-        return bool(gap <= 4.0 * step)
+        return self._margin(m, k) if gap <= 4.0 * step else -1
+
+    def _margin(self, m: int, k: int) -> int:
+        """Between two samples the sign of the margins of a mode that come near to zero, by the decimals as
+        written; 0 where one vanishes, or none comes near."""
+        function = self.functions[m]
+        exact, record = exact_record(function.compiled), function.record
+        values = np.linspace(self.values[k - 1], self.values[k], 33)
+        found = Code(record, function.margins).run(function.given(values), len(values))
+
+        def along(value: Decimal) -> dict[int, Decimal]:
+            given = function.given(np.array([float(value)]))
+            return {node: Decimal(float(at[0])) for node, at in given.items()} | {function.input: value}
+
+        signs = []
+        for node, margin in zip(function.margins, found, strict=True):
+            if not may_vanish(np.broadcast_to(margin, len(values))):
+                continue
+            with localcontext(CONTEXT), suppress(Unreached):
+                at = lowest(exact, node, along, float(values[np.argmin(margin)]))
+                (least,) = exact.values([record.nodes[node]], along(at))
+                signs.append(0 if not abs(least) > ZERO else 1 if least > 0 else -1)
+        return 0 if 0 in signs else min(signs, default=0)
 
     def _closed(self, ids: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
         """A whole turn ends where it begins: what goes straight on there is one branch."""
@@ -129,7 +157,9 @@ class Branches:
             ahead = self._ahead(ids, m, SAMPLES + 1)
             off = np.where(self.whole[:, 1], np.abs(self.places[:, 1] - ahead).max(axis=1), np.inf)
             n = int(np.argmin(off))
-            if self.whole[m, 0] and np.isfinite(off[n]):
+            margin = self._margin(m, 1) if n != m and self.whole[m, 0] and np.isfinite(off[n]) else 0
+            n = int(m) if margin > 0 else n
+            if self.whole[m, 0] and np.isfinite(off[n]) and margin >= 0:
                 ids[ids == ids[m, -1]] = ids[n, 1]
         return ids
 

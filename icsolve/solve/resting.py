@@ -5,21 +5,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import cache, partial
 from itertools import groupby
 
 import numpy as np
 
-from icsolve.case import Case, is_angle
+from icsolve.case import Case, Load, is_angle
 from icsolve.case.joints import with_friction, without_friction
-from icsolve.errors import SceneError, Status
+from icsolve.errors import SceneError
 from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.roots import last_that_holds, zero_between
+from icsolve.scene import solve_scene
 from icsolve.solve.branches import Branches, nearest
 from icsolve.solve.followed import NOT_ALL, led_mechanisms
 from icsolve.solve.load_function import TogetherError
 from icsolve.solve.positions import functions_of, refuse_unwritten, search_modes, whole_range
-from icsolve.solve.rest import PROBE, held
+from icsolve.solve.rest import PROBE, probes
 from icsolve.solve.settled import scene_at
 from icsolve.tuples import NamedTuple, replace
 
@@ -56,17 +58,15 @@ def find_ranges(case: Case, path: str, span: tuple[float, float] | None, start: 
     ends are closed in on to the last digit. Parameters as of `icsolve.solve.positions.find_positions`.
     """
     low, high = span or whole_range(case, path)
-    ropes = tuple(rope._replace(mu=(None,) * len(rope.mu)) for rope in case.ropes)
-    smooth = replace(case, joints=tuple(map(without_friction, case.joints)), ropes=ropes)
     even = np.linspace(low, high, SAMPLES + 1).tolist()
     notes = [
         f"between positions of equilibrium without friction, {path} was sampled at {SAMPLES} values for "
         "ranges in which friction alone is enough."
     ]
     try:
-        modes = _in_modes(smooth, path, (low, high), start, even, span is None)
+        modes = _in_modes(smooth(case), path, (low, high), start, even, span is None)
     except TogetherError:
-        modes, complete = _led(smooth, path, (low, high), start, even, span is None)
+        modes, complete = _led(smooth(case), path, (low, high), start, even, span is None)
         notes += [] if complete else [NOT_ALL]
     turns = span is None and is_angle(path)
     found = [one for mode in modes for one in _runs(case, mode, turns)]
@@ -74,12 +74,12 @@ def find_ranges(case: Case, path: str, span: tuple[float, float] | None, start: 
 
 
 def _in_modes(
-    smooth: Case, path: str, span: tuple[float, float], start: float | None, even: list[float], whole: bool
+    case: Case, path: str, span: tuple[float, float], start: float | None, even: list[float], whole: bool
 ) -> list[RoughMode]:
     """The modes of a figure whose points have places one by one."""
-    functions, _ = functions_of(smooth, path, span, start, not whole)
+    functions, _ = functions_of(case, path, span, start, not whole)
     branches = Branches(functions, *span)
-    kept = branches.nearest(smooth) if smooth.near else None
+    kept = branches.nearest(case) if case.near else None
     search = search_modes(functions, branches, kept, whole)
     modes = []
     for n, function in enumerate(functions):
@@ -91,14 +91,14 @@ def _in_modes(
 
 
 def _led(
-    smooth: Case, path: str, span: tuple[float, float], start: float | None, even: list[float], whole: bool
+    case: Case, path: str, span: tuple[float, float], start: float | None, even: list[float], whole: bool
 ) -> tuple[list[RoughMode], bool]:
     """The ways of a figure whose points only together have places, along its motion; whether these are all
     of them."""
-    led, complete = led_mechanisms(smooth, path, span, start, ())
+    led, complete = led_mechanisms(case, path, span, start, ())
     if start is None:
-        refuse_unwritten(smooth, path, led[0].links, not whole)
-    meant = [led[nearest(smooth, [one.off(smooth.near) for one in led])]] if smooth.near else led
+        refuse_unwritten(case, path, led[0].links, not whole)
+    meant = [led[nearest(case, [one.off(case.near) for one in led])]] if case.near else led
     modes = []
     for one in meant:
         rests = [] if one.balances_everywhere() else one.rests()
@@ -125,18 +125,33 @@ def spare_friction(case: Case) -> float:
 def moving_loads(case: Case) -> tuple[float, float]:
     """From what load to what load more on a link a mechanism under known loads holds still as written [case
     units]: infinite where none would move it, or where any does (turned about)."""
+    case = replace(case, motion=(), expect=())
     links = [link for link in joint_order(case) if link != case.ground]
-    for some in (links, []):  # where nothing turns a force on a point holds it
-        try:
-            answer = held(replace(case, motion=(), expect=()), some)
-        except SceneError as error:
-            if error.status == Status.ANY_VALUE:  # the loads balance without friction
-                return -math.inf, math.inf
+    for load in (
+        *probes(case, links, 1),
+        *probes(case, [], 1),
+    ):  # where nothing turns a force on a point holds it
+        if not _works(case, load):
             continue
-        if answer is not None:
-            found = answer.answers[PROBE]
+        with suppress(SceneError):
+            found = solve_scene(replace(case, loads=(*case.loads, load))).answers[PROBE]
             return found.holds or (found.value, found.value)
     return math.inf, -math.inf
+
+
+def _works(case: Case, load: Load) -> bool:
+    """Whether an unknown load does work: one that does none holds by the friction alone that it makes."""
+    try:
+        solve_scene(smooth(replace(case, loads=(*case.loads, load))))
+    except SceneError:
+        return False
+    return True
+
+
+def smooth(case: Case) -> Case:
+    """The case without friction."""
+    ropes = tuple(rope._replace(mu=(None,) * len(rope.mu)) for rope in case.ropes)
+    return replace(case, joints=tuple(map(without_friction, case.joints)), ropes=ropes)
 
 
 def edge_of_rest(spare: Callable[[float], float], inside: float, outside: float) -> tuple[float, float]:

@@ -9,19 +9,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
+from decimal import localcontext
 
 import numpy as np
 
-from icsolve.numbers.record import Record, Root, Traced, live
+from icsolve.numbers.record import Root, live
 from icsolve.numbers.replay import BLOCK, Array, code_of
 from icsolve.sweep.continuation import ChangePoints, InputLine, State
+from icsolve.sweep.exact import CONTEXT, ZERO, Unreached, exact_record, lowest
 from icsolve.sweep.path_tracking import PathTracker
-from icsolve.sweep.program import CompiledSweep, Signs
+from icsolve.sweep.program import CompiledSweep, Signs, live_roots
 from icsolve.sweep.request import RequestError
 from icsolve.tuples import NamedTuple, cached_property
 
 TOUCH = 64 * 2.0**-53
-"""Margins below this fraction of their terms are zero (rounding of shapes, twice squared)."""
+"""Margins below this fraction of their terms may be zero (rounding of shapes, twice squared)."""
+DOUBT = 2.0**-20
+"""Of a lowest margin below this fraction of its terms more digits say whether it is zero."""
 STEEP = 2.0
 """A radicand that may vanish between two places is smaller than so many of its steps there."""
 POINTS = 33
@@ -121,9 +126,9 @@ class Radicands:
             low, high = grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)]
             at = self._lowest(root, low, high)
             margin = self._margin(root, at)
-            if margin < -TOUCH:
+            if margin < 0.0:
                 gaps.append(at)
-            elif margin <= TOUCH:
+            elif margin == 0.0:
                 crosses = self._order(root, at, high - low) % 4 == 2
                 (change_points if crosses else grazes).append(at)
         return Passing(tuple(change_points), tuple(gaps), tuple(grazes))
@@ -165,10 +170,18 @@ class Radicands:
         return (low + high) / 2.0
 
     def _margin(self, root: Root, at: float) -> float:
-        """The smaller margin over its size."""
+        """The smaller margin over its size where the radicand is lowest; of one that doubles leave open more
+        digits say its sign, and that it is 0."""
         nodes = [n for margin in root.margins for n in margin]
         a, a_size, b, b_size = self.values(nodes, np.array([at]))
-        return float(np.minimum(_share(a, a_size), _share(b, b_size))[0])
+        margin = float(np.minimum(_share(a, a_size), _share(b, b_size))[0])
+        if not abs(margin) <= DOUBT:
+            return margin
+        exact, along = exact_record(self.compiled), self.tracker.exactly
+        with localcontext(CONTEXT), suppress(Unreached):
+            (more,) = exact.margins([root], along(lowest(exact, root.radicand, along, at)))
+            return float(more) if abs(more) > ZERO else 0.0
+        return margin if abs(margin) > TOUCH else 0.0
 
 
 def _share(margin: Array, size: Array) -> Array:
@@ -319,25 +332,3 @@ def signs_of(compiled: CompiledSweep, more: Iterable[str] = ()) -> Signs:
     written = compiled.motion.written
     names = {*more, *(name for name in written if name in compiled.inputs)}
     return tuple(sorted((name, written[name]) for name in names))
-
-
-def live_roots(compiled: CompiledSweep) -> list[Root]:
-    """The branches that bear on what is asked, in order."""
-    record = compiled.record
-    stack = [
-        v.index for values in compiled.outputs.values() for v in values if isinstance(v, Traced) and v.row
-    ]
-    key = ("live roots", tuple(stack))
-    if key not in record.kept:
-        record.kept[key] = _live_roots(record, stack)
-    found: list[Root] = record.kept[key]
-    return found
-
-
-def _live_roots(record: Record, stack: list[int]) -> list[Root]:
-    alive: set[int] = set()
-    while stack:
-        alive.update(live(record.nodes, stack))
-        parts = [v for group in record.implicit if alive.intersection(group.solved) for v in group.parts]
-        stack = [v.index for v in parts if isinstance(v, Traced) and v.row and v.index not in alive]
-    return [record.roots[k] for k in sorted(alive) if k in record.roots]

@@ -32,7 +32,7 @@ from icsolve.sweep.numbers import find_number, numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of
 from icsolve.sweep.request import RequestError, SweepRequest, request_of, told
 from icsolve.sweep.runner import Key, Rows, column, usual_and_terms
-from icsolve.sweep.start import drives
+from icsolve.sweep.start import is_hard
 from icsolve.sweep.table import CODE, WORDS, Table, by_kind
 from icsolve.tuples import NamedTuple, dataclass, field, replace
 
@@ -420,9 +420,9 @@ def _root(value: float) -> float:
 def _compiled(case: Case, names: Mapping[str, str], asked: RowRequest, gradients: bool) -> _Compiled | None:
     """The record of the case with all inputs; None where its figure or its loads need a scene a row."""
     setting: Setting = setting_of(case, (), ())
-    if any(map(drives, names.values())) or any(isinstance(s, PointGroup) for s in setting.figure.steps):
-        return None
     setting = setting._replace(paths=tuple(names.values()), drive=Drive((), (), ()))
+    if is_hard(setting) or any(isinstance(s, PointGroup) for s in setting.figure.steps):
+        return None
     asked = told(case, asked)
     try:
         compiled = compile_sweep(setting, asked)

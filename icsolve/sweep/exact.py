@@ -8,7 +8,7 @@ row itself. The varied numbers are the shortest decimals that name their doubles
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Context, Decimal, DivisionByZero, localcontext
 from functools import lru_cache
 
@@ -20,10 +20,10 @@ from icsolve.numbers.balls import Ball, Balls, BelowZero, MoreDigits
 from icsolve.numbers.linear import solve_square
 from icsolve.numbers.record import Implicit, Op, Root, Traced, live, terms_of
 from icsolve.numbers.replay import BINARY
+from icsolve.numbers.roots import STEP
 from icsolve.numbers.units import ExactRatio
-from icsolve.sweep.branches import live_roots
 from icsolve.sweep.numbers import numbers_of, with_numbers
-from icsolve.sweep.program import CompiledSweep
+from icsolve.sweep.program import CompiledSweep, live_roots
 from icsolve.tuples import replace
 
 ADD, SUB, MUL = Op.ADD, Op.SUB, Op.MUL
@@ -47,6 +47,7 @@ LEAST = Decimal("1e-145")
 SHORT = Context(prec=160)
 """Coordinates of a row have so many digits: more than any scene is decided by."""
 APART = "the links do not reach one another in this row."
+AGAINST = "an angle that repeats other data is met but for its sense: it points the other way in this row."
 ANYWHERE = "change point: two links have come to lie so that a point of them may be anywhere on a circle."
 CONTEXT = Context(prec=DIGITS, Emin=-999_999, Emax=999_999, traps=[DivisionByZero])
 """What is not a number compares with nothing."""
@@ -264,6 +265,41 @@ def exact_record(compiled: CompiledSweep) -> ExactRecord:
     return found
 
 
+def lowest(
+    exact: ExactRecord, node: int, along: Callable[[Decimal], Mapping[int, Decimal]], near: float
+) -> Decimal:
+    """Where on a line a value is lowest: a branch comes nearest to changing where its radicand is.
+
+    Parameters
+    ----------
+    node : of the value
+    along : the inputs by node at a place of the line; may raise Unreached
+    near : a place near it
+
+    Returns
+    -------
+    Decimal
+        ``near`` itself where it does not lead there.
+    """
+    at, value = as_written(near), exact.record.nodes[node]
+    with localcontext(CONTEXT):
+        for _ in range(12):
+            try:
+                low, here, high = (exact.values([value], along(at + k * STEP))[0] for k in (-1, 0, 1))
+            except Unreached:
+                return as_written(near)
+            bend = (high - 2 * here + low) / STEP
+            if not bend > 0:
+                return at
+            move = (low - high) / (2 * bend)
+            if abs(move) > Decimal("1e-3"):
+                return as_written(near)
+            if abs(move) < STEP:
+                break
+            at += move
+    return at
+
+
 def _result(op: int, a: Decimal, b: Decimal) -> Decimal:
     """An operation; NaN of what is NaN, and the root of what is less than zero."""
     if a.is_nan() or b.is_nan():
@@ -372,6 +408,9 @@ class RowScenes:
             margins += exact.values([compiled.record.nodes[k] for k in compiled.margins], given)
             if any(m < -ZERO for m in margins if not m.is_nan()):
                 raise SceneError(Status.CANNOT_ASSEMBLE, APART)
+            senses = exact.values([compiled.record.nodes[k] for k in compiled.senses], given)
+            if any(sense < -ZERO for sense in senses if not sense.is_nan()):
+                raise SceneError(Status.INCONSISTENT, AGAINST)
             checks = [compiled.record.nodes[k] for k in compiled.motion.checks] if compiled.motion else []
             off = exact.values(checks, given)
         except Unreached:

@@ -20,14 +20,13 @@ from icsolve.sweep.branches import (
     Followed,
     follow,
     grid_of,
-    live_roots,
     may_vanish,
     signs_of,
 )
 from icsolve.sweep.continuation import InputLine, State, written_state
 from icsolve.sweep.numbers import numbers_of
 from icsolve.sweep.path_tracking import Mask
-from icsolve.sweep.program import CompiledSweep, Signs
+from icsolve.sweep.program import CompiledSweep, Signs, live_roots
 from icsolve.sweep.request import Columns
 from icsolve.sweep.runner import Rows, Runner
 from icsolve.sweep.start import Start

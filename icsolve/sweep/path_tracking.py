@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from decimal import Decimal, localcontext
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +26,7 @@ from icsolve.sweep.continuation import (
     goes_on,
     segment_of,
 )
+from icsolve.sweep.exact import CONTEXT, Unreached, as_written
 from icsolve.sweep.program import CompiledSweep
 
 FIRST = 2.0**-5
@@ -75,8 +77,8 @@ class PathTracker:
         self.breaks: list[tuple[float, float]] = []
         """steps in which a group goes through a singular position and on"""
         self.senses: dict[float, Array] = {}
-        self.last: tuple[Array, dict[int, Array], Mask] | None = None
-        """the places that were asked for last, and what was given of them"""
+        self.last: tuple[Array, dict[int, Array], Mask, Mask] | None = None
+        """the places that were asked for last, what was given of them, and where doubles settled it"""
         self.reach = reach
         self.ends = (-math.inf, math.inf)
         """how far groups were followed to both sides, where that ended"""
@@ -94,22 +96,45 @@ class PathTracker:
         Returns
         -------
         tuple[dict[int, Array], Mask]
-            By node (inputs, signs, states of groups, counted turns), (places,) each; and at which places the
-            groups have a solution, (places,). Beyond a limit they have none.
+            By node (inputs, signs, states of groups, counted turns), (places,) each; and to which places the
+            groups were followed, (places,). Beyond a limit they were to none.
         """
+        return self._at(s)[1:3]
+
+    def unsettled(self, s: Array) -> Mask:
+        """To which places, (places,), the groups were followed without that doubles solve them there."""
+        _, _, good, settled = self._at(s)
+        return good & ~settled
+
+    def _at(self, s: Array) -> tuple[Array, dict[int, Array], Mask, Mask]:
         if not (self.last is not None and np.array_equal(self.last[0], s)):
             self.last = (s, *self._given(s))
-        return self.last[1], self.last[2]
+        return self.last
 
-    def _given(self, s: Array) -> tuple[dict[int, Array], Mask]:
+    def exactly(self, s: Decimal) -> dict[int, Decimal]:
+        """All inputs by node at a place of the line, those of the line itself in all digits.
+
+        Raises Unreached where the groups have no solution.
+        """
+        floats, good = self.given(np.array([float(s)]))
+        if not good.all():
+            raise Unreached
+        line, inputs = self.line, self.compiled.inputs
+        given = {k: Decimal(float(np.ravel(v)[0])) for k, v in floats.items()}
+        with localcontext(CONTEXT):
+            for name, base in line.base.items():
+                if name in inputs:
+                    given[inputs[name]] = as_written(base) + as_written(line.slope.get(name, 0.0)) * s
+        return given
+
+    def _given(self, s: Array) -> tuple[dict[int, Array], Mask, Mask]:
         given, good = self._plain(s), np.ones(len(s), dtype=bool)
-        if self.groups or self.counted:
-            q, turns, good = self._interpolated(s)
-            solved, _, right = self._solved(given, q, turns)
-            solved = np.where(right[:, None], solved, q)
-            good &= right | self.singular(s) | self.ending(s)
-            given = {**given, **self._state(solved, turns)}
-        return given, good
+        if not (self.groups or self.counted):
+            return given, good, good
+        q, turns, good = self._interpolated(s)
+        solved, _, right = self._solved(given, q, turns)
+        solved = np.where(right[:, None], solved, q)
+        return {**given, **self._state(solved, turns)}, good, right
 
     def singular(self, s: Array) -> Mask:
         """Which places, (places,), lie in a step through a singular position."""

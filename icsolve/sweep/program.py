@@ -10,19 +10,19 @@ from collections.abc import Collection, Sequence
 from contextlib import suppress
 
 from icsolve.assembly import Figure, Placement, place, placed_figure
-from icsolve.assembly.conditions import refuse_misfit, teeth_margins
+from icsolve.assembly.conditions import ahead, refuse_misfit, teeth_margins
 from icsolve.assembly.driven.constraints import Constraint, Turning
 from icsolve.assembly.driven.mechanism import Mechanism, mechanism
 from icsolve.assembly.driven.motion import DrivenMotion, order_of, set_moving
-from icsolve.assembly.steps import Meet, Polar
-from icsolve.assembly.workspace import PlacedCase, data_in, names_of, number_of
+from icsolve.assembly.steps import Meet, Polar, spare_data
+from icsolve.assembly.workspace import CORNER, RAY, PlacedCase, data_in, names_of, number_of
 from icsolve.case import Case, Pair, TorsionSpring, is_angle
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import by_loops
 from icsolve.kinematics.speeds import speed_of
 from icsolve.numbers.adjoint import BoundedRecord
 from icsolve.numbers.arithmetic import FLOATS, Scalar
-from icsolve.numbers.record import Record, varies
+from icsolve.numbers.record import Record, Root, Traced, live, varies
 from icsolve.scene import refusals
 from icsolve.screws.plane import Point
 from icsolve.statics.load_wrenches import points_of, spring_angle
@@ -124,8 +124,10 @@ class CompiledSweep(NamedTuple):
     margins: tuple[int, ...] = ()
     """of the figure as written, where it is another in each row: none may be negative"""
     fits: tuple[int, ...] = ()
-    """of the teeth of a pitch that vary, or whose pivots do, and of given motions: where one is negative they
-    may not fit"""
+    """of the teeth of a pitch that vary, or whose pivots do, of angles that repeat other data, and of given
+    motions: where one is negative they may not fit"""
+    senses: tuple[int, ...] = ()
+    """those of angles: where one is negative its arm points the other way"""
     delicate: bool = False
     """whether the mechanism moves only because its data are exact, or nearly so"""
     idle: bool = False
@@ -138,6 +140,28 @@ class CompiledSweep(NamedTuple):
     """whether the powers of the known loads all but cancel where the record is made"""
     spent: tuple[int, ...] = ()
     """what was taken as zero in answers and rates, though doubles do not show it"""
+
+
+def live_roots(compiled: CompiledSweep) -> list[Root]:
+    """The branches that bear on what is asked, in order."""
+    record = compiled.record
+    stack = [
+        v.index for values in compiled.outputs.values() for v in values if isinstance(v, Traced) and v.row
+    ]
+    key = ("live roots", tuple(stack))
+    if key not in record.kept:
+        record.kept[key] = _live_roots(record, stack)
+    found: list[Root] = record.kept[key]
+    return found
+
+
+def _live_roots(record: Record, stack: list[int]) -> list[Root]:
+    alive: set[int] = set()
+    while stack:
+        alive.update(live(record.nodes, stack))
+        parts = [v for group in record.implicit if alive.intersection(group.solved) for v in group.parts]
+        stack = [v.index for v in parts if isinstance(v, Traced) and v.row and v.index not in alive]
+    return [record.roots[k] for k in sorted(alive) if k in record.roots]
 
 
 def setting_of(case: Case, paths: Sequence[str], links: Sequence[str], *, posing: bool = False) -> Setting:
@@ -272,6 +296,7 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
     inputs: dict[str, int] = {}
     margins: tuple[int, ...] = ()
     fits: tuple[int, ...] = ()
+    senses: tuple[int, ...] = ()
     motion: DrivenMotion | None = None
     if setting.first and setting.drive.order is not None:
         motion = _motion(setting, setting.first.pop(), nudge, inputs, signs)
@@ -285,7 +310,9 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
         if inputs:
             lines = refusals.direction_margins(refusals.directions_of_joints(case), names)
             teeth = teeth_margins(case, names, frame.scale, record)
-            fits = tuple(m.index for m in (*teeth, *lines) if varies(m))
+            angles = [d for d in spare_data(setting.figure, case) if d.kind in (RAY, CORNER)]
+            senses = tuple(m.index for m in (ahead(placed.workspace, d) for d in angles) if varies(m))
+            fits = (*(m.index for m in (*teeth, *lines) if varies(m)), *senses)
         if setting.moves:
             motion = _motion(setting, mechanism(case, frame, record, names), nudge, inputs, signs)
         else:
@@ -305,6 +332,7 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
         None,
         margins,
         fits,
+        senses,
         rests=bool(asked.contacts),
         cancels=found is not None and found.cancels,
         spent=found.spent if found is not None else (),

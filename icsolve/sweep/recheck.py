@@ -16,10 +16,8 @@ import numpy.typing as npt
 
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.record import Root
 from icsolve.numbers.replay import Array
-from icsolve.numbers.roots import STEP
-from icsolve.sweep.exact import APART, CONTEXT, ZERO, RowScenes, Unreached, as_written
+from icsolve.sweep.exact import APART, CONTEXT, ZERO, RowScenes, Unreached, as_written, lowest
 from icsolve.sweep.parts import SweepPart, SweepParts
 
 CLEAR = 2.0**-12
@@ -68,7 +66,7 @@ class Recheck:
             **{k: Decimal(float(np.ravel(v)[0])) for k, v in floats.items()},
             **varied,
             **self._signs(as_written(arrays[main][row])),
-            **self._states(row, float(arrays[main][row])),
+            **self._states(float(arrays[main][row])),
         }
 
     def refuse_apart(self, row: int) -> None:
@@ -102,10 +100,10 @@ class Recheck:
             return {**given, inputs[name]: s}
         (main,) = self.tracker.line.slope
         place = s if main == name else as_written(arrays[main][row])
-        along = self._along(place, row) | self._signs(place) | self._near_states(row, place)
+        along = self.tracker.exactly(place) | self._signs(place) | self._near_states(place)
         return {**along, inputs[name]: s}
 
-    def _near_states(self, row: int, s: Decimal) -> dict[int, Decimal]:
+    def _near_states(self, s: Decimal) -> dict[int, Decimal]:
         """States of groups from those that were solved last, where that was near."""
         assert self.tracker is not None
         if not self.tracker.groups:
@@ -114,10 +112,10 @@ class Recheck:
             return self.solved[1]
         if s in self.unreached:
             raise Unreached
-        guess = self._states(row, float(s))
+        guess = self._states(float(s))
         columns = [k for group, _ in self.tracker.groups for k in group.equations.solved]
         try:
-            states = self.scenes.exact.states(self._along(s, row) | guess, columns)
+            states = self.scenes.exact.states(self.tracker.exactly(s) | guess, columns)
         except Unreached:
             self.unreached.add(s)
             raise
@@ -162,7 +160,7 @@ class Recheck:
 
     # --- groups -----------------------------------------------------------------------------------
 
-    def _states(self, row: int, s: float) -> dict[int, Decimal]:
+    def _states(self, s: float) -> dict[int, Decimal]:
         """The states of groups near a singular position, by the polynomial through states around it: the line
         goes straight on there, where Newton's method alone might take the other one."""
         tracker = self.tracker
@@ -175,7 +173,7 @@ class Recheck:
         if not tracker.unbroken(float(places[0]), float(places[-1])):
             return {}  # a limit lies between: beyond it they are states of another way
         try:
-            states = [self.scenes.exact.states(self._along(place, row), columns) for place in places]
+            states = [self.scenes.exact.states(tracker.exactly(place), columns) for place in places]
         except Unreached:
             return {}
         with localcontext(CONTEXT):
@@ -211,44 +209,13 @@ class Recheck:
     def _place(self, name: str, near: float) -> Decimal:
         """Where exactly a branch changes: its radicand is lowest there."""
         if (name, near) not in self.change_points:
+            assert self.tracker is not None
             motion = self.compiled.motion
             root = next(r for r in self.scenes.roots if motion and motion.branches[r.node] == name)
-            self.change_points[name, near] = self._lowest(root, near)
+            self.change_points[name, near] = lowest(
+                self.scenes.exact, root.radicand, self.tracker.exactly, near
+            )
         return self.change_points[name, near]
-
-    def _lowest(self, root: Root, near: float) -> Decimal:
-        at, radicand = as_written(near), self.compiled.record.nodes[root.radicand]
-        with localcontext(CONTEXT):
-            for _ in range(12):
-                try:
-                    around = [self._along(at + k * STEP) for k in (-1, 0, 1)]
-                    low, here, high = (self.scenes.exact.values([radicand], given)[0] for given in around)
-                except Unreached:
-                    return as_written(near)
-                bend = (high - 2 * here + low) / STEP
-                if not bend > 0:
-                    return at
-                move = (low - high) / (2 * bend)
-                if abs(move) > Decimal("1e-3"):
-                    return as_written(near)
-                if abs(move) < STEP:
-                    break
-                at += move
-        return at
-
-    def _along(self, s: Decimal, row: int | None = None) -> dict[int, Decimal]:
-        """All inputs at a place of the line, with the other numbers of a row (the first one)."""
-        assert self.tracker is not None
-        row, arrays, line = self.part.rows[0] if row is None else row, self.parts.arrays, self.tracker.line
-        floats, good = self.tracker.given(np.array([float(s)]))
-        if not good.all():
-            raise Unreached
-        given: dict[int, Decimal] = {k: Decimal(float(np.ravel(v)[0])) for k, v in floats.items()}
-        given |= {k: as_written(arrays[n][row]) for n, k in self.compiled.inputs.items() if n in arrays}
-        (main,) = line.slope
-        if main in self.compiled.inputs:
-            given[self.compiled.inputs[main]] = s
-        return given
 
 
 def _rounded(value: Decimal, usual: float) -> float:

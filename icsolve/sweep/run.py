@@ -216,10 +216,13 @@ class SweepRun:
 
 
 def _with_singular(part: SweepPart, found: RowsFound) -> RowsFound:
-    """Rows beside a singular position of a group, or beside its end, are doubtful, too."""
+    """Rows beside a singular position of a group or beside its end, and those that doubles do not settle, are
+    doubtful, too."""
     if part.followed is None:
         return found
     tracker = part.followed.tracker
     at = part.places
-    singular = np.flatnonzero(tracker.singular(at) | tracker.bent(at) | tracker.ending(at))
+    singular = np.flatnonzero(
+        tracker.singular(at) | tracker.bent(at) | tracker.ending(at) | tracker.unsettled(at)
+    )
     return found._replace(doubtful=np.union1d(found.doubtful, singular)) if singular.size else found

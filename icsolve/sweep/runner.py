@@ -17,10 +17,9 @@ from icsolve.numbers.adjoint import noise_of
 from icsolve.numbers.backward import Backward
 from icsolve.numbers.record import Op, Record, Root, Traced, live, terms_of, varies
 from icsolve.numbers.replay import BLOCK, Array, Code
-from icsolve.sweep.branches import live_roots
 from icsolve.sweep.exact import RowScenes
 from icsolve.sweep.friction_rows import FrictionRows
-from icsolve.sweep.program import CompiledSweep
+from icsolve.sweep.program import CompiledSweep, live_roots
 from icsolve.tuples import NamedTuple, cached_property
 
 SHALLOW = 1e-9

@@ -9,8 +9,8 @@ import numpy as np
 
 from icsolve.assembly import place
 from icsolve.assembly.conditions import residual
-from icsolve.assembly.steps import Meet, PointGroup
-from icsolve.assembly.workspace import Workspace, data_in, data_of
+from icsolve.assembly.steps import Meet, PointGroup, spare_data
+from icsolve.assembly.workspace import Workspace
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
@@ -69,8 +69,7 @@ NUDGED = 1e-3
 def _contradicts(setting: Setting, path: str) -> bool:
     """Whether a number, changed, contradicts data that the construction of the figure does not need."""
     figure, case = setting.figure, setting.case
-    used = {datum for step in figure.steps for datum in data_in(step)}
-    spare = [d for d in data_of(case) if d not in used and figure.points.keys() >= {*d.points}]
+    spare = spare_data(figure, case)
     if not spare:
         return False
     value = numbers_of(case)[path].value

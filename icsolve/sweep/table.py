@@ -200,6 +200,12 @@ class Table:
         self._table(self.values, (kind, name), shape)[row] = value
         self._table(self.errors, (kind, name), shape)[row] = np.nan if error is None else error
 
+    def leave_open(self, kind: str, name: str, row: int) -> None:
+        """No value: what the record has of it, as of every other row, this row does not have."""
+        for tables in (self.values, self.errors):
+            if (kind, name) in tables:
+                tables[kind, name][row] = np.nan
+
     def _table(self, tables: dict[Key, Array], key: Key, shape: tuple[int, ...]) -> Array:
         """The array of a kind and name; not a number where nothing was put."""
         if key not in tables:
@@ -246,6 +252,7 @@ class Table:
                 self.holds.setdefault(name, np.full((self.rows, 2), np.nan))[row] = found.holds
         if missing and not self.lacks(row):
             return
+        centres = not missing or self.lacks(row, "centres")
         for one in answer.touching:
             angle = np.nan if one.pressure_angle is None else one.pressure_angle
             self.put("touching", "-".join(one.links), row, (*one.at, angle, float(one.lost)))
@@ -260,31 +267,41 @@ class Table:
         for term in answer.terms if asked.terms and 1 in (answer.mobility, len(answer.answers)) else ():
             if term.load in loads:
                 self.put("terms", term.load, row, term.factor)
-        for pair in asked.centres if not missing or self.lacks(row, "centres") else ():
+        for pair in asked.centres if centres else ():
             triple = _triple(answer, pair)
+            name = "-".join(sorted(pair, key=lambda link: link_order(case, link)))
             if triple is not None:
-                first, second = sorted(pair, key=lambda link: link_order(case, link))
-                self.put("centres", f"{first}-{second}", row, triple, _centre_error(answer, pair))
+                self.put("centres", name, row, triple, _centre_error(answer, pair))
+            else:
+                self.leave_open("centres", name, row)
 
     def _fill_motion(self, row: int, answer: Answer) -> None:
-        """Rates, velocities and accelerations, where they are asked and not open."""
+        """Rates, velocities and accelerations, where they are asked; of those that are open none."""
         asked, errors = self.asked, answer.errors.get("rates", {})
         for link, rate in (answer.rates or {}).items() if asked.rates else ():
             if isinstance(rate, float):
                 self.put("rates", link, row, rate, errors.get(link, 0.0 if rate == 0.0 else None))
+            else:
+                self.leave_open("rates", link, row)
         for link, rate in (answer.angular_accelerations or {}).items() if asked.accelerations else ():
-            if not isinstance(rate, str):
+            if isinstance(rate, float):
                 self.put("angular_accelerations", link, row, rate)
+            else:
+                self.leave_open("angular_accelerations", link, row)
         for kind in (kind for kind in VECTORS if getattr(asked, kind)):
             for (point, on), vector in (getattr(answer, kind) or {}).items():
-                if not isinstance(vector, str) and is_named(point):
+                if isinstance(vector, str):
+                    self.leave_open(kind, f"{point} on {on}", row)
+                elif is_named(point):
                     self.put(kind, f"{point} on {on}", row, vector)
 
     def lacks(self, row: int, *kinds: str) -> bool:
         """Whether a row lacks a number of what moves in it (or of some kinds of these), as where what scales
-        the others stands still, or where the record divides by what is zero there."""
-        some = [array for (kind, _), array in self.values.items() if kind in (kinds or ("rates", "centres"))]
-        return any(np.isnan(array[row]).any() for array in some)
+        the others stands still, or where the record divides by what is zero there; or a centre, where it has
+        lines that coincide meet."""
+        kinds = kinds or ("rates", "centres")
+        some = [(kind, array[row]) for (kind, _), array in self.values.items() if kind in kinds]
+        return any(np.isnan(at).any() or (kind == "centres" and not at.any()) for kind, at in some)
 
     def sweep(
         self,

@@ -5,6 +5,7 @@ const NOISE = 2e-14;
 const EVEN = 0.99;
 const SIDEWAYS = 0.05;
 const TOO_CLOSE = 1e-12;
+const NEAR = 1e-6;
 const SAME = 1e-11;
 class Refusal {
   constructor(status, words = "", amount = Infinity) { Object.assign(this, { status, words, amount }); }
@@ -262,9 +263,14 @@ function figureOf(program, told, x) {
     }
     const [one, two] = [[p[0] - o[0], p[1] - o[1]], [v[0] - o[0], v[1] - o[1]]];
     const arms = [Math.hypot(...one), Math.hypot(...two)];
+    if (arms.some((arm, n) => arm <= NEAR && isLength(names[2 * n], names[1]))) return [0, true];
     if (Math.min(...arms) <= TOO_CLOSE) return [Math.max(...arms), false];
     const [tx, ty] = [c * one[0] - t * one[1], t * one[0] + c * one[1]];
     return [(tx * two[1] - ty * two[0]) / Math.min(...arms), tx * two[0] + ty * two[1] > 0];
+  }
+  /* Whether the distance of two points is a datum: of an arm that is so short doubles tell no direction. */
+  function isLength(a, b) {
+    return told.checks.some(([kind, names]) => kind === "length" && names.includes(a) && names.includes(b));
   }
   /* What half a unit of the last decimal of each number does to a residual, added up. */
   function allowance(kind, names, place, off) {

@@ -151,7 +151,8 @@ def at_rest(scene: FrictionScene) -> tuple[StaticRange, float | None, str]:
     else:
         ties, workless, senses = ties_of(scene.position), _is_workless(scene), rates.senses.rubs
         statics = _statics(scene, ties, _flanks(scene, ties, workless))
-        found = pressed(statics, senses) if workless else static_range(statics, senses, scene.alone)
+        driven = scene.solution.verdict == "no value"
+        found = pressed(statics, senses, driven) if workless else static_range(statics, senses, scene.alone)
         proven = [_proven_end(scene, statics, end) for end in found.ends]
     bounds = [bound for each in proven for bound in each.bounds.values()]
     why = next((each.why for each in proven if each.why), "" if bounds else UNENDING)

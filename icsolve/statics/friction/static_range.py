@@ -299,8 +299,9 @@ def _is_proven(statics: Statics, senses: Sequence[float]) -> bool:
 SAID = "the unknown load does no work; between the ends friction was compared with the known loads"
 
 
-def pressed(statics: Statics, senses: Sequence[float]) -> StaticRange:
-    """The range of an unknown load that does no work; ``senses`` are those of the rubs in the motion.
+def pressed(statics: Statics, senses: Sequence[float], driven: bool) -> StaticRange:
+    """The range of an unknown load that does no work; ``senses`` are those of the rubs in the motion, and
+    ``driven`` tells whether the known loads do work.
 
     Raises SceneError where nothing drives the mechanism (any value holds) and where none holds it.
     """
@@ -308,7 +309,7 @@ def pressed(statics: Statics, senses: Sequence[float]) -> StaticRange:
     (left,) = statics.general.left
     powers = [left.get(statics.rub(k), 0.0) for k in range(len(senses))]
     drive = left.get(statics.known, 0.0)
-    if abs(drive) <= 1e-12 * largest_of((*left.values(), drive)):
+    if not (driven and drive):
         raise SceneError(
             Status.ANY_VALUE, f"any value of {name} holds: it does no work, and nothing drives the mechanism."
         )
