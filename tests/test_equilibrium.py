@@ -810,13 +810,13 @@ lengths: {AB: {unknown: [300, 3000]}}
 joints: [{pin: [1, 2], at: A}, {slide: [3, 2], at: B, along: [A, B]}]
 loads:
   K: {spring: 40 N/m, free: 700 mm, link: 3, at: B, to: A}
-  S: {spring: 25 N/m, free: 300 mm, link: 3, at: B, to: U}
-  W: {weight: 12, link: 3, at: B}
+  S: {spring: 25 N/m, free: 900 mm, link: 3, at: B, to: U}
+  W: {weight: 40, link: 3, at: B}
 """
 
     def potential(u: Any, r: Any) -> Any:
         x, y = r * np.cos(u), r * np.sin(u)
-        return stretched(40.0, 0.7, r, 0.0) + stretched(25.0, 0.3, x - 0.9, y - 0.4) + 12.0 * y
+        return stretched(40.0, 0.7, r, 0.0) + stretched(25.0, 0.9, x - 0.9, y - 0.4) + 40.0 * y
 
     return text, potential, [(math.radians(-80.0), math.radians(200.0)), (0.3, 3.0)], (180.0 / math.pi, 1e3)
 
