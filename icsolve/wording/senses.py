@@ -140,14 +140,18 @@ def turned_at_most(theirs: float, ours: float, published: str) -> bool:
     return abs(math.remainder(theirs - ours, 360.0)) <= room + 1e-9
 
 
-def bearing(sense: str, load: Load | None, places: Places) -> float | None:
-    """Direction of a sense in degrees ccw from +x; None where the words alone do not give one."""
+def bearing(
+    sense: str, load: Load | None, places: Places, start: tuple[float, float] | None = None
+) -> float | None:
+    """Direction of a sense in degrees ccw from +x; None where the words alone do not give one. The sense is
+    that of a load, or of what acts or moves at ``start``.
+    """
     lead, _, rest = sense.partition(" ")
     if sense in _WORDS:
         return _WORDS[sense]
     if lead == "at":
         return _degrees(rest)
-    start = places.get(getattr(load, "at", ""))
+    start = start or places.get(getattr(load, "at", ""))
     if lead == "toward":
         return _from(start, places.get(rest))
     if lead in {"pull", "push"}:
