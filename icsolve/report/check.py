@@ -29,7 +29,14 @@ from icsolve.report.published import force_of, found_value, place_of
 from icsolve.scene.parts import scene_of, sense_with
 from icsolve.statics.load_wrenches import number_taken, vector_size
 from icsolve.tuples import NamedTuple
-from icsolve.wording.senses import bearing, direction_words, holding, same_way, turned_at_most
+from icsolve.wording.senses import (
+    bearing,
+    direction_words,
+    holding,
+    same_way,
+    same_way_in_space,
+    turned_at_most,
+)
 
 AGREES = "agrees"
 DISAGREES = "disagrees"
@@ -258,7 +265,11 @@ def _load(answer: Answer, name: str, sense: str | None) -> float:
         own = _given_direction(answer, name, value)
     if not own:
         return value
-    return abs(value) if same_way(sense, own, load, answer.points) else -abs(value)
+    if answer.spatial is not None:
+        same = same_way_in_space(sense, own, load, answer.spatial.points)
+    else:
+        same = same_way(sense, own, load, answer.points)
+    return abs(value) if same else -abs(value)
 
 
 def _given_sense(answer: Answer, name: str, value: float) -> str:
