@@ -165,6 +165,10 @@ def varies(value: Scalar) -> bool:
     return isinstance(value, Traced) and value.row
 
 
+HALF_TURN = 1e-13
+"""Of a turn: of two numbers of whole turns that are equally near to a guess the lower is taken."""
+
+
 class Record:
     """The nodes in order; an `icsolve.numbers.arithmetic.Arithmetic` whose numbers are `Traced` or floats."""
 
@@ -296,7 +300,7 @@ class Record:
         written anew."""
         angle = self.angle(x, y)
         if not self.follows and any(isinstance(v, Traced) and v.row for v in (angle, about)):
-            return angle + 360.0 * self.nearest((about - angle) / 360.0)
+            return angle + 360.0 * self.nearest((about - angle) / 360.0 - HALF_TURN)
         if not (isinstance(angle, Traced) and angle.row):
             return angle
         if angle.index not in self.counted:
