@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Container, Iterable, Sequence
 from typing import Any
 
-from icsolve.numbers.arithmetic import DEGREE, ROUNDING_NOISE, Scalar, turn_of
+from icsolve.numbers.arithmetic import DEGREE, HALF_TURN, ROUNDING_NOISE, Scalar, turn_of
 from icsolve.numbers.tape import UNIT, decimal_noise
 from icsolve.numbers.units import ExactRatio, Number, nearest
 from icsolve.tuples import NamedTuple
@@ -165,10 +165,6 @@ def varies(value: Scalar) -> bool:
     return isinstance(value, Traced) and value.row
 
 
-HALF_TURN = 1e-13
-"""Of a turn: of two numbers of whole turns that are equally near to a guess the lower is taken."""
-
-
 class Record:
     """The nodes in order; an `icsolve.numbers.arithmetic.Arithmetic` whose numbers are `Traced` or floats."""
 
@@ -299,7 +295,7 @@ class Record:
         becomes an input of the record (one of ``counted``); those nearest to ``about`` where each row is
         written anew."""
         angle = self.angle(x, y)
-        if not self.follows and any(isinstance(v, Traced) and v.row for v in (angle, about)):
+        if not self.follows:
             return angle + 360.0 * self.nearest((about - angle) / 360.0 - HALF_TURN)
         if not (isinstance(angle, Traced) and angle.row):
             return angle

@@ -34,8 +34,8 @@ from icsolve.kinematics.accelerations import Moving, drives_of, moving, rate_row
 from icsolve.kinematics.motion import TURN
 from icsolve.kinematics.speeds import joint_order
 from icsolve.kinematics.twists import ORIGIN, Bases, Tree, loop_rows, rope_row, span
-from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.record import HALF_TURN, Record, Traced
+from icsolve.numbers.arithmetic import HALF_TURN, Scalar
+from icsolve.numbers.record import Record, Traced
 from icsolve.numbers.source import JAVASCRIPT, JAVASCRIPT_FUNCTIONS, straight_line
 from icsolve.numbers.units import BOUNDS
 from icsolve.page.fields import handles_of, text_data, units_to_write
@@ -131,6 +131,7 @@ class _CountingRecord(Record):
 
     def __init__(self) -> None:
         super().__init__()
+        self.follows = False
         self.springs: dict[tuple[int, int], tuple[Traced, Scalar, Traced]] = {}
         """by the nodes of an angle and what it is counted about: the angle with its turns, the latter, the
         input"""

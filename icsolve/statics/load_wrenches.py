@@ -28,7 +28,7 @@ from icsolve.case import (
     Toward,
     Weight,
 )
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, all_vanish, magnitude
+from icsolve.numbers.arithmetic import FLOATS, HALF_TURN, Arithmetic, Scalar, all_vanish, magnitude
 from icsolve.screws.plane import Point, Triple, force_wrench, unit_between
 from icsolve.tuples import Generic, LateModule, NamedTuple
 
@@ -285,10 +285,13 @@ def spring_angle(load: TorsionSpring, points: Points, arithmetic: Arithmetic) ->
     In a motion it goes on from there, with whole turns.
     """
     x, y = corner_vector(load, points)
-    counted = getattr(arithmetic, "turns", None)
-    angle = counted(x, y, arithmetic.given(load.free)) if callable(counted) else arithmetic.angle(x, y)
-    about = load.free.value if load.about is None else load.about
-    whole = math.ceil((about - float(angle) - 180.0) / 360.0)
+    counted, about = getattr(arithmetic, "turns", None), load.free.value if load.about is None else load.about
+    angle = arithmetic.angle(x, y)
+    if callable(counted):
+        angle = counted(x, y, arithmetic.given(load.free) if load.about is None else about)
+        if not getattr(arithmetic, "follows", True):  # in every row within half a turn
+            return angle
+    whole = math.ceil((about - float(angle) - 180.0) / 360.0 - HALF_TURN)
     return angle + 360.0 * whole if whole else angle
 
 
