@@ -847,6 +847,40 @@ def test_of_two_unknown_data_all_positions_are_where_the_potential_is_level(made
         assert one.stability == ("stable" if least > 1e-3 * most else "unstable")
 
 
+@pytest.mark.parametrize("seed", range(12 if FULL else 4))
+def test_of_two_unknown_data_torsion_springs_count_their_turns(seed: int) -> None:
+    """At the frame and between two bars: free - angle lies in (-180, 180] in the middle of both ranges, and
+    goes on from there."""
+    draw = random.Random(seed)
+    first, second = draw.randint(-300, 0), draw.randint(-300, 0)
+    ends = [(first, first + draw.randint(200, 359)), (second, second + draw.randint(200, 359))]
+    free, other = draw.randint(-400, 400), draw.randint(-400, 400)
+    u, v = (0.5 * (a + b) for a, b in ends)
+    wound = free - 360 * math.ceil((free - u - 180) / 360)
+    bent_to = other - 360 * math.ceil((other - (v - u - 180) - 180) / 360)
+
+    def potential(a: Any, b: Any) -> Any:
+        at_frame, between = np.degrees(a) - wound, np.degrees(b - a) - 180.0 - bent_to
+        turned = 2.0 * np.radians(at_frame) ** 2 + 1.5 * np.radians(between) ** 2
+        return 0.5 * turned + 13.0 * np.sin(a) + 4.0 * np.sin(b)
+
+    text = f"""icsolve: 1
+points: {{A: [0, 0]}}
+angles: {{AB: {{unknown: {list(ends[0])}}}, BC: {{unknown: {list(ends[1])}}}}}
+lengths: {{AB: 1, BC: 0.5}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}]
+loads:
+  K: {{spring: 2 N*m/rad, corner: AB, free: {free}, link: 2}}
+  L: {{spring: 1.5 N*m/rad, corner: ABC, free: {other}, link: 3, against: 2}}
+  W: {{weight: 5, link: 2, at: B}}
+  V: {{weight: 8, link: 3, at: C}}
+"""
+    wanted = rests_of(potential, [tuple(map(math.radians, pair)) for pair in ends])  # type: ignore[misc]
+    assert wanted
+    found = [tuple(math.radians(one.at[p]) for p in ("angles.AB", "angles.BC")) for one in positions(text)]
+    assert sorted(found) == [pytest.approx(place, abs=2e-5) for place in wanted]
+
+
 def test_two_data_of_which_one_is_left_to_itself_balance_along_lines() -> None:
     """A bar without a load hangs on one with a weight: any direction of it will do, and that is said."""
     text = """icsolve: 1

@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from decimal import Decimal, localcontext
 
 import numpy as np
+import numpy.typing as npt
 
 from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
 from icsolve.assembly.modes import ways_of
@@ -44,7 +45,7 @@ from icsolve.solve.rest import with_scene
 from icsolve.solve.settled import CLOSED, NEAR, rounded, scene_in, within_a_turn
 from icsolve.statics import load_wrenches, power
 from icsolve.sweep.exact import CONTEXT, VANISHED, as_written, decimal_ratio, exact_record
-from icsolve.sweep.program import CompiledSweep, setting_of
+from icsolve.sweep.program import CompiledSweep, setting_of, spring_angles
 from icsolve.sweep.recorded_scene import motions_of
 from icsolve.tuples import NamedTuple, replace
 
@@ -52,6 +53,8 @@ GRID = 48
 FINE = 257
 BLOCK = 4096
 STEPS = 40
+TURNING = 97
+"""Values of each datum at which turns of torsion springs are counted."""
 BESIDE = 0.371
 VALLEYS = 12
 """So many of the places of a grid that are nearer to `near` than all beside them are closed in on,"""
@@ -92,6 +95,11 @@ class Zero(NamedTuple):
     lies_flat: bool
 
 
+Mask = npt.NDArray[np.bool_]
+Turns = tuple[tuple[Array, Array], dict[int, Array]]
+"""Two axes, and by the node of a guess how far an angle has turned on their grid [degrees]."""
+
+
 class Surface(NamedTuple):
     """One mode on a record with two inputs: nodes of the generalised loads of both data (2) [record's power
     a unit of the datum], of their derivatives by the data (2, 2), of the margins, and of the points."""
@@ -105,6 +113,18 @@ class Surface(NamedTuple):
     force_scale: float
     links: list[str]
     """those that turn"""
+    springs: dict[str, int]
+    """the angles that torsion springs follow, by load"""
+    turns: Turns
+
+    def given(self, x: Array, y: Array) -> dict[int, Array]:
+        """All inputs of the record at places (n,) by node [case units, degrees]."""
+        axes, counted = self.turns
+        i, j = (
+            np.clip(np.rint((v - axis[0]) / (axis[1] - axis[0])), 0, TURNING - 1).astype(int)
+            for v, axis in zip((x, y), axes, strict=True)
+        )
+        return {**dict(zip(self.inputs, (x, y), strict=True)), **{k: t[i, j] for k, t in counted.items()}}
 
 
 class FoundPairs(NamedTuple):
@@ -180,7 +200,7 @@ def _surfaces(
     if starts:
         written = _at(case, paths, starts)
         ways = [replace(written, near=way.near) for way in ways_of(written).ways]
-        return [_surface(moved(setting_of(way, paths, (), posing=True)), paths) for way in ways]
+        return [_surface(moved(setting_of(way, paths, (), posing=True)), paths, limits) for way in ways]
     refuse_ropes(case, " and ".join(paths))
     order = order_of_all(_at(case, paths, [a + part * (b - a) for a, b in limits]) for part in (0.37, *PARTS))
     refuse_together(order)
@@ -196,7 +216,7 @@ def _surfaces(
                 continue
             figure = figure_in(written, order, steps)
             try:
-                surfaces.append(_surface(read_anew(written, paths, figure, order), paths))
+                surfaces.append(_surface(read_anew(written, paths, figure, order), paths, limits))
             except (SceneError, ZeroDivisionError, ValueError) as error:
                 refusal = error if isinstance(error, SceneError) else refusal
                 if refusal is not None and refusal.status in (Status.MOBILITY, Status.UNSUPPORTED):
@@ -215,7 +235,7 @@ def _at(case: Case, paths: Sequence[str], values: Sequence[float]) -> Case:
     return case
 
 
-def _surface(mode: RecordedMode, paths: Sequence[str]) -> Surface:
+def _surface(mode: RecordedMode, paths: Sequence[str], limits: Sequence[Span]) -> Surface:
     compiled = mode.compiled
     case, record, scene = compiled.scene.case, compiled.record, compiled.scene
     motions = motions_of(scene)
@@ -227,6 +247,7 @@ def _surface(mode: RecordedMode, paths: Sequence[str]) -> Surface:
             + ("give one of them a number." if motions.mobility < 2 else "write 'unknown' for more data."),
         )
     inputs = (compiled.inputs[paths[0]], compiled.inputs[paths[1]])
+    record.follows = True  # also where each position is read anew: turns count from one of them
     balance = power.balance(load_wrenches.wrenches(scene.place, vectors=True), motions.twists, 2)
     totals = (power.known_power(balance, 0, record), power.known_power(balance, 1, record))
     changes = []
@@ -244,7 +265,58 @@ def _surface(mode: RecordedMode, paths: Sequence[str]) -> Surface:
     nodes, by_data = ([record.lifted(v).index for v in some] for some in (loads, slopes))
     links = [link for link, ts in motions.twists.items() if any(float(t[2]) for t in ts)]
     scale = power.force_scale(balance)
-    return Surface(compiled, inputs, nodes, by_data, mode.margins, places_on(compiled), scale, links)
+    springs = {name: record.lifted(angle).index for name, angle in spring_angles(scene).items()}
+    turns = _turns(compiled, inputs, mode.margins, limits)
+    places = places_on(compiled)
+    return Surface(compiled, inputs, nodes, by_data, mode.margins, places, scale, links, springs, turns)
+
+
+def _turns(
+    compiled: CompiledSweep, inputs: tuple[int, int], margins: Sequence[int], limits: Sequence[Span]
+) -> Turns:
+    """How far the angles of torsion springs have turned from where the record was made, from each place of a
+    grid to those beside it; first through places in which the mode assembles, and then on through all."""
+    record = compiled.record
+    axes = (np.linspace(*limits[0], TURNING), np.linspace(*limits[1], TURNING))
+    found: dict[int, Array] = {}
+    if not record.counted:
+        return axes, found
+    x, y = (axis.ravel() for axis in np.meshgrid(*axes, indexing="ij"))
+    own = tuple(
+        int(np.argmin(np.abs(axis - record.nodes[k].value))) for axis, k in zip(axes, inputs, strict=True)
+    )
+    wide = (TURNING, TURNING)
+    for angle, (guess, _) in record.counted.items():
+        given = dict(zip(inputs, (x, y), strict=True))
+        here, *gaps = (
+            np.array(np.broadcast_to(v, x.size)).reshape(wide)
+            for v in Code(record, [angle, *margins]).run(given, x.size)
+        )
+        whole = np.isfinite(here)
+        for gap in gaps:
+            whole &= gap > 0.0
+        here = np.where(np.isfinite(here), here, np.nan)
+        turned = np.full(wide, np.nan)
+        turned[own] = guess.value
+        for through in (whole, np.ones(wide, dtype=bool)):
+            turned = _spread(turned, here, through)
+        found[guess.index] = turned
+    return axes, found
+
+
+def _spread(turned: Array, here: Array, through: Mask) -> Array:
+    """Turned angles (n, n) told from each place of a grid to those beside it, where these are gone through;
+    ``here`` are the angles within half a turn, and where there is none that of the place beside counts."""
+    while True:
+        before = np.isnan(turned)
+        for axis, way in ((0, 1), (0, -1), (1, 1), (1, -1)):
+            beside = np.roll(turned, way, axis)
+            edge = 0 if way > 0 else -1
+            beside[(edge, slice(None)) if axis == 0 else (slice(None), edge)] = np.nan
+            on = np.where(np.isnan(here), beside, here + 360.0 * np.rint((beside - here) / 360.0))
+            turned = np.where(np.isnan(turned) & through, on, turned)
+        if np.array_equal(before, np.isnan(turned)):
+            return turned
 
 
 def _generalised(
@@ -332,7 +404,7 @@ def _starts(surface: Surface, limits: Sequence[Span]) -> tuple[Array, Array]:
     x, y = (axis.ravel() for axis in axes)
     blocks = []
     for k in range(0, x.size, BLOCK):
-        given = dict(zip(surface.inputs, (x[k : k + BLOCK], y[k : k + BLOCK]), strict=True))
+        given = surface.given(x[k : k + BLOCK], y[k : k + BLOCK])
         rows = min(BLOCK, x.size - k)
         blocks.append(np.array([np.broadcast_to(v, rows) for v in code.run(given, rows)]))
     values = np.concatenate(blocks, axis=1)
@@ -357,7 +429,7 @@ def _converged(surface: Surface, limits: Sequence[Span]) -> tuple[Array, Array]:
     size = np.array([b - a for a, b in limits])
     with np.errstate(all="ignore"):
         for _ in range(STEPS):
-            values = code.run(dict(zip(surface.inputs, (x, y), strict=True)), x.size)
+            values = code.run(surface.given(x, y), x.size)
             f, g, fx, fy, gx, gy = (np.array(np.broadcast_to(v, x.size)) for v in values[:6])
             fx, gx, fy, gy = fx * size[0], gx * size[0], fy * size[1], gy * size[1]
             det, square = fx * gy - fy * gx, fx * fx + fy * fy + gx * gx + gy * gy
@@ -373,7 +445,7 @@ def _converged(surface: Surface, limits: Sequence[Span]) -> tuple[Array, Array]:
         f, g, *margins = (
             np.array(np.broadcast_to(v, x.size))
             for v in Code(surface.compiled.record, [*surface.loads, *surface.margins]).run(
-                dict(zip(surface.inputs, (x, y), strict=True)), x.size
+                surface.given(x, y), x.size
             )
         )
         last = np.abs(step).max(axis=0)
@@ -430,7 +502,8 @@ def _zeros(
 def _values(surface: Surface, at: Pair, nodes: Sequence[int]) -> list[Decimal]:
     """Nodes of a mode at decimals of both data [case units, degrees], in all digits."""
     record = surface.compiled.record
-    given = dict(zip(surface.inputs, at, strict=True))
+    there = surface.given(*(np.array(float(v)) for v in at))
+    given = {k: Decimal(float(v)) for k, v in there.items()} | dict(zip(surface.inputs, at, strict=True))
     return exact_record(surface.compiled).values([record.nodes[k] for k in nodes], given)
 
 
@@ -527,8 +600,9 @@ def _stability(slopes: Sequence[Decimal]) -> str:
 
 
 def _scene(surface: Surface, paths: Sequence[str], values: Sequence[float]) -> Case:
-    given = {k: np.array(v) for k, v in zip(surface.inputs, values, strict=True)}
-    return scene_in(surface.compiled, given, dict(zip(paths, values, strict=True)), surface.places, {})
+    given = surface.given(*(np.array(v) for v in values))
+    at = dict(zip(paths, values, strict=True))
+    return scene_in(surface.compiled, given, at, surface.places, surface.springs)
 
 
 def _same(one: EquilibriumPosition, other: EquilibriumPosition) -> bool:
