@@ -847,6 +847,20 @@ def test_of_two_unknown_data_all_positions_are_where_the_potential_is_level(made
         assert one.stability == ("stable" if least > 1e-3 * most else "unstable")
 
 
+def test_reactions_of_two_data_are_those_of_loads_that_balance() -> None:
+    """An idle crank is pushed along itself: whatever holds the mechanism there holds it with nothing."""
+    text, *_ = idle_crank()
+    (one,) = icsolve.solve(icsolve.load(text), reactions=True).to_dict()["positions"]
+    (ex, ey), (dx, dy) = one["points"]["E"], one["points"]["D"]
+    for name in ("F45", "F15"):
+        x, y = one["reactions"][name]["x"], one["reactions"][name]["y"]
+        assert math.hypot(x, y) > 10.0
+        assert x * (ey - dy) - y * (ex - dx) == pytest.approx(0.0, abs=1e-9)
+    x, y = (one["reactions"]["F34"][axis] + one["reactions"]["F23"][axis] * -1.0 for axis in "xy")
+    turned = math.radians(139.0)
+    assert (x, y) == pytest.approx((24.137 * math.cos(turned), 24.137 * math.sin(turned) - 41.097), abs=1e-9)
+
+
 @pytest.mark.parametrize("seed", range(12 if FULL else 4))
 def test_of_two_unknown_data_torsion_springs_count_their_turns(seed: int) -> None:
     """At the frame and between two bars: free - angle lies in (-180, 180] in the middle of both ranges, and
