@@ -129,7 +129,7 @@ function follow(r) {
   try {
     laboratory[r === zero ? "typed" : "followed"]();
   } catch (refusal) {
-    if (!(refusal instanceof Refusal)) throw refusal;
+    refused(refusal);
   }
 }
 const tidy = (value, unit) => Number((Math.round(value / unit) * unit).toFixed(Math.max(0, -Math.floor(Math.log10(unit)))));
@@ -227,7 +227,7 @@ function nearHere() {
     fresh.typed();
     same = fresh.points.every((p, k) => apart(p, here[k]) < 1e-9);
   } catch (refusal) {
-    if (!(refusal instanceof Refusal)) throw refusal;
+    refused(refusal);
     same = scene.status !== "ok";
   }
   return same ? {} : Object.fromEntries(Object.keys(live.near).map((k) => [k, fromFrame(here[k])]));

@@ -9,6 +9,8 @@ const SAME = 1e-11;
 class Refusal {
   constructor(status, words = "", amount = Infinity) { Object.assign(this, { status, words, amount }); }
 }
+/* Nothing but a refusal is expected. */
+const refused = (error) => { if (!(error instanceof Refusal)) throw error; };
 const spread = (some) => Math.hypot(...some.flat());
 const apart = (p, q) => Math.hypot(p[0] - q[0], p[1] - q[1]);
 const largest = (some) => some.reduce((most, v) => Math.max(most, Math.abs(v)), 0);
