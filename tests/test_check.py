@@ -27,6 +27,7 @@ from icsolve.case.expected import (
     SpeedIs,
     Target,
 )
+from icsolve.errors import CaseError
 from icsolve.manual import template
 from icsolve.read import load
 from icsolve.report.check import Row, compare, wanted
@@ -111,6 +112,61 @@ def test_a_pull_is_a_force_toward_the_other_end(sense: str, verdict: str) -> Non
     assert row(LoadIs("F"), "12", sense=sense, answer=dict(answer)).verdict == verdict
     toward_a = "left" if sense == "pull" else "right"
     assert row(LoadIs("F"), "12", sense=toward_a, answer=dict(answer)).verdict == verdict
+
+
+HELD = """icsolve: 1
+points: {A: [0, 0], B: [2, 0], P: [2, 3], Q: [2, 5], E: [4, 7]}
+joints:
+  - {weld: [1, 2], at: A}
+  - {slide: [3, 1], at: P, along: 90}
+  - {rope: [P, Q, E], on: [3, 1]}
+loads:
+  W: {weight: 10, link: 2, at: B}
+  V: {weight: 4, link: 3, at: P}
+  F: {force: unknown, at: E}
+expect: {%s: "%s"}
+"""
+"""A cantilever, and a block on a rope whose end goes up to the right, away from its pulley."""
+SENSES = [
+    ("F12", "10 up", "10 down"),
+    ("F12", "10 at 90 deg", "10 at 270 deg"),
+    ("F12y", "10 up", "10 down"),
+    ("F21", "10 down", "10 up"),
+    ("M12", "20 ccw", "20 cw"),
+    ("F", "4 pull", "4 push"),
+    ("F", "4 at 45 deg", "4 at 225 deg"),
+    ("F", "4 up", "4 down"),
+    ("F", "4 right", "4 left"),
+    ("T P-Q-E", "4 pull", "4 push"),
+    ("W", "10 down", "10 up"),
+    ("v P on 3", "1 up", "1 down"),
+    ("v P on 3", "1 toward Q", "1 toward A"),
+]
+UNFIT = [
+    "F12: 10 pull",
+    "F12x: 3 up",
+    "F12y: 3 left",
+    "T P-Q-E: 4 up",
+    "v P on 3: 1 pull",
+    "normal F13: 3 up",
+]
+
+
+@pytest.mark.parametrize(("key", "right", "wrong"), SENSES)
+def test_every_published_sense_is_compared(key: str, right: str, wrong: str) -> None:
+    for words, verdict in ((right, "agrees"), (wrong, "disagrees")):
+        case = load(HELD % (key, words))
+        (only,) = compare(solve(case, rates=True, reactions=True))
+        assert only.verdict == verdict, (words, only)
+
+
+@pytest.mark.parametrize("entry", UNFIT)
+def test_a_sense_that_is_not_compared_is_refused(entry: str) -> None:
+    key, value = entry.split(": ")
+    with pytest.raises(
+        CaseError, match=rf"^<text>:11:\d+: '{value.split()[1]}' is not a sense of {key}; it is "
+    ):
+        load(HELD % (key, value))
 
 
 def test_a_published_value_in_a_unit_of_its_own_is_shown_in_that_of_the_case() -> None:

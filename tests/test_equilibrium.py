@@ -654,6 +654,284 @@ loads:
     assert [one.stability for one in found] == kinds
 
 
+Surface = Callable[[Any, Any], Any]
+"""A potential [N*m] of two data, angles in radians."""
+
+
+def rests_of(potential: Surface, spans: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Where a potential of two data is level in their ranges: Newton's method from a grid."""
+    x, y = (v.ravel() for v in np.meshgrid(*(np.linspace(a, b, 60)[1:-1] for a, b in spans)))
+    size = np.array([b - a for a, b in spans])
+    with np.errstate(all="ignore"):
+        for _ in range(40):
+            slopes, bends = np.array(level(potential, x, y)), np.array(bent(potential, x, y))
+            det = bends[0, 0] * bends[1, 1] - bends[0, 1] ** 2
+            step = np.array(
+                [
+                    bends[1, 1] * slopes[0] - bends[0, 1] * slopes[1],
+                    bends[0, 0] * slopes[1] - bends[0, 1] * slopes[0],
+                ]
+            )
+            step = step / det
+            long = np.max(np.abs(step) / size[:, None], axis=0)
+            x, y = np.array([x, y]) - step * np.minimum(1.0, 0.05 / np.maximum(long, 1e-30))
+        near = long < 1e-7
+    for at, (a, b) in zip((x, y), spans, strict=True):
+        near &= (at >= a) & (at <= b)
+    return sorted({(round(p, 5), round(q, 5)) for p, q in zip(x[near], y[near], strict=True)})
+
+
+def level(potential: Surface, x: Any, y: Any) -> tuple[Any, Any]:
+    """Its slopes, by differences of the fourth order."""
+    h = 1e-4
+
+    def slope(along: Callable[[float], Any]) -> Any:
+        return (8.0 * (along(h) - along(-h)) - along(2.0 * h) + along(-2.0 * h)) / (12.0 * h)
+
+    return slope(lambda d: potential(x + d, y)), slope(lambda d: potential(x, y + d))
+
+
+def bent(potential: Surface, x: Any, y: Any) -> list[list[Any]]:
+    """Its second derivatives."""
+    h = 1e-4
+    by_x, by_y = (
+        [(up - down) / (2.0 * h) for up, down in zip(*sides, strict=True)]
+        for sides in (
+            (level(potential, x + h, y), level(potential, x - h, y)),
+            (level(potential, x, y + h), level(potential, x, y - h)),
+        )
+    )
+    return [by_x, by_y]
+
+
+def stretched(k: float, free: float, x: Any, y: Any) -> Any:
+    return 0.5 * k * (np.hypot(x, y) - free) ** 2
+
+
+FIVE_BAR = """icsolve: 1
+points: {A: [0, 0], D: [%(d)s, 0]%(points)s}
+angles: {AB: {unknown: %(first)s}, DE: {unknown: %(second)s}}
+lengths: {AB: %(ab)s, DE: %(de)s, BC: %(bc)s, EC: %(ec)s}
+near: {C: %(near)s}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 5], at: E}
+  - {pin: [5, 1], at: D}
+loads:
+%(loads)s
+"""
+
+
+def five_bar(
+    side: int, given: dict[str, Any], loads: Callable[[Any, Any, Any, Any, Any, Any], Any], *lines: str
+) -> tuple[str, Surface, list[tuple[float, float]], tuple[float, float]]:
+    """A five-bar of which C lies on one side of BE; ``loads`` are their potential by B, C and E."""
+
+    def potential(u: Any, v: Any) -> Any:
+        bx, by = given["ab"] * np.cos(u), given["ab"] * np.sin(u)
+        ex, ey = given["d"] + given["de"] * np.cos(v), given["de"] * np.sin(v)
+        far = np.hypot(ex - bx, ey - by)
+        along = (far**2 + given["bc"] ** 2 - given["ec"] ** 2) / (2.0 * far)
+        beside = side * np.sqrt(given["bc"] ** 2 - along**2)
+        cx = bx + (along * (ex - bx) - beside * (ey - by)) / far
+        cy = by + (along * (ey - by) + beside * (ex - bx)) / far
+        return loads(bx, by, cx, cy, ex, ey)
+
+    spans = [tuple(math.radians(v) for v in given[which]) for which in ("first", "second")]
+    text = FIVE_BAR % {"points": "", **given, "loads": "\n".join(f"  {line}" for line in lines)}
+    return text, potential, spans, (180.0 / math.pi, 180.0 / math.pi)  # type: ignore[return-value]
+
+
+def idle_crank() -> Any:
+    """A crank without a load comes to lie along the bar that holds it: motions by its neighbours alone have
+    no limit there."""
+    given = {
+        "d": 1.082, "ab": 0.868, "de": 1.049, "bc": 3.098, "ec": 2.542, "near": [2.344, -1.158],
+        "first": [20, 160], "second": [30, 150], "points": ", U: [2.349, 1.249]",
+    }  # fmt: skip
+
+    def loads(bx: Any, by: Any, cx: Any, cy: Any, _ex: Any, _ey: Any) -> Any:
+        turned = math.radians(139.0)
+        pushed = 24.137 * (math.cos(turned) * cx + math.sin(turned) * cy)
+        return 31.253 * by + 41.097 * cy - pushed + stretched(46.874, 0.99, bx - 2.349, by - 1.249)
+
+    return five_bar(
+        -1, given, loads,
+        "W: {weight: 31.253, link: 2, at: B}", "V: {weight: 41.097, link: 3, at: C}",
+        "F: {force: 24.137, link: 3, at: C, angle: 139}",
+        "S: {spring: 46.874 N/m, free: 0.99 m, link: 2, at: B, to: U}",
+    )  # fmt: skip
+
+
+def sprung_coupler() -> Any:
+    given = {
+        "d": 1.35, "ab": 0.761, "de": 0.917, "bc": 2.458, "ec": 3.196, "near": [-2.64, 0.466],
+        "first": [10, 99.2], "second": [0, 300], "points": ", U: [-0.162, -0.302], V: [-1.627, 1.435]",
+    }  # fmt: skip
+
+    def loads(bx: Any, by: Any, cx: Any, cy: Any, _ex: Any, _ey: Any) -> Any:
+        first = stretched(41.373, 0.376, bx + 0.162, by + 0.302)
+        return 35.7 * by + first + stretched(16.564, 0.0, cx + 1.627, cy - 1.435)
+
+    return five_bar(
+        -1, given, loads,
+        "W: {weight: 35.7, link: 2, at: B}",
+        "S: {spring: 41.373 N/m, free: 0.376 m, link: 2, at: B, to: U}",
+        "T: {spring: 16.564 N/m, free: 0 m, link: 4, at: C, to: V}",
+    )  # fmt: skip
+
+
+def two_collars() -> Any:
+    """Collars on rods that cross, tied by a spring: one of them rests where the rods cross, at 0."""
+    text = """icsolve: 1
+points: {O: [0, 0], B: [{unknown: [-3, 3]}, 0], C: [0, {unknown: [-3, 3]}], U: [2.361, 0.865]}
+joints:
+  - {slide: [2, 1], at: B, along: 0, through: O}
+  - {slide: [3, 1], at: C, along: 90, through: O}
+loads:
+  K: {spring: 42.744 N/m, free: 1.58 m, link: 2, at: B, against: 3, to: C}
+  S: {spring: 42.071 N/m, free: 0 m, link: 3, at: C, to: U}
+"""
+
+    def potential(x: Any, y: Any) -> Any:
+        return stretched(42.744, 1.58, x, y) + stretched(42.071, 0.0, 2.361, y - 0.865)
+
+    return text, potential, [(-3.0, 3.0), (-3.0, 3.0)], (1.0, 1.0)
+
+
+def block_in_millimetres() -> Any:
+    """Its stability does not hang on the units: torques in N*m beside lengths in mm."""
+    text = """icsolve: 1
+units: {length: mm, force: N, torque: N*m}
+points: {A: [0, 0], U: [900, 400]}
+angles: {AB: {unknown: [-80, 200]}}
+lengths: {AB: {unknown: [300, 3000]}}
+joints: [{pin: [1, 2], at: A}, {slide: [3, 2], at: B, along: [A, B]}]
+loads:
+  K: {spring: 40 N/m, free: 700 mm, link: 3, at: B, to: A}
+  S: {spring: 25 N/m, free: 900 mm, link: 3, at: B, to: U}
+  W: {weight: 40, link: 3, at: B}
+"""
+
+    def potential(u: Any, r: Any) -> Any:
+        x, y = r * np.cos(u), r * np.sin(u)
+        return stretched(40.0, 0.7, r, 0.0) + stretched(25.0, 0.9, x - 0.9, y - 0.4) + 40.0 * y
+
+    return text, potential, [(math.radians(-80.0), math.radians(200.0)), (0.3, 3.0)], (180.0 / math.pi, 1e3)
+
+
+@pytest.mark.parametrize("made", [idle_crank, sprung_coupler, two_collars, block_in_millimetres])
+def test_of_two_unknown_data_all_positions_are_where_the_potential_is_level(made: Callable[[], Any]) -> None:
+    """None is missing and none invented, each is rounded once, and its stiffness and stability are those of
+    the potential's second derivatives."""
+    text, potential, spans, each = made()
+    case = icsolve.load(text)
+    paths = [path for path in ("angles.AB", "angles.DE", "lengths.AB", "points.B.x", "points.C.y") if (
+        path in [one.path for one in case.unknowns]
+    )]  # fmt: skip
+    found = sorted(icsolve.solve(case).positions, key=lambda one: [one.at[p] for p in paths])
+    wanted = rests_of(potential, spans)
+    at = [tuple(one.at[p] / by for p, by in zip(paths, each, strict=True)) for one in found]
+    assert at == [pytest.approx(place, abs=2e-5) for place in wanted]
+    metre = 1.0 if each[1] != 1e3 else 1e3
+    for one, (x, y) in zip(found, at, strict=True):
+        assert max(one.error[p] for p in paths) <= 6e-14 * max(each)
+        matrix = bent(potential, x, y)
+        assert one.stiffness is not None
+        order = [list(one.at).index(p) for p in paths]
+        got = np.array(one.stiffness.value)[np.ix_(order, order)]
+        units = np.array([[1.0, 1.0], [1.0, 1.0]]) if metre == 1.0 else np.array([[1.0, 1e-3], [1.0, 1e-3]])
+        assert got == pytest.approx(np.array(matrix) * units, rel=2e-4, abs=2e-4)
+        least, most = np.linalg.eigvalsh(matrix)
+        assert one.stability == ("stable" if least > 1e-3 * most else "unstable")
+
+
+def test_reactions_of_two_data_are_those_of_loads_that_balance() -> None:
+    """An idle crank is pushed along itself: whatever holds the mechanism there holds it with nothing."""
+    text, *_ = idle_crank()
+    (one,) = icsolve.solve(icsolve.load(text), reactions=True).to_dict()["positions"]
+    (ex, ey), (dx, dy) = one["points"]["E"], one["points"]["D"]
+    for name in ("F45", "F15"):
+        x, y = one["reactions"][name]["x"], one["reactions"][name]["y"]
+        assert math.hypot(x, y) > 10.0
+        assert x * (ey - dy) - y * (ex - dx) == pytest.approx(0.0, abs=1e-9)
+    x, y = (one["reactions"]["F34"][axis] + one["reactions"]["F23"][axis] * -1.0 for axis in "xy")
+    turned = math.radians(139.0)
+    assert (x, y) == pytest.approx((24.137 * math.cos(turned), 24.137 * math.sin(turned) - 41.097), abs=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(12 if FULL else 4))
+def test_of_two_unknown_data_torsion_springs_count_their_turns(seed: int) -> None:
+    """At the frame and between two bars: free - angle lies in (-180, 180] in the middle of both ranges, and
+    goes on from there."""
+    draw = random.Random(seed)
+    first, second = draw.randint(-300, 0), draw.randint(-300, 0)
+    ends = [(first, first + draw.randint(200, 359)), (second, second + draw.randint(200, 359))]
+    free, other = draw.randint(-400, 400), draw.randint(-400, 400)
+    u, v = (0.5 * (a + b) for a, b in ends)
+    wound = free - 360 * math.ceil((free - u - 180) / 360)
+    bent_to = other - 360 * math.ceil((other - (v - u - 180) - 180) / 360)
+
+    def potential(a: Any, b: Any) -> Any:
+        at_frame, between = np.degrees(a) - wound, np.degrees(b - a) - 180.0 - bent_to
+        turned = 2.0 * np.radians(at_frame) ** 2 + 1.5 * np.radians(between) ** 2
+        return 0.5 * turned + 13.0 * np.sin(a) + 4.0 * np.sin(b)
+
+    text = f"""icsolve: 1
+points: {{A: [0, 0]}}
+angles: {{AB: {{unknown: {list(ends[0])}}}, BC: {{unknown: {list(ends[1])}}}}}
+lengths: {{AB: 1, BC: 0.5}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}]
+loads:
+  K: {{spring: 2 N*m/rad, corner: AB, free: {free}, link: 2}}
+  L: {{spring: 1.5 N*m/rad, corner: ABC, free: {other}, link: 3, against: 2}}
+  W: {{weight: 5, link: 2, at: B}}
+  V: {{weight: 8, link: 3, at: C}}
+"""
+    wanted = rests_of(potential, [tuple(map(math.radians, pair)) for pair in ends])  # type: ignore[misc]
+    assert wanted
+    found = [tuple(math.radians(one.at[p]) for p in ("angles.AB", "angles.BC")) for one in positions(text)]
+    assert sorted(found) == [pytest.approx(place, abs=2e-5) for place in wanted]
+
+
+def test_two_data_of_which_one_is_left_to_itself_balance_along_lines() -> None:
+    """A bar without a load hangs on one with a weight: any direction of it will do, and that is said."""
+    text = """icsolve: 1
+points: {{A: [0, 0]}}
+angles: {{AB: {{unknown: [0, 180]}}, BC: {{unknown: [0, 90]}}}}
+lengths: {{AB: 2, BC: 1}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}]
+links: {{3: {carried}}}
+loads:
+  W: {{weight: 10, link: 2, at: B}}
+  T: {{torque: {torque}, link: 3}}
+"""
+    with pytest.raises(SceneError, match=r"more positions than can be listed, at angles.AB = 90 ") as refused:
+        icsolve.solve(icsolve.load(text.format(torque=0, carried="[C]")))
+    assert refused.value.status == "any-value"
+    with pytest.raises(SceneError, match=r"balance for no value") as refused:
+        icsolve.solve(icsolve.load(text.format(torque=3, carried="[C]")))
+    assert refused.value.status == "no-value"
+    with pytest.raises(SceneError, match=r"^angles.BC does not pose the figure: it moves nothing"):
+        icsolve.solve(icsolve.load(text.format(torque=3, carried="[B]")))
+
+
+def test_of_two_data_a_place_that_both_branches_come_to_picks_neither() -> None:
+    """With two freedoms C comes to one place with either bend of the arms; B and E tell which is meant."""
+    given = {
+        "d": 1.074, "ab": 0.674, "de": 1.125, "bc": 3.143, "ec": 2.985, "near": [-0.214, 3.196],
+        "first": [-90, 120], "second": [-60, 170],
+    }  # fmt: skip
+    text, *_ = five_bar(
+        1, given, lambda *_: 0.0, "W: {weight: 30, link: 5, at: E}", "V: {weight: 50, link: 3, at: C}"
+    )
+    with pytest.raises(SceneError, match=r"give near for more points of one position") as refused:
+        icsolve.solve(icsolve.load(text))
+    assert refused.value.status == "ambiguous"
+
+
 def test_where_no_position_has_an_answer_the_reason_is_told() -> None:
     """The weight at the rope's end does not hang, wherever the bar is: no value is not the cause."""
     text = pendulum("V: {weight: 6, at: Q}", "{unknown: [-80, 80]}", more=", P: [0, 4], Q: [1, 3]").replace(

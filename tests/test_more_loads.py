@@ -146,6 +146,27 @@ def test_a_torsion_spring_holds_a_bar_up(angle: float) -> None:
     assert found.error < 1e-12 * abs(found.value)
 
 
+@pytest.mark.parametrize(
+    ("angle", "free"), [(-180, 0), (180, 0), (0, 180), (120, -60), (-60, 120), (240, 60)]
+)
+def test_a_torsion_spring_half_a_turn_from_free_is_wound_alike_everywhere(angle: int, free: int) -> None:
+    """free - AB is 180 as written, not -180, in a scene, a sweep and an evaluator: it pushes link 2 ccw."""
+    text = f"""icsolve: 1
+points: {{A: [0, 0]}}
+lengths: {{AB: 1}}
+angles: {{AB: {angle}}}
+joints: [{{pin: [1, 2], at: A}}]
+loads:
+  K: {{spring: 10 N*m/rad, corner: AB, free: {free}, link: 2}}
+  T: {{torque: unknown, link: 2}}
+"""
+    case = icsolve.load(text)
+    rows = icsolve.sweep(case, vary={"angles.AB": [angle, angle + 9.0]}).answers["T"].tolist()
+    anew = icsolve.evaluator(case, inputs=("loads.K.free",))(np.array([float(free)])).answers["T"][0]
+    found = [icsolve.solve(case).answers["T"].value, rows[0], anew, rows[1] - math.radians(90.0)]
+    assert found == pytest.approx([-10.0 * math.pi] * 4, rel=1e-12)
+
+
 def test_the_stiffness_of_a_torsion_spring_is_found_in_torque_per_rad() -> None:
     found = icsolve.solve(icsolve.load(BAR.format(angle=30, stiffness="unknown", weight=10))).answers["S"]
     assert found.unit == "N*m/rad"

@@ -170,6 +170,26 @@ def test_a_boom_on_a_ball_with_two_cables() -> None:
     assert [row.verdict for row in compare(answer)] == [AGREES] * 5
 
 
+@pytest.mark.parametrize("way", ["along: y", "along: [0, -1, 0]", "toward: D", "away: D", "along: [D, C]"])
+def test_a_load_in_space_goes_the_published_way_in_any_words(way: str) -> None:
+    """Its moment about the shaft is that of 20 along -y, toward the lower end of CD."""
+    text = f"""icsolve: 1
+points: {{A: [0, 0, 0], B: [0, 0, 5], C: [3, 0, 2], D: [3, 4, 2], E: [3, -9, 2]}}
+joints:
+  - {{thrust: [1, 2], at: A, axis: z}}
+  - {{radial: [1, 2], at: B, axis: z}}
+loads:
+  F: {{force: [10, 20, -5], link: 2, at: C}}
+  Q: {{force: unknown, link: 2, at: C, {way}}}
+expect: {{Q: "20 %s"}}
+"""
+    same = ["along -y", "away D", "away from D", "toward E", "along [0, -1, 0]", "along D to C"]
+    other = ["along y", "toward D", "away from E", "up", "down", "along C to D"]
+    for sense in (*same, *other):
+        (row,) = compare(solve(load(text % sense)))
+        assert row.verdict == (AGREES if sense in same else "disagrees"), sense
+
+
 SHAFT = """\
 icsolve: 1
 units: {length: mm, force: N, torque: N*m}

@@ -19,6 +19,8 @@ RADIAN = math.pi / 180.0
 """A degree, in radians."""
 DEGREE: ExactRatio = (1, 180, 1)
 """The same exactly."""
+HALF_TURN = 1e-13
+"""Of a turn: of two numbers of whole turns that are so nearly as near to a guess the lower is taken."""
 
 
 def magnitude(value: Scalar) -> float:

@@ -12,7 +12,7 @@ from collections.abc import Callable, Container, Iterable, Sequence
 from typing import Any, cast
 from weakref import ref
 
-from icsolve.numbers.arithmetic import DEGREE, ROUNDING_NOISE, Scalar, turn_of
+from icsolve.numbers.arithmetic import DEGREE, HALF_TURN, ROUNDING_NOISE, Scalar, turn_of
 from icsolve.numbers.tape import UNIT, decimal_noise
 from icsolve.numbers.units import ExactRatio, Number, nearest
 from icsolve.tuples import NamedTuple
@@ -305,8 +305,8 @@ class Record:
         becomes an input of the record (one of ``counted``); those nearest to ``about`` where each row is
         written anew."""
         angle = self.angle(x, y)
-        if not self.follows and any(isinstance(v, Traced) and v.row for v in (angle, about)):
-            return angle + 360.0 * self.nearest((about - angle) / 360.0)
+        if not self.follows:
+            return angle + 360.0 * self.nearest((about - angle) / 360.0 - HALF_TURN)
         if not (isinstance(angle, Traced) and angle.row):
             return angle
         if angle.index not in self.counted:

@@ -26,7 +26,7 @@ from icsolve.assembly.workspace import (
     normalised,
     number_of,
 )
-from icsolve.case import Coordinates, Motion, Number, Rope, Screw, is_angle
+from icsolve.case import Coordinates, Motion, Number, Rope, Screw, TorsionSpring, is_angle
 from icsolve.case.figure import Unknown
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.draw.words import unit_word
@@ -34,8 +34,8 @@ from icsolve.kinematics.accelerations import Moving, drives_of, moving, rate_row
 from icsolve.kinematics.motion import TURN
 from icsolve.kinematics.speeds import joint_order
 from icsolve.kinematics.twists import ORIGIN, Bases, Tree, loop_rows, rope_row, span
-from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.record import Record
+from icsolve.numbers.arithmetic import HALF_TURN, Scalar
+from icsolve.numbers.record import Record, Traced
 from icsolve.numbers.source import JAVASCRIPT, JAVASCRIPT_FUNCTIONS, straight_line
 from icsolve.numbers.units import BOUNDS
 from icsolve.page.fields import handles_of, text_data, units_to_write
@@ -125,13 +125,38 @@ def _moves(found: Evaluation) -> Moving:
     return moving(place, motions.twists, motions.slack)
 
 
+class _CountingRecord(Record):
+    """A record on which every torsion spring has an input about which its turns are counted: where the page
+    stands, or what the spring is free at where numbers are typed."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.follows = False
+        self.springs: dict[tuple[int, int], tuple[Traced, Scalar, Traced]] = {}
+        """by the nodes of an angle and what it is counted about: the angle with its turns, the latter, the
+        input"""
+
+    def key(self, x: Scalar, y: Scalar, about: Scalar) -> tuple[int, int]:
+        """The nodes of a vector's angle and of what it is counted about."""
+        return self.lifted(self.angle(x, y)).index, self.lifted(about).index
+
+    def turns(self, x: Scalar, y: Scalar, about: Scalar = 0.0) -> Scalar:
+        """By how much a vector has turned from +x, whole turns too: those nearest to an input [degrees]."""
+        key = self.key(x, y, about)
+        if key not in self.springs:
+            angle, start = self.nodes[key[0]], self.input(f"about {len(self.springs)}", float(about))
+            counted = angle + 360.0 * self.nearest((start - angle) / 360.0 - HALF_TURN)
+            self.springs[key] = (self.lifted(counted), about, start)
+        return self.springs[key][0]
+
+
 class _ProgramWriter:
     """A case on a record whose inputs are its numbers."""
 
     def __init__(self, program: Program, scene: AnswerBuilder | None) -> None:
         case = program.case
         self.scene = scene
-        self.case, self.record = case, Record()
+        self.case, self.record = case, _CountingRecord()
         self.figure, self.top = program.figure, program.top
         self.names: dict[int, str] = {}
         self.workspace = Workspace(case, self.figure.frame, self.record)
@@ -234,8 +259,8 @@ class _ProgramWriter:
     # --- motions and loads ------------------------------------------------------------------------
 
     def _scene(self, bases: Bases, tree: Tree) -> list[Any]:
-        """Loop equations, the path of joints to every body, wrenches, basis twists, the parts of ropes, and
-        what screws turn by."""
+        """Loop equations, the path of joints to every body, wrenches, basis twists, the parts of ropes, what
+        screws turn by, and the angles of torsion springs with what these are free at."""
         roots = {self.top.ground: ORIGIN}
         rows = [row[:-1] for row in loop_rows(self.top, tree, bases, roots)]
         ropes = {rope.name: self._rope(rope) for rope in self.case.ropes}
@@ -249,7 +274,10 @@ class _ProgramWriter:
             loads.append([*w.unit, w.gain, w.ratio, power.number_of(w, self.record)])
         freed = [[list(twist) for twist in basis] for _, basis in sorted(bases.items())]
         courses = [[[p.length, *p.wrench, *p.along] for p in parts] for parts in ropes.values()]
-        return [rows, paths, loads, freed, courses, [self._thread(screw) for screw in self.case.screws]]
+        threads = [self._thread(screw) for screw in self.case.screws]
+        counted = list(self.record.springs.values())
+        self.names |= {start.index: f"w[{n}]" for n, (*_, start) in enumerate(counted)}
+        return [rows, paths, loads, freed, courses, threads, [[angle, free] for angle, free, _ in counted]]
 
     def _rope(self, rope: Rope) -> tuple[RopePart, ...]:
         return rope_parts(rope, self._points(), self.figure.frame.scale, self.record)
@@ -313,7 +341,7 @@ class _ProgramWriter:
         variables = f"let {','.join(text.names)};\n" if text.names else ""
         steps_text = ",\n".join(functions)
         return (
-            f"const program = (x, s, q, t, r) => {{\n{JAVASCRIPT_FUNCTIONS}{variables}"
+            f"const program = (x, s, q, t, r, w) => {{\n{JAVASCRIPT_FUNCTIONS}{variables}"
             f"return {{ steps: [{steps_text}],\n{','.join(others)} }};\n}};\n"
         )
 
@@ -364,6 +392,7 @@ class _ProgramWriter:
             "given": any(joint.stands_in for joint in case.joints),
             "loads": [self._load(w) for w in load_wrenches.wrenches(self._place())],
             "moves": self._by_points(),
+            "wound": self._wound(),
             "kinds": [type(bond.joint).__name__ for bond in top.bonds],
             "pivots": [list(bond.pivots) if bond.pivots else None for bond in top.bonds],
             "turning": self._turning(),
@@ -464,6 +493,17 @@ class _ProgramWriter:
             if turner:
                 found.append(["link", number[load.heading.path], turner])  # type: ignore[union-attr]
         return found
+
+    def _wound(self) -> list[list[int]]:
+        """The bodies between which torsion springs turn, in the order in which their angles are counted."""
+        bodies: dict[tuple[int, int], list[int]] = {}
+        for load in self.case.loads:
+            if isinstance(load, TorsionSpring):
+                vector = load_wrenches.corner_vector(load, self._points())
+                key = self.record.key(*vector, self.record.given(load.free))
+                pair = (load.link, load.against or self.case.ground)
+                bodies[key] = [self.top.body_of[link] for link in pair]
+        return [bodies[key] for key in self.record.springs]
 
     def _by_points(self) -> bool:
         """Whether the places of the points tell all of a position: they are given, and no guide turns."""

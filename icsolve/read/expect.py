@@ -348,12 +348,12 @@ def _value(reading: Reading, node: Node, target: Target, path: str) -> _Value | 
     text, sense = _divided(node.text)
     reading.marks[path] = node.mark
     value = quantity(reading, node, text, dimension, path)
-    fits, allowed = (_fits, _ALLOWED.get(dimension, "it is a number without a sense"))
-    if reading.axes == "xyz":
-        fits, allowed = _fits_space, _ALLOWED_IN_SPACE
-    if sense is not None and not fits(sense, dimension):
-        reading.refuse(node.mark, f"'{sense}' is not a sense of {path.removeprefix('expect.')}; {allowed}")
-        return None
+    if sense is not None:
+        fits, allowed = _senses(reading, target, sense, dimension)
+        if not fits:
+            said = f"'{sense}' is not a sense of {path.removeprefix('expect.')}; {allowed}"
+            reading.refuse(node.mark, said)
+            return None
     return _Value((value,), None, sense) if value is not None else None
 
 
@@ -378,6 +378,29 @@ def _divided(text: str) -> tuple[str, str | None]:
     return text.strip(), None
 
 
+def _senses(reading: Reading, target: Target, sense: str, dimension: str) -> tuple[bool, str]:
+    """Whether a target has a sense in words by which it is compared, and which it may have."""
+    allowed = _ALLOWED.get(dimension, _WITHOUT)
+    lines, words = _fits(sense, dimension), _LINES[:4]
+    match target:
+        case LoadIs() if reading.axes == "xyz":
+            return _fits_space(sense, dimension), _ALLOWED_IN_SPACE
+        case ReactionIs(part="moment") if reading.axes == "xy":
+            return lines, allowed
+        case ReactionIs(part="x" | "y" as axis) if reading.axes == "xy":
+            own = words[:2] if axis == "x" else words[2:]
+            return sense in own, f"it is {' or '.join(own)}"
+        case ReactionIs(part="") if reading.axes == "xy":
+            return lines and sense not in ("pull", "push"), _PLAIN_LINE
+        case SpeedIs():
+            return lines and sense not in ("pull", "push"), _PLAIN_LINE
+        case TensionIs():
+            return sense in ("pull", "push"), "it is pull"
+        case ReactionIs():
+            return False, _WITHOUT
+    return lines, allowed
+
+
 def _fits(sense: str, dimension: str) -> bool:
     lead, _, rest = sense.partition(" ")
     if dimension in _ABOUT:
@@ -395,6 +418,8 @@ def _fits_space(sense: str, dimension: str) -> bool:
     return dimension == "force" and (lead in ("along", "toward", "away") or sense in _LINES[2:])
 
 
+_WITHOUT = "it is a number without a sense"
+_PLAIN_LINE = "it is right, left, up, down, 'at 30 deg' or 'toward P'"
 _TURNING, _LINE = "it is ccw or cw", "it is right, left, up, down, pull, push, 'at 30 deg' or 'toward P'"
 _ABOUT = ("torque", "angular speed", "torsional stiffness")
 _ALONG = ("force", "speed", "pressure", "mass", "line load", "stiffness")
@@ -434,7 +459,13 @@ def tolerance_of(node: Node) -> Tolerance:
     Raises ValueError, with a sentence.
     """
     if type(node) is Scalar:
-        return parse_tolerance(node.text)
+        found = parse_tolerance(node.text)
+        if found.absolute and not found.unit:
+            number = node.text.strip()
+            share = f"{number}%" if found.absolute >= 1.0 else f"{100.0 * found.absolute:g}%"
+            said = f"{shown(number)} may be a share or a width: write {share}, or a width with its unit, or"
+            raise ValueError(f"{said} {{absolute: {number}}} in that of each answer")
+        return found
     if type(node) is not Mapping or not node.items:
         raise ValueError(_FORM)
     found = Tolerance()

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from icsolve.answer import Answer, Centre, Found
-from icsolve.case import Case, Number, Pair, Torque, is_angle, pair_name
+from icsolve.case import Case, Force, Number, Pair, Torque, is_angle, is_link, pair_name
 from icsolve.case.expected import (
     ArmIs,
     CentreIs,
@@ -26,11 +26,18 @@ from icsolve.case.expected import (
 )
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
-from icsolve.report.published import found_value, place_of
+from icsolve.report.published import force_of, found_value, place_of
 from icsolve.scene.parts import scene_of, sense_with
 from icsolve.statics.load_wrenches import number_taken, vector_size
 from icsolve.tuples import NamedTuple
-from icsolve.wording.senses import bearing, holding, same_way, turned_at_most
+from icsolve.wording.senses import (
+    bearing,
+    direction_words,
+    holding,
+    same_way,
+    same_way_in_space,
+    turned_at_most,
+)
 
 AGREES = "agrees"
 DISAGREES = "disagrees"
@@ -227,15 +234,21 @@ def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
         case SpeedIs(point, link):
             return (_speed(answer, point, link, expected.sense),)
         case ReactionIs() | TensionIs() | ArmIs() | FrictionRadiusIs() as target:
-            return (_of_bodies(answer, target),)
+            return (_of_bodies(answer, target, expected.sense),)
 
 
-def _of_bodies(answer: Answer, target: OfBodies) -> float:
+def _of_bodies(answer: Answer, target: OfBodies, sense: str | None) -> float:
     if answer.reactions is None and answer.spatial is None and not isinstance(target, FrictionRadiusIs):
         if any(found.holds is not None for found in answer.answers.values()):
             raise LookupError("at rest friction leaves the reactions open: give `motion`")
         raise _NotAskedError("reactions were not asked for")
-    return found_value(answer, target)
+    value = found_value(answer, target)
+    if sense is None or not isinstance(target, ReactionIs):
+        return -value if sense == "push" else value
+    if target.part == "moment":
+        return _turned(value, sense)
+    force, place = force_of(answer, target)
+    return _going(answer, force, place, sense)
 
 
 def _load(answer: Answer, name: str, sense: str | None) -> float:
@@ -248,9 +261,16 @@ def _load(answer: Answer, name: str, sense: str | None) -> float:
         return _turned(value if load.positive == "ccw" else -value, sense)
     found = answer.answers.get(name)
     own = found.sense if found is not None else _given_sense(answer, name, value)
+    at_end = isinstance(load, Force) and not is_link(load.link)  # of a rope: away from its last pulley
+    if at_end and sense not in ("pull", "push"):
+        own = _given_direction(answer, name, value)
     if not own:
         return value
-    return abs(value) if same_way(sense, own, load, answer.points) else -abs(value)
+    if answer.spatial is not None:
+        same = same_way_in_space(sense, own, load, answer.spatial.points)
+    else:
+        same = same_way(sense, own, load, answer.points)
+    return abs(value) if same else -abs(value)
 
 
 def _given_sense(answer: Answer, name: str, value: float) -> str:
@@ -259,6 +279,16 @@ def _given_sense(answer: Answer, name: str, value: float) -> str:
     if scene is None:
         raise _NotAskedError(f"the case gives {name}, and its sense was not worked out")
     return next(sense_with(w, value) for w in scene.outcome.balance.wrenches if w.load.name == name)
+
+
+def _given_direction(answer: Answer, name: str, value: float) -> str:
+    """Where a load acts in the scene: ``at 30 deg``."""
+    scene = scene_of(answer)
+    if scene is None:
+        raise _NotAskedError(f"the direction of {name} was not worked out")
+    w = next(w for w in scene.outcome.balance.wrenches if w.load.name == name)
+    degrees = math.degrees(math.atan2(-w.unit[0], w.unit[1]))
+    return f"at {direction_words(degrees if value > 0.0 else degrees + 180.0)}"
 
 
 def _turned(value: float, sense: str | None) -> float:
@@ -348,11 +378,20 @@ def _speed(answer: Answer, point: str, link: str, sense: str | None) -> float:
         raise LookupError(f"the velocity of {point} on link {link} was not found")
     if isinstance(velocity, str):
         raise LookupError(f"the velocity of {point} on link {link} is undetermined: {velocity}")
-    size = math.hypot(*velocity)
-    way = None if sense is None or size == 0.0 else bearing(sense, None, answer.points)
-    if sense is None or way is None:
+    return _going(answer, velocity, answer.points.get(point), sense)
+
+
+def _going(
+    answer: Answer, vector: tuple[float, float], start: tuple[float, float] | None, sense: str | None
+) -> float:
+    """The size of a vector that begins at a place; negative where it does not go the published way."""
+    size = math.hypot(*vector)
+    if sense is None or size == 0.0:
         return size
-    own = math.degrees(math.atan2(velocity[1], velocity[0]))
+    way = bearing(sense, None, answer.points, start)
+    if way is None:
+        raise LookupError(f"no direction leads '{sense}' from there")
+    own = math.degrees(math.atan2(vector[1], vector[0]))
     return size if turned_at_most(way, own, sense) else -size
 
 

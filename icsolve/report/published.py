@@ -29,6 +29,19 @@ def found_value(answer: Answer, target: OfBodies) -> float:
             return _part(_reaction(answer, by, on, at), part)
 
 
+def force_of(answer: Answer, target: ReactionIs) -> tuple[tuple[float, float], tuple[float, float]]:
+    """The force of a joint in the plane, of which a component alone may be meant, and where it acts [case
+    units]. Raises LookupError as `found_value` does.
+    """
+    reaction = _reaction(answer, target.by, target.on, target.at)
+    assert isinstance(reaction, Reaction)
+    x, y = (0.0 if part == target.part.translate(_OTHER) else _part(reaction, part) for part in "xy")
+    return (x, y), reaction.at
+
+
+_OTHER = str.maketrans("xy", "yx")
+
+
 def _tension(answer: Answer, target: TensionIs) -> float:
     """The pull of a rope, or of a part of it."""
     found = next(one for one in answer.tensions if one.rope == target.rope)

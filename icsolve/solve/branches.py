@@ -233,17 +233,20 @@ class Branches:
         return frozenset({ids[nearest(case, best)]})
 
 
-def nearest(case: Case, off: Sequence[float]) -> int:
-    """Which of some branches, so far from `near` each, is meant.
+def nearest(case: Case, off: Sequence[float], rough: float = 0.0) -> int:
+    """Which of some branches, so far from `near` each [case units], is meant; within ``rough`` of it all are
+    equally near.
 
     Raises SceneError where two are about equally near.
     """
     order = sorted(range(len(off)), key=lambda n: off[n])
-    if len(order) > 1 and off[order[0]] >= EVEN * off[order[1]]:
+    if len(order) > 1 and max(off[order[0]], rough) >= EVEN * max(off[order[1]], rough):
+        more = ", or give near for more points of one position" if rough else ""
         raise SceneError(
             Status.AMBIGUOUS,
             f"two branches of the figure pass about equally near to near ({off[order[0]]:.4g} and "
-            f"{off[order[1]]:.4g} {case.units.length} from it): move near toward the one that is meant.",
+            f"{off[order[1]]:.4g} {case.units.length} from it): move near toward the one that is meant"
+            f"{more}.",
         )
     return order[0]
 

@@ -16,6 +16,8 @@ from icsolve.tuples import NamedTuple, replace
 PROBE = "@equilibrium"
 """The name of the unknown load by which `icsolve.solve` tells how far a position is from equilibrium."""
 AT_LIMIT = "at a limit of the unknown the other links' rates per unit of it grow without bound."
+MOST_TRIES = 28
+"""Loads that might hold a mechanism of several freedoms are tried so many times."""
 NEAR = 1e-6
 """Loads balance where the torque that would balance them is this small beside the largest times the size."""
 
@@ -66,17 +68,31 @@ def balances(rest: Rest) -> bool:
 
 def held(case: Case, links: Sequence[str], freedoms: int = 1, **asked: bool) -> Answer | None:
     """The scene with the first unknown loads, one a freedom, that do work in its motions; None where it has
-    none to try.
+    none to try. Of several freedoms those of the first loads that hold it with the least: in a position of
+    equilibrium others may all but do no work in one motion, and are then as large as may be.
 
     Raises SceneError where none do.
     """
     refusal: SceneError | None = None
-    for some in combinations(probes(case, links, freedoms), freedoms):
+    best: tuple[float, Case] | None = None
+    tries = combinations(probes(case, links, freedoms), freedoms)
+    for n, some in enumerate(tries):
+        if best is not None and n >= MOST_TRIES:
+            break
         named = (load._replace(name=f"{PROBE}{k or ''}") for k, load in enumerate(some))
+        loaded = replace(case, loads=(*case.loads, *named))
         try:
-            return solve_scene(replace(case, loads=(*case.loads, *named)), **asked)
+            answer = solve_scene(loaded, **(asked if freedoms == 1 else {}))
         except SceneError as error:
             refusal = error
+            continue
+        if freedoms == 1:
+            return answer
+        most = max(abs(answer.answers[load.name].value) for load in loaded.loads[len(case.loads) :])
+        if best is None or most < best[0]:
+            best = (most, loaded)
+    if best is not None:
+        return solve_scene(best[1], **asked)
     if refusal is not None:
         raise refusal
     return None

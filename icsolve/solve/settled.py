@@ -59,7 +59,7 @@ def settled(
     digits, else between two doubles the power changes its sign."""
     start = _closed_in(function, *bracket)
     exact = _zero(function, as_written(start), *map(as_written, bracket))
-    closest = _rounded(exact) if exact is not None else _to_the_last_digit(function, start, bracket)
+    closest = rounded(exact) if exact is not None else _to_the_last_digit(function, start, bracket)
     return in_range(function, closest, span, turns)
 
 
@@ -93,7 +93,7 @@ def _zero(function: LoadFunction, start: Decimal, low: Decimal, high: Decimal) -
     return None
 
 
-def _rounded(exact: Decimal) -> tuple[float, float]:
+def rounded(exact: Decimal) -> tuple[float, float]:
     """The nearest double and a bound of its error."""
     value = float(exact)
     return value, 0.0 if abs(exact - Decimal(value)) <= CLOSED else math.ulp(value)
@@ -349,7 +349,7 @@ def in_open_cells(function: LoadFunction, cluster: tuple[float, float]) -> list[
     with localcontext(CONTEXT):
         ends = as_written(low), as_written(high)
         zeros = zeros_between(lambda at: _values(function, at, [function.power])[0], *ends, MOST_ORDER)
-        found = [_rounded(at if abs(at) > NEAR else Decimal(0)) for at in sorted(zeros)]
+        found = [rounded(at if abs(at) > NEAR else Decimal(0)) for at in sorted(zeros)]
     if found:
         return found
     closest = _by_scenes(function, low, high)

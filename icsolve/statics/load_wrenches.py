@@ -28,7 +28,7 @@ from icsolve.case import (
     Toward,
     Weight,
 )
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, all_vanish, magnitude
+from icsolve.numbers.arithmetic import FLOATS, HALF_TURN, Arithmetic, Scalar, all_vanish, magnitude
 from icsolve.screws.plane import Point, Triple, force_wrench, unit_between
 from icsolve.tuples import Generic, LateModule, NamedTuple
 
@@ -269,20 +269,29 @@ def place_of(load: Load, points: Points, arithmetic: Arithmetic = FLOATS) -> Poi
     return x + share * (u - x), y + share * (v - y)
 
 
+def corner_vector(load: TorsionSpring, points: Points) -> tuple[Scalar, Scalar]:
+    """A vector whose direction is the angle that a torsion spring follows."""
+    *arm, at, end = (points[name] for name in load.corner)
+    x, y = end[0] - at[0], end[1] - at[1]
+    if not arm:
+        return x, y
+    u, v = arm[0][0] - at[0], arm[0][1] - at[1]
+    return u * x + v * y, u * y - v * x
+
+
 def spring_angle(load: TorsionSpring, points: Points, arithmetic: Arithmetic) -> Scalar:
     """The angle that a torsion spring follows, degrees: so that free - angle lies in (-180, 180] as written.
 
     In a motion it goes on from there, with whole turns.
     """
-    *arm, at, end = (points[name] for name in load.corner)
-    x, y = end[0] - at[0], end[1] - at[1]
-    if arm:
-        u, v = arm[0][0] - at[0], arm[0][1] - at[1]
-        x, y = u * x + v * y, u * y - v * x
-    counted = getattr(arithmetic, "turns", None)
-    angle = counted(x, y, arithmetic.given(load.free)) if callable(counted) else arithmetic.angle(x, y)
-    about = load.free.value if load.about is None else load.about
-    whole = math.ceil((about - float(angle) - 180.0) / 360.0)
+    x, y = corner_vector(load, points)
+    counted, about = getattr(arithmetic, "turns", None), load.free.value if load.about is None else load.about
+    angle = arithmetic.angle(x, y)
+    if callable(counted):
+        angle = counted(x, y, arithmetic.given(load.free) if load.about is None else about)
+        if not getattr(arithmetic, "follows", True):  # in every row within half a turn
+            return angle
+    whole = math.ceil((about - float(angle) - 180.0) / 360.0 - HALF_TURN)
     return angle + 360.0 * whole if whole else angle
 
 

@@ -89,7 +89,8 @@ def written_state(compiled: CompiledSweep) -> State:
         for body in group.bodies
         for x in (*map(float, ref[group.bases[body][1]]), 0.0)
     ]
-    return State(np.array(q), np.zeros(len(compiled.record.counted)), dict(motion.written))
+    turns = [guess.value for guess, _ in compiled.record.counted.values()]
+    return State(np.array(q), np.array(turns, dtype=float), dict(motion.written))
 
 
 class ChangePoints(NamedTuple):

@@ -134,20 +134,74 @@ def same_way(published: str, found: str, load: Load, places: Places) -> bool:
     return turned_at_most(theirs, ours, published)
 
 
+def same_way_in_space(
+    published: str, found: str, load: SpatialLoad, places: Mapping[str, Sequence[float]]
+) -> bool:
+    """Whether a load in space of sense ``found`` goes the way that ``published`` says: ``along -z`` may be
+    published as ``down``, or as ``away from P`` where P lies above.
+    """
+    theirs, ours = (_along(sense, load, places) for sense in (published, found))
+    if theirs is None or ours is None:
+        return published == found
+    cosine = sum(a * b for a, b in zip(theirs, ours, strict=True))
+    room = _LOOSE if published in ("up", "down") else _CLOSE
+    return cosine >= math.cos(math.radians(room)) - 1e-12
+
+
+def _along(
+    sense: str, load: SpatialLoad, places: Mapping[str, Sequence[float]]
+) -> tuple[float, float, float] | None:
+    """The unit vector of a sense in space; None where the words alone do not give one."""
+    if sense in ("up", "down"):
+        return (0.0, 0.0, 1.0 if sense == "up" else -1.0)
+    lead, _, rest = sense.partition(" ")
+    start, end = places.get(getattr(load, "at", "")), places.get(rest.removeprefix("from "))
+    back = lead in ("away", "push")
+    if lead in ("pull", "push"):
+        heading = getattr(load, "heading", None)
+        end = places.get(heading.point if isinstance(heading, Toward) else getattr(load, "to", ""))
+    elif lead in ("along", "about"):
+        one, _, other = rest.partition(" to ")
+        start, end = places.get(one), places.get(other)
+        if not other:
+            start, end = (0.0, 0.0, 0.0), _components(rest)
+    if start is None or end is None:
+        return None
+    x, y, z = (b - a for a, b in zip(start, end, strict=True))
+    size = math.hypot(x, y, z) * (-1.0 if back else 1.0)
+    return (x / size, y / size, z / size) if size else None
+
+
+def _components(words: str) -> tuple[float, float, float] | None:
+    """``-z``, ``[0, 0.6, -0.8]``."""
+    sign, axis = (-1.0, words[1:]) if words.startswith("-") else (1.0, words)
+    if axis in ("x", "y", "z"):
+        return (sign * (axis == "x"), sign * (axis == "y"), sign * (axis == "z"))
+    try:
+        x, y, z = (float(part) for part in words.strip("[]()").split(","))
+    except ValueError:
+        return None
+    return x, y, z
+
+
 def turned_at_most(theirs: float, ours: float, published: str) -> bool:
     """Whether two directions in degrees differ by no more than the published words leave open."""
     room = _LOOSE if published in _WORDS else _CLOSE
     return abs(math.remainder(theirs - ours, 360.0)) <= room + 1e-9
 
 
-def bearing(sense: str, load: Load | None, places: Places) -> float | None:
-    """Direction of a sense in degrees ccw from +x; None where the words alone do not give one."""
+def bearing(
+    sense: str, load: Load | None, places: Places, start: tuple[float, float] | None = None
+) -> float | None:
+    """Direction of a sense in degrees ccw from +x; None where the words alone do not give one. The sense is
+    that of a load, or of what acts or moves at ``start``.
+    """
     lead, _, rest = sense.partition(" ")
     if sense in _WORDS:
         return _WORDS[sense]
     if lead == "at":
         return _degrees(rest)
-    start = places.get(getattr(load, "at", ""))
+    start = start or places.get(getattr(load, "at", ""))
     if lead == "toward":
         return _from(start, places.get(rest))
     if lead in {"pull", "push"}:

@@ -77,9 +77,10 @@ function drive(degrees, link = live.input) {
     return;
   }
   enterAll(some);
+  windUp();
   changed(true, true);
   const own = link === live.input ? slider : byId(`turn-${link}`);
-  if (own) own.value = String(degrees);
+  if (own) own.value = degrees;
   if (link === live.input && byId("angle")) byId("angle").textContent = `${number(Math.abs(degrees), 5)}${motion ? motion.unit : "°"} ${motion ? motion.senses[degrees >= 0 ? 0 : 1] : ""}`;
 }
 function enterAll(some) {
@@ -121,11 +122,14 @@ function follow(r) {
   const some = numbersAt(r);
   if (!some) return;
   if (r === zero) live.numbers.forEach((value, n) => enter(n, value, live.firstHalves[n], live.texts[n]));
-  else enterAll(some);
+  else {
+    enterAll(some);
+    if (mover) windUp();
+  }
   try {
-    laboratory.followed();
+    laboratory[r === zero ? "typed" : "followed"]();
   } catch (refusal) {
-    if (!(refusal instanceof Refusal)) throw refusal;
+    refused(refusal);
   }
 }
 const tidy = (value, unit) => Number((Math.round(value / unit) * unit).toFixed(Math.max(0, -Math.floor(Math.log10(unit)))));
@@ -213,7 +217,7 @@ function grip(name, moves) {
 /* --- the case with the numbers as they are ------------------------------------------------------------ */
 
 const differing = () => numbers.map((value, n) => n).filter((n) => numbers[n] !== live.numbers[n] || live.text.set.includes(n));
-const textOf = (n) => (fieldOf(n) && numberIn(fieldOf(n).value, fieldOf(n).dataset.bound) ? fieldOf(n).value.trim().replace("−", "-").replace(",", ".") : String(numbers[n]));
+const textOf = (n, e = fieldOf(n)) => (e && numberIn(e.value, e.dataset.bound) ? e.value.trim().replace("−", "-").replace(",", ".") : String(numbers[n]));
 /* What `near` has to be so that the numbers alone lead here: nothing, where the way as typed is this one. */
 function nearHere() {
   const here = laboratory.points.map((p) => [...p]);
@@ -223,7 +227,7 @@ function nearHere() {
     fresh.typed();
     same = fresh.points.every((p, k) => apart(p, here[k]) < 1e-9);
   } catch (refusal) {
-    if (!(refusal instanceof Refusal)) throw refusal;
+    refused(refusal);
     same = scene.status !== "ok";
   }
   return same ? {} : Object.fromEntries(Object.keys(live.near).map((k) => [k, fromFrame(here[k])]));

@@ -179,7 +179,7 @@ function resolve(dragged, pulled) {
     for (const one of live.posed) [solved.at, solved.stability] = [numbers[one.number], stability];
     scene.solved = solved;
   } catch (refusal) {
-    if (!(refusal instanceof Refusal)) throw refusal;
+    refused(refusal);
     [scene.status, scene.words] = [refusal.status, refusal.words];
     live.posed.forEach((one, k) => { numbers[one.number] = before[k]; });
   }

@@ -52,7 +52,7 @@ function moveTo(r, beyond = "") {
   leave();
   row = Math.max(0, Math.min(rows - 1, Math.round(r)));
   if (live) follow(row);
-  slider.value = String(degreesOf(row));
+  slider.value = degreesOf(row);
   hint.textContent = hintOf(row, beyond);
   render();
 }

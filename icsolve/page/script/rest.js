@@ -26,7 +26,7 @@ function restOf(told, x, figure) {
     try {
       return powerAt(told, x, figure, value, before);
     } catch (refusal) {
-      if (!(refusal instanceof Refusal)) throw refusal;
+      refused(refusal);
       return null;
     }
   };

@@ -10,6 +10,8 @@ const SAME = 1e-11;
 class Refusal {
   constructor(status, words = "", amount = Infinity) { Object.assign(this, { status, words, amount }); }
 }
+/* Nothing but a refusal is expected. */
+const refused = (error) => { if (!(error instanceof Refusal)) throw error; };
 const spread = (some) => Math.hypot(...some.flat());
 const apart = (p, q) => Math.hypot(p[0] - q[0], p[1] - q[1]);
 const largest = (some) => some.reduce((most, v) => Math.max(most, Math.abs(v)), 0);
@@ -94,8 +96,8 @@ function figureOf(program, told, x) {
   const points = [];
   const s = [];
   const q = [];
-  const [t, r] = [[], []];
-  const { steps, scene, rates, inertia } = program(x, s, q, t, r);
+  const [t, r, w] = [[], [], []];
+  const { steps, scene, rates, inertia } = program(x, s, q, t, r, w);
   const near = new Map(Object.entries(told.near).map(([k, at]) => [Number(k), at]));
   for (const step of told.steps) {
     if (step.sign !== undefined) s[step.p[0]] = step.sign;
@@ -384,16 +386,20 @@ function figureOf(program, told, x) {
     every.forEach((n) => run(n));
     if (list !== every) for (const n of every.filter((k) => !list.includes(k))) for (const k of told.steps[n].p) points[k] = [NaN, NaN];
   }
+  /* Turns of torsion springs: as typed, or on from where they are. */
+  const wind = (k) => told.wound[0] && scene()[6].forEach((one, n) => (w[n] = one[k]));
   return {
     points,
     scene,
     near,
+    w,
     /* What the rates of twists fulfil, and the wrenches of inertia forces by these. */
     rates: (twists) => (t.splice(0, t.length, ...twists), inTheSenseOfSpeeds(told, x, rates)),
     inertia: (changes) => (r.splice(0, r.length, ...changes), inertia()),
     /* Branches, and where Newton's method stands. */
-    state: () => [[...s], [...q]],
-    adopt([branches, starts]) {
+    state: () => [[...s], [...q], [...w]],
+    adopt([branches, starts, turns]) {
+      w.splice(0, w.length, ...turns);
       s.splice(0, s.length, ...branches);
       q.splice(0, q.length, ...starts);
     },
@@ -405,6 +411,8 @@ function figureOf(program, told, x) {
         if (!(refusal instanceof Refusal) || needed.length === every.length) throw refusal;
         settle(needed);
       }
+      wind(1);
+      wind(0);
     },
     /* From where it is: the same branches, Newton's method from the last places; the point that is pulled
        (its number and where to) goes to the side to which it is pulled. */
@@ -435,6 +443,7 @@ function figureOf(program, told, x) {
       });
       const miss = contradicted(needed);
       if (miss) throw miss;
+      wind(0);
     },
   };
 }

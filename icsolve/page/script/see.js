@@ -42,7 +42,7 @@ function shadowed(numbersNow) {
     shadow.figure.followed();
     return stateOf(shadow.figure, solvedScene(live, shadow.numbers, shadow.figure));
   } catch (refusal) {
-    if (!(refusal instanceof Refusal)) throw refusal;
+    refused(refusal);
     return null;
   }
 }

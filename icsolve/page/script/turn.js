@@ -14,6 +14,7 @@ function restHere() {
   mover.pose = Array(3 * mover.bodies.length).fill(0);
   mover.twists = scene.solved.motions.twists;
   mover.at = {};
+  mover.w = [...laboratory.w];
   mover.of = new Map(Object.entries(live.owner).map(([name, link]) => [live.points[name], live.body[link]]));
 }
 const slotOf = (body) => 3 * mover.bodies.indexOf(body);
@@ -29,7 +30,7 @@ const angleOf = (body) => (body === live.ground ? 0 : mover.pose[slotOf(body) + 
 function conditions() {
   const found = [];
   const point = (body, { arm }, n, factor) =>
-    body === live.ground ? [] : [[[slotOf(body), n === 0 ? factor : 0], [slotOf(body) + 1, n === 1 ? factor : 0], [slotOf(body) + 2, factor * perp(arm)[n]]]].flat();
+    body === live.ground ? [] : [[slotOf(body) + n, factor], [slotOf(body) + 2, factor * perp(arm)[n]]];
   const along = (body, place, u, factor) => [...point(body, place, 0, u[0] * factor), ...point(body, place, 1, u[1] * factor)];
   const angle = (body, factor) => (body === live.ground ? [] : [[slotOf(body) + 2, factor]]);
   live.bonds.forEach(([one, two], k) => {
@@ -67,6 +68,8 @@ function conditions() {
   }
   return found;
 }
+/* Torsion springs turn with the bodies that they are between, from rest on. */
+const windUp = () => live.wound.forEach(([a, b], n) => (laboratory.w[n] = mover.w[n] + ((angleOf(a) - angleOf(b)) * 180) / Math.PI));
 /* What the meshes keep: weights of both wheels, and the body that carries them. */
 function meshesOf() {
   mover.meshes = live.bonds.map(([one, two], k) => {
@@ -131,7 +134,8 @@ function measured() {
 }
 /* Inputs: one a freedom, the one that is chosen first, and those whose rates are not tied to it. */
 function chooseInputs(first) {
-  const { twists, mobility } = mover.twists && { twists: mover.twists, mobility: mover.twists[0].length };
+  const { twists } = mover;
+  const mobility = twists[0].length;
   const wish = [first, ...live.turning, ...Object.keys(live.links)].filter((link) => link && live.body[link] !== live.ground);
   const chosen = [];
   const rows = [];
