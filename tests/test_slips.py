@@ -168,14 +168,6 @@ REFUSED = {
         12,
         "a decimal point, 0.5 lbf",
     ),
-    "a bare tolerance": ("loads:", "tolerance: 1\nloads:", 13, 12, "may be a share or a width: write 1%, or"),
-    "a bare share": (
-        "loads:",
-        "tolerance: 0.01\nloads:",
-        13,
-        12,
-        "a width: write 1%, or a width with its unit",
-    ),
     "a tolerance in no unit": (
         "loads:",
         "tolerance: 0.5 furlong\nloads:",

@@ -459,13 +459,7 @@ def tolerance_of(node: Node) -> Tolerance:
     Raises ValueError, with a sentence.
     """
     if type(node) is Scalar:
-        found = parse_tolerance(node.text)
-        if found.absolute and not found.unit:
-            number = node.text.strip()
-            share = f"{number}%" if found.absolute >= 1.0 else f"{100.0 * found.absolute:g}%"
-            said = f"{shown(number)} may be a share or a width: write {share}, or a width with its unit, or"
-            raise ValueError(f"{said} {{absolute: {number}}} in that of each answer")
-        return found
+        return parse_tolerance(node.text)
     if type(node) is not Mapping or not node.items:
         raise ValueError(_FORM)
     found = Tolerance()

@@ -187,7 +187,7 @@ FORMS: dict[str, Schema] = {
     "profile": _section(_ref("profile")),
     "motion": _any(_ref("motion"), _list(_ref("motion"), 0), {"type": "null"}),
     "expect": _section(_any(_PUBLISHED, _ref("published")), "^.+$"),
-    "tolerance": _any(_ref("with unit"), _ref("tolerance"), {"type": "null"}),
+    "tolerance": _any(_ref("quantity"), _ref("tolerance"), {"type": "null"}),
     "variables": _section(_ref("variable")),
 }
 """What each form of the table of keys is in JSON."""
