@@ -34,23 +34,23 @@ if (stage) {
     c.text = make("text", { class: "t-centre", "font-size": 13, "text-anchor": "middle" }, c.label);
   }
 }
-const isFar = (c, r) => Math.abs(c.x[r]) >= INFINITE || Math.abs(c.y[r]) >= INFINITE;
+const isFar = (c, r) => abs(c.x[r]) >= INFINITE || abs(c.y[r]) >= INFINITE;
 function lineOf(c, line, r) {
   const ends = line.map((end) => (typeof end === "string" ? at(end, r) : [centres[end].x[r], centres[end].y[r]]));
   ends.push([c.x[r], c.y[r]]);
   if (ends.some((p) => !p || p[0] === null || p[1] === null)) return "";
-  const near = ends.filter((p) => Math.max(Math.abs(p[0]), Math.abs(p[1])) < INFINITE);
-  const away = ends.filter((p) => Math.max(Math.abs(p[0]), Math.abs(p[1])) >= INFINITE);
+  const near = ends.filter((p) => Math.max(abs(p[0]), abs(p[1])) < INFINITE);
+  const away = ends.filter((p) => Math.max(abs(p[0]), abs(p[1])) >= INFINITE);
   if (!near.length) return "";
   const o = near[0];
   let far = o;
-  for (const p of near) if (Math.hypot(p[0] - o[0], p[1] - o[1]) > Math.hypot(far[0] - o[0], far[1] - o[1])) far = p;
-  let u = [far[0] - o[0], far[1] - o[1]];
-  if (Math.hypot(...u) < 0.2) {
+  for (const p of near) if (hypot(p[0] - o[0], p[1] - o[1]) > hypot(far[0] - o[0], far[1] - o[1])) far = p;
+  let u = minus(far, o);
+  if (hypot(...u) < 0.2) {
     if (!away.length) return "";
     u = away[0];
   }
-  const length = Math.hypot(...u);
+  const length = hypot(...u);
   u = [u[0] / length, u[1] / length];
   const reach = near.map((p) => (p[0] - o[0]) * u[0] + (p[1] - o[1]) * u[1]);
   const more = away.length ? 2e4 : 16;
@@ -91,7 +91,7 @@ function spotOf(c, r) {
   const away = isFar(c, r);
   if (!away && inside(p)) return { p, far: false, key: `${Math.round(p[0] / 2)},${Math.round(p[1] / 2)}`, tail: "" };
   const from = away ? p : [p[0] - MIDDLE[0], p[1] - MIDDLE[1]];
-  const size = Math.hypot(...from);
+  const size = hypot(...from);
   const u = [from[0] / size, from[1] / size];
   const tail = away ? " ∞" : `, ${number(size / data.scale, 3)} ${data.length} away`;
   return { u, far: true, key: away ? `${f(u[0])} ${f(u[1])}` : `far ${c.id}`, tail };

@@ -1,4 +1,5 @@
 /* The data of the page, and what is where in every position. */
+const { abs, hypot } = Math;
 const data = JSON.parse(document.getElementById("data").textContent);
 const NS = "http://www.w3.org/2000/svg";
 const byId = (id) => document.getElementById(id);
@@ -40,7 +41,7 @@ const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 function number(value, digits) {
   const x = Number(value.toPrecision(digits));
   if (x === 0) return "0";
-  const size = Math.abs(x);
+  const size = abs(x);
   if (size >= 1e-4 && size < 10 ** Math.max(digits, 7)) return String(x).replace("-", "−");
   const [m, e] = x.toExponential(digits - 1).split("e");
   const mantissa = m.includes(".") ? m.replace(/\.?0+$/, "") : m;
@@ -67,4 +68,5 @@ const at = (name, r) => {
 };
 const set = (element, name, value) => element.setAttribute(name, value);
 const show = (element, yes) => element.classList.toggle("hidden", !yes);
+const minus = (a, b) => [a[0] - b[0], a[1] - b[1]];
 const f = (v) => v.toFixed(2);

@@ -81,7 +81,7 @@ function drive(degrees, link = live.input) {
   changed(true, true);
   const own = link === live.input ? slider : byId(`turn-${link}`);
   if (own) own.value = degrees;
-  if (link === live.input && byId("angle")) byId("angle").textContent = `${number(Math.abs(degrees), 5)}${motion ? motion.unit : "°"} ${motion ? motion.senses[degrees >= 0 ? 0 : 1] : ""}`;
+  if (link === live.input && byId("angle")) byId("angle").textContent = `${number(abs(degrees), 5)}${motion ? motion.unit : "°"} ${motion ? motion.senses[degrees >= 0 ? 0 : 1] : ""}`;
 }
 function enterAll(some) {
   some.forEach((value, n) => {
@@ -155,7 +155,7 @@ function pull(h, to) {
     else {
       const centre = base(from);
       const now = fromFrame(laboratory.points[live.points[h.name]]);
-      const arm = (p) => [p[0] - centre[0], p[1] - centre[1]];
+      const arm = (p) => minus(p, centre);
       [value, unit] = [numbers[n] + sense * turned(arm(now), arm(to)), 0.1];
     }
     const shown = tidy(value, unit);
@@ -185,7 +185,7 @@ function grip(name, moves) {
     if (event.button) return;
     const at = place(event);
     const own = fromFrame(laboratory.points[live.points[name]]);
-    held = { last: at, off: [at[0] - own[0], at[1] - own[1]] };
+    held = { last: at, off: minus(at, own) };
     e.setPointerCapture(event.pointerId);
     event.preventDefault();
     e.focus({ preventScroll: true });
@@ -293,7 +293,7 @@ if (live) {
     });
     field.addEventListener("focus", () => {
       const angle = field.nextElementSibling && field.nextElementSibling.textContent === "°";
-      const reach = angle ? 90 : Math.abs(live.numbers[n]) || (path.startsWith("points.") ? 1 / live.frame[2] / 4 : 1);
+      const reach = angle ? 90 : abs(live.numbers[n]) || (path.startsWith("points.") ? 1 / live.frame[2] / 4 : 1);
       const limits = live.bounds[field.dataset.bound];
       const whole = limits.some(([than]) => than === "whole");
       const unit = whole ? 1 : angle ? 0.5 : 10 ** (Math.floor(Math.log10(reach)) - 2);

@@ -44,8 +44,8 @@ const ON_LABEL = 6;
 function overlap(p, size, boxes) {
   let sum = 0;
   for (const b of boxes) {
-    const x = size[0] + b[2] - Math.abs(p[0] - b[0]);
-    const y = size[1] + b[3] - Math.abs(p[1] - b[1]);
+    const x = size[0] + b[2] - abs(p[0] - b[0]);
+    const y = size[1] + b[3] - abs(p[1] - b[1]);
     if (x > 0 && y > 0) sum += (b[4] || 1) * (60 + 2 * x * y);
   }
   return sum;
@@ -65,7 +65,7 @@ function crossed([x, y], [w, h], strokes, most) {
     const [dx, dy] = [x2 - x1 || 1e-9, y2 - y1 || 1e-9];
     const first = Math.max(0, (x - x1 - w * Math.sign(dx)) / dx, (y - y1 - h * Math.sign(dy)) / dy);
     const last = Math.min(1, (x - x1 + w * Math.sign(dx)) / dx, (y - y1 + h * Math.sign(dy)) / dy);
-    if (last > first) sum += 4 + 0.25 * (last - first) * Math.hypot(dx, dy);
+    if (last > first) sum += 4 + 0.25 * (last - first) * hypot(dx, dy);
     if (sum > most) break;
   }
   return sum;

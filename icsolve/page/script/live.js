@@ -57,13 +57,13 @@ function forceIn(name, solved) {
   return w ? [sign * w[1], -sign * w[0]] : [NaN, NaN];
 }
 function valueOf(name, solved) {
-  if (live.still) return Math.hypot(...forceIn(name, solved));
+  if (live.still) return hypot(...forceIn(name, solved));
   const asked = live.posed.find((one) => one.name === name);
   if (asked) return asked.turns && asked.range[0] === null ? ((solved.at % 360) + 360) % 360 : solved.at;
   const n = live.loads.findIndex((load) => load.name === name);
   if (n >= 0) return solved.values[n];
   const parts = ["x", "y"].map((axis) => solved.values[live.loads.findIndex((load) => load.name === `${name}.${axis}`)]);
-  return Math.hypot(...parts);
+  return hypot(...parts);
 }
 /* The sense of a load's value, in the words of the answer. */
 function senseOf(name, solved) {
@@ -123,7 +123,7 @@ function fillLoads(solved) {
   live.loads.forEach(({ name }, n) => {
     const load = own(loads, name);
     const [u, v, couple] = solved.loads[n];
-    if (load && load.values) load.values[LIVE] = load.torque ? couple : Math.hypot(u, v);
+    if (load && load.values) load.values[LIVE] = load.torque ? couple : hypot(u, v);
     if (load && !load.torque) load.way[LIVE] = turned(wrenchOf(scene.first.loads[n]), wrenchOf(solved.loads[n]));
   });
 }
@@ -140,8 +140,8 @@ function fillCentres(solved) {
     const t = solved && centreOf(c, solved);
     [c.x[LIVE], c.y[LIVE]] = [null, null];
     if (!t || largest(t) <= 1e-11 * fast) continue;
-    const reach = Math.hypot(t[0], t[1]);
-    if (Math.abs(t[2]) * 1e7 <= reach) {
+    const reach = hypot(t[0], t[1]);
+    if (abs(t[2]) * 1e7 <= reach) {
       const side = (t[1] < 0 || (t[1] === 0 && t[0] < 0) ? -2 : 2) * (INFINITE / reach);
       [c.x[LIVE], c.y[LIVE]] = [t[0] * side, -t[1] * side];
     } else [c.x[LIVE], c.y[LIVE]] = inPicture(fromFrame([t[0] / t[2], t[1] / t[2]]));

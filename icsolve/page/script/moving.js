@@ -44,10 +44,10 @@ function outlineOf(some) {
 function stretched(before, after) {
   const [p, q] = before;
   const [a, b] = after;
-  const third = before.findIndex((s) => Math.abs((q[0] - p[0]) * (s[1] - p[1]) - (q[1] - p[1]) * (s[0] - p[0])) > 30);
-  const [u, v] = [[q[0] - p[0], q[1] - p[1]], [b[0] - a[0], b[1] - a[1]]];
+  const third = before.findIndex((s) => abs((q[0] - p[0]) * (s[1] - p[1]) - (q[1] - p[1]) * (s[0] - p[0])) > 30);
+  const [u, v] = [minus(q, p), minus(b, a)];
   const w = third < 0 ? [-u[1], u[0]] : [before[third][0] - p[0], before[third][1] - p[1]];
-  const k = Math.hypot(...u) / (Math.hypot(...v) || 1);
+  const k = hypot(...u) / (hypot(...v) || 1);
   const x = third < 0 ? [-v[1] * k, v[0] * k] : [after[third][0] - a[0], after[third][1] - a[1]];
   const d = u[0] * w[1] - u[1] * w[0];
   const m = [(v[0] * w[1] - x[0] * u[1]) / d, (v[1] * w[1] - x[1] * u[1]) / d, (x[0] * u[0] - v[0] * w[0]) / d, (x[1] * u[0] - v[1] * w[0]) / d];
@@ -63,7 +63,7 @@ function bent(e, r) {
   const before = names.map((n) => written[n]);
   const after = names.map((n) => [points[n].x[r], points[n].y[r]]);
   if (!after.flat().every(Number.isFinite)) return false;
-  if (before.every((p, i) => before.every((q, j) => Math.abs(apart(p, q) - apart(after[i], after[j])) < 0.3))) return false;
+  if (before.every((p, i) => before.every((q, j) => abs(apart(p, q) - apart(after[i], after[j])) < 0.3))) return false;
   if (plainBody(e)) {
     show(body, false);
     e.removeAttribute("transform");
@@ -110,7 +110,7 @@ function layRope(e, circles, r) {
     const start = [ax + s * uy, ay - s * ux];
     const turn = before ? Math.atan2(before[0] * uy - before[1] * ux, before[0] * ux + before[1] * uy) * Math.sign(s) : 0;
     const large = turn < -1e-6 ? 1 : 0;
-    d += s && before ? `A${f(Math.abs(s))},${f(Math.abs(s))} 0 ${large} ${s > 0 ? 1 : 0} ` : before ? "L" : "M";
+    d += s && before ? `A${f(abs(s))},${f(abs(s))} 0 ${large} ${s > 0 ? 1 : 0} ` : before ? "L" : "M";
     d += `${start.map(f)} L${f(start[0] + length * ux)},${f(start[1] + length * uy)}`;
     before = [ux, uy];
   }
@@ -124,7 +124,7 @@ const rounds = new Map();
 for (const [, x, y, s, path] of Object.values(data.ropes || {}).flat())
   for (const e of path ? all("#mechanism circle", figure) : []) {
     const [cx, cy, size] = ["cx", "cy", "r"].map((name) => Number(e.getAttribute(name)));
-    if (apart([cx, cy], [x, y]) > 0.15 || Math.abs(size - Math.abs(s)) > 0.15) continue;
+    if (apart([cx, cy], [x, y]) > 0.15 || abs(size - abs(s)) > 0.15) continue;
     const before = rounds.get(e);
     const spokes = [...e.parentNode.querySelectorAll("path.faint")];
     rounds.set(e, before ? { ...before, paths: [...before.paths, path] } : { at: [cx, cy], size, spokes, paths: [path] });
@@ -154,9 +154,9 @@ function moveParts(r) {
   for (const [e, load] of springs) {
     const [a0, b0] = load.span.map((s) => s.slice(1));
     const [a, b] = load.span.map((s) => carried(s, r));
-    const [u, v] = [[b0[0] - a0[0], b0[1] - a0[1]], [b[0] - a[0], b[1] - a[1]]];
+    const [u, v] = [minus(b0, a0), minus(b, a)];
     const angle = (w) => (Math.atan2(w[1], w[0]) * 180) / Math.PI;
-    const k = Math.hypot(...v) / Math.hypot(...u);
+    const k = hypot(...v) / hypot(...u);
     set(e, "transform", `translate(${f(a[0])} ${f(a[1])}) rotate(${f(angle(v))}) scale(${k.toFixed(4)} 1) rotate(${f(-angle(u))}) translate(${-a0[0]} ${-a0[1]})`);
   }
 }

@@ -6,7 +6,7 @@ const degreesOf = (r) => motion.first + motion.step * r;
 function angleWords(r) {
   if (r === zero) return "as written";
   if (r === LIVE) return "with the numbers as they are";
-  return `${number(Math.abs(degreesOf(r)), 5)}${motion.unit} ${motion.senses[r > zero ? 0 : 1]}`;
+  return `${number(abs(degreesOf(r)), 5)}${motion.unit} ${motion.senses[r > zero ? 0 : 1]}`;
 }
 function moveCursors(r) {
   for (const plot of cursors) {

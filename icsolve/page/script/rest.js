@@ -13,8 +13,8 @@ function powerAt(told, x, figure, value, before) {
   const { power } = balanceOf(told, parts[2], motions);
   const own = power.map(([one], n) => one * parts[2][n][4] * parts[2][n][5] * told.loads[n].measure);
   const twist = motions.twists.flat(2);
-  const size = Math.hypot(...twist) * (before && dot(twist, before.twist) < 0 ? -1 : 1);
-  const terms = power.reduce((sum, _, n) => sum + Math.abs(parts[2][n][3] * parts[2][n][5] * told.loads[n].measure) * largest(parts[2][n].slice(0, 3)), 0);
+  const size = hypot(...twist) * (before && dot(twist, before.twist) < 0 ? -1 : 1);
+  const terms = power.reduce((sum, _, n) => sum + abs(parts[2][n][3] * parts[2][n][5] * told.loads[n].measure) * largest(parts[2][n].slice(0, 3)), 0);
   const points = figure.points.map((p) => [...p]);
   return { value, power: own.reduce((sum, v) => sum + v, 0) / size, terms, twist: twist.map((v) => v / size), state: figure.state(), points };
 }
@@ -47,21 +47,21 @@ function restOf(told, x, figure) {
         side.going = value !== side.last.value && side.pace > pace / FEWER;
         continue;
       }
-      moving = moving || Math.abs(next.power) > 1e-12 * next.terms;
+      moving = moving || abs(next.power) > 1e-12 * next.terms;
       if (next.power > 0 !== side.last.power > 0) {
         const found = zeroBetween(at, side.last, next, 1e-3);
         if (found) return restAt(told, x, figure, found, [side.last, next], at, 1e-3 * pace);
       }
       side.last = next;
-      if (Math.abs(next.value - start.value) >= (turns ? 180 : SCANNED * pace)) side.going = false;
+      if (abs(next.value - start.value) >= (turns ? 180 : SCANNED * pace)) side.going = false;
     }
   throw new Refusal(moving ? "no-value" : "any-value");
 }
 /* Where the power vanishes between two values, by false position and halving; null where it jumps there. */
 function zeroBetween(at, a, b, jump) {
-  const most = Math.min(Math.abs(a.power), Math.abs(b.power));
+  const most = Math.min(abs(a.power), abs(b.power));
   let [p, q] = [a, b];
-  for (let k = 0; k < 120 && p.power && q.power && Math.abs(q.value - p.value) > 2e-16 * Math.max(Math.abs(p.value), Math.abs(q.value)); k++) {
+  for (let k = 0; k < 120 && p.power && q.power && abs(q.value - p.value) > 2e-16 * Math.max(abs(p.value), abs(q.value)); k++) {
     const share = k % 3 === 2 ? 0.5 : p.power / (p.power - q.power);
     const middle = at(p.value + share * (q.value - p.value), p);
     if (!middle) return null;
@@ -70,8 +70,8 @@ function zeroBetween(at, a, b, jump) {
     else q = middle;
     if (middle.power === 0) break;
   }
-  const found = Math.abs(p.power) < Math.abs(q.power) ? p : q;
-  return Math.abs(found.power) <= jump * most || most <= 1e-10 * found.terms ? found : null;
+  const found = abs(p.power) < abs(q.power) ? p : q;
+  return abs(found.power) <= jump * most || most <= 1e-10 * found.terms ? found : null;
 }
 /* The position: stable where the loads push back. With the datum the points go as the motion takes them. */
 function restAt(told, x, figure, found, [one, two], at, little) {
@@ -84,9 +84,9 @@ function restAt(told, x, figure, found, [one, two], at, little) {
     }).filter(([, change]) => change.every(Number.isFinite));
     const [v, change] = [ways.flatMap(([v]) => v), ways.flatMap(([, change]) => change)];
     const pace = dot(v, change) / dot(v, v);
-    if (Math.hypot(...change.map((c, k) => c - pace * v[k])) > 1e-4 * Math.hypot(...change)) throw new Refusal("unsupported", `${told.posed[0].name} does not pose the figure`);
+    if (hypot(...change.map((c, k) => c - pace * v[k])) > 1e-4 * hypot(...change)) throw new Refusal("unsupported", `${told.posed[0].name} does not pose the figure`);
     [one, two] = pace > 0 ? [below, above] : [above, below];
   } else if (one.value > two.value) [one, two] = [two, one];
   const pushed = two.power - one.power;
-  return Math.abs(pushed) > 1e-9 * found.terms * (below ? little * told.frame[2] : 1) ? (pushed < 0 ? "stable" : "unstable") : "neutral";
+  return abs(pushed) > 1e-9 * found.terms * (below ? little * told.frame[2] : 1) ? (pushed < 0 ? "stable" : "unstable") : "neutral";
 }

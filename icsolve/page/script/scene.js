@@ -12,9 +12,9 @@ class Refusal {
 }
 /* Nothing but a refusal is expected. */
 const refused = (error) => { if (!(error instanceof Refusal)) throw error; };
-const spread = (some) => Math.hypot(...some.flat());
-const apart = (p, q) => Math.hypot(p[0] - q[0], p[1] - q[1]);
-const largest = (some) => some.reduce((most, v) => Math.max(most, Math.abs(v)), 0);
+const spread = (some) => hypot(...some.flat());
+const apart = (p, q) => hypot(p[0] - q[0], p[1] - q[1]);
+const largest = (some) => some.reduce((most, v) => Math.max(most, abs(v)), 0);
 const powerOfTwo = (v) => (v > 0 && Number.isFinite(v) ? 2 ** (Math.floor(Math.log2(v)) + 1) : 1);
 
 /* All x with rows x = 0, by elimination with complete pivoting. */
@@ -30,7 +30,7 @@ function nullSpace(rows, columns, zero = 64 * UNIT, unit = 0) {
     let at = [rank, rank];
     for (let r = rank; r < work.length; r++)
       for (let c = rank; c < columns; c++)
-        if (Math.abs(work[r][c]) > best) [best, at] = [Math.abs(work[r][c]), [r, c]];
+        if (abs(work[r][c]) > best) [best, at] = [abs(work[r][c]), [r, c]];
     const fraction = best > 0 ? best / (pivots.length ? pivots[0] : Math.max(best, unit)) : 0;
     if (!(fraction > limit)) {
       dropped = fraction;
@@ -153,10 +153,10 @@ function figureOf(program, told, x) {
     if (pairs.some((d) => !(d > TOO_CLOSE * TOO_CLOSE)))
       return new Refusal("cannot-assemble", `${name} has no place: two points that give its direction coincide`);
     if (step.lines) {
-      if (Math.abs(gaps[0]) > 1e-14) return [null];
+      if (abs(gaps[0]) > 1e-14) return [null];
       const [p, r] = loci;
-      const off = Math.abs(p[2] * (r[1] - p[1]) - p[3] * (r[0] - p[0]));
-      if (off <= 1e-12 * (1 + Math.hypot(p[0], p[1]) + Math.hypot(r[0], r[1])))
+      const off = abs(p[2] * (r[1] - p[1]) - p[3] * (r[0] - p[0]));
+      if (off <= 1e-12 * (1 + hypot(p[0], p[1]) + hypot(r[0], r[1])))
         return new Refusal("underdetermined", `${name} may lie anywhere on a line`, 0);
       return new Refusal("cannot-assemble", `two lines that are to meet at ${name} are parallel`, off);
     }
@@ -166,8 +166,8 @@ function figureOf(program, told, x) {
       const [far, over, under] = gaps;
       const d = (over + under) / 2;
       if (d <= slack) {
-        const other = Math.abs(under - over) / 2;
-        if (other <= 1e-12 * Math.abs(far + d)) return new Refusal("underdetermined", `${name} may lie anywhere on a circle`, 0);
+        const other = abs(under - over) / 2;
+        if (other <= 1e-12 * abs(far + d)) return new Refusal("underdetermined", `${name} may lie anywhere on a circle`, 0);
         return new Refusal("cannot-assemble", `${name}: two circles about one centre do not meet`, other);
       }
     }
@@ -193,10 +193,10 @@ function figureOf(program, told, x) {
     if (!step.round) {
       const along = (r[0] - p[0]) * p[2] + (r[1] - p[1]) * p[3];
       const [px, py] = [p[0] + along * p[2], p[1] + along * p[3]];
-      const share = (1 + r[2] / (Math.hypot(px - r[0], py - r[1]) || 1)) / 2;
+      const share = (1 + r[2] / (hypot(px - r[0], py - r[1]) || 1)) / 2;
       return [r[0] + (px - r[0]) * share, r[1] + (py - r[1]) * share];
     }
-    const [a, b, d] = [p[2], r[2], Math.hypot(r[0] - p[0], r[1] - p[1])];
+    const [a, b, d] = [p[2], r[2], hypot(r[0] - p[0], r[1] - p[1])];
     const along = gaps[0] < 0 ? (a + d - b) / 2 : gaps[1] < 0 ? (a + d + b) / 2 : -(a + b - d) / 2;
     return [p[0] + (along * (r[0] - p[0])) / (d || 1), p[1] + (along * (r[1] - p[1])) / (d || 1)];
   }
@@ -233,9 +233,9 @@ function figureOf(program, told, x) {
       const [off, ahead] = residual(kind, names, place);
       const words = `more data than the figure needs, and these contradict each other at ${plain(names[0])}`;
       if (!ahead) return new Refusal("inconsistent", words);
-      if (Math.abs(off) <= 1e-10 * whole) continue;
+      if (abs(off) <= 1e-10 * whole) continue;
       const most = Math.min(0.002 * whole, allowance(kind, names, place, off));
-      if (!(Math.abs(off) <= most)) return new Refusal("inconsistent", `${words}: off by ${measure(Math.abs(off))}`, Math.abs(off));
+      if (!(abs(off) <= most)) return new Refusal("inconsistent", `${words}: off by ${measure(abs(off))}`, abs(off));
     }
     return null;
   }
@@ -251,7 +251,7 @@ function figureOf(program, told, x) {
     if (kind === "mean") {
       const of = names.slice(1).map((k) => points[k]);
       const miss = [0, 1].map((n) => p[n] - of.reduce((sum, at) => sum + at[n], 0) / of.length);
-      return [Math.abs(miss[0]) > Math.abs(miss[1]) ? miss[0] : miss[1], true];
+      return [abs(miss[0]) > abs(miss[1]) ? miss[0] : miss[1], true];
     }
     if (kind === "line") {
       const d = apart(v, w);
@@ -260,19 +260,17 @@ function figureOf(program, told, x) {
     const [c, t] = turned(value);
     if (kind === "guide") return [c * (p[1] - o[1]) - t * (p[0] - o[0]), true];
     if (kind === "ray") {
-      const [dx, dy] = [o[0] - p[0], o[1] - p[1]];
-      return [c * dy - t * dx, c * dx + t * dy > TOO_CLOSE || Math.hypot(dx, dy) <= TOO_CLOSE];
+      const [dx, dy] = minus(o, p);
+      return [c * dy - t * dx, c * dx + t * dy > TOO_CLOSE || hypot(dx, dy) <= TOO_CLOSE];
     }
-    const [one, two] = [[p[0] - o[0], p[1] - o[1]], [v[0] - o[0], v[1] - o[1]]];
-    const arms = [Math.hypot(...one), Math.hypot(...two)];
-    if (arms.some((arm, n) => arm <= NEAR && isLength(names[2 * n], names[1]))) return [0, true];
+    const [one, two] = [minus(p, o), minus(v, o)];
+    const arms = [hypot(...one), hypot(...two)];
+    /* An arm whose length is a datum may be so short that doubles tell no direction. */
+    const isLength = (a) => told.checks.some(([k, ends]) => k === "length" && ends.includes(a) && ends.includes(names[1]));
+    if (arms.some((arm, n) => arm <= NEAR && isLength(names[2 * n]))) return [0, true];
     if (Math.min(...arms) <= TOO_CLOSE) return [Math.max(...arms), false];
     const [tx, ty] = [c * one[0] - t * one[1], t * one[0] + c * one[1]];
     return [(tx * two[1] - ty * two[0]) / Math.min(...arms), tx * two[0] + ty * two[1] > 0];
-  }
-  /* Whether the distance of two points is a datum: of an arm that is so short doubles tell no direction. */
-  function isLength(a, b) {
-    return told.checks.some(([kind, names]) => kind === "length" && names.includes(a) && names.includes(b));
   }
   /* What half a unit of the last decimal of each number does to a residual, added up. */
   function allowance(kind, names, place, off) {
@@ -282,7 +280,7 @@ function figureOf(program, told, x) {
       const written = x[n];
       x[n] += half;
       told.steps.forEach((_, k) => run(k));
-      total += Math.abs(residual(kind, names, place)[0] - off) || 0;
+      total += abs(residual(kind, names, place)[0] - off) || 0;
       x[n] = written;
     });
     told.steps.forEach((_, k) => run(k));
@@ -326,7 +324,7 @@ function figureOf(program, told, x) {
         const behind = told.steps[n].start ? [] : rest.filter((v) => !(v > TOO_CLOSE));
         if (!behind.length) return { option, own };
         const words = `the links meet at ${plain(told.steps[n].p[0])} only on the wrong side`;
-        ends.push({ depth, miss: new Refusal("cannot-assemble", words, Math.abs(behind[0])), path: own });
+        ends.push({ depth, miss: new Refusal("cannot-assemble", words, abs(behind[0])), path: own });
         return null;
       });
       const kept = tried.filter((one) => one && !beyond(one.own)).sort((a, b) => a.own.off - b.own.off);
@@ -364,7 +362,7 @@ function figureOf(program, told, x) {
       if (clearly(end, modes[0].path))
         throw new Refusal(end.miss.status, `what lies at near: does not assemble: ${end.miss.words}`, end.miss.amount);
     const names = Object.values(told.points);
-    const differing = (a, b) => names.filter((k) => apart(a.points[k], b.points[k]) > SAME * (1 + Math.hypot(...a.points[k])));
+    const differing = (a, b) => names.filter((k) => apart(a.points[k], b.points[k]) > SAME * (1 + hypot(...a.points[k])));
     const best = modes[0];
     const rivals = modes.filter((mode) => {
       const other = differing(best, mode);
@@ -516,11 +514,11 @@ function balanceOf(told, loads, motions) {
       const amount = k !== undefined ? (load[4] * measure) / told.loads[unknown[k]].measure : load[5] * scale * measure * load[4];
       const own = k === undefined ? columns - 1 : k;
       sums[own] += amount * power[n][m];
-      terms[own] += Math.abs(amount) * Math.abs(load[3]) * (Math.abs(load[0]) + Math.abs(load[1]) + Math.abs(load[2])) * fastest;
+      terms[own] += abs(amount) * abs(load[3]) * (abs(load[0]) + abs(load[1]) + abs(load[2])) * fastest;
     });
-    return sums.map((v, k) => (Math.abs(v) <= NOISE * terms[k] ? 0 : v)).concat([terms]);
+    return sums.map((v, k) => (abs(v) <= NOISE * terms[k] ? 0 : v)).concat([terms]);
   });
-  const trust = Math.min(1, ...rows.flatMap((row) => row.slice(0, unknown.length).map((v, k) => (v === 0 ? 1 : Math.abs(v) / row[columns][k]))));
+  const trust = Math.min(1, ...rows.flatMap((row) => row.slice(0, unknown.length).map((v, k) => (v === 0 ? 1 : abs(v) / row[columns][k]))));
   const plain = rows.map((row) => row.slice(0, columns));
   const working = plain.filter((row) => row.some((v) => v !== 0));
   const idle = plain.length - working.length;
@@ -543,9 +541,9 @@ function solved(working, idle, unknown, scale) {
   if (!whole.basis.length || !count) return { verdict: "balanced", values: Array(count).fill(0) };
   const vector = whole.basis[0];
   const last = vector[count];
-  if (Math.abs(last) <= NOISE) throw new Refusal("near-singular");
+  if (abs(last) <= NOISE) throw new Refusal("near-singular");
   const most = largest(vector);
-  const values = vector.slice(0, count).map((v, k) => (Math.abs(v) <= NOISE * most ? 0 : v / (last * scale * unknown[k].measure)));
+  const values = vector.slice(0, count).map((v, k) => (abs(v) <= NOISE * most ? 0 : v / (last * scale * unknown[k].measure)));
   return { verdict: "balanced", values };
 }
 /* Why power does not determine the unknown loads. */
@@ -558,7 +556,7 @@ function refuseUnbalanced(told, motions, found) {
   const load = told.loads[found.unknown[found.culprit]];
   const others = found.verdict === "no value";
   const fast = largest(motions.twists.flat(2));
-  const rests = found.relative[found.unknown[found.culprit]].every((t) => t.every((v) => Math.abs(v) <= NOISE * fast));
+  const rests = found.relative[found.unknown[found.culprit]].every((t) => t.every((v) => abs(v) <= NOISE * fast));
   if (load.on === load.against || !rests) throw new Refusal(others ? "no-value" : "any-value");
   throw new Refusal(others ? "dead-centre" : "any-value");
 }
@@ -568,7 +566,7 @@ const dot = (a, b) => a.reduce((sum, v, k) => sum + v * b[k], 0);
 /* Which of the motions is meant, and how fast: its coefficients, and those that stay open. */
 function speedOf(told, x, motions, points) {
   const fast = largest(motions.twists.flat(2));
-  const still = (...some) => some.every((v) => Math.abs(v) <= NOISE * fast);
+  const still = (...some) => some.every((v) => abs(v) <= NOISE * fast);
   const twists = (link) => motions.twists[told.body[link]];
   const rows = told.motion.map((given) => {
     const own = twists(given.link);
@@ -585,8 +583,8 @@ function speedOf(told, x, motions, points) {
     const along = [Math.cos(a), Math.sin(a)];
     if (own.length > 1) return [...speeds.map((v) => dot(v, along)), target];
     const [v] = speeds;
-    const size = Math.hypot(...v);
-    if (Math.abs(v[0] * along[1] - v[1] * along[0]) > size * Math.sin(Math.PI / 180))
+    const size = hypot(...v);
+    if (abs(v[0] * along[1] - v[1] * along[0]) > size * Math.sin(Math.PI / 180))
       throw new Refusal("inconsistent", `the point of link ${given.link} cannot move in the direction that the motion gives`);
     return [dot(v, along) > 0 ? size : -size, target];
   });
@@ -594,14 +592,14 @@ function speedOf(told, x, motions, points) {
   if (motions.mobility === 1 && rows.length === 1) return { meant: [-rows[0][1] / rows[0][0]], open: [] };
   const scaled = rows.map((row) => row.map((v) => v / powerOfTwo(largest(row))));
   const found = nullSpace(scaled, motions.mobility + 1, 1e-12).basis;
-  const first = found.find((v) => Math.abs(v[motions.mobility]) > 1e-9);
+  const first = found.find((v) => abs(v[motions.mobility]) > 1e-9);
   if (!first) throw new Refusal("inconsistent", "the motions given contradict each other");
   const meant = first.slice(0, -1).map((v) => v / first[motions.mobility]);
   return { meant, open: found.filter((v) => v !== first).map((v) => meant.map((m, k) => v[k] - v[motions.mobility] * m)) };
 }
-const longest = (some) => some.reduce((best, v) => (Math.hypot(...v) > Math.hypot(...best) ? v : best));
+const longest = (some) => some.reduce((best, v) => (hypot(...v) > hypot(...best) ? v : best));
 function rightward(v, still) {
-  const size = Math.hypot(...v);
+  const size = hypot(...v);
   const sign = (still(v[0]) ? v[1] > 0 : v[0] > 0) ? 1 : -1;
   return [(sign * v[0]) / size, (sign * v[1]) / size];
 }
@@ -616,10 +614,10 @@ function normal(told, twists, still) {
 /* What two points or teeth must not be. */
 function refuseMisfit(told, x, points) {
   for (const [a, b] of told.aims)
-    if (points[a].every((p, n) => Math.abs(points[b][n] - p) <= NOISE * (1 + Math.abs(p)))) throw new Refusal("inconsistent", "two points that give a direction lie at one place");
+    if (points[a].every((p, n) => abs(points[b][n] - p) <= NOISE * (1 + abs(p)))) throw new Refusal("inconsistent", "two points that give a direction lie at one place");
   for (const [a, b, one, two, size, module] of told.meshes) {
-    const fit = (Math.abs(x[one] + x[two]) * (module ? x[size] : 1 / x[size])) / 2;
-    if (Math.abs(apart(points[a], points[b]) / told.frame[2] - fit) > 2e-3 * fit)
+    const fit = (abs(x[one] + x[two]) * (module ? x[size] : 1 / x[size])) / 2;
+    if (abs(apart(points[a], points[b]) / told.frame[2] - fit) > 2e-3 * fit)
       throw new Refusal("inconsistent", "the teeth do not fit the distance of the pivots");
   }
 }
@@ -644,8 +642,8 @@ function movedAs(told, x, motions, points) {
 /* Whether a wheel has its radius still: its centre lies so far from where it touches. */
 function rollsOn(told, x, { points }, [n, contact, centre]) {
   if ((x[n] === 0) !== (told.numbers[n] === 0)) return false;
-  const r = Math.abs(x[n] * told.frame[2]);
-  return centre === null || Math.abs(apart(points[contact], points[centre]) - r) <= told.offRadius * r;
+  const r = abs(x[n] * told.frame[2]);
+  return centre === null || abs(apart(points[contact], points[centre]) - r) <= told.offRadius * r;
 }
 /* The inertia forces of the given motion among the loads. */
 function withInertia(told, x, figure, twists, loads) {
@@ -661,8 +659,8 @@ function withInertia(told, x, figure, twists, loads) {
   });
   const held = [0, 1, 2].map((n) => [...Array(count + 1).keys()].map((k) => (k === 3 * told.ground + n ? 1 : 0)));
   const { basis } = nullSpace([...rows, ...held], count + 1, 1e-13);
-  const first = basis.reduce((best, v) => (Math.abs(v[count]) > Math.abs(best ? best[count] : 0) ? v : best), null);
-  if (!first || Math.abs(first[count]) < 1e-9 * largest(first)) throw new Refusal("change-point");
+  const first = basis.reduce((best, v) => (abs(v[count]) > abs(best ? best[count] : 0) ? v : best), null);
+  if (!first || abs(first[count]) < 1e-9 * largest(first)) throw new Refusal("change-point");
   const unit = first.map((v) => v / first[count]);
   const open = basis.filter((v) => v !== first).map((v) => v.map((x, k) => x - v[count] * unit[k]));
   const isOpen = (link) => open.some((v) => largest(v.slice(3 * told.body[link], 3 * told.body[link] + 3)) > 1e-9);
@@ -682,7 +680,7 @@ function solvedScene(told, x, figure) {
   told.loads.forEach(({ kind, on }) => {
     const k = kind === "Weight" ? told.ropes.findIndex((rope) => rope.end === on) : -1;
     const last = k < 0 ? [0, -1] : courses[k][courses[k].length - 1].slice(4);
-    if (Math.abs(last[0]) > told.hangs || last[1] > 0)
+    if (abs(last[0]) > told.hangs || last[1] > 0)
       throw new Refusal("inconsistent", "a weight hangs from a part of a rope that does not hang");
   });
   const motions = motionsOf(told, parts, figure.points);

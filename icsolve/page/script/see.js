@@ -88,7 +88,7 @@ function turnTable() {
 /* --- marks -------------------------------------------------------------------------------------------- */
 
 function arrow(parent, kind, [x, y], [u, v], words) {
-  const size = Math.hypot(u, v);
+  const size = hypot(u, v);
   if (!(size > 1.5)) return;
   const [a, b] = [u / size, v / size];
   const head = Math.min(9, size);
@@ -101,7 +101,7 @@ function arrow(parent, kind, [x, y], [u, v], words) {
 }
 /* A name beyond the end of a line that goes that way. */
 function nameAt(parent, kind, [x, y], [u, v], words) {
-  const [a, b] = [u / (Math.hypot(u, v) || 1), v / (Math.hypot(u, v) || 1)];
+  const [a, b] = [u / (hypot(u, v) || 1), v / (hypot(u, v) || 1)];
   make("text", { class: kind, x: f(x + a * 12), y: f(y + b * 12 + 4), "text-anchor": a > 0.3 ? "start" : a < -0.3 ? "end" : "middle", "font-size": 12 }, parent).textContent = words;
 }
 const FASTEST = 80;
@@ -111,10 +111,10 @@ function drawVelocities(state) {
     const t = state.twist(link);
     for (const name of t ? names : []) {
       const v = velocity(t, state.where(name));
-      if (!name.startsWith("@") && v.every(Number.isFinite) && Math.hypot(...v) > 0 && !some.some((one) => one.name === name && apart(one.v, v) < (live ? 1e-9 : 1e-4 * Math.hypot(...v)))) some.push({ name, link, v });
+      if (!name.startsWith("@") && v.every(Number.isFinite) && hypot(...v) > 0 && !some.some((one) => one.name === name && apart(one.v, v) < (live ? 1e-9 : 1e-4 * hypot(...v)))) some.push({ name, link, v });
     }
   }
-  const most = Math.max(...some.map(({ v }) => Math.hypot(...v)));
+  const most = Math.max(...some.map(({ v }) => hypot(...v)));
   const several = (name) => some.filter((one) => one.name === name).length > 1;
   const called = ({ name, link }) => `v${name}${several(name) ? ` on ${link}` : ""}`;
   for (const one of most > 0 ? some : []) {
@@ -122,18 +122,18 @@ function drawVelocities(state) {
     const [u, w] = [(v[0] / most) * FASTEST, (-v[1] / most) * FASTEST];
     arrow(overlay, "v-arrow", state.places[name], [u, w], called(one));
   }
-  return some.filter(({ v }) => Math.hypot(...v) > (live ? 1e-9 : 1e-5) * most).map((one) => `${called(one)} = ${number(Math.hypot(...one.v) / told.frame[2], 4)} ${told.unit}/s`).join(", ");
+  return some.filter(({ v }) => hypot(...v) > (live ? 1e-9 : 1e-5) * most).map((one) => `${called(one)} = ${number(hypot(...one.v) / told.frame[2], 4)} ${told.unit}/s`).join(", ");
 }
 /* The rotation of a link: rays from its centre, and how each point goes about it. */
 function drawRotation(state, link) {
   const t = state.twist(link);
   if (!t || largest(t) === 0) return;
   const spots = spotsOf(state, link);
-  const far = Math.abs(t[2]) * 1e7 <= Math.hypot(t[0], t[1]);
+  const far = abs(t[2]) * 1e7 <= hypot(t[0], t[1]);
   const g = make("g", { class: "rotation" }, overlay);
   if (far) {
     const v = [t[1], -t[0]];
-    const size = Math.hypot(...v);
+    const size = hypot(...v);
     for (const p of spots) arrow(g, "spin", p, [(v[0] / size) * 40, (-v[1] / size) * 40]);
     return;
   }
@@ -175,9 +175,9 @@ function drawCentrodes(state, link) {
   const table = turnTable();
   const centre = (one) => {
     const t = one && one.twist(link);
-    return t && Math.abs(t[2]) * 1e5 > Math.hypot(t[0], t[1]) * told.frame[2] && t[2] !== 0 ? placeIn([t[0] / t[2], t[1] / t[2]]) : null;
+    return t && abs(t[2]) * 1e5 > hypot(t[0], t[1]) * told.frame[2] && t[2] !== 0 ? placeIn([t[0] / t[2], t[1] / t[2]]) : null;
   };
-  const near = (p) => p && Math.max(Math.abs(p[0]), Math.abs(p[1])) < 5000;
+  const near = (p) => p && Math.max(abs(p[0]), abs(p[1])) < 5000;
   const fixed = table.map(centre).map((p) => (near(p) ? p : null));
   const back = (p, [x, y, a]) => {
     const b = (a * Math.PI) / 180;
@@ -229,11 +229,11 @@ function reactionsOf({ solved }) {
   });
   const count = columns.length + live.ropes.length;
   const { basis } = nullSpace(rows, count + 1, 1e-12);
-  const first = basis.reduce((best, v) => (!best || Math.abs(v[count]) > Math.abs(best[count]) ? v : best), null);
-  if (!first || Math.abs(first[count]) < 1e-9) return { loads: loadsNow, most, joints: live.bonds.map(() => null), ropes: live.ropes.map(() => null) };
+  const first = basis.reduce((best, v) => (!best || abs(v[count]) > abs(best[count]) ? v : best), null);
+  if (!first || abs(first[count]) < 1e-9) return { loads: loadsNow, most, joints: live.bonds.map(() => null), ropes: live.ropes.map(() => null) };
   const unit = first.map((v) => v / first[count]);
   const open = basis.filter((v) => v !== first).map((v) => v.map((x, k) => x - v[count] * unit[k]));
-  const isOpen = (n) => open.some((v) => Math.abs(v[n]) > 1e-9);
+  const isOpen = (n) => open.some((v) => abs(v[n]) > 1e-9);
   const ropes = live.ropes.map((_, k) => (isOpen(columns.length + k) ? null : unit[columns.length + k] * most));
   const joints = live.bonds.map((_, k) => {
     const own = columns.map((c, n) => n).filter((n) => columns[n][0] === k);
@@ -296,10 +296,10 @@ function drawBody(link, acting, spots, [force, torque], least) {
     said.textContent = "No position here in which forces are known.";
     return;
   }
-  const found = acting.filter((one) => one.open || Math.hypot(...one.force) > 1e-9 || Math.abs(one.couple) > 1e-3 * least);
-  const forces = found.filter((one) => !one.open && Math.hypot(...one.force) > 0);
-  const most = Math.max(...forces.map((one) => Math.hypot(...one.force)), 1e-300);
-  const real = forces.filter((one) => Math.hypot(...one.force) > 1e-9 * most);
+  const found = acting.filter((one) => one.open || hypot(...one.force) > 1e-9 || abs(one.couple) > 1e-3 * least);
+  const forces = found.filter((one) => !one.open && hypot(...one.force) > 0);
+  const most = Math.max(...forces.map((one) => hypot(...one.force)), 1e-300);
+  const real = forces.filter((one) => hypot(...one.force) > 1e-9 * most);
   if (!spots.length) {
     said.textContent = "No point of this link has a place of its own.";
     return;
@@ -307,7 +307,7 @@ function drawBody(link, acting, spots, [force, torque], least) {
   const wheel = figure.querySelector(`[id="wheel-${CSS.escape(link)}"] circle`);
   const disc = wheel && [carried([link, ...["cx", "cy"].map((c) => Number(wheel.getAttribute(c)))], row), Number(wheel.getAttribute("r"))];
   const middle = (n) => (Math.min(...spots.map((p) => p[n])) + Math.max(...spots.map((p) => p[n]))) / 2;
-  const reach = Math.max(...spots.map((p) => Math.max(Math.abs(p[0] - middle(0)), Math.abs(p[1] - middle(1)))), disc ? disc[1] : 1);
+  const reach = Math.max(...spots.map((p) => Math.max(abs(p[0] - middle(0)), abs(p[1] - middle(1)))), disc ? disc[1] : 1);
   const zoom = Math.min(1, 60 / reach);
   const here = (p) => [170 + (p[0] - middle(0)) * zoom, 150 + (p[1] - middle(1)) * zoom];
   if (disc) {
@@ -333,14 +333,14 @@ function drawBody(link, acting, spots, [force, torque], least) {
   const put2 = (p) => [450 + (p[0] - (left + right) / 2) * scale, 150 + (p[1] - (top + bottom) / 2) * scale];
   real.forEach((one, n) => {
     const [a, b] = [put2(ends[n]), put2(ends[n + 1])];
-    arrow(svg, one.known ? "f-load" : "f-joint", a, [b[0] - a[0], b[1] - a[1]]);
+    arrow(svg, one.known ? "f-load" : "f-joint", a, minus(b, a));
     const size = apart(a, b) || 1;
     const off = [((b[1] - a[1]) / size) * 14, ((a[0] - b[0]) / size) * 14];
     make("text", { x: f((a[0] + b[0]) / 2 + off[0]), y: f((a[1] + b[1]) / 2 + off[1] + 4), "text-anchor": "middle", "font-size": 12, class: one.known ? "f-load" : "f-joint" }, svg).textContent = one.name;
   });
   const toward = (one) => degreesWords((Math.atan2(one.force[1], one.force[0]) * 180) / Math.PI);
-  const words = real.map((one) => `${one.name} = ${number(Math.hypot(...one.force), 4)} ${force} at ${toward(one)}`);
-  const couples = found.filter((one) => !one.open && Math.abs(one.couple) > most * least);
+  const words = real.map((one) => `${one.name} = ${number(hypot(...one.force), 4)} ${force} at ${toward(one)}`);
+  const couples = found.filter((one) => !one.open && abs(one.couple) > most * least);
   words.push(...couples.map((one) => `${one.at ? "couple of " : ""}${one.name} = ${number(one.couple, 4)} ${torque}`));
   words.push(...found.filter((one) => one.open).map((one) => `${one.name} is not determined by statics`));
   said.textContent = `${words.join("; ")}.`;
@@ -355,12 +355,12 @@ function tellMotions() {
 function equationOf({ motions, loads, power, values }, n, count) {
   const rates = live.drivers.map((link, k) => [...motions.twists[live.body[link]].map((t) => t[2]), k === n ? -1 : 0]);
   const { basis } = nullSpace(rates, count + 1, 1e-12);
-  if (basis.length !== 1 || Math.abs(basis[0][count]) < 1e-12) return "The drivers do not move apart from each other here.";
+  if (basis.length !== 1 || abs(basis[0][count]) < 1e-12) return "The drivers do not move apart from each other here.";
   const mix = basis[0].slice(0, count).map((v) => v / basis[0][count]);
   const fastest = largest(motions.twists.map((ts) => [0, 1, 2].map((m) => dot(mix, ts.map((t) => t[m])))).flat());
   const terms = live.loads.flatMap((load, k) => {
     const factor = dot(mix, power[k]);
-    if (Math.abs(factor) <= 1e-12 * fastest * Math.abs(loads[k][3]) * largest(loads[k].slice(0, 3))) return [];
+    if (abs(factor) <= 1e-12 * fastest * abs(loads[k][3]) * largest(loads[k].slice(0, 3))) return [];
     const told = number(((factor * load.measure) / live.frame[2]) * live.torque, 6);
     const first = load.unknown ? load.name : number(values[k], 6);
     const bracketed = told.startsWith("−") ? `(${told})` : told;

@@ -59,9 +59,9 @@ function conditions() {
     const [t] = mover.twists[body];
     if (live.turning.includes(link)) found.push([angleOf(body) - (target * Math.PI) / 180, ...angle(body, 1)]);
     else {
-      const size = Math.hypot(t[0], t[1]) || 1;
+      const size = hypot(t[0], t[1]) || 1;
       const way = [t[1] / size, -t[0] / size];
-      const sign = way[0] < -1e-9 || (Math.abs(way[0]) <= 1e-9 && way[1] < 0) ? -1 : 1;
+      const sign = way[0] < -1e-9 || (abs(way[0]) <= 1e-9 && way[1] < 0) ? -1 : 1;
       const c = slotOf(body);
       found.push([sign * (way[0] * mover.pose[c] + way[1] * mover.pose[c + 1]) - target * live.frame[2], [c, sign * way[0]], [c + 1, sign * way[1]]]);
     }
@@ -76,7 +76,7 @@ function meshesOf() {
     if (!live.pivots[k]) return null;
     const [a, b] = live.pivots[k].map((name) => mover.rest[live.points[name]]);
     const [x, y, w] = mover.own[k];
-    const arm = [b[0] - a[0], b[1] - a[1]];
+    const arm = minus(b, a);
     const q = dot([x - w * a[0], y - w * a[1]], arm) / (dot(arm, arm) || NaN);
     const pinned = (at) => live.bonds.flatMap((bond, n) => (live.kinds[n] === "Pin" && live.at[n] === at ? bond.slice(0, 2) : []));
     const carrier = pinned(live.pivots[k][0]).find((link) => link !== one && link !== two && pinned(live.pivots[k][1]).includes(link));
@@ -94,7 +94,7 @@ function arrive() {
         normal[i][count] += d * value;
       }
     const { basis } = nullSpace(normal, count + 1, 1e-13);
-    if (basis.length !== 1 || !(Math.abs(basis[0][count]) > 1e-12)) return false;
+    if (basis.length !== 1 || !(abs(basis[0][count]) > 1e-12)) return false;
     const step = basis[0].slice(0, count).map((v) => v / basis[0][count]);
     if (!step.every(Number.isFinite)) return false;
     step.forEach((v, n) => (mover.pose[n] += v));
@@ -106,7 +106,7 @@ function arrive() {
 function numbersMoved(targets) {
   meshesOf();
   const from = { ...mover.at };
-  const way = Math.max(...Object.entries(targets).map(([link, v]) => Math.abs(v - (from[link] || 0)) / (live.turning.includes(link) ? 4 : 0.02 / live.frame[2])));
+  const way = Math.max(...Object.entries(targets).map(([link, v]) => abs(v - (from[link] || 0)) / (live.turning.includes(link) ? 4 : 0.02 / live.frame[2])));
   const steps = Math.max(1, Math.ceil(way));
   const pose = [...mover.pose];
   for (let n = 1; n <= steps; n++) {
@@ -122,7 +122,7 @@ function measured() {
   const some = [...mover.numbers];
   const now = (k) => (mover.of.has(k) ? carriedBy(mover.of.get(k), mover.rest[k]).at : mover.rest[k]);
   const change = (p, q) => turned([mover.rest[q][0] - mover.rest[p][0], mover.rest[q][1] - mover.rest[p][1]], [now(q)[0] - now(p)[0], now(q)[1] - now(p)[1]]);
-  const put = (n, value) => { if (Math.abs(value - some[n]) > 1e-9 * Math.max(1, Math.abs(some[n]))) some[n] = value; };
+  const put = (n, value) => { if (abs(value - some[n]) > 1e-9 * Math.max(1, abs(some[n]))) some[n] = value; };
   for (const [kind, n, ...what] of live.measures) {
     if (kind === "x" || kind === "y") put(n, fromFrame(now(what[0]))[kind === "x" ? 0 : 1]);
     else if (kind === "length") put(n, apart(now(what[0]), now(what[1])) / live.frame[2]);

@@ -6,7 +6,7 @@ function saying(answer, r) {
   if (value === null || value === undefined || Number.isNaN(value)) return { text: ` = no value (${statusAt(r)})`, sense: "" };
   const sense = r === LIVE ? answer.word : answer.senses[answer.sense[r]];
   if (answer.asked) return { text: ` = ${number(value, 6)}${answer.unit === "°" ? "" : " "}${answer.unit}`, sense };
-  return { text: ` = ${number(Math.abs(value), 6)} ${answer.unit}`.trimEnd(), sense };
+  return { text: ` = ${number(abs(value), 6)} ${answer.unit}`.trimEnd(), sense };
 }
 const statusAt = (r) => {
   if (r === LIVE) return scene.status;
@@ -23,7 +23,7 @@ function lastText(text) {
 function relabel(name, { base, low, unit, values }, r, sense) {
   const label = labels.find((l) => l.label === name);
   if (!label) return;
-  const shown = values[r] === null ? "no value" : `${number(Math.abs(values[r]), 4)} ${unit}${loads[name].torque ? SHORT[sense] || "" : ""}`;
+  const shown = values[r] === null ? "no value" : `${number(abs(values[r]), 4)} ${unit}${loads[name].torque ? SHORT[sense] || "" : ""}`;
   lastText(label.text).data = `${low ? "" : base}${loads[name].span ? ": k" : ""} = ${shown}`;
   label.size = null;
 }
