@@ -22,13 +22,16 @@ def off_near(draft: Draft, places: dict[str, tuple[float, float]]) -> float:
 
 
 def solved(draft: Draft) -> Figure | None:
-    """The figure; None where `near` does not decide, or two centroids of the same points coincide."""
+    """The figure; None where `near` does not decide, or lies at a way that misses by far less than `near` is
+    off, and where two centroids of the same points coincide."""
     try:
         return solve_figure(draft.case())
     except SceneError as refused:
         if refused.status == Status.AMBIGUOUS and "about as far" in refused.message:
             return None
-        if refused.status == Status.CANNOT_ASSEMBLE and "these coincide" in refused.message:
+        if refused.status == Status.CANNOT_ASSEMBLE and (
+            "these coincide" in refused.message or "what lies at near: does not" in refused.message
+        ):
             return None
         raise
 
