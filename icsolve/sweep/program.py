@@ -139,7 +139,7 @@ class CompiledSweep(NamedTuple):
     cancels: bool = False
     """whether the powers of the known loads all but cancel where the record is made"""
     spent: tuple[int, ...] = ()
-    """what was taken as zero in answers and rates, though doubles do not show it"""
+    """what was taken as zero in the sums of power, though doubles do not show it"""
 
 
 def live_roots(compiled: CompiledSweep) -> list[Root]:
@@ -423,7 +423,6 @@ def _outputs(
         out |= {("terms", w.load.name): (factor * w.measure,) for w, factor in pairs}
     if asked.rates:
         out |= {("rates", link): (rate,) for link, rate in rates(scene, found.motions).items()}
-    found = found._replace(spent=tuple(scene.record.spent))
     for pair in asked.centres:
         triple = centre(scene, found.motions, pair)
         if triple is not None:

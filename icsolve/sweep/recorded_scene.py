@@ -80,7 +80,7 @@ class RecordedStatics(NamedTuple):
     motions : by link, one twist a freedom, expressions [frame length/s, frame length/s, rad/s]
     refusal : why there are no answers in any row; None where there are
     balance : factors of the loads
-    spent : nodes of what was taken as zero in answers and rates, though doubles do not show it
+    spent : nodes of what was taken as zero in the sums of power, though doubles do not show it
     """
 
     answers: dict[str, Scalar]
@@ -287,13 +287,14 @@ def statics(scene: RecordedScene, everything: bool) -> RecordedStatics:
     wrenches = load_wrenches.wrenches(place)
     balance = power.balance(wrenches, motions.twists, motions.mobility)
     solution = power.solve_balance(balance, scene.record)
+    spent = tuple(scene.record.spent)
     try:
         floats = place._replace(arithmetic=FLOATS)
         refusals.refuse_unbalanced(power.Outcome(floats, motions, balance, solution))
     except SceneError as error:
         return RecordedStatics({}, motions, error, balance)
     answers = {w.load.name: w.ratio * solution.values[w.root] for w in wrenches if w.root in solution.values}
-    return RecordedStatics(answers, motions, None, balance)
+    return RecordedStatics(answers, motions, None, balance, spent)
 
 
 def motions_of(scene: RecordedScene, wanted: Collection[int] | None = None) -> motion.Motions:
