@@ -16,7 +16,7 @@ from mpmath import mp
 from icsolve.assembly.driven.order import rotation_to_line
 from icsolve.case import Number
 from icsolve.numbers.adjoint import still_noise
-from icsolve.numbers.intervals import WHOLE, Interval, enclose, span
+from icsolve.numbers.intervals import WHOLE, Interval, enclose, enclose_one
 from icsolve.numbers.jets import BallArray, Jet
 from icsolve.numbers.record import Record, Traced
 from icsolve.numbers.tape import Tape
@@ -73,7 +73,9 @@ def enclosed(ends: Sequence[Ends], make: Callable[..., Any], alone: bool = False
     inputs = [record.input(f"{k}", low) for k, (low, _) in enumerate(ends)]
     made = make(*inputs)
     if alone:
-        return span(record.nodes, made.index, {x.index: one for x, one in zip(inputs, ends, strict=True)})
+        return enclose_one(
+            record.nodes, made.index, {x.index: one for x, one in zip(inputs, ends, strict=True)}
+        )
     given = {
         x.index: Interval(np.array([low]), np.array([high]))
         for x, (low, high) in zip(inputs, ends, strict=True)

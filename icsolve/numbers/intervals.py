@@ -64,15 +64,15 @@ def enclose(record: Record, wanted: Sequence[int], given: Mapping[int, Interval]
     return [Interval(*_ends(_of(record, k, found))) for k in wanted]
 
 
-Span = tuple[float, float]
+Ends = tuple[float, float]
 """Lower and upper end of one range."""
 WIDENED = 2.0**-51
-"""By this part of its ends, and `LEAST`, a span is widened for the roundings of an operation."""
+"""By this part of its ends, and `LEAST`, a range is widened for the roundings of an operation."""
 LEAST = 1e-300
-WHOLE: Span = (-math.inf, math.inf)
+WHOLE: Ends = (-math.inf, math.inf)
 
 
-def span(nodes: Sequence[Traced], wanted: int, given: Mapping[int, Span]) -> Span:
+def enclose_one(nodes: Sequence[Traced], wanted: int, given: Mapping[int, Ends]) -> Ends:
     """As `enclose`, of one node that varies over one range, in a tenth of the time; an angle has no bounds.
 
     Parameters
@@ -97,7 +97,7 @@ def span(nodes: Sequence[Traced], wanted: int, given: Mapping[int, Span]) -> Spa
     return found[wanted]
 
 
-def _spanned(node: Traced, a: float, b: float, c: float, d: float) -> Span:
+def _spanned(node: Traced, a: float, b: float, c: float, d: float) -> Ends:
     """Of one operation on (a, b) and (c, d)."""
     op = node.op
     if op == Op.MUL:
@@ -121,7 +121,7 @@ def _spanned(node: Traced, a: float, b: float, c: float, d: float) -> Span:
     return WHOLE
 
 
-def _turning(low: float, high: float, crest: float) -> Span:
+def _turning(low: float, high: float, crest: float) -> Ends:
     """Cosine of angles less ``crest`` degrees: as `_wave`."""
     ends = [math.cos(math.radians(math.remainder(x, 360.0) - crest)) for x in (low, high)]
     first, last = math.ceil((low - crest) / 180.0 - 1e-12), math.floor((high - crest) / 180.0 + 1e-12)

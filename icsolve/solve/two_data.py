@@ -21,6 +21,7 @@ from icsolve.case import Case, TorsionSpring, is_angle, is_named
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.arithmetic import DEGREE, Scalar
+from icsolve.numbers.intervals import Ends
 from icsolve.numbers.record import varies
 from icsolve.numbers.replay import Array, Code
 from icsolve.scene import solve_scene
@@ -83,7 +84,6 @@ MOST_STEPS = 300
 SLOWEST = Decimal("0.9")
 """Steps of Newton's method in all digits become shorter by this at least, also at a zero of higher order."""
 
-Span = tuple[float, float]
 Pair = tuple[Decimal, Decimal]
 
 
@@ -137,7 +137,7 @@ class FoundPairs(NamedTuple):
 def find_pairs(
     case: Case,
     paths: Sequence[str],
-    spans: Sequence[Span | None],
+    spans: Sequence[Ends | None],
     starts: Sequence[float],
     asked: Mapping[str, bool],
 ) -> FoundPairs:
@@ -194,7 +194,7 @@ def find_pairs(
 
 
 def _surfaces(
-    case: Case, paths: Sequence[str], limits: Sequence[Span], starts: Sequence[float]
+    case: Case, paths: Sequence[str], limits: Sequence[Ends], starts: Sequence[float]
 ) -> list[Surface]:
     """The modes of the figure: each read anew at all values, or moved from where the figure is written."""
     if starts:
@@ -235,7 +235,7 @@ def _at(case: Case, paths: Sequence[str], values: Sequence[float]) -> Case:
     return case
 
 
-def _surface(mode: RecordedMode, paths: Sequence[str], limits: Sequence[Span]) -> Surface:
+def _surface(mode: RecordedMode, paths: Sequence[str], limits: Sequence[Ends]) -> Surface:
     compiled = mode.compiled
     case, record, scene = compiled.scene.case, compiled.record, compiled.scene
     motions = motions_of(scene)
@@ -272,7 +272,7 @@ def _surface(mode: RecordedMode, paths: Sequence[str], limits: Sequence[Span]) -
 
 
 def _turns(
-    compiled: CompiledSweep, inputs: tuple[int, int], margins: Sequence[int], limits: Sequence[Span]
+    compiled: CompiledSweep, inputs: tuple[int, int], margins: Sequence[int], limits: Sequence[Ends]
 ) -> Turns:
     """How far the angles of torsion springs have turned from where the record was made, from each place of a
     grid to those beside it; first through places in which the mode assembles, and then on through all."""
@@ -350,7 +350,7 @@ def _generalised(
     return (yn * one - ym * other) * of_all, (xm * other - xn * one) * of_all
 
 
-def _distance(surface: Surface, case: Case, limits: Sequence[Span]) -> float:
+def _distance(surface: Surface, case: Case, limits: Sequence[Ends]) -> float:
     """How near a mode passes to `near` [case units]: from the best place of a grid the search closes in."""
     names = [name for name in case.near if name in surface.places]
     nodes = [k for name in names for k in surface.places[name]]
@@ -383,7 +383,7 @@ def _distance(surface: Surface, case: Case, limits: Sequence[Span]) -> float:
     return float(distances.min())
 
 
-def _grid(limits: Sequence[Span]) -> tuple[Array, Array]:
+def _grid(limits: Sequence[Ends]) -> tuple[Array, Array]:
     axes = [np.linspace(a, b, GRID) + (b - a) / GRID * 0.013 for a, b in limits]
     x, y = np.meshgrid(*axes, indexing="ij")
     return x.ravel(), y.ravel()
@@ -396,7 +396,7 @@ def _fine(low: float, high: float) -> Array:
     return np.linspace(low - BESIDE * wide, high + (1.0 - BESIDE) * wide, FINE)
 
 
-def _starts(surface: Surface, limits: Sequence[Span]) -> tuple[Array, Array]:
+def _starts(surface: Surface, limits: Sequence[Ends]) -> tuple[Array, Array]:
     """Where Newton's method starts: a grid over both ranges, and the cells of a finer one in which both
     powers change their signs, or the figure ceases to assemble."""
     code = Code(surface.compiled.record, [*surface.loads, *surface.margins])
@@ -421,7 +421,7 @@ def _starts(surface: Surface, limits: Sequence[Span]) -> tuple[Array, Array]:
     return np.concatenate([gx, cx]), np.concatenate([gy, cy])
 
 
-def _converged(surface: Surface, limits: Sequence[Span]) -> tuple[Array, Array]:
+def _converged(surface: Surface, limits: Sequence[Ends]) -> tuple[Array, Array]:
     """Where Newton's method ends from all starts at once, in floats: places (n, 2) [case units, degrees] that
     assemble, those of plain zeros first, and how far their last steps were, as parts of the ranges (n,)."""
     code = Code(surface.compiled.record, [*surface.loads, *surface.slopes, *surface.margins])
@@ -458,7 +458,7 @@ def _converged(surface: Surface, limits: Sequence[Span]) -> tuple[Array, Array]:
 
 
 def _zeros(
-    surface: Surface, limits: Sequence[Span], turning: Sequence[bool]
+    surface: Surface, limits: Sequence[Ends], turning: Sequence[bool]
 ) -> tuple[list[Zero], list[Zero]]:
     """The zeros of a mode in all digits: those that stand alone, and some of those that fill whole lines.
 
@@ -544,7 +544,7 @@ def _described(
     surface: Surface,
     paths: Sequence[str],
     zero: Zero,
-    limits: Sequence[Span],
+    limits: Sequence[Ends],
     turning: Sequence[bool],
     asked: Mapping[str, bool],
 ) -> EquilibriumPosition | None:

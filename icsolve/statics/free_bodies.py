@@ -22,7 +22,7 @@ from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import Equilibrium, Statics, T, equilibrium
 from icsolve.statics.friction.interface import efficiency, friction_terms
 from icsolve.statics.load_wrenches import Wrench
-from icsolve.statics.power import Balance, force_scale, has_friction, is_unknown, known_power, known_value
+from icsolve.statics.power import Balance, force_scale, has_friction, is_unknown, known_power, power_of
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import names_by_tie, notes_of, reactions_of, tensions_of
 from icsolve.statics.witness import (
@@ -229,8 +229,8 @@ def refuse_imbalance(position: Position, balance: Balance, a: Arithmetic) -> tup
             "`unknown`, or take out `mu`.",
         )
     for motion, factors in enumerate(balance.factors):
-        powers = [_power(w, float(f)) for w, f in zip(balance.wrenches, factors, strict=True)]
-        sizes = [_power(w, size) for w, size in zip(balance.wrenches, balance.sizes[motion], strict=True)]
+        powers = [power_of(w, float(f)) for w, f in zip(balance.wrenches, factors, strict=True)]
+        sizes = [power_of(w, size) for w, size in zip(balance.wrenches, balance.sizes[motion], strict=True)]
         scale = force_scale(balance)
         exact = known_power(balance, motion, a)
         if a.vanishes(exact, sum(map(abs, sizes)) * scale):
@@ -243,10 +243,6 @@ def refuse_imbalance(position: Position, balance: Balance, a: Arithmetic) -> tup
         within = f"a fraction of {left / largest:.1g} of what they do"
         notes.append(_taken(said, "half a unit of the last decimals" if left <= room else within))
     return tuple(notes)
-
-
-def _power(w: Wrench, factor: float) -> float:
-    return (known_value(w) or 0.0) * float(w.ratio) * factor * w.measure
 
 
 def _room(w: Wrench, factor: float) -> float:

@@ -297,11 +297,15 @@ CANCELLED = 1e-7
 """Known loads whose powers leave less than this fraction of them all but cancel."""
 
 
+def power_of(w: UnitWrench[L], factor: float) -> float:
+    """The power of a load that does ``factor`` a unit, in floats [case units times the motion's speed]; 0 of
+    one that hangs on an unknown."""
+    return (known_value(w) or 0.0) * float(w.ratio) * factor * w.measure
+
+
 def known_sizes(b: PowerFactors[L], motion: int) -> tuple[float, float]:
-    """The power of the known loads in a motion in floats, and the sum of its terms' sizes [case units times
-    the motion's speed]."""
-    both = zip(b.wrenches, b.factors[motion], strict=True)
-    powers = [(known_value(w) or 0.0) * float(w.ratio) * float(f) * w.measure for w, f in both]
+    """The power of the known loads in a motion, and the sum of its terms' sizes, as `power_of`."""
+    powers = [power_of(w, float(f)) for w, f in zip(b.wrenches, b.factors[motion], strict=True)]
     return sum(powers), sum(map(abs, powers))
 
 

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from icsolve.case import is_angle
-from icsolve.numbers.intervals import span
+from icsolve.numbers.intervals import enclose_one
 from icsolve.numbers.replay import BLOCK, Array, code_of
 from icsolve.sweep.branches import (
     MOST_CELLS,
@@ -143,7 +143,7 @@ class SweepParts:
         if least <= low and high <= most:
             return True  # as is known
         way = {runner.compiled.inputs[main]: (low, high)}
-        if not all(span(record.nodes, radicand, way)[0] > 0.0 for radicand in radicands):
+        if not all(enclose_one(record.nodes, radicand, way)[0] > 0.0 for radicand in radicands):
             grid = grid_of([low, high], self._way(runner.compiled, main, {}))
             if not self._glanced(runner.compiled, main, radicands, grid):
                 return False

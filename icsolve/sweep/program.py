@@ -334,13 +334,13 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
         fits,
         senses,
         rests=bool(asked.contacts),
-        cancels=found is not None and found.cancels,
-        spent=found.spent if found is not None else (),
     )
     if found is None:
         return compiled
     fits += motion_fits(scene, found, sense=asked.rates and not setting.moves)
-    compiled = compiled._replace(delicate=found.delicate, idle=found.idle, fits=fits)
+    compiled = compiled._replace(
+        delicate=found.delicate, idle=found.idle, cancels=found.cancels, spent=found.spent, fits=fits
+    )
     if not (asked.answers and refusals.rubs(case)):
         return compiled._replace(refusal=found.refusal)
     return (
