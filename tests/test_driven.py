@@ -14,6 +14,7 @@ import pytest
 
 import icsolve
 from icsolve.assembly import case_point, placed_figure, solve_figure
+from icsolve.assembly.driven.groups import Solver
 from icsolve.assembly.driven.mechanism import mechanism
 from icsolve.numbers.record import Record
 from icsolve.structure.topology import topology
@@ -143,3 +144,50 @@ def test_what_a_turned_link_draws_is_placed_in_closed_form(name: str) -> None:
     setting = setting_of(icsolve.load("icsolve: 1" + CLOSED[name]), [], ["2"])
     motion = compile_sweep(setting, RowRequest(answers=False)).motion
     assert motion is not None and not motion.groups
+
+
+@pytest.mark.parametrize("radii", [(2.0, 3.0), (-8.0, 3.0)], ids=["outside", "inside"])
+def test_wheels_that_roll_on_each_other_keep_their_ratio_whichever_link_is_turned(
+    radii: tuple[float, float],
+) -> None:
+    """Of a five-bar whose cranks are such wheels, driven by a rod, so that only all conditions together place
+    it: what one wheel turns the other turns by the ratio of the radii, to 1e-12 of a turn."""
+    case = icsolve.load(f"""
+icsolve: 1
+points: {{A: [0, 0], D: [5, 0], P: [{abs(radii[0])}, 0]}}
+lengths: {{AB: 1.5, BC: 4, CE: 4.2, DE: 2}}
+angles: {{AB: 60, DE: 100}}
+near: {{C: [2.5, 5]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [1, 3], at: D}}
+  - {{roll: [2, 3], at: P, radii: [{radii[0]}, {radii[1]}]}}
+  - {{pin: [2, 4], at: B}}
+  - {{pin: [3, 5], at: E}}
+  - {{pin: [4, 5], at: C}}
+loads: {{T: {{torque: 10, link: 2}}, U: {{torque: unknown, link: 3}}}}
+""")
+    found = icsolve.sweep(case, drive={"4": np.linspace(-8.0, 0.5, 18)}, want=("points", "status"))
+    one = np.degrees(np.unwrap(np.arctan2(*found.points["B"].T[::-1])))
+    x, y = found.points["E"].T
+    two = np.degrees(np.unwrap(np.arctan2(y, x - 5.0)))
+    assert set(found.status.tolist()) == {"ok"} and np.ptp(one) > 5.0
+    assert np.abs(radii[0] * (one - 60.0) + radii[1] * (two - 100.0)).max() < 360.0 * 1e-12 * abs(radii[0])
+
+
+def test_the_determinant_of_more_equations_than_unknowns_is_the_root_of_grams() -> None:
+    """As the product of the singular values, of square systems too."""
+    rng = np.random.default_rng(1)
+    for equations in (4, 6):
+        j = rng.normal(size=(5, equations, 4))
+
+        class Few:
+            """What stands for a solver of few rows."""
+
+            direct = None
+
+            def system(self, _env: object, _q: object, j: np.ndarray = j) -> tuple[None, np.ndarray]:
+                return None, j
+
+        found = Solver.determinant(Few(), {}, np.zeros((5, 4)))  # type: ignore[arg-type]
+        assert found == pytest.approx(np.prod(np.linalg.svd(j)[1], axis=1), rel=1e-9)

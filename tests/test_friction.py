@@ -842,3 +842,26 @@ def test_two_torques_against_each_other_change_nothing(text: str, large: int) ->
         for one in (text, text.replace("loads:\n", f"loads:\n{first}") + last)
     )
     assert paired.answers["T"].value == pytest.approx(plain.answers["T"].value, rel=1e-12)
+
+
+def test_of_two_rubs_one_of_which_cannot_hold_alone_the_clamped_one_holds_the_rest() -> None:
+    """F = 50 pulls two blocks on a bar; one presses with W2 = 100, the other with W1 + P = 30 + P: mu (100 +
+    abs(30 + P)) >= F holds from P = 120 up and, drawn against its guide's other side, below -180."""
+    answer = icsolve.solve(
+        icsolve.load("""
+icsolve: 1
+points: {A: [0, 0], B: [2, 0]}
+joints:
+  - {slide: [2, 1], at: A, along: 0, mu: 0.2}
+  - {slide: [3, 1], at: B, along: 0, mu: 0.2}
+  - {pin: [2, 4], at: A}
+  - {pin: [4, 3], at: B}
+loads:
+  W1: {weight: 30, link: 2, at: A}
+  W2: {weight: 100, link: 3, at: B}
+  F: {force: 50, link: 2, at: A, angle: 0}
+  P: {force: unknown, link: 2, at: A, angle: 270}
+""")
+    )
+    assert answer.answers["P"].holds == (pytest.approx(120.0, rel=1e-12), math.inf)
+    assert any("beyond P = -180" in note for note in answer.notes)

@@ -183,3 +183,21 @@ def test_a_step_after_a_group_is_judged_by_the_decimals(gap: str) -> None:
     with pytest.raises(SceneError, match="too far") as refused:
         solve_figure(icsolve.load(shorter))
     assert refused.value.status == Status.CANNOT_ASSEMBLE
+
+
+@pytest.mark.parametrize("off", [0.05, 0.3])
+def test_a_root_of_many_equations_is_closed_in_on_from_a_rough_start(off: float) -> None:
+    """x_k^2 + x_k+1 / 8 = k + 2, of twelve: more than inverses are taken of in each step, so that the first
+    one leads nowhere near; against the fixed point in 150 digits."""
+    count = 12
+
+    def system(z: Any) -> Any:
+        values = [z[k] * z[k] + z[(k + 1) % count] * 0.125 - (k + 2.0) for k in range(count)]
+        return values, [{k: z[k] * 2.0, (k + 1) % count: z[k].arithmetic.ball(0.125)} for k in range(count)]
+
+    true = [many.sqrt(k + 2) for k in range(count)]
+    for _ in range(400):
+        true = [many.sqrt(k + 2 - true[(k + 1) % count] / 8) for k in range(count)]
+    start = [float(x) * (1.0 + off * (-1) ** k) for k, x in enumerate(true)]
+    for ball, x in zip(enclosed_root(system, start, Balls(30)), true, strict=True):
+        assert abs(many.mpf(str(ball.value)) - x) <= ball.radius < 1e-20

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from icsolve.bench.full_turn import FOUR_BAR_CASE, SLIDER_CRANK_CASE
-from icsolve.numbers.record import Record, Traced
+from icsolve.numbers.record import Op, Record, Traced
 from icsolve.numbers.replay import SOON, Code
 from icsolve.read import load
 from icsolve.sweep import sweep
+from icsolve.sweep.program import RowRequest, compile_sweep, setting_of
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -57,3 +58,12 @@ def test_a_sweep_that_is_no_longer_kept_leaves_nothing_to_the_garbage_collector(
         assert gc.collect() == 0
     finally:
         gc.enable()
+
+
+@pytest.mark.parametrize("text", [FOUR_BAR_CASE, SLIDER_CRANK_CASE], ids=["four-bar", "slider-crank"])
+def test_a_place_as_written_that_no_row_needs_is_not_on_the_record(text: str) -> None:
+    """Of links whose lengths the case gives these alone matter: no root is taken of what is the same in every
+    row, as the place of a pin as written would have it."""
+    record = compile_sweep(setting_of(load(text), ["angles.AB"], []), RowRequest()).record
+    roots = [node for node in record.nodes if node.op == Op.SQRT]
+    assert roots and all(node.row for node in roots)

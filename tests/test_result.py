@@ -12,6 +12,8 @@ from icsolve.answer.as_json import pair_name, refusal_dict, to_dict
 from icsolve.case import Coordinates, Motion, Torque, Units
 from icsolve.errors import SceneError, Status
 from icsolve.report.text import answer_text
+from icsolve.scene.parts import _directed
+from icsolve.tuples import replace
 from made import four_bar_answer, four_bar_case, number
 
 
@@ -270,3 +272,17 @@ def test_the_steps_that_ran_are_those_that_the_answer_needs() -> None:
         "loads: {K: {torque: 2, link: 2}, U: {torque: unknown, link: 4}}\n"
     )
     assert icsolve.solve(icsolve.load(cranks)).steps[-1] == "motions: loop equations of the whole scene"
+
+
+@pytest.mark.parametrize("unproven", ["x", "y", "xy", ""])
+def test_a_force_of_unknown_direction_is_as_sure_as_its_components(unproven: str) -> None:
+    """Its size is at most as far off as both are; where no bound of one is proven none of it is, for that
+    reason."""
+    case = four_bar_case()
+    sure = {axis: (None, "so") if axis in unproven else (1e-9, "") for axis in "xy"}
+    parts = {f"P.{axis}": Found(v, "N", "", *sure[axis]) for axis, v in (("x", 3.0), ("y", 4.0))}
+    loads = tuple(load._replace(name=f"P.{axis}") for axis, load in zip("xy", case.loads * 2, strict=False))
+    found = _directed(replace(case, directed=("P",), loads=loads), parts)["P"]
+    assert (found.value, found.components) == (5.0, (3.0, 4.0))
+    assert found.why == ("so" if unproven else "")
+    assert found.error is None if unproven else 1.4e-9 < found.error < 1.5e-9

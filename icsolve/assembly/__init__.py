@@ -6,7 +6,7 @@ construction again with another arithmetic (arrays, numbers on a tape, more digi
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
 from icsolve.assembly.conditions import agrees, size_of
@@ -104,7 +104,7 @@ def placed_figure(case: Case, wanted: Collection[str], needed: Collection[str]) 
     return figure._replace(notes=(*figure.notes, *dict.fromkeys(notes)))
 
 
-def _drawn(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figure:
+def _drawn(case: Case, frame: Frame, goal: Sequence[str], names: Sequence[str]) -> Figure:
     """The figure where every point is given: nothing to construct, the other data are compared."""
     workspace = Workspace(case, frame, FLOATS)
     steps: tuple[Step, ...] = (Given(tuple(goal)),)
@@ -116,7 +116,7 @@ def _drawn(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figur
 
 
 def _compared(
-    workspace: Workspace, steps: tuple[Step, ...], data: list[Datum], goal: list[str]
+    workspace: Workspace, steps: tuple[Step, ...], data: list[Datum], goal: Sequence[str]
 ) -> tuple[str, ...]:
     """Notes on the data that the coordinates make spare; guides that are met need none."""
     size = size_of(workspace, goal)

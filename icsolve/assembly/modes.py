@@ -7,7 +7,7 @@ every way in which the figure assembles, whatever its `near` says.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.assembly.conditions import size_of
@@ -263,7 +263,7 @@ MOST_RETRIES = 20
 Outcome = TypeVar("Outcome")
 
 
-def construct(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figure:
+def construct(case: Case, frame: Frame, goal: Sequence[str], names: Sequence[str]) -> Figure:
     """The wanted points of a figure that needs construction (see ``solve_figure``)."""
     figure = None
     spare = [p for p in case.near if p not in goal and p in names]
@@ -280,7 +280,7 @@ def construct(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Fi
     return figure._replace(skipped=tuple(bare_name(p) for p in names if p not in figure.points))
 
 
-def _by_the_rest(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figure | None:
+def _by_the_rest(case: Case, frame: Frame, goal: Sequence[str], names: Sequence[str]) -> Figure | None:
     """Let the data of points that nothing asked for decide between the modes."""
     try:
         whole = _constructed(case, frame, names, best_effort=True)
@@ -292,12 +292,12 @@ def _by_the_rest(case: Case, frame: Frame, goal: list[str], names: list[str]) ->
     return whole._replace(steps=steps, points={p: whole.points[p] for p in points_of(steps)})
 
 
-def _constructed(case: Case, frame: Frame, goal: list[str], best_effort: bool) -> Figure:
+def _constructed(case: Case, frame: Frame, goal: Sequence[str], best_effort: bool) -> Figure:
     return by_other_data(case, goal, lambda order: _assembled(case, frame, order), best_effort)
 
 
 def by_other_data(
-    case: Case, goal: list[str], attempt: Callable[[Order], Outcome | Miss], best_effort: bool = False
+    case: Case, goal: Sequence[str], attempt: Callable[[Order], Outcome | Miss], best_effort: bool = False
 ) -> Outcome:
     """What an attempt makes of an order of construction; of another where two loci turned out to be one.
 
@@ -411,7 +411,7 @@ def ways_of(case: Case) -> Ways:
     return by_other_data(case, goal, attempt)
 
 
-def order_that_assembles(case: Case, goal: list[str]) -> Order:
+def order_that_assembles(case: Case, goal: Sequence[str]) -> Order:
     """An order of construction in which no two loci of a point are one; one with points that only together
     have places as it stands.
 
@@ -433,7 +433,7 @@ def every_mode(case: Case, order: Order, frame: Frame) -> Walk:
     return Walk(order, Workspace(case, frame, FLOATS), every=True).run()
 
 
-def _placed(case: Case) -> tuple[list[str], list[str]]:
+def _placed(case: Case) -> tuple[Sequence[str], list[str]]:
     """The points that the data place, and those that nothing needs and that may be anywhere."""
     names = names_of(case)
     try:

@@ -7,7 +7,7 @@ their data together determine: which conditions determine which points, and what
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Set
+from collections.abc import Collection, Iterable, Iterator, Sequence, Set
 from functools import lru_cache
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -228,7 +228,7 @@ def leans(system: System, point: str) -> list[str]:
 COUNT = {1: "one more length, angle or coordinate", 2: "two more (lengths, angles or coordinates)"}
 
 
-def underdetermined(system: System, placed: Iterable[str], goal: list[str]) -> SceneError:
+def underdetermined(system: System, placed: Iterable[str], goal: Sequence[str]) -> SceneError:
     """The refusal that lists every free part of the figure that the goal leans on, and points that may be
     meant by another case of their letters."""
     known = set(placed)

@@ -102,7 +102,8 @@ def _guide(index: int, at: str, guide: Guide) -> Iterator[Datum]:
         yield Datum(LINE, index, (at, through, first, second))
 
 
-def names_of(case: Case) -> list[str]:
+@lru_cache(maxsize=32)
+def names_of(case: Case) -> tuple[str, ...]:
     """Every point that the case names, in order of first mention in the figure, joints and links."""
     names = [*case.points]
     for datum in data_of(case):
@@ -111,7 +112,7 @@ def names_of(case: Case) -> list[str]:
         names += joint.named
     for carried in case.carries.values():
         names += carried
-    return list(dict.fromkeys(names))
+    return tuple(dict.fromkeys(names))
 
 
 class Facts(NamedTuple):

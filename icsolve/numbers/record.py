@@ -298,7 +298,7 @@ class Record:
         if not (isinstance(x, Traced) or isinstance(y, Traced)):
             return degrees
         one, two = self.lifted(x), self.lifted(y)
-        return self._of_two(Op.ANGLE, one, two, degrees)
+        return self._of_two(Op.ANGLE, (one.index, two.index), degrees, one.row or two.row)
 
     def turns(self, x: Scalar, y: Scalar, about: Scalar = 0.0) -> Scalar:
         """By how much a vector has turned from +x, whole turns too: those nearest to a guess, which
@@ -358,8 +358,7 @@ class Record:
         """A sum or difference; two exact numbers that cancel leave nothing."""
         if value == 0.0 and not (a.row or b.row) and self._exact(a.index) and self._exact(b.index):
             return 0.0
-        of = (a.index, b.index)
-        return self._known[op].get(of) or self._made(op, of, value, a.row or b.row)
+        return self._of_two(op, (a.index, b.index), value, a.row or b.row)
 
     def multiply(self, a: Scalar, b: Scalar) -> Scalar:
         """a b"""
@@ -376,7 +375,7 @@ class Record:
         if a.op is NEG or b.op is NEG:
             return self._outside(self.multiply, a, b)
         of = (a.index, b.index) if a.index <= b.index else (b.index, a.index)
-        return self._known[MUL].get(of) or self._made(MUL, of, a.value * b.value, a.row or b.row)
+        return self._of_two(MUL, of, a.value * b.value, a.row or b.row)
 
     def divide(self, a: Scalar, b: Scalar) -> Scalar:
         """a / b"""
@@ -393,7 +392,7 @@ class Record:
         if a.op is NEG or b.op is NEG:
             return self._outside(self.divide, a, b)
         value = a.value / b.value if b.value else math.copysign(math.inf, a.value)
-        return self._of_two(Op.DIV, a, b, value)
+        return self._of_two(Op.DIV, (a.index, b.index), value, a.row or b.row)
 
     def _outside(self, operation: Callable[[Scalar, Scalar], Scalar], a: Traced, b: Traced) -> Scalar:
         """A product or quotient with the minus signs of its operands before it."""
@@ -415,14 +414,12 @@ class Record:
         """A number as a node of this record."""
         return value if isinstance(value, Traced) else self._constant(float(value), 0.0, "exact")
 
-    def _of_two(self, op: int, a: Traced, b: Traced, value: float) -> Scalar:
+    def _of_two(self, op: int, of: tuple[int, int], value: float, row: bool) -> Traced:
         """What an operation makes of two nodes; the same is made once."""
-        of = (a.index, b.index)
-        return self._known[op].get(of) or self._made(op, of, value, a.row or b.row)
-
-    def _made(self, op: int, of: tuple[int, int], value: float, row: bool) -> Traced:
-        """A new node of two."""
-        found = self._known[op][of] = Traced(self, op, *of, value, row, 0.0, of)
+        known = self._known[op]
+        found = known.get(of)
+        if found is None:
+            found = known[of] = Traced(self, op, of[0], of[1], value, row, 0.0, of)
         return found
 
     def _of_one(self, op: int, a: Traced, value: float, beside: int = 0) -> Traced:

@@ -150,10 +150,24 @@ def numbers_of(case: Case) -> Mapping[str, Number]:
     return {path: number for numbers in parts_of(case).values() for path, number in numbers.items()}
 
 
-@lru_cache(maxsize=64)
+def number_at(case: Case, path: str) -> Number:
+    """The number at a path; only the part of the case that the path begins with is looked through.
+
+    Raises KeyError where there is none.
+    """
+    part, _, _ = path.partition(".")
+    numbers = _held_by(case, part) if part in NUMBERED else {}
+    return numbers[path] if path in numbers else numbers_of(case)[path]
+
+
 def parts_of(case: Case) -> Mapping[str, Mapping[str, Number]]:
     """The numbers that each part of a case holds, by path."""
-    return {name: {n.path: n for n in numbers_in(getattr(case, name))} for name in NUMBERED}
+    return {name: _held_by(case, name) for name in NUMBERED}
+
+
+@lru_cache(maxsize=64 * len(NUMBERED))
+def _held_by(case: Case, part: str) -> Mapping[str, Number]:
+    return {number.path: number for number in numbers_in(getattr(case, part))}
 
 
 def _lengths(case: Case) -> set[str]:

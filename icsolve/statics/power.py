@@ -300,7 +300,7 @@ CANCELLED = 1e-7
 def power_of(w: UnitWrench[L], factor: float) -> float:
     """The power of a load that does ``factor`` a unit, in floats [case units times the motion's speed]; 0 of
     one that hangs on an unknown."""
-    return (known_value(w) or 0.0) * float(w.ratio) * factor * w.measure
+    return float(number_of(w, FLOATS)) * float(w.ratio) * factor * w.measure
 
 
 def known_sizes(b: PowerFactors[L], motion: int) -> tuple[float, float]:

@@ -82,13 +82,8 @@ def written_state(compiled: CompiledSweep) -> State:
     """The state in the position as written."""
     motion = compiled.motion
     assert motion is not None
-    ref = motion.mechanism.shape.ref
-    q = [
-        x
-        for group in motion.groups
-        for body in group.bodies
-        for x in (*map(float, ref[group.bases[body][1]]), 0.0)
-    ]
+    still = motion.mechanism.shape.still
+    q = [x for group in motion.groups for body in group.bodies for x in (*still[group.bases[body][1]], 0.0)]
     turns = [guess.value for guess, _ in compiled.record.counted.values()]
     return State(np.array(q), np.array(turns, dtype=float), dict(motion.written))
 

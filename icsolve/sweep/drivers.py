@@ -31,8 +31,8 @@ from icsolve.assembly.driven.order import (
     PlaceByTwoPoints,
     RotateWith,
 )
+from icsolve.assembly.driven.poses import Arm, Rotation, Spot, minus
 from icsolve.assembly.driven.poses import Places as Still
-from icsolve.assembly.driven.poses import Rotation, Spot, minus
 from icsolve.assembly.workspace import CORNER, LENGTH, RAY, Datum, X, Y, data_of, normalised, number_of
 from icsolve.case import Case, Coordinates, Number, is_named
 from icsolve.case.joints import Guided, Mesh, Rolling
@@ -98,7 +98,7 @@ def _leaves_shapes(mechanism: Mechanism, path: str, written: float) -> bool:
 def _same_shapes(mechanism: Mechanism, other: Case) -> bool:
     """Whether a case, solved near the places of the mechanism, has links of the same shapes."""
     frame, still = mechanism.frame, Still(mechanism.shape)
-    names = [name for name in mechanism.shape.ref if is_named(name)]
+    names = [name for name in mechanism.shape.still if is_named(name)]
     near = {name: case_point(frame, still.place((0, name))) for name in names}
     known = mechanism.owners.keys() | mechanism.contacts.keys()
     figure = solve_figure(replace(other, near=near), [name for name in names if name in known])
@@ -263,16 +263,17 @@ def _turned(mechanism: Mechanism, value: Scalar) -> Point:
 def _pointed(mechanism: Mechanism, spots: Sequence[Spot], number: Number, value: Scalar) -> Pointed:
     """The direction from one point of a body to another; its turning is counted from the figure's own."""
     (p, q), shape = spots, mechanism.shape
-    x, y = shape.between(p, q)
     length = shape.span(p, q)
     if not float(length):
         said = f"{p[1]} and {q[1]} lie at one place, so no direction from one to the other moves anything."
         raise SceneError(Status.UNSUPPORTED, said)
-    found = math.degrees(math.atan2(float(y), float(x)))
+    x, y = minus(shape.still[q[1]], shape.still[p[1]])
+    found = math.degrees(math.atan2(y, x))
     off = math.remainder(found - number.value, 360.0)
     written = shape.record.written(number)
     written = written if abs(off) <= ALIGNED else written + off
-    rotation = Rotation(_turned(mechanism, value), (x / length, y / length), value - written, (p, q, length))
+    arm = Arm(p, q, length)
+    rotation = Rotation(_turned(mechanism, value), arm, value - written, arm)
     return Pointed(p[0], rotation)
 
 

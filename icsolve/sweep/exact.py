@@ -101,7 +101,8 @@ class ExactRecord:
         found: Values = {}
         with localcontext(CONTEXT):
             for name in targets:
-                for node, exact in zip(motion.mechanism.shape.ref[name], points[name], strict=True):
+                placed = motion.mechanism.shape.ref.get(name, ())  # those that the record has use for
+                for node, exact in zip(placed, points[name], strict=False):
                     if isinstance(node, Traced) and not node.row:
                         at = exact.value if isinstance(exact, Ball) else Decimal(float(exact))
                         found |= self._corrected(node, at)

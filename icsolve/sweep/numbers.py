@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import Any
 
 from icsolve.case import Case, Number, is_angle
 from icsolve.errors import CaseError, Problem, SceneError, Status
 from icsolve.read.names import parts, shown, suggestion
 from icsolve.read.settings import like
-from icsolve.scene.sensitivity import numbers_of, parts_of
+from icsolve.scene.sensitivity import number_at, numbers_of, parts_of
 from icsolve.tuples import replace
 
 _SECTIONS = ("points", "lengths", "angles", "joints", "profile", "loads", "motion", "gravity", "links")
@@ -65,9 +66,9 @@ def find_number(case: Case, path: str, refused: str = "cannot vary") -> Number:
         Where the case is in space.
     """
     refuse_space(case)
+    with suppress(KeyError):
+        return number_at(case, path)
     known = numbers_of(case)
-    if path in known:
-        return known[path]
     section, _, rest = path.partition(".")
     found = [number for own, number in known.items() if _means(own, section, rest)]
     if len(found) == 1:
@@ -125,4 +126,4 @@ def _missing(case: Case, known: Mapping[str, Number], path: str, section: str, r
     return f"the case has no number there{suggestion(path, alike)}"
 
 
-__all__ = ["find_number", "numbers_of", "points_of", "refuse_space", "with_numbers"]
+__all__ = ["find_number", "number_at", "numbers_of", "points_of", "refuse_space", "with_numbers"]

@@ -24,7 +24,7 @@ from icsolve.sweep.branches import (
     signs_of,
 )
 from icsolve.sweep.continuation import InputLine, State, written_state
-from icsolve.sweep.numbers import numbers_of
+from icsolve.sweep.numbers import number_at
 from icsolve.sweep.path_tracking import Mask
 from icsolve.sweep.program import CompiledSweep, Signs, live_roots
 from icsolve.sweep.request import Columns
@@ -218,7 +218,7 @@ class SweepParts:
 
     def _written(self, name: str) -> float:
         """An input's value as written; a link turned from there starts at zero."""
-        return 0.0 if name in self.start.links else numbers_of(self.start.case)[name].value
+        return 0.0 if name in self.start.links else number_at(self.start.case, name).value
 
     def _is_angle(self, name: str) -> bool:
         return name in self.start.links or is_angle(name)

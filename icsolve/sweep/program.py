@@ -12,7 +12,7 @@ from contextlib import suppress
 from icsolve.assembly import Figure, Placement, place, placed_figure
 from icsolve.assembly.conditions import ahead, refuse_misfit, teeth_margins
 from icsolve.assembly.driven.constraints import Constraint, Turning
-from icsolve.assembly.driven.mechanism import Mechanism, mechanism
+from icsolve.assembly.driven.mechanism import Mechanism, mechanism, placed_late
 from icsolve.assembly.driven.motion import DrivenMotion, order_of, set_moving
 from icsolve.assembly.steps import Meet, Polar, spare_data
 from icsolve.assembly.workspace import CORNER, RAY, PlacedCase, data_in, names_of, number_of
@@ -38,7 +38,7 @@ from icsolve.sweep.drivers import (
     turns_links,
 )
 from icsolve.sweep.friction_rows import FrictionRows, rubbing
-from icsolve.sweep.numbers import find_number, numbers_of, with_numbers
+from icsolve.sweep.numbers import find_number, number_at, with_numbers
 from icsolve.sweep.recorded_scene import (
     RecordedScene,
     RecordedStatics,
@@ -217,7 +217,7 @@ def _driven(setting: Setting, *, posing: bool) -> Setting:
     """The setting with what moves, found on a record: where it is not that of the program, thrown away."""
     case, figure, paths, links = setting.case, setting.figure, setting.paths, setting.links
     record = BoundedRecord()
-    held = mechanism(case, figure.frame, record, _written(figure, place(figure, case, record)))
+    held = mechanism(case, figure.frame, record, figure.points, placed_late(figure, case, record))
     poses = [path for path in paths if posing or _poses(case, figure, held, path)]
     drive = closed_drive(held, poses, links)
     if drive is not None:
@@ -239,7 +239,7 @@ def _poses(case: Case, figure: Figure, scratch: Mechanism, path: str) -> bool:
     own = datum_at(case, path)
     if any(isinstance(s, Polar | Meet) and s.target in held and own in data_in(s) for s in figure.steps):
         return True
-    written = numbers_of(case)[path].value
+    written = number_at(case, path).value
     before, after = place(figure, case).points, {}
     for nudge in NUDGES:
         changed = with_numbers(case, {path: written + (abs(written) or 1.0) * nudge})
@@ -350,10 +350,9 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
 
 def _placed(setting: Setting, record: Record, nudge: float, inputs: dict[str, int]) -> Placement:
     """The figure as written, of numbers that vary where another is asked for in each row."""
-    numbers = numbers_of(setting.case)
     for path in setting.paths:
         if path not in setting.drive.moving:
-            value = numbers[path].value
+            value = number_at(setting.case, path).value
             node = record.input(path, value + (abs(value) or 1.0) * _apart(nudge, inputs))
             record.vary[path], inputs[path] = node, node.index
     return place(setting.figure, setting.case, record)
@@ -369,7 +368,7 @@ def _motion(
     setting: Setting, held: Mechanism, nudge: float, inputs: dict[str, int], signs: Signs
 ) -> DrivenMotion:
     """The mechanism driven by the inputs."""
-    case, numbers, drive = setting.case, numbers_of(setting.case), setting.drive
+    case, drive = setting.case, setting.drive
     record = held.shape.record
     drivers: list[Constraint] = []
     for link in setting.links:
@@ -378,7 +377,7 @@ def _motion(
         drivers.append(turning(held, link, node))
     for path in drive.moving:
         size = 180.0 if is_angle(path) else 1.0 / setting.figure.frame.scale
-        node = record.input(path, numbers[path].value + size * _apart(nudge, inputs))
+        node = record.input(path, number_at(case, path).value + size * _apart(nudge, inputs))
         record.vary[path], inputs[path] = node, node.index
         pose = pose_of(held, path)
         if pose is None:

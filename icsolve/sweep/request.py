@@ -14,7 +14,7 @@ from icsolve.numbers.replay import Array
 from icsolve.numbers.units import BOUNDS
 from icsolve.read.names import pairs, shown, suggestion
 from icsolve.statics.power import is_unknown
-from icsolve.sweep.numbers import find_number, numbers_of
+from icsolve.sweep.numbers import find_number, number_at
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recorded_scene import pairs as all_pairs
 from icsolve.tuples import NamedTuple
@@ -92,7 +92,7 @@ def columns_of(
         if own in found.names:
             raise RequestError(f"{shown(name)} and {shown(found.names[own])} are the same number")
         found.names[own] = name
-        bound = "" if turned else numbers_of(case)[own].bound
+        bound = "" if turned else number_at(case, own).bound
         _refuse_values(name, bound, array, turned or is_angle(own))
         column = np.ascontiguousarray(array).view() if array.ndim else np.full(rows, array)
         column.flags.writeable = False

@@ -20,7 +20,7 @@ from icsolve.files import can_fork, started
 from icsolve.numbers.replay import Array
 from icsolve.scene import solve_scene
 from icsolve.screws.plane import Point
-from icsolve.sweep.numbers import numbers_of, with_numbers
+from icsolve.sweep.numbers import number_at, with_numbers
 from icsolve.sweep.program import wanted_points
 from icsolve.sweep.request import Columns
 from icsolve.sweep.runner import Progress, Rows
@@ -121,7 +121,7 @@ def families(case: Case, columns: Columns, moving: Iterable[str]) -> Iterator[tu
     reshaping = [path for path in columns.paths if path not in set(moving)]
     table = np.stack([columns.paths[path] for path in reshaping], axis=1)
     sets, which = np.unique(table, axis=0, return_inverse=True)
-    steps = _steps(sets, [numbers_of(case)[path].value for path in reshaping])
+    steps = _steps(sets, [number_at(case, path).value for path in reshaping])
     done, nears = [np.zeros(len(reshaping))], [_places(case)[0] or case.near]
     for n in np.argsort(np.abs(steps).max(axis=1), kind="stable"):
         changed = with_numbers(case, dict(zip(reshaping, map(float, sets[n]), strict=True)))

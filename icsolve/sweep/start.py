@@ -15,7 +15,7 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.sweep.exact import hides
-from icsolve.sweep.numbers import numbers_of, with_numbers
+from icsolve.sweep.numbers import number_at, with_numbers
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, Signs, compile_sweep, setting_of
 from icsolve.sweep.request import Columns
 from icsolve.sweep.runner import Runner
@@ -72,7 +72,7 @@ def _contradicts(setting: Setting, path: str) -> bool:
     spare = spare_data(figure, case)
     if not spare:
         return False
-    value = numbers_of(case)[path].value
+    value = number_at(case, path).value
     changed = with_numbers(case, {path: value + NUDGED * (abs(value) or 1.0)})
     workspace = Workspace(changed, figure.frame, FLOATS)
     workspace.points.update(place(figure, changed, FLOATS).points)

@@ -275,7 +275,7 @@ class ConditionRows:
                 a, b = (self.places.vector(body, (1.0, 0.0)) for body, _ in c.terms)
                 return ConditionRow(dot(square(b), a), by)
             case Pointed(body, rotation):
-                z = self.places.vector(body, rotation.ref)
+                z = self.places.vector(body, self.shape.vector(rotation.ref))
                 return ConditionRow(dot(square(rotation.z), z), {(body, 2): dot(rotation.z, z)})
             case Immovable():
                 return ConditionRow(0.0, self._power(constraint))

@@ -140,8 +140,7 @@ def _held(mechanism: Mechanism, order: AssemblyOrder) -> Moved:
     """The spots that are located, as written."""
     moved = Moved(mechanism.shape)
     for one in order.located:
-        x, y = mechanism.shape.ref[one[1]]
-        moved.located[one] = (float(x), float(y))
+        moved.located[one] = mechanism.shape.still[one[1]]
     return moved
 
 
@@ -212,8 +211,8 @@ def settled(mechanism: Mechanism, moved: Moved, step: AssurGroup, number: int) -
     """Write the equations of a group, and solve them in the position in which the record is made."""
     record = mechanism.shape.record
     bases = bases_of(mechanism, step.bodies)
-    start = [x for body in step.bodies for x in (*mechanism.shape.ref[bases[body][1]], 0.0)]
-    guessed = [record.input(f"guess {number} {k}", float(x)) for k, x in enumerate(start)]
+    start = [x for body in step.bodies for x in (*mechanism.shape.still[bases[body][1]], 0.0)]
+    guessed = [record.input(f"guess {number} {k}", x) for k, x in enumerate(start)]
     q = dict(zip(step.bodies, _threes(guessed), strict=True))
     workspace = Workspace(mechanism.case, mechanism.frame, record)
     conditions = ConditionRows(mechanism.shape, Guess(moved, bases, q), bases, workspace)

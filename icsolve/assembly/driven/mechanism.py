@@ -6,7 +6,7 @@ Of rolling joints also where the centres of the two round links are, and which w
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from icsolve.assembly.driven.constraints import (
     BodyLine,
@@ -19,8 +19,9 @@ from icsolve.assembly.driven.constraints import (
     SpotDistance,
     Turning,
 )
-from icsolve.assembly.driven.poses import Places, Shape, Spot, dot, minus, plus, scaled, square
-from icsolve.assembly.workspace import Frame, PlacedCase
+from icsolve.assembly.driven.poses import Places, Shape, Spot, WrittenPlaces, dot, minus, plus, scaled, square
+from icsolve.assembly.steps import Figure
+from icsolve.assembly.workspace import Frame, PlacedCase, Workspace
 from icsolve.case import Case, Centroid, Guide, Joint, Rope, Toward
 from icsolve.case.joints import CentreAt, Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
@@ -80,7 +81,7 @@ class RollingSide(NamedTuple):
     side: float
 
 
-def rolling(joint: Rolling, sides: tuple[RollingSide, RollingSide], ref: Mapping[str, Point]) -> Rolled:
+def rolling(joint: Rolling, sides: tuple[RollingSide, RollingSide], ref: WrittenPlaces) -> Rolled:
     """The conditions of a rolling joint (``ref``: places as written)."""
     contact, normal = ref[joint.at], _normal(joint, sides, ref)
     names = [side.centre or f"@centre of {side.link} on {joint.at}" for side in sides]
@@ -101,7 +102,8 @@ def rolling(joint: Rolling, sides: tuple[RollingSide, RollingSide], ref: Mapping
     # the centre is on the left of the flank: minus the outward normal is along turned by 90 degrees
     line = BodyLine(sides[flat].body, contact, square(scaled(-side.side, normal)))
     radius = side.radius if float(side.radius) > 0.0 else -side.radius
-    offset = dot(square(line.along), minus({**ref, **centres}[centre[1]], contact))
+    at = centres[centre[1]] if centre[1] in centres else ref[centre[1]]
+    offset = dot(square(line.along), minus(at, contact))
     if abs(float(offset) - float(radius)) <= ROUNDED:
         offset = radius
     kept = {name: place for name, place in centres.items() if name == centre[1]}
@@ -149,7 +151,30 @@ class Mechanism(NamedTuple):
     contacts: dict[str, RollingContact]
 
 
-def mechanism(case: Case, frame: Frame, record: Record, ref: Mapping[str, Point]) -> Mechanism:
+def placed_late(figure: Figure, case: Case, record: Record) -> Callable[[str], Point]:
+    """The points of a figure as written, on the record: one by its name is placed, with those that come
+    before it, when it is asked for, whatever varies by then."""
+    workspace, steps = Workspace(case, figure.frame, record), iter(figure.steps)
+
+    def point(name: str) -> Point:
+        varied, record.vary = record.vary, {}
+        try:
+            while name not in workspace.points:
+                next(steps).place(workspace)
+        finally:
+            record.vary = varied
+        return workspace.points[name]
+
+    return point
+
+
+def mechanism(
+    case: Case,
+    frame: Frame,
+    record: Record,
+    written: Mapping[str, Point],
+    late: Callable[[str], Point] | None = None,
+) -> Mechanism:
     """The mechanism of a case in the position as written.
 
     Parameters
@@ -157,15 +182,16 @@ def mechanism(case: Case, frame: Frame, record: Record, ref: Mapping[str, Point]
     case : the case
     frame : scale of the frame
     record : on which a motion will be written
-    ref : by name, places as written [frame]
+    written : by name, places as written [frame]
+    late : what works one out on the record, where it is needed there; None where ``written`` has that
 
     A joint that is known as written only becomes an `Immovable`, with the reason: it is refused by whoever
     moves it.
     """
-    top, places = topology(case), dict(ref)
-    spots = _spots(case, top, places)
+    top, places = topology(case), WrittenPlaces(written, late or written.__getitem__)
+    spots = _spots(case, top, written)
     joined = _joined(case, top)
-    shape = Shape(record, places, joined, _spans(case, frame, record, places), top.ground)
+    shape = Shape(record, places, joined, _spans(case, frame, record, places.still), top.ground)
     lines = {
         i: _line(joint.guide, joint.at, top.body_of[joint.links[1]], places, record)
         for i, joint in enumerate(case.joints)
@@ -176,17 +202,18 @@ def mechanism(case: Case, frame: Frame, record: Record, ref: Mapping[str, Point]
     for i, joint in enumerate(case.joints):
         if isinstance(joint, Rolling):
             try:
-                found = rolling(joint, _sides(joint, PlacedCase(case, frame, places, record)), places)
+                found = rolling(joint, _sides(joint, PlacedCase(case, frame, places.still, record)), places)
             except SceneError as unknown:
-                constraints += _immovable(joint, top, places, unknown)
+                constraints += _immovable(joint, top, places.still, unknown)
                 continue
-            places.update(found.centres)
+            for name, at in found.centres.items():
+                places.add(name, at)
             _carry(spots, found.constraints)
             constraints += found.constraints
             contacts[joint.at] = found.contact
         elif not joint.stays_known:
             refusal = SceneError(Status.UNSUPPORTED, why_not_moved(joint))
-            constraints += _immovable(joint, top, places, refusal)
+            constraints += _immovable(joint, top, places.still, refusal)
         else:
             constraints += _conditions(joint, lines.get(i), shape, top.body_of)
     constraints += [_meshed(bond, record) for bond in top.bonds if bond.pivots]
@@ -205,12 +232,11 @@ def _roped(rope: Rope, top: Topology, frame: Frame, record: Record, ref: Mapping
 
 
 def _immovable(
-    joint: Joint, top: Topology, ref: Mapping[str, Point], refusal: SceneError
+    joint: Joint, top: Topology, still: Mapping[str, Point], refusal: SceneError
 ) -> Iterator[Immovable]:
     """What such a joint transmits in the position as written."""
     ends = (top.body_of[joint.links[0]], top.body_of[joint.links[1]])
     if ends[0] != ends[1]:
-        still = {name: (float(x), float(y)) for name, (x, y) in ref.items()}
         for wrench in transmitted(joint_freedoms(joint, still, FLOATS)):
             yield Immovable(ends, wrench, refusal)
 
@@ -286,12 +312,12 @@ def _spans(
     return spans
 
 
-def _line(guide: Guide, at: str, body: int, ref: Mapping[str, Point], record: Record) -> BodyLine:
+def _line(guide: Guide, at: str, body: int, ref: WrittenPlaces, record: Record) -> BodyLine:
     """The guide's line: through its own point, or through the joint's where that misses it."""
     along = guide_direction(guide, ref, record)
     name = guide.through or (guide.ends[0] if guide.ends else at)
-    off = dot(square(along), minus(ref[at], ref[name]))
-    return BodyLine(body, ref[name] if abs(float(off)) <= ROUNDED else ref[at], along)
+    off = dot(square((float(along[0]), float(along[1]))), minus(ref.still[at], ref.still[name]))
+    return BodyLine(body, ref[name] if abs(off) <= ROUNDED else ref[at], along)
 
 
 def _conditions(
@@ -347,7 +373,7 @@ def _meshed(bond: Bond, record: Record) -> Turning:
     return Turning(((bond.a, a), (bond.b, b), (bond.carrier, -(a + b))))
 
 
-def _base(spots: dict[int, list[Spot]], lines: Iterable[BodyLine], ref: dict[str, Point]) -> None:
+def _base(spots: dict[int, list[Spot]], lines: Iterable[BodyLine], ref: WrittenPlaces) -> None:
     """A body that carries no point has one of its own: on a guide of its, else at the origin."""
     for line in lines:
         if not spots[line.body]:
@@ -357,9 +383,9 @@ def _base(spots: dict[int, list[Spot]], lines: Iterable[BodyLine], ref: dict[str
             _add_base(spots, body, (0.0, 0.0), ref)
 
 
-def _add_base(spots: dict[int, list[Spot]], body: int, at: Point, ref: dict[str, Point]) -> None:
+def _add_base(spots: dict[int, list[Spot]], body: int, at: Point, ref: WrittenPlaces) -> None:
     name = f"@base {body}"
-    ref[name] = at
+    ref.add(name, at)
     spots[body].append((body, name))
 
 

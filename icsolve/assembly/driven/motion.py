@@ -33,7 +33,7 @@ from icsolve.assembly.driven.order import (
     reference,
     rotation_to_line,
 )
-from icsolve.assembly.driven.poses import Moved, Rotation, Spot, dot, minus, rotated, square
+from icsolve.assembly.driven.poses import Arm, Moved, Rotation, Spot, dot, minus, rotated, square
 from icsolve.assembly.loci import PlacedLocus, crossing_sine, intersection, side
 from icsolve.assembly.workspace import Workspace
 from icsolve.numbers.arithmetic import Scalar
@@ -158,7 +158,7 @@ class _Placing:
                 self._placed(body, spot, (spot,))
             case PlaceByTwoPoints(body, (p, q)):
                 z = minus(self.moved.place(q), self.moved.place(p))
-                self.moved.rotations[body] = Rotation(z, self.shape.between(p, q))
+                self.moved.rotations[body] = Rotation(z, Arm(p, q))
                 self._placed(body, p, (p, q))
             case PlaceAtIntersection():
                 self._meet(step)
@@ -196,7 +196,7 @@ class _Placing:
             return by.rotation
         if isinstance(by, Turning) and by.alike:
             (other,) = (other for other, _ in by.terms if other != body)
-            return self.moved.rotations[other]._replace(arm=None)
+            return self.moved.rotations[other]._replace(unit=None)
         first, *more = (factor for other, factor in by.terms if other == body)
         rest = by.rest(self.shape, self.moved, self.record.turns) + spun(by.terms, self.moved, but=body)
         return rotated(self.shape, -rest / sum(more, first))
@@ -217,8 +217,7 @@ class _Placing:
 
     def _written(self, name: str, first: PlacedLocus, second: PlacedLocus) -> Point:
         """Where a spot is as written; where its loci only touch there, where `near` would have it."""
-        x, y = self.shape.ref[name]
-        at = (float(x), float(y))
+        at = self.shape.still[name]
         near = self.mechanism.case.near.get(name)
         if near is None or crossing_sine(first, second, at) > TOUCHING:
             return at
@@ -233,7 +232,7 @@ class _Placing:
         h = c.offset + dot(normal, minus(line.through, self.shape.ref[step.pivot[1]]))
         if len(step.bodies) > 1:
             h = h - dot(normal, minus(self.shape.ref[c.spot[1]], self.shape.ref[step.aim[1]]))
-        written = minus(self.shape.ref[step.aim[1]], self.shape.ref[step.pivot[1]])
+        written = minus(self.shape.still[step.aim[1]], self.shape.still[step.pivot[1]])
         sign = 1.0 if float(dot(line.along, written)) >= 0.0 else -1.0
         rotation = Rotation(rotation_to_line(self.record, e, line.along, h, self.signs.get(name, sign)))
         self._branch(name, sign)

@@ -433,8 +433,7 @@ class AssemblyOrder:
 
     def _crossing(self, spot: Spot, first: By, second: By) -> float:
         still, at = reference(self.shape, first), reference(self.shape, second)
-        place = tuple(map(float, self.shape.ref[spot[1]]))
-        return crossing_sine(still, at, (place[0], place[1]))
+        return crossing_sine(still, at, self.shape.still[spot[1]])
 
     def _loci(self, members: list[Spot]) -> Iterator[By]:
         for spot in members:

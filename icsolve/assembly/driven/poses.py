@@ -7,7 +7,7 @@ and z_ref the same vector in the position as written.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
@@ -18,13 +18,39 @@ Spot = tuple[int, str]
 """A point as a body carries it: the body and the point's name."""
 
 
+class WrittenPlaces(dict[str, Point]):
+    """Places as written [frame] on a record, each worked out when it is first asked for: of many points only
+    the lengths between them matter. ``still`` has all of them in doubles, to choose by."""
+
+    def __init__(self, still: Mapping[str, Point], late: Callable[[str], Point]) -> None:
+        super().__init__()
+        self.still = {name: (float(x), float(y)) for name, (x, y) in still.items()}
+        self._late = late
+
+    def __missing__(self, name: str) -> Point:
+        found = self[name] = self._late(name)
+        return found
+
+    def add(self, name: str, at: Point) -> None:
+        """A place that has no name in the figure."""
+        self[name], self.still[name] = at, (float(at[0]), float(at[1]))
+
+
+class Arm(NamedTuple):
+    """The vector from one spot to another as written, in parts of a length."""
+
+    start: Spot
+    end: Spot
+    length: Scalar = 1.0
+
+
 class Shape:
     """The bodies as written.
 
     Parameters
     ----------
     record : on which the places of a motion are expressions
-    ref : by name, the places of points [frame of size 1]
+    ref : by name, the places of points [frame of size 1]; ``still`` has them in doubles
     joined : by spot on a pin, the spot that stands for all on it
     spans : by pair of names, the distances that the case gives [frame]
     ground : index of the frame's body
@@ -33,12 +59,13 @@ class Shape:
     def __init__(
         self,
         record: Record,
-        ref: Mapping[str, Point],
+        ref: WrittenPlaces,
         joined: Mapping[Spot, Spot],
         spans: Mapping[frozenset[str], Scalar],
         ground: int,
     ) -> None:
         self.record, self.ref, self.joined, self.spans, self.ground = record, ref, joined, spans, ground
+        self.still = ref.still
 
     def one(self, spot: Spot) -> Spot:
         """The spot that stands for all on its pin."""
@@ -48,6 +75,13 @@ class Shape:
         """Vector from p to q as written [frame]."""
         (px, py), (qx, qy) = self.ref[p[1]], self.ref[q[1]]
         return (qx - px, qy - py)
+
+    def vector(self, written: Point | Arm) -> Point:
+        """A vector as written [frame], or of length 1."""
+        if not isinstance(written, Arm):
+            return written
+        x, y = self.between(written.start, written.end)
+        return (x / written.length, y / written.length)
 
     def span(self, p: Spot, q: Spot) -> Scalar:
         """Distance of two points of a body [frame]: as the case gives it, else from their places."""
@@ -59,8 +93,8 @@ class Shape:
 
     def apart(self, p: Spot, q: Spot) -> float:
         """The distance in the position as written, to choose by."""
-        x, y = self.between(p, q)
-        return float(abs(complex(float(x), float(y))))
+        (px, py), (qx, qy) = self.still[p[1]], self.still[q[1]]
+        return abs(complex(qx - px, qy - py))
 
 
 class Rotation(NamedTuple):
@@ -69,15 +103,15 @@ class Rotation(NamedTuple):
     Attributes
     ----------
     z : a vector that it carries, of any length
-    ref : the same vector as written
+    ref : the same vector as written, or what it is the vector of
     degrees : the turning since then, whole turns too; None until it is asked for
-    arm : two spots and their distance where ``z`` is the unit vector from the one to the other
+    unit : ``ref`` where ``z`` is the unit vector of it, whose length is known
     """
 
     z: Point
-    ref: Point = (1.0, 0.0)
+    ref: Point | Arm = (1.0, 0.0)
     degrees: Scalar | None = None
-    arm: tuple[Spot, Spot, Scalar] | None = None
+    unit: Arm | None = None
 
 
 def rotated(shape: Shape, degrees: Scalar) -> Rotation:
@@ -93,8 +127,7 @@ class Places:
 
     def place(self, spot: Spot) -> Point:
         """Where a body's point is."""
-        x, y = self.shape.ref[spot[1]]
-        return (float(x), float(y))
+        return self.shape.still[spot[1]]
 
     def point(self, body: int, at: Point) -> Point:
         """Where a place of a body is that was at ``at`` as written."""
@@ -135,9 +168,9 @@ class Moved(Places):
         return (bx + x, by + y)
 
     def _arm(self, rotation: Rotation, base: Spot, spot: Spot) -> Point | None:
-        if rotation.arm is None:
+        if rotation.unit is None:
             return None
-        p, q, length = rotation.arm
+        p, q, length = rotation.unit
         (x, y), one = rotation.z, self.shape.one
         if (one(base), one(spot)) == (one(p), one(q)):
             return (x * length, y * length)
@@ -155,7 +188,7 @@ class Moved(Places):
         if body == self.shape.ground:
             return v
         rotation = self.rotations[body]
-        return product(rotation.z, quotient(v, rotation.ref))
+        return product(rotation.z, quotient(v, self.shape.vector(rotation.ref)))
 
     def degrees(self, body: int) -> Scalar:
         """By how much a body has turned."""
