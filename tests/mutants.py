@@ -99,7 +99,7 @@ EQUIVALENT: dict[str, str] = {
     "icsolve/numbers/quadratics.py _Exclusion._by_inverse #9: 0.0 -> 1.0": "of boxes that are not looked at",
     "icsolve/assembly/conditions.py module #1: 1e-06 -> 1.000001": "more is looked at in more digits",
     "icsolve/numbers/krawczyk.py _enclosed #8: 4.0 * balls.unit * (1.0 + max((abs(float(x)) for x in "
-    "middle))) -> 4.0 * balls.unit / (1.0 + max((abs(float(x)) for x in middle)))": "how wide the first box is",
+    "middle))) -> 4.0 * balls.unit / (1.0 + max((abs(float(x)) for x in middle)))": "how wide one begins",
     "icsolve/statics/load_wrenches.py _unit_wrench #6: -pi -> pi": "no unit of torque has a power of it",
     "icsolve/statics/equilibrium.py _equations #7: row.get(action.column, 0.0) + value -> row.get("
     "action.column, 0.0) - value": "all equations with the other sign",

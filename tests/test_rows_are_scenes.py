@@ -198,6 +198,42 @@ def test_a_motion_that_a_scene_refuses_is_refused_in_every_row(motion: str) -> N
         assert list(misses(case, path, values)) == []
 
 
+BEYOND = """
+icsolve: 1
+points: {A: [0, 0], D: [4, 0], G: [unknown, 0.5]}
+lengths: {AB: 1, BC: 3.5, CD: 2.5, CG: 4}
+angles: {AB: 60}
+near: {C: [3.5, 2.4], G: [7, 0.5]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4, 5], at: C}
+  - {pin: [4, 1], at: D}
+  - {pin: [5, 6], at: G}
+  - {slide: [6, 1], at: G, along: 0}
+loads: {P: {torque: 10, link: 4}, T: {torque: unknown, link: 2}}
+"""
+
+
+@pytest.mark.parametrize(
+    "motion",
+    [
+        "{link: 5, turns: cw}",
+        "{link: 3, turns: cw}",
+        "{point: G, link: 6, speed: 1, angle: 0}",
+        "{point: G, link: 6, speed: 1, angle: 90}",
+    ],
+)
+def test_a_motion_of_a_link_beyond_the_loads_is_refused_where_a_scene_refuses_it(motion: str) -> None:
+    """The rod and the slider of a six-bar bear no load, and a force between the loads needs neither."""
+    case = icsolve.load(f"{BEYOND}motion: {motion}\n")
+    if "angle: 90" in motion:
+        with pytest.raises(icsolve.SceneError, match="can only move at"):
+            icsolve.sweep(case, {"angles.AB": [60.0]})
+    for path in ("angles.AB", "lengths.CG", "loads.P"):
+        assert list(misses(case, path, amounts(numbers_of(case)[path])[1:4])) == []
+
+
 @pytest.mark.parametrize("motion", GOOD)
 @pytest.mark.parametrize(
     "path", ["angles.AB", "lengths.AB", "joints.4-1@C.along", "motion.speed", "motion.angle"]

@@ -5,6 +5,7 @@ equations of the whole scene. What is singular, redundant or rigid is said here.
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 from icsolve.assembly.workspace import PlacedCase
@@ -63,12 +64,13 @@ def needed_bonds(plan: Plan | None, top: Topology) -> tuple[int, ...]:
     return plan.bonds
 
 
-def by_plan(plan: Plan, place: PlacedCase) -> Motions | None:
-    """The one motion by the groups of the plan; None where a group is singular."""
+def by_plan(plan: Plan, place: PlacedCase, wanted: Collection[int] | None = None) -> Motions | None:
+    """The one motion by the groups of the plan, of the wanted bodies (None: of all that are planned); None
+    where a group is singular."""
     top, (_, _, points, arithmetic) = place.top, place
     bonds, members = top.bonds, top.members
     bases = {k: freedoms(bonds[k], points, arithmetic) for k in plan.bonds}
-    found, closures = run(plan, top, bases, arithmetic)
+    found, closures = run(plan, top, bases, arithmetic, None if wanted is None else {top.ground, *wanted})
     for closure in closures:
         if is_singular(closure, arithmetic):
             return None

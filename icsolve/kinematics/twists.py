@@ -14,7 +14,7 @@ on screws: Valderrama-Rodriguez, Rico and others, Robotics 2022, 11(1), 6.)
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from icsolve.numbers.arithmetic import ZERO, Arithmetic, Scalar, all_vanish, decider, magnitude
@@ -271,13 +271,15 @@ class _Pool:
             self.put({body: (twist, own)})
         return twist if own is o else shift(twist, (o[0] - own[0], o[1] - own[1]))
 
-    def all_now(self) -> dict[int, Triple]:
-        """Every twist at the present level, in linear time, as seen from the frame's origin."""
+    def all_now(self, wanted: Collection[int]) -> dict[int, Triple]:
+        """Those of some bodies at the present level, in linear time, as seen from the origin of the frame."""
         suffix: list[Scalar] = [1.0]
         for factor in reversed(self.factors):
             suffix.append(suffix[-1] * factor)
         last, result = len(self.factors), {}
         for body, (twist, (ox, oy), level) in self.held.items():
+            if body not in wanted:
+                continue
             if twist is not ORIGIN:
                 x, y, w = twist if level == last else times(suffix[last - level], twist)
                 result[body] = (x + w * ox, y + w * oy, w)
@@ -287,9 +289,13 @@ class _Pool:
 
 
 def run(
-    plan: Plan, top: Topology, bases: Bases, arithmetic: Arithmetic
+    plan: Plan,
+    top: Topology,
+    bases: Bases,
+    arithmetic: Arithmetic,
+    wanted: Collection[int] | None = None,
 ) -> tuple[dict[int, Triple], tuple[Closure, ...]]:
-    """Twists of the planned bodies.
+    """Twists of planned bodies.
 
     Parameters
     ----------
@@ -297,6 +303,7 @@ def run(
     top : bodies and bonds
     bases : by bond, its basis twists, of every bond in the plan
     arithmetic : of the bases
+    wanted : bodies; None: all that are planned
 
     Returns
     -------
@@ -317,7 +324,7 @@ def run(
         closures.append(closure)
         pool.factors.append(closure.factor)
         pool.put(found)
-    return pool.all_now(), tuple(closures)
+    return pool.all_now(pool.held if wanted is None else wanted), tuple(closures)
 
 
 Closed = tuple[Closure, dict[int, Seen]]

@@ -279,6 +279,7 @@ def statics(scene: RecordedScene, everything: bool) -> RecordedStatics:
     """Unknown loads and twists of the scene on the record; with ``everything`` the twist of every link."""
     case, top, place = scene.case, scene.top, scene.place
     links = {link for load in case.loads for link in (load.link, load_wrenches.reacting(case, load))}
+    links |= {given.link for given in case.motion}
     unknown = any(power.is_unknown(load) for load in case.loads)
     some = unknown and not (everything or case.ropes or case.screws)
     wanted = frozenset(top.body_of[link] for link in links) if some else None
@@ -303,7 +304,7 @@ def motions_of(scene: RecordedScene, wanted: Collection[int] | None = None) -> m
     plan = make_plan(top, wanted if wanted is not None else range(len(top.members)))
     found = None
     if plan is not None and plan.closed and not scene.case.ropes:
-        found = motion.by_plan(plan, scene.place)
+        found = motion.by_plan(plan, scene.place, wanted)
     if found is None:
         found = motion.by_loops(scene.place)
     return motion.with_ends(found, scene.place)
@@ -335,12 +336,10 @@ def motion_fits(scene: RecordedScene, found: RecordedStatics, *, sense: bool) ->
 
     Raises SceneError where the given motions can be in no row.
     """
-    links, motions = {given.link for given in scene.case.motion}, found.motions
-    if not motions.twists.keys() >= links:
-        motions = motions_of(scene, {scene.top.body_of[link] for link in links})
+    motions = found.motions
     margins = list(speeds.motion_margins(scene.place, motions.twists, sense=sense))
     still = any(not varies(m) and float(m) <= 0.0 for m in margins)
-    if links and (still or len(scene.case.motion) > 1 or motions.mobility > 1):
+    if scene.case.motion and (still or len(scene.case.motion) > 1 or motions.mobility > 1):
         speeds.speed_of(scene.place, motions.twists)
     return tuple(m.index for m in margins if varies(m))
 
