@@ -207,7 +207,8 @@ near: {C: [3.5, 2.4], G: [7, 0.5]}
 joints:
   - {pin: [1, 2], at: A}
   - {pin: [2, 3], at: B}
-  - {pin: [3, 4, 5], at: C}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 5], at: C}
   - {pin: [4, 1], at: D}
   - {pin: [5, 6], at: G}
   - {slide: [6, 1], at: G, along: 0}
