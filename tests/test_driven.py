@@ -191,3 +191,18 @@ def test_the_determinant_of_more_equations_than_unknowns_is_the_root_of_grams() 
 
         found = Solver.determinant(Few(), {}, np.zeros((5, 4)))  # type: ignore[arg-type]
         assert found == pytest.approx(np.prod(np.linalg.svd(j)[1], axis=1), rel=1e-9)
+
+
+@pytest.mark.parametrize("stages", [1, 4, 9, 14])
+def test_either_end_of_a_reduction_drives_it_however_long_it_is(stages: int) -> None:
+    """20 to 1 a stage, to 1.6e18 in all: neither end counts as still beside the other. The torques have that
+    ratio, and so have the turns of the first wheel, in numbers of a few units in the last place."""
+    points = ", ".join(f"A{k}: [{3 * k}, 0]" for k in range(stages + 1))
+    pins = ", ".join(f"{{pin: [1, {k + 2}], at: A{k}}}" for k in range(stages + 1))
+    gears = ", ".join(f"{{gears: [{k + 2}, {k + 3}], teeth: [10, 200]}}" for k in range(stages))
+    loads = f"loads: {{K: {{torque: 7, link: {stages + 2}}}, U: {{torque: unknown, link: 2}}}}"
+    case = icsolve.load(f"icsolve: 1\npoints: {{{points}}}\njoints: [{pins}, {gears}]\n{loads}\n")
+    for link in ("2", str(stages + 2)):
+        found = icsolve.sweep(case, drive={link: [0.0, 1.0, 30.0]}, want=("answers", "status"))
+        assert found.status.tolist() == ["ok"] * 3
+        assert found.answers["U"] == pytest.approx(-7.0 * (-1 / 20) ** stages, rel=1e-15 * 4)

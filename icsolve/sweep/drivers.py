@@ -456,10 +456,11 @@ def closed_drive(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str
 
 def _is_regular(step: AssemblyStep) -> bool:
     """Whether a step takes as many conditions as it makes known numbers, and is nowhere singular: of
-    the rotations that of a driver, or of a body that turns alike."""
+    the rotations that of a driver, of a body that turns alike, or of one that is geared to others."""
     if isinstance(step, RotateWith):
         by = step.by
-        return isinstance(by, Pointed) or (isinstance(by, Turning) and (by.alike or len(by.terms) == 1))
+        own = [float(f) for body, f in by.terms if body == step.body] if isinstance(by, Turning) else []
+        return step.instead is None and (isinstance(by, Pointed) or sum(own) != 0.0)
     return isinstance(step, PlaceByPoint | PlaceByTwoPoints | PlaceAtIntersection)
 
 
