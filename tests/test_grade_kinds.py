@@ -241,6 +241,34 @@ def test_what_ropes_screws_and_masses_are_often_taken_for(a_class: Class, kind: 
     assert code in row["code"].split(), row
 
 
+LIFTED = """\
+icsolve: 1
+points: {{C: [0, 0], P: [0, 3], E: [{x}, {y}]}}
+joints:
+  - {{slide: [2, 1], at: C, along: 90}}
+  - {{rope: [C, P, E], on: [2, 1]}}
+loads:
+  V: {{weight: 40, link: 2, at: C}}
+  F: {{force: unknown, at: E}}
+"""
+"""A block on a rope over a pulley, whose free end is pulled with 40 N away from it."""
+
+
+@pytest.mark.parametrize("degrees", [0.0, 30.0, 135.0, 200.0, 315.0])
+def test_a_rope_is_pulled_the_way_it_runs(a_class: Class, degrees: float) -> None:
+    """A pull is no push, and no pull the other way; square to it a person decides."""
+    angle = math.radians(degrees)
+    a_class.case("lifted", LIFTED.format(x=4.0 * math.cos(angle), y=3.0 + 4.0 * math.sin(angle)))
+    with_it = ("40 N", "40 N, pull", f"40 N at {degrees} deg", "40 N away from P", "8.992 lbf in tension")
+    against = ("-40 N", "40 N push", f"40 N at {degrees + 180.0} deg", "40 N toward P")
+    square = f"40 N at {degrees + 90.0} deg"
+    rows = a_class.judge(*with_it, *against, square, case="lifted")
+    assert [row["verdict"] for row in rows] == ["right"] * 5 + ["wrong"] * 4 + ["review"]
+    assert {row["code"] for row in rows[5:9]} == {"sign"}
+    pulls = a_class.judge("40 N tension", "40 N (T)", "40 N compression", case="lifted:T C-P-E")
+    assert [(row["verdict"], row["code"]) for row in pulls] == [("right", "")] * 2 + [("wrong", "sign")]
+
+
 def test_the_pull_of_a_rope_is_a_question(a_class: Class) -> None:
     a_class.case("hoist", (CASES / "ropes" / "differential_hoist.yaml").read_text())
     rows = a_class.judge("500 N", "500", "1000 N", case="hoist:T O-P-N")
