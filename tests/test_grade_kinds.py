@@ -13,6 +13,7 @@ import pytest
 
 import icsolve
 from grade_shell import CASES, Class
+from icsolve.grade.one import Task
 from icsolve.wording.statement import Statement
 
 BAR = """\
@@ -214,6 +215,57 @@ def test_variants_of_ranges_and_positions_have_keys_of_their_own(a_class: Class)
 )
 def test_what_a_question_of_these_kinds_gives(text: str, name: str, told: str) -> None:
     assert dict(Statement(icsolve.load(text)).rows())[name] == told
+
+
+STUCK = """\
+icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 1}
+angles: {AB: {unknown: [-179, 179], from: 0}}
+joints: [{pin: [1, 2], at: A, mu: 0.3, radius: 0.2}]
+loads: {P: {force: 10, link: 2, at: B, angle: 0}, M: {torque: 0, link: 2}}
+"""
+STUCK_BY = 0.2 * math.sin(math.atan(0.3))
+"""The radius of the friction circle, within which the line of P has to pass."""
+
+
+@pytest.mark.parametrize("degrees", [0, 70, 178, 350])
+def test_ranges_of_rest_are_angles_too(a_class: Class, degrees: int) -> None:
+    """Either range is right, in any turn and however it is named, and no other arc; so it is asked for."""
+    text = STUCK.replace("{unknown: [-179, 179], from: 0}", "unknown")
+    a_class.case("stuck", text.replace("angle: 0", f"angle: {degrees}"))
+    off = math.degrees(math.asin(STUCK_BY))
+    ends = [(degrees + side - off, degrees + side + off) for side in (0.0, 180.0)]
+    turns = (-720.0, -360.0, 0.0, 360.0)
+    right = [f"{a + turn:.6g} to {b + turn:.6g} deg" for a, b in ends for turn in turns]
+    right += [f"{a % 360.0:.6g} to {b % 360.0:.6g}" for a, b in ends]  # perhaps on through 0
+    right += [f"{b:.6g} deg to {a:.6g} deg" for a, b in ends]
+    right += [f"{math.radians(a):.6g} to {math.radians(b):.6g} rad" for a, b in ends]
+    wrong = [f"{a + turn:.6g} to {b:.6g} deg" for a, b in ends for turn in (-360.0, 720.0)]
+    wrong += [f"{b:.6g} to {a + 360.0:.6g} deg" for a, b in ends]  # the arc between
+    rows = a_class.judge(*right, *wrong, case="stuck")
+    assert [row["verdict"] for row in rows] == ["right"] * len(right) + ["wrong"] * len(wrong)
+    task = Task(a_class.path("cases/stuck.yaml"))
+    assert task.asked() == (
+        "Over which range of the angle AB in deg, counterclockwise positive, does the mechanism hold still? "
+        "Give both ends."
+    )
+
+
+def test_of_ranges_that_mirror_one_another_each_is_right(a_class: Class) -> None:
+    """A weight and a couple: W cos t - M within W times the friction radius, for t and for -t. The one is no
+    wrong sense of the other, and right in another unit it lacks its unit alone."""
+    text = STUCK.replace("angle: 0}", "angle: -90}").replace("torque: 0", "torque: 5")
+    a_class.case("stuck", text)
+    low, high = (math.degrees(math.acos((5.0 + side * 10.0 * STUCK_BY) / 10.0)) for side in (1.0, -1.0))
+    given = {
+        f"{low:.6g} to {high:.6g} deg": ("right", ""), f"{-high:.6g} to {-low:.6g} deg": ("right", ""),
+        f"{low:.6g} to {high:.6g} rad": ("wrong", "unit"),
+        f"{low:.6g} to {1.2 * high:.6g}": ("wrong", "one-end"),
+        f"{low:.6g} to {high:.6g} deg; {-high:.6g} to {-low:.6g} deg": ("right", ""),
+    }  # fmt: skip
+    rows = a_class.judge(*given, case="stuck")
+    assert [(row["verdict"], row["code"]) for row in rows] == list(given.values())
 
 
 MACHINES = {

@@ -435,10 +435,13 @@ def position_key(
         raise NoKeyError("a drawing says nothing of a position of rest; give it a tolerance such as 2%")
     width, others = own_width(policy.tolerance, target, answer), len(answer.positions or ()) - 1
 
+    period = 360.0 if is_angle(target.path) else 0.0
+
+    def end(value: float, pose: Answer) -> NumberKey:
+        return replace(_number(question, value, target, pose, policy, width), period=period)
+
     def key(value: float, pose: Answer) -> NumberKey:
-        found = _number(question, value, target, pose, policy, width)
-        period = 360.0 if is_angle(target.path) else 0.0
-        found = replace(found, period=period)
+        found = end(value, pose)
 
         def within_a_turn() -> list[Wrong]:
             wide = 2.0 * period or math.inf
@@ -452,7 +455,7 @@ def position_key(
         if isinstance(held, float):
             keys.append(key(held, position.answer))
         else:
-            low, high = (_number(question, end, target, position.answer, policy, width) for end in held)
+            low, high = (end(value, position.answer) for value in held)
             keys.append(RangeKey(question, low, high, low.unit_name, policy))
     return keys[0] if len(keys) == 1 else ChoiceKey(question, tuple(keys), keys[0].unit_name, policy)
 
