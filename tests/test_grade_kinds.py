@@ -13,6 +13,7 @@ import pytest
 
 import icsolve
 from grade_shell import CASES, Class
+from icsolve.grade.one import Task
 from icsolve.wording.statement import Statement
 
 BAR = """\
@@ -216,6 +217,57 @@ def test_what_a_question_of_these_kinds_gives(text: str, name: str, told: str) -
     assert dict(Statement(icsolve.load(text)).rows())[name] == told
 
 
+STUCK = """\
+icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 1}
+angles: {AB: {unknown: [-179, 179], from: 0}}
+joints: [{pin: [1, 2], at: A, mu: 0.3, radius: 0.2}]
+loads: {P: {force: 10, link: 2, at: B, angle: 0}, M: {torque: 0, link: 2}}
+"""
+STUCK_BY = 0.2 * math.sin(math.atan(0.3))
+"""The radius of the friction circle, within which the line of P has to pass."""
+
+
+@pytest.mark.parametrize("degrees", [0, 70, 178, 350])
+def test_ranges_of_rest_are_angles_too(a_class: Class, degrees: int) -> None:
+    """Either range is right, in any turn and however it is named, and no other arc; so it is asked for."""
+    text = STUCK.replace("{unknown: [-179, 179], from: 0}", "unknown")
+    a_class.case("stuck", text.replace("angle: 0", f"angle: {degrees}"))
+    off = math.degrees(math.asin(STUCK_BY))
+    ends = [(degrees + side - off, degrees + side + off) for side in (0.0, 180.0)]
+    turns = (-720.0, -360.0, 0.0, 360.0)
+    right = [f"{a + turn:.6g} to {b + turn:.6g} deg" for a, b in ends for turn in turns]
+    right += [f"{a % 360.0:.6g} to {b % 360.0:.6g}" for a, b in ends]  # perhaps on through 0
+    right += [f"{b:.6g} deg to {a:.6g} deg" for a, b in ends]
+    right += [f"{math.radians(a):.6g} to {math.radians(b):.6g} rad" for a, b in ends]
+    wrong = [f"{a + turn:.6g} to {b:.6g} deg" for a, b in ends for turn in (-360.0, 720.0)]
+    wrong += [f"{b:.6g} to {a + 360.0:.6g} deg" for a, b in ends]  # the arc between
+    rows = a_class.judge(*right, *wrong, case="stuck")
+    assert [row["verdict"] for row in rows] == ["right"] * len(right) + ["wrong"] * len(wrong)
+    task = Task(a_class.path("cases/stuck.yaml"))
+    assert task.asked() == (
+        "Over which range of the angle AB in deg, counterclockwise positive, does the mechanism hold still? "
+        "Give both ends."
+    )
+
+
+def test_of_ranges_that_mirror_one_another_each_is_right(a_class: Class) -> None:
+    """A weight and a couple: W cos t - M within W times the friction radius, for t and for -t. The one is no
+    wrong sense of the other, and right in another unit it lacks its unit alone."""
+    text = STUCK.replace("angle: 0}", "angle: -90}").replace("torque: 0", "torque: 5")
+    a_class.case("stuck", text)
+    low, high = (math.degrees(math.acos((5.0 + side * 10.0 * STUCK_BY) / 10.0)) for side in (1.0, -1.0))
+    given = {
+        f"{low:.6g} to {high:.6g} deg": ("right", ""), f"{-high:.6g} to {-low:.6g} deg": ("right", ""),
+        f"{low:.6g} to {high:.6g} rad": ("wrong", "unit"),
+        f"{low:.6g} to {1.2 * high:.6g}": ("wrong", "one-end"),
+        f"{low:.6g} to {high:.6g} deg; {-high:.6g} to {-low:.6g} deg": ("right", ""),
+    }  # fmt: skip
+    rows = a_class.judge(*given, case="stuck")
+    assert [(row["verdict"], row["code"]) for row in rows] == list(given.values())
+
+
 MACHINES = {
     "two parts not counted": ("ropes/tackle_four_parts", "rope-parts", 500.0),
     "exp(mu) alone": ("ropes/capstan", "wrap", 100 * math.exp(0.25)),
@@ -239,6 +291,34 @@ def test_what_ropes_screws_and_masses_are_often_taken_for(a_class: Class, kind: 
     (row,) = a_class.judge(f"{found:.7g}", case="machine")
     assert row["verdict"] == "wrong"
     assert code in row["code"].split(), row
+
+
+LIFTED = """\
+icsolve: 1
+points: {{C: [0, 0], P: [0, 3], E: [{x}, {y}]}}
+joints:
+  - {{slide: [2, 1], at: C, along: 90}}
+  - {{rope: [C, P, E], on: [2, 1]}}
+loads:
+  V: {{weight: 40, link: 2, at: C}}
+  F: {{force: unknown, at: E}}
+"""
+"""A block on a rope over a pulley, whose free end is pulled with 40 N away from it."""
+
+
+@pytest.mark.parametrize("degrees", [0.0, 30.0, 135.0, 200.0, 315.0])
+def test_a_rope_is_pulled_the_way_it_runs(a_class: Class, degrees: float) -> None:
+    """A pull is no push, and no pull the other way; square to it a person decides."""
+    angle = math.radians(degrees)
+    a_class.case("lifted", LIFTED.format(x=4.0 * math.cos(angle), y=3.0 + 4.0 * math.sin(angle)))
+    with_it = ("40 N", "40 N, pull", f"40 N at {degrees} deg", "40 N away from P", "8.992 lbf in tension")
+    against = ("-40 N", "40 N push", f"40 N at {degrees + 180.0} deg", "40 N toward P")
+    square = f"40 N at {degrees + 90.0} deg"
+    rows = a_class.judge(*with_it, *against, square, case="lifted")
+    assert [row["verdict"] for row in rows] == ["right"] * 5 + ["wrong"] * 4 + ["review"]
+    assert {row["code"] for row in rows[5:9]} == {"sign"}
+    pulls = a_class.judge("40 N tension", "40 N (T)", "40 N compression", case="lifted:T C-P-E")
+    assert [(row["verdict"], row["code"]) for row in pulls] == [("right", "")] * 2 + [("wrong", "sign")]
 
 
 def test_the_pull_of_a_rope_is_a_question(a_class: Class) -> None:

@@ -265,7 +265,7 @@ def test_a_load_that_holds_over_a_range_asks_for_both_ends(a_class: Class) -> No
     answers = ("-20 N to 20 N", "20 to -20", "-20 lbf to 20 lbf", "20 N", "-20 N to 25 N")
     rows = a_class.judge(*answers, case="block")
     assert [(row["verdict"], row["code"]) for row in rows] == [
-        ("right", ""), ("right", ""), ("wrong", ""), ("wrong", "one-end"), ("wrong", "one-end"),
+        ("right", ""), ("right", ""), ("wrong", "unit"), ("wrong", "one-end"), ("wrong", "one-end"),
     ]  # fmt: skip
     assert "from -20 to 20 N" in rows[0]["feedback"]
 

@@ -560,3 +560,35 @@ def test_directions_are_put_into_words_in_one_place() -> None:
         if own.search(file.read_text(encoding="utf-8"))
     }
     assert told == {"senses.py"}
+
+
+BETWEEN = """icsolve: 1
+points: {{A: [0, 0], D: [4, 0]}}
+lengths: {{AB: 1, BC: 3.5, CD: 2.5}}
+angles: {{AB: 60}}
+near: {{C: [3.5, 2.4]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
+loads:
+  P: {{torque: 100, link: {0}, against: {1}}}
+  T: {{torque: unknown, link: {1}, against: {0}}}
+motion: {2}
+"""
+PAIRS_OF_LINKS = [(2, 3), (3, 4), (2, 4), (1, 2), (1, 4)]
+"""Two links of a four-bar between which all loads act."""
+GIVEN = ["{link: 3, speed: 5}", "{point: B, link: 3, speed: 2, angle: 150}", "{link: 4, speed: 5, turns: cw}"]
+
+
+@pytest.mark.parametrize("motion", GIVEN)
+@pytest.mark.parametrize("links", PAIRS_OF_LINKS)
+def test_a_given_speed_is_one_by_the_frame_whatever_else_is_asked(
+    links: tuple[int, int], motion: str
+) -> None:
+    """The powers of loads between two links, with the rates and without, by 100 times the difference of the
+    rates (to rounding)."""
+    case = icsolve.load(BETWEEN.format(*links, motion))
+    plain, moving = (icsolve.solve(case, rates=rates) for rates in (False, True))
+    assert moving.rates is not None
+    rates = {link: moving.rates.get(str(link), 0.0) for link in links}
+    right = 100.0 * (rates[links[0]] - rates[links[1]])
+    assert [term.power for term in plain.terms] == pytest.approx([right, -right], rel=1e-12)
+    assert plain.terms == moving.terms

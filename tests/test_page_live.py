@@ -730,3 +730,49 @@ def test_a_position_that_is_asked_for_is_one_of_those_of_solve(name: str, shown:
 AT_REST = TYPE.replace("[e.dataset.value, e.dataset.status]", "[{ ...e.dataset }, e.textContent]").replace(
     "const found = answers();", "const found = Object.values(answers())[0];"
 )
+
+
+BESIDE = """icsolve: 1
+points: {A: [0, 0], C: [unknown, 0.5]}
+lengths: {AB: 2, BC: 2.5}
+angles: {AB: 240}
+near: {C: [-0.1, 0.5]}
+links: {2: {mass: 1 kg, centre: B}, 4: {mass: 3 kg, centre: C}}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {slide: [4, 1], at: C, along: 0}]
+loads: {T: {torque: unknown, link: 2}, P: {force: 30, link: 4, at: C, angle: 180}}
+"""
+"""Crank and rod are square to the guide at 270 degrees: a change point; the slider turns at asin(1/9)."""
+CHANGING = LENGTHS.replace("AB: 1,", "AB: 3,").replace("near: {C: [3.5, 2.4]}", "near: {C: [6.4, 0.3]}")
+TURNING = BESIDE.replace("near: {C: [-0.1", "near: {C: [4.4").replace("AB: 240", "AB: 30")
+OF_POINT = "motion: {point: C, link: 4, speed: 2, angle: 180, acceleration: 3}\ndynamic: yes\n"
+BACK = math.degrees(math.asin(1.0 / 9.0))
+SINGULAR = {
+    "change point": (BESIDE, 270.0, 1e-3),
+    "change point, inertia": (BESIDE + OF_POINT, 270.0, 1.0),
+    "change point, the other load": (
+        CHANGING.replace("force: 100", "force: unknown").replace("torque: unknown", "torque: 10"), 0.0, 1e-4
+    ),
+    "a point turns back, inertia": (TURNING + OF_POINT, BACK, 0.01),
+}  # fmt: skip
+"""A case, a singular position, and how near to it [degrees] the digits of doubles suffice."""
+
+
+@pytest.mark.parametrize("kind", SINGULAR)
+def test_beside_a_singular_position_no_number_is_wrong(kind: str, shown: Any, tmp_path: Path) -> None:
+    """What a page gives is right to 1e-4 of the largest load (it trusts 5 digits), and it gives it where
+    doubles suffice; nearer it refuses, where `solve` has more digits."""
+    text, at, least = SINGULAR[kind]
+    path = tmp_path / "case.yaml"
+    path.write_text(text, encoding="utf-8")
+    offs = [side * 10.0**-k for k in range(7) for side in (1.0, -1.0)]
+    changes = [{"angles.AB": repr(at + off)} for off in offs]
+    found = shown(path).run(TYPE, changes)
+    for off, change, seen in zip(offs, changes, found, strict=True):
+        status, values = solved(path, change) or ("", {})
+        assert status == "ok"
+        ((name, right),) = values.items()
+        value, own = seen[name]
+        assert own == "ok" or abs(off) < 0.999 * least, (off, own)
+        if own == "ok":
+            assert right is not None
+            assert float(value) == pytest.approx(right, rel=1e-4, abs=1e-4 * 30.0)

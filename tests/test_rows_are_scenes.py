@@ -291,6 +291,94 @@ def test_rates_of_rows_of_two_numbers_are_those_of_their_scenes(name: str, paths
                 assert table.rates[link][n] == pytest.approx(rate, rel=1e-9, abs=1e-9)
 
 
+FOUR_BAR = """icsolve: 1
+points: {{A: [0, 0], D: [4, 0], G: {{centroid: [B, C]}}}}
+lengths: {{AB: {}, BC: {}, CD: {}}}
+angles: {{AB: 60}}
+near: {{C: [4, 3]}}
+links: {{3: {{points: [G], mass: 2 kg, centre: G, inertia: 1 kg*m^2}}}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+loads: {{T: {{torque: unknown, link: {}}}}}
+motion: {{point: B, link: {}, speed: 3, angle: {}, acceleration: 2}}
+dynamic: yes
+"""
+CHANGING = ((3, 3.5, 2.5), (1, 4, 1), (2, 4, 2), (1, 3, 2))
+"""Cranks, couplers and rockers that all lie on the line of a frame of 4 at 0 degrees."""
+
+
+@pytest.mark.parametrize("lengths", [*CHANGING, (1, 3.5, 2.5)])
+@pytest.mark.parametrize(("link", "sense"), [(2, 1.0), (3, 1.0), (3, -1.0)])
+def test_a_point_goes_on_along_its_path_through_change_points(
+    lengths: tuple[float, ...], link: int, sense: float
+) -> None:
+    """The pin of a crank goes round in one sense, so that the crank does; by either of its links, whatever
+    link the load is on, and though the motion is not asked for (to rounding)."""
+    on = (2, 4) if lengths[0] == lengths[2] else (2, 3, 4)  # the coupler of a parallelogram does not turn
+    given = {one: FOUR_BAR.format(*lengths, one, link, 60.0 + 90.0 * sense) for one in on}
+    turn = {"angles.AB": [60.0 - 7.3 * n for n in range(15)]}
+    turns = "ccw" if sense > 0.0 else "cw"
+    alike = f"link: 2, speed: {3.0 / lengths[0]}, turns: {turns}, acceleration: {2.0 / lengths[0]}"
+    crank = icsolve.load(re.sub(r"point: B[^}]*", alike, given[2]))
+    right = icsolve.sweep(crank, turn, ("answers", "status"))
+    for one, text in given.items():
+        case = icsolve.load(text)
+        found = icsolve.sweep(case, turn, ("answers", "status", "rates"))
+        assert set(found.status) == {"ok"}
+        assert found.rates["2"] == pytest.approx(np.full(15, sense * 3.0 / lengths[0]), rel=1e-9)
+        if one == 2:
+            assert found.answers["T"] == pytest.approx(right.answers["T"], rel=1e-9)
+        assert list(icsolve.sweep(case, turn, ("answers", "status")).status) == ["ok"] * 15
+
+
+TANGENT = """icsolve: 1
+points: {{A: [0, 0], C: [unknown, 0.5]}}
+lengths: {{AB: 2, BC: 2.5}}
+angles: {{AB: {}}}
+near: {{C: [{}, 0.5]}}
+links: {{2: {{mass: 1 kg, centre: B}}, 4: {{mass: 3 kg, centre: C}}}}
+joints:
+  - {{pin: [3, 4], at: C}}
+  - {{slide: [4, 1], at: C, along: 0}}
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+loads: {{T: {{torque: unknown, link: 2}}}}
+motion: {{point: C, link: 4, speed: 2, angle: {}, acceleration: 3}}
+dynamic: yes
+"""
+"""A slider-crank whose crank and rod stand on one line, square to the guide, at 270 degrees."""
+
+
+@pytest.mark.parametrize("way", [0.0, 180.0])
+def test_a_slider_goes_on_through_the_foot_of_its_guide(way: float) -> None:
+    """Beyond the change point a row is the scene whose slider moves the same way (to 1e-9)."""
+    case = icsolve.load(TANGENT.format(200.0, 0.3, way))
+    turn = {"angles.AB": [200.0, 262.0, 269.7, 270.2, 281.0, 330.0]}
+    found = icsolve.sweep(case, turn, ("answers", "status", "points", "rates"))
+    for n, angle in enumerate(turn["angles.AB"]):
+        scene = icsolve.solve(icsolve.load(TANGENT.format(angle, found.points["C"][n][0], way)), rates=True)
+        assert scene.rates is not None
+        assert found.rates["2"][n] == pytest.approx(scene.rates["2"], rel=1e-9)
+        assert found.answers["T"][n] == pytest.approx(scene.answers["T"].value, rel=1e-9)
+
+
+@pytest.mark.parametrize("way", [0.0, 180.0])
+@pytest.mark.parametrize("off", [-0.2, -0.001, 0.05, 0.3])
+def test_a_point_beside_its_dead_centre_goes_as_written(way: float, off: float) -> None:
+    """The first row is the case as written, however near the slider is to the end of its way (to 1e-9)."""
+    dead = math.degrees(math.asin(0.5 / 4.5)) + off
+    case = icsolve.load(TANGENT.format(repr(dead), 4.4, way))
+    scene = icsolve.solve(case, rates=True)
+    found = icsolve.sweep(case, {"angles.AB": [dead, dead + 40.0]}, ("answers", "rates"))
+    assert scene.rates is not None
+    assert found.rates["2"][0] == pytest.approx(scene.rates["2"], rel=1e-9)
+    assert found.answers["T"][0] == pytest.approx(scene.answers["T"].value, rel=1e-6)
+    assert found.rates["2"][0] * found.rates["2"][1] > 0.0
+
+
 @pytest.mark.parametrize("radii", ["[0.5, 0]", "[0.5, 1]", "[0.5, -1.5]"])
 @pytest.mark.parametrize("path", ["points.C.x", "points.P.x", "points.C.y"])
 def test_a_wheel_whose_contact_a_coordinate_leaves_behind_is_read_anew(radii: str, path: str) -> None:

@@ -14,7 +14,7 @@ from icsolve.grade.tolerance import SLACK
 from icsolve.grade.written.answer import MISSING, NO_NUMBER, TWO_VALUES, Reader, WrittenAnswer, flagged
 from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, figures, plain
 from icsolve.grade.written.two_numbers import WrittenPlace, WrittenRange, read_place, read_range
-from icsolve.grade.written.words import CASE, ENERGY, unit_word
+from icsolve.grade.written.words import CASE, ENERGY, WrittenDirection, unit_word
 from icsolve.grade.written.words import direction as direction_of
 from icsolve.tuples import NamedTuple
 
@@ -126,9 +126,9 @@ def _judge_choice(
     found = []
     for one in sorted(key.keys, key=off):
         found.append(judge_answer(one, reader, answer, unit, direction))
-        if found[-1][0].verdict == RIGHT or found[-1][0].mistakes:
+        if found[-1][0].verdict == RIGHT:
             return found[-1]
-    return found[0]
+    return next((judged for judged in found if judged[0].mistakes), found[0])
 
 
 def judge(key: NumberKey, written: WrittenAnswer) -> Judgement:
@@ -194,8 +194,7 @@ def relative(off: float, size: float) -> float | None:
 def _in_full(key: NumberKey, written: WrittenAnswer) -> Judgement:
     """Number, unit and direction apart."""
     factor = key.factor(written.unit)
-    words = written.direction if key.policy.direction != "ignored" and key.expected.any else None
-    sign = key.sign(words)
+    sign = key.sign(_words_that_count(key, written.direction))
     value = key.nearest(written.number * (factor or 1.0) * (sign or 1))
     size = abs(key.value)
     number = abs(abs(value) - size) <= key.half
@@ -214,6 +213,11 @@ def _in_full(key: NumberKey, written: WrittenAnswer) -> Judgement:
         return _wrong_size(key, value, unit, direction, written)
     parts = (number, unit, direction)
     return _wrong(key, parts, _seen(key, written, value, parts, sign), value, off)
+
+
+def _words_that_count(key: NumberKey, direction: WrittenDirection | None) -> WrittenDirection | None:
+    """Words of direction, where the answer has one and the course asks for it."""
+    return direction if key.policy.direction != "ignored" and key.expected.any else None
 
 
 def _unjudged(flag: str) -> Judgement:
@@ -394,43 +398,66 @@ def _far(key: PlaceKey, written: WrittenPlace) -> Judgement:
 # --- ranges -----------------------------------------------------------------------------------------
 
 
+Ends = tuple[float | None, float | None]
+
+
 def judge_range(key: RangeKey, written: WrittenRange) -> Judgement:
     """The verdict on an answer to the question over which range a load holds: both ends have to be right."""
     if written.flag:
         return _unjudged(written.flag)
     end = key.end
-    factor, sign = end.factor(written.unit), end.sign(written.direction)
+    factor, sign = end.factor(written.unit), end.sign(_words_that_count(end, written.direction))
     unit = _unit_is_right(end, WrittenAnswer(0.0, written.unit, written.direction), factor)
     if sign is None:
         return Judgement(IN_REVIEW, 0.0, _NO_PARTS, code=BY_ANGLE if end.expected.by_angle else SQUARE)
-    values = [v if v is None else v * (factor or 1.0) * (sign or 1) for v in (written.low, written.high)]
-    low, high = values if sign >= 0 else reversed(values)
-    fits = (_is_end(key.low, low), _is_end(key.high, high))
+    ends = _times(written, (factor or 1.0) * (sign or 1))
+    fits = _fits(key, ends)
+    if not all(fits) and factor != 1.0 and all(_fits(key, _times(written, sign or 1))):
+        fits, unit = (True, True), key.policy.unit == "ignored"
     parts = (all(fits), unit, sign != NEITHER)
     if all(parts):
         return Judgement(RIGHT, 1.0, _ALL_PARTS)
-    return _wrong(key, parts, _of_range(key, parts, fits, (low, high)))
+    return _wrong(key, parts, _of_range(key, parts, fits, ends, written))
 
 
-def _is_end(key: NumberKey | None, value: float | None) -> bool:
+def _times(written: WrittenRange, factor: float) -> Ends:
+    """The ends in the question's unit, positive its positive way."""
+    low, high = (end if end is None else end * factor for end in (written.low, written.high))
+    return (low, high) if factor > 0.0 else (high, low)
+
+
+def _fits(key: RangeKey, ends: Ends) -> tuple[bool, bool]:
+    """Whether each end is right. Of two that are written the larger first the smaller is the lower, or of an
+    angle perhaps one of the next turn."""
+    low, high = ends
+    if low is None or high is None or low <= high:
+        return _fit(key, low, high)
+    onward = _fit(key, low, high + key.end.period)
+    return onward if key.end.period and all(onward) else _fit(key, high, low)
+
+
+def _fit(key: RangeKey, low: float | None, high: float | None) -> tuple[bool, bool]:
+    """Whether each end is right; whole turns of an angle do not count where both have them."""
+    turned = key.low.nearest(low) - low if key.low is not None and low is not None else 0.0
+    return _is_end(key.low, low, turned), _is_end(key.high, high, turned)
+
+
+def _is_end(key: NumberKey | None, value: float | None, turned: float = 0.0) -> bool:
     if key is None or value is None:
         return key is None and value is None
-    return abs(value - key.value) <= key.half
+    return abs(value + turned - key.value) <= key.half
 
 
 def _of_range(
-    key: RangeKey,
-    parts: tuple[bool, bool, bool],
-    fits: tuple[bool, bool],
-    values: tuple[float | None, float | None],
+    key: RangeKey, parts: tuple[bool, bool, bool], fits: tuple[bool, bool], ends: Ends, written: WrittenRange
 ) -> tuple[Wrong, ...]:
     """What is wrong about a range: its unit, one of its ends, its sense."""
     number, unit, direction = parts
     if number:
-        codes = [] if unit else ["unit"]
+        codes = [] if unit else ["unit" if written.unit else "no-unit"]
         return tuple(Wrong(code, 0.0) for code in (*codes, *([] if direction else ["direction"])))
-    low, high = values
+    low, high = ends
     if any(fits) or (low == high and low is not None and (_is_end(key.low, low) or _is_end(key.high, low))):
         return (Wrong("one-end", 0.0),)
-    back = [None if value is None else -value for value in (high, low)]
-    return (Wrong("sign", 0.0),) if _is_end(key.low, back[0]) and _is_end(key.high, back[1]) else ()
+    back = (None if high is None else -high, None if low is None else -low)
+    return (Wrong("sign", 0.0),) if all(_fits(key, back)) else ()

@@ -6,7 +6,18 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from icsolve.answer import Answer
-from icsolve.case import Force, ForceVector, Load, Spring, Torque, TorsionSpring, Toward, Weight, is_angle
+from icsolve.case import (
+    AlongRope,
+    Force,
+    ForceVector,
+    Load,
+    Spring,
+    Torque,
+    TorsionSpring,
+    Toward,
+    Weight,
+    is_angle,
+)
 from icsolve.case.expected import (
     CentreIs,
     LoadIs,
@@ -37,7 +48,7 @@ from icsolve.grade.tolerance import (
 )
 from icsolve.grade.written.words import UnitWord, WrittenDirection, direction, factors_between
 from icsolve.numbers.units import Unit, UnitError
-from icsolve.report.check import value_of
+from icsolve.report.check import heading_in, value_of
 from icsolve.tuples import NamedTuple, cached_property, dataclass, replace
 
 _SQUARE = 5.0
@@ -132,6 +143,8 @@ def expected_of(target: Target, answer: Answer) -> ExpectedDirection:
             return ExpectedDirection(turn=float(is_angle(path)))
         case RateIs() | ReactionIs(part="moment"):
             return ExpectedDirection(turn=1.0)
+        case TensionIs():
+            return ExpectedDirection(axial=1.0)
         case ReactionIs(part="x" | "y"):
             return ExpectedDirection(heading=0.0 if target.part == "x" else 90.0)
         case ReactionIs(part=""):
@@ -166,10 +179,11 @@ def _of_load(load: Load, answer: Answer) -> ExpectedDirection:
         turns = words.kind == "turn"
         return ExpectedDirection(turn=-words.value) if turns else ExpectedDirection(axial=-words.value)
     assert isinstance(load, Force | ForceVector | Weight)
-    axial = 0.0
+    axial, heading = 0.0, heading_of(load, answer)
     if isinstance(load, Force) and isinstance(load.heading, Toward):
         axial = -1.0 if load.heading.away else 1.0
-    heading = heading_of(load, answer)
+    elif isinstance(load, Force) and isinstance(load.heading, AlongRope):
+        axial, heading = 1.0, heading_in(answer, load.name)
     return ExpectedDirection(0.0, heading, axial, lambda: (place_of(load.at, answer), answer.points))
 
 
@@ -421,10 +435,13 @@ def position_key(
         raise NoKeyError("a drawing says nothing of a position of rest; give it a tolerance such as 2%")
     width, others = own_width(policy.tolerance, target, answer), len(answer.positions or ()) - 1
 
+    period = 360.0 if is_angle(target.path) else 0.0
+
+    def end(value: float, pose: Answer) -> NumberKey:
+        return replace(_number(question, value, target, pose, policy, width), period=period)
+
     def key(value: float, pose: Answer) -> NumberKey:
-        found = _number(question, value, target, pose, policy, width)
-        period = 360.0 if is_angle(target.path) else 0.0
-        found = replace(found, period=period)
+        found = end(value, pose)
 
         def within_a_turn() -> list[Wrong]:
             wide = 2.0 * period or math.inf
@@ -438,7 +455,7 @@ def position_key(
         if isinstance(held, float):
             keys.append(key(held, position.answer))
         else:
-            low, high = (_number(question, end, target, position.answer, policy, width) for end in held)
+            low, high = (end(value, position.answer) for value in held)
             keys.append(RangeKey(question, low, high, low.unit_name, policy))
     return keys[0] if len(keys) == 1 else ChoiceKey(question, tuple(keys), keys[0].unit_name, policy)
 

@@ -263,7 +263,7 @@ def _load(answer: Answer, name: str, sense: str | None) -> float:
     own = found.sense if found is not None else _given_sense(answer, name, value)
     at_end = isinstance(load, Force) and not is_link(load.link)  # of a rope: away from its last pulley
     if at_end and sense not in ("pull", "push"):
-        own = _given_direction(answer, name, value)
+        own = f"at {direction_words(heading_in(answer, name) + (0.0 if value > 0.0 else 180.0))}"
     if not own:
         return value
     if answer.spatial is not None:
@@ -281,14 +281,16 @@ def _given_sense(answer: Answer, name: str, value: float) -> str:
     return next(sense_with(w, value) for w in scene.outcome.balance.wrenches if w.load.name == name)
 
 
-def _given_direction(answer: Answer, name: str, value: float) -> str:
-    """Where a load acts in the scene: ``at 30 deg``."""
+def heading_in(answer: Answer, name: str) -> float:
+    """The direction of a positive force in the scene, degrees ccw from +x.
+
+    Raises LookupError where the answer has no scene.
+    """
     scene = scene_of(answer)
     if scene is None:
         raise _NotAskedError(f"the direction of {name} was not worked out")
     w = next(w for w in scene.outcome.balance.wrenches if w.load.name == name)
-    degrees = math.degrees(math.atan2(-w.unit[0], w.unit[1]))
-    return f"at {direction_words(degrees if value > 0.0 else degrees + 180.0)}"
+    return math.degrees(math.atan2(-w.unit[0], w.unit[1]))
 
 
 def _turned(value: float, sense: str | None) -> float:

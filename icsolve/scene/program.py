@@ -105,7 +105,7 @@ def _figure(case: Case, top: Topology, bonds: tuple[int, ...], want: Want) -> Fi
 
 
 def _wanted_bodies(case: Case, top: Topology, want: Want) -> frozenset[int]:
-    """The bodies whose twists the answer needs: those that loads act on, or all.
+    """The bodies whose twists the answer needs: the frame and those that loads act on, or all.
 
     Where nothing is to be balanced, whether an unknown is zero or can have any value hangs on whether
     its link can move at all.
@@ -115,7 +115,7 @@ def _wanted_bodies(case: Case, top: Topology, want: Want) -> frozenset[int]:
     if case.ropes or case.screws:
         return frozenset(range(len(top.members)))
     links = {link for load in case.loads for link in (load.link, load_wrenches.reacting(case, load))}
-    links |= {given.link for given in case.motion}
+    links |= {case.ground, *(given.link for given in case.motion)}  # by the frame their rates are told
     return frozenset(top.body_of[link] for link in links)
 
 

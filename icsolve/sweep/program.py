@@ -318,7 +318,7 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
         else:
             scene = RecordedScene(case, setting.top, frame, record, names)
     if motion is not None:
-        scene = moved_scene(motion.mechanism, motion.moved)
+        scene = moved_scene(motion)
     scene = rested(scene, asked.contacts, inputs)
     outputs, found = _outputs(scene, asked)
     compiled = CompiledSweep(

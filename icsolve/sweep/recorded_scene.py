@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 
+from icsolve.assembly.driven.constraints import ConditionRows
+from icsolve.assembly.driven.groups import as_written
 from icsolve.assembly.driven.mechanism import Mechanism
+from icsolve.assembly.driven.motion import DrivenMotion, pace
 from icsolve.assembly.driven.poses import Moved, Spot, plus, product
-from icsolve.assembly.workspace import Frame, PlacedCase
+from icsolve.assembly.workspace import Frame, PlacedCase, Workspace
 from icsolve.case import (
     AlongRope,
     Case,
@@ -29,7 +33,7 @@ from icsolve.case import (
 from icsolve.case.joints import Guided, Mesh
 from icsolve.errors import SceneError
 from icsolve.kinematics import motion, speeds
-from icsolve.numbers.arithmetic import FLOATS, Scalar, turn_of
+from icsolve.numbers.arithmetic import FLOATS, Scalar, all_vanish, turn_of
 from icsolve.numbers.record import Record, varies
 from icsolve.scene import refusals
 from icsolve.screws.joints import freedoms, pitch_point
@@ -48,6 +52,17 @@ TILT = 40.0
 dwell."""
 
 
+Twists = Mapping[str, tuple[Triple, ...]]
+
+
+class RowDriver(NamedTuple):
+    """What drives a mechanism of one freedom: how fast it changes in the motion of a row; whether it grows
+    (1) or falls (-1) where points of links move as given in the position as written, by link and point."""
+
+    pace: Callable[[Twists], Scalar]
+    written: Mapping[tuple[str, str], float]
+
+
 class RecordedScene(NamedTuple):
     """A case on a record.
 
@@ -57,6 +72,7 @@ class RecordedScene(NamedTuple):
     frame : scale and origin of the frame of size 1
     record : that of all expressions
     points : by name, (x, y) [frame]
+    driver : where points have given motions that go on from row to row
     """
 
     case: Case
@@ -64,6 +80,7 @@ class RecordedScene(NamedTuple):
     frame: Frame
     record: Record
     points: Points
+    driver: RowDriver | None = None
 
     @property
     def place(self) -> PlacedCase:
@@ -194,8 +211,9 @@ def _mean(places: Sequence[Point]) -> Point:
     return (x / float(len(places)), y / float(len(places)))
 
 
-def moved_scene(mechanism: Mechanism, moved: Moved) -> RecordedScene:
+def moved_scene(driven: DrivenMotion) -> RecordedScene:
     """The case with each point told by the link that carries it, and directions that links carry."""
+    mechanism, moved = driven.mechanism, driven.moved
     write, case = _Writer(mechanism, moved), mechanism.case
     joints = tuple(write.joint(i, joint) for i, joint in enumerate(case.joints))
     loads = tuple(map(write.load, case.loads))
@@ -207,30 +225,67 @@ def moved_scene(mechanism: Mechanism, moved: Moved) -> RecordedScene:
     )
     if not any(given.point for given in case.motion):
         return scene
-    return scene._replace(case=replace(rewritten, motion=_going_on(scene)))
+    return _going_on(scene, driven)
 
 
-def _going_on(scene: RecordedScene) -> tuple[Motion, ...]:
-    """The given motions: a point's direction goes on along its path, where there is one freedom."""
+def _going_on(scene: RecordedScene, driven: DrivenMotion) -> RecordedScene:
+    """The scene whose given motions go on: a point's direction along its path, where there is one freedom."""
     found = motions_of(scene)
+    if found.mobility == 1:
+        scene = scene._replace(driver=_driver(driven))
     turned = []
     for given in scene.case.motion:
         if given.point is not None and given.angle is not None:
             angle = None
             if found.mobility == 1:
                 v = velocity(found.twists[given.link][0], scene.points[given.point])
-                sign = 1.0 if _forward(v, given) else -1.0
-                angle = scene.record.direct(given.angle, (sign * v[0], sign * v[1]))
+                sense = _sense(scene, found.twists, given)
+                angle = scene.record.direct(given.angle, (sense * v[0], sense * v[1]))
             given = given._replace(angle=angle)  # noqa: PLW2901
         turned.append(given)
-    return tuple(turned)
+    return scene._replace(case=replace(scene.case, motion=tuple(turned)))
 
 
-def _forward(v: Point, given: Motion) -> bool:
-    """Whether a velocity has the sense of a given direction."""
+def _driver(driven: DrivenMotion) -> RowDriver:
+    """The driver of a mechanism, with the senses of the given motions."""
+    held, moved = driven.mechanism, driven.moved
+    rows = ConditionRows(held.shape, moved, moved.bases, Workspace(held.case, held.frame, held.shape.record))
+    points, senses = held.shape.still, {}
+    with suppress(SceneError):  # there the motion is not told
+        twists = motion.by_loops(PlacedCase(held.case, held.frame, points, FLOATS)).twists
+        largest, still = speeds.fastest(twists), as_written(held, [*moved.bases])
+        rate = pace(held, still, driven.driver, twists)
+        for given in held.case.motion:
+            if given.point is None or len(twists[given.link]) > 1:
+                continue
+            v = velocity(twists[given.link][0], points[given.point])
+            if not (FLOATS.vanishes(rate, largest) or all_vanish(FLOATS, ((x, largest) for x in v))):
+                senses[given.link, given.point] = (1.0 if rate > 0.0 else -1.0) * _along(v, given)
+    return RowDriver(lambda twists: pace(held, rows, driven.driver, twists), senses)
+
+
+def _sense(scene: RecordedScene, twists: Twists, given: Motion) -> Scalar:
+    """1 or -1: whether a point's given motion goes on in the sense of the twists of a row.
+
+    In it the driver goes on as in the position as written. Where the mechanism passes through a change point
+    the twists turn round; where the driver is at a limit they are those of the rows beside it.
+    """
+    assert given.point is not None
+    now = _along(velocity(twists[given.link][0], scene.points[given.point]), given)
+    if scene.driver is None:
+        return now
+    rate = scene.driver.pace(twists)
+    here = 1.0 if float(rate) > 0.0 else -1.0
+    onward, _ = scene.record.turned(scene.record.angle(here * rate, 0.0))  # 1 where it has this sign
+    written = scene.driver.written.get((given.link, given.point))
+    return onward * (now if written is None else written * here)
+
+
+def _along(v: Point, given: Motion) -> float:
+    """1 where a velocity has the sense of a given direction, else -1."""
     assert given.angle is not None
     c, s = FLOATS.turn(given.angle)
-    return float(v[0]) * c + float(v[1]) * s > 0.0
+    return 1.0 if float(v[0]) * c + float(v[1]) * s > 0.0 else -1.0
 
 
 class RestingContact(NamedTuple):
@@ -279,7 +334,8 @@ def statics(scene: RecordedScene, everything: bool) -> RecordedStatics:
     """Unknown loads and twists of the scene on the record; with ``everything`` the twist of every link."""
     case, top, place = scene.case, scene.top, scene.place
     links = {link for load in case.loads for link in (load.link, load_wrenches.reacting(case, load))}
-    links |= {given.link for given in case.motion}
+    if case.motion:  # without the frame links move by one another
+        links |= {case.ground, *(given.link for given in case.motion)}
     unknown = any(power.is_unknown(load) for load in case.loads)
     some = unknown and not (everything or case.ropes or case.screws)
     wanted = frozenset(top.body_of[link] for link in links) if some else None
@@ -336,10 +392,10 @@ def motion_fits(scene: RecordedScene, found: RecordedStatics, *, sense: bool) ->
 
     Raises SceneError where the given motions can be in no row.
     """
-    motions = found.motions
+    given, motions = scene.case.motion, found.motions
     margins = list(speeds.motion_margins(scene.place, motions.twists, sense=sense))
     still = any(not varies(m) and float(m) <= 0.0 for m in margins)
-    if scene.case.motion and (still or len(scene.case.motion) > 1 or motions.mobility > 1):
+    if given and (still or len(given) > 1 or motions.mobility > 1):
         speeds.speed_of(scene.place, motions.twists)
     return tuple(m.index for m in margins if varies(m))
 
@@ -377,8 +433,9 @@ def _scale(scene: RecordedScene, twists: Mapping[str, tuple[Triple, ...]]) -> tu
             c, s = record.turn(given.angle)
             along = v[0] * c + v[1] * s
             return _signed(scene, v, True) * (along / record.sqrt(along * along)), target
-        forward = float(speed.divisor) > 0.0 if given.angle is None else _forward(v, given)
-        return _signed(scene, v, forward), target
+        if given.angle is None:
+            return _signed(scene, v, float(speed.divisor) > 0.0), target
+        return _signed(scene, v, True) * _sense(scene, twists, given), target
     link = next(n for n in speeds.joint_order(scene.case) if any(map(float, twists[n][0])))
     return _signed(scene, (twists[link][0][1], -twists[link][0][0]), float(speed.divisor) > 0.0), target
 

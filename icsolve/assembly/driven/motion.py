@@ -38,7 +38,7 @@ from icsolve.assembly.loci import PlacedLocus, crossing_sine, intersection, side
 from icsolve.assembly.workspace import Workspace
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Traced
-from icsolve.screws.plane import Point
+from icsolve.screws.plane import Point, Triple, velocity
 from icsolve.tuples import NamedTuple
 
 
@@ -53,6 +53,7 @@ class DrivenMotion(NamedTuple):
     written : by that name, the sign in the position as written
     groups : those that Newton's method solves row by row
     checks : nodes that vanish where the conditions that were not needed to place the links are met
+    driver : the first of what drives it, as a condition
     """
 
     mechanism: Mechanism
@@ -63,6 +64,7 @@ class DrivenMotion(NamedTuple):
     groups: tuple[NewtonGroup, ...]
     checks: tuple[int, ...]
     """what the conditions leave that were not needed: it is to vanish"""
+    driver: Constraint
 
 
 def order_of(
@@ -127,7 +129,20 @@ def set_moving(mechanism: Mechanism, order: AssemblyOrder, signs: Mapping[str, S
         run.written,
         tuple(run.groups),
         tuple(run.checked(c for c in order.constraints if id(c) not in order.used)),
+        order.constraints[0],
     )
+
+
+def pace(
+    mechanism: Mechanism, rows: ConditionRows, driver: Constraint, twists: Mapping[str, tuple[Triple, ...]]
+) -> Scalar:
+    """How fast what a driver asks changes in the one motion of the links, where ``rows`` has their places."""
+    total: Scalar = 0.0
+    for (body, part), share in rows.of(driver).by.items():
+        twist = twists[mechanism.top.members[body][0]][0]
+        base = rows.places.place(rows.bases[body])
+        total = total + share * (*velocity(twist, base), twist[2])[part]
+    return total
 
 
 class _Placing:

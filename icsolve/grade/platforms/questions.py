@@ -20,7 +20,7 @@ from html import escape
 
 from icsolve.case import Case
 from icsolve.case.expected import LoadIs, PositionIs, Target
-from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey, RangeKey
+from icsolve.grade.keys import AnyKey, ChoiceKey, NumberKey, PlaceKey, RangeKey
 from icsolve.grade.mistakes.lookup import ORDER, Wrong, message
 from icsolve.grade.written.words import factors_between
 from icsolve.numbers.units import parse_unit
@@ -47,6 +47,9 @@ def asked(key: AnyKey, target: Target) -> str:
         section, _, datum = target.path.partition(".")
         told = {"angles": "the angle", "lengths": "the length", "points": "the coordinate"}[section]
         ccw = ", counterclockwise positive" if section == "angles" else ""
+        if isinstance(key.keys[0] if isinstance(key, ChoiceKey) else key, RangeKey):
+            datum = f"{told} {datum}{unit}{ccw},"
+            return f"Over which range of {datum} does the mechanism hold still? Give both ends."
         return f"In which position is the mechanism in equilibrium? Find {told} {datum}{unit}{ccw}."
     if isinstance(key, RangeKey):
         return f"Over which range of {name}{unit} does the mechanism hold still? Give both ends."

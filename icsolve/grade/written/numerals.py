@@ -16,8 +16,8 @@ AMBIGUOUS = "ambiguous-number"
 UNREAD = "unread"
 
 _RUN = re.compile(r"(?:\d+|[.,]\d+)(?:[.,'_]\d+|(?<=\d) \d{3}(?![\d.,]*\d*/)(?!\d))*[.,]?")
-_EXPONENT = re.compile(r" ?[eE]{1,2} ?([-+]?\d+)(?![\d.,])")
-_TIMES_TEN = re.compile(r" ?[xX×*·]? ?10 ?(?:\^|\*\*) ?([-+]?\d+)(?![\d.,])")
+_EXPONENT = re.compile(r" ?[eE]{1,2} ?([-+]?\d+)(?!\d|[.,]\d)")
+_TIMES_TEN = re.compile(r" ?[xX×*·]? ?10 ?(?:\^|\*\*) ?([-+]?\d+)(?!\d|[.,]\d)")
 _LOST_SUPERSCRIPT = re.compile(r" ?[xX×*·] ?10 ?-? ?\d")
 _MIXED = re.compile(r" (\d+) ?/ ?(\d+)(?![\d.,/])")
 _OF = re.compile(r" ?/ ?(?=\d)")

@@ -131,7 +131,8 @@ _NUMBER = re.compile(r"(?<!\w)(?:\d|[.,]\d)")
 
 
 class WrittenRange(NamedTuple):
-    """From ``low`` to ``high`` (None: an open end) in ``unit``; one value has both the same."""
+    """From ``low`` to ``high`` (None: an open end) in ``unit``, in the order in which they are written; one
+    value has both the same."""
 
     low: float | None = None
     high: float | None = None
@@ -194,7 +195,7 @@ def _two(words: str, found: list[tuple[int, WrittenNumber]]) -> WrittenRange:
     if unit_text and end.unit is not None and unit is not None and end.unit.unit != unit.unit:
         return WrittenRange(flag=UNREAD)
     values = [sign * first.value, (-1.0 if between.group("sign") == "-" else 1.0) * second.value]
-    return end._replace(low=min(values), high=max(values), unit=unit)
+    return end._replace(low=values[0], high=values[1], unit=unit)
 
 
 def _one(words: str, start: int, number: WrittenNumber) -> WrittenRange:

@@ -12,9 +12,9 @@ let MIDDLE = [(LEFT + RIGHT) / 2, (TOP + BOTTOM) / 2];
 function fit(more, ends = []) {
   const [left, top, right, bottom] = data.window;
   const room = (n, end, pick) =>
-    [[more, 46], [ends, 12]].reduce((far, [some, by]) => some.reduce((all, p) => pick(all, p[n] + (pick === Math.min ? -by : by)), far), end);
-  [LEFT, TOP] = [room(0, left, Math.min), room(1, top, Math.min)];
-  [RIGHT, BOTTOM] = [room(0, right, Math.max), room(1, bottom, Math.max)];
+    [[more, 46], [ends, 12]].reduce((far, [some, by]) => some.reduce((all, p) => pick(all, p[n] + (pick === min ? -by : by)), far), end);
+  [LEFT, TOP] = [room(0, left, min), room(1, top, min)];
+  [RIGHT, BOTTOM] = [room(0, right, max), room(1, bottom, max)];
   MIDDLE = [(LEFT + RIGHT) / 2, (TOP + BOTTOM) / 2];
   set(figure, "viewBox", [LEFT, TOP, RIGHT - LEFT, BOTTOM - TOP].map(f).join(" "));
   const clip = figure.querySelector("#window rect");
@@ -39,8 +39,8 @@ function lineOf(c, line, r) {
   const ends = line.map((end) => (typeof end === "string" ? at(end, r) : [centres[end].x[r], centres[end].y[r]]));
   ends.push([c.x[r], c.y[r]]);
   if (ends.some((p) => !p || p[0] === null || p[1] === null)) return "";
-  const near = ends.filter((p) => Math.max(abs(p[0]), abs(p[1])) < INFINITE);
-  const away = ends.filter((p) => Math.max(abs(p[0]), abs(p[1])) >= INFINITE);
+  const near = ends.filter((p) => max(abs(p[0]), abs(p[1])) < INFINITE);
+  const away = ends.filter((p) => max(abs(p[0]), abs(p[1])) >= INFINITE);
   if (!near.length) return "";
   const o = near[0];
   let far = o;
@@ -54,15 +54,15 @@ function lineOf(c, line, r) {
   u = [u[0] / length, u[1] / length];
   const reach = near.map((p) => (p[0] - o[0]) * u[0] + (p[1] - o[1]) * u[1]);
   const more = away.length ? 2e4 : 16;
-  const first = Math.max(Math.min(...reach) - more, -2e4);
-  const last = Math.min(Math.max(...reach) + more, 2e4);
+  const first = max(min(...reach) - more, -2e4);
+  const last = min(max(...reach) + more, 2e4);
   return `M${f(o[0] + first * u[0])},${f(o[1] + first * u[1])} L${f(o[0] + last * u[0])},${f(o[1] + last * u[1])}`;
 }
 const inside = (p) => p[0] >= LEFT && p[0] <= RIGHT && p[1] >= TOP && p[1] <= BOTTOM;
 function edge(u, margin) {
   const across = u[0] ? ((u[0] > 0 ? RIGHT : LEFT) - MIDDLE[0]) / u[0] : Infinity;
   const down = u[1] ? ((u[1] > 0 ? BOTTOM : TOP) - MIDDLE[1]) / u[1] : Infinity;
-  const reach = Math.min(across, down) - margin;
+  const reach = min(across, down) - margin;
   return [MIDDLE[0] + u[0] * reach, MIDDLE[1] + u[1] * reach];
 }
 /* Names of centres; those in one place, or far in one direction, share one. */
@@ -99,7 +99,7 @@ function spotOf(c, r) {
 /* An arrow at the edge of the picture; gives boxes along it, which labels keep off. */
 function drawFar(c, u, count) {
   const tip = edge(u, 10 + 3 * count);
-  const turn = (Math.atan2(u[1], u[0]) * 180) / Math.PI;
+  const turn = (Math.atan2(u[1], u[0]) * 180) / PI;
   set(c.far, "transform", `translate(${f(tip[0])} ${f(tip[1])}) rotate(${f(turn)})`);
   return [2, 9, 16, 23, 30].map((s) => [tip[0] - s * u[0], tip[1] - s * u[1], 4, 4]);
 }

@@ -27,7 +27,7 @@ function construct() {
   render();
 }
 function go(n, whole = false) {
-  step = Math.max(0, Math.min(data.steps, n));
+  step = max(0, min(data.steps, n));
   complete = whole;
   construct();
 }

@@ -1,5 +1,5 @@
 /* The data of the page, and what is where in every position. */
-const { abs, hypot } = Math;
+const { abs, cos, hypot, max, min, PI, sin } = Math;
 const data = JSON.parse(document.getElementById("data").textContent);
 const NS = "http://www.w3.org/2000/svg";
 const byId = (id) => document.getElementById(id);
@@ -42,7 +42,7 @@ function number(value, digits) {
   const x = Number(value.toPrecision(digits));
   if (x === 0) return "0";
   const size = abs(x);
-  if (size >= 1e-4 && size < 10 ** Math.max(digits, 7)) return String(x).replace("-", "−");
+  if (size >= 1e-4 && size < 10 ** max(digits, 7)) return String(x).replace("-", "−");
   const [m, e] = x.toExponential(digits - 1).split("e");
   const mantissa = m.includes(".") ? m.replace(/\.?0+$/, "") : m;
   const power = e.replace("+", "").replace("-", "⁻").replace(/\d/g, (d) => RAISED[d]);
@@ -55,10 +55,10 @@ function carried(place, r) {
   const [link, x, y] = place;
   const pose = own(links, link);
   if (!pose) return [x, y];
-  const a = (pose.a[r] * Math.PI) / 180;
+  const a = (pose.a[r] * PI) / 180;
   const dx = x - pose.from[0];
   const dy = y - pose.from[1];
-  return [pose.x[r] + Math.cos(a) * dx + Math.sin(a) * dy, pose.y[r] - Math.sin(a) * dx + Math.cos(a) * dy];
+  return [pose.x[r] + cos(a) * dx + sin(a) * dy, pose.y[r] - sin(a) * dx + cos(a) * dy];
 }
 /* A hidden point (a contact that a profile placed) that is none of the points is known as written only. */
 const placed = (name, r) => !name.startsWith("@") || r === zero;

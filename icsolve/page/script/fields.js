@@ -132,7 +132,7 @@ function follow(r) {
     refused(refusal);
   }
 }
-const tidy = (value, unit) => Number((Math.round(value / unit) * unit).toFixed(Math.max(0, -Math.floor(Math.log10(unit)))));
+const tidy = (value, unit) => Number((Math.round(value / unit) * unit).toFixed(max(0, -Math.floor(Math.log10(unit)))));
 
 /* --- handles ------------------------------------------------------------------------------------------ */
 
@@ -299,8 +299,8 @@ if (live) {
       const unit = whole ? 1 : angle ? 0.5 : 10 ** (Math.floor(Math.log10(reach)) - 2);
       const within = [tidy(numbers[n] - reach, unit), tidy(numbers[n] + reach, unit)];
       for (const [than, limit] of limits) {
-        if (than === "<" || (whole && numbers[n] < limit)) within[1] = Math.min(within[1], limit - unit);
-        else within[0] = Math.max(within[0], limit + unit);
+        if (than === "<" || (whole && numbers[n] < limit)) within[1] = min(within[1], limit - unit);
+        else within[0] = max(within[0], limit + unit);
       }
       set(fine, "step", unit);
       set(fine, "min", within[0]);

@@ -9,7 +9,7 @@ const labels = all("#labels > [data-x]", figure).map((e) => {
   const badge = e.querySelector(".badge");
   return { e, home, text, leader: e.querySelector(".leader"), badge, size: null, state: {}, ...e.dataset };
 });
-const COMPASS = [2, 6, 1, 7, 3, 5, 0, 4].map((k) => [Math.cos((k * Math.PI) / 4), Math.sin((k * Math.PI) / 4)]);
+const COMPASS = [2, 6, 1, 7, 3, 5, 0, 4].map((k) => [cos((k * PI) / 4), sin((k * PI) / 4)]);
 function homeOf(label, r) {
   if (label.at !== undefined) {
     const p = own(points, label.at);
@@ -23,10 +23,10 @@ function homeOf(label, r) {
   const load = loads[label.label];
   const p = carried(load.on, r);
   const { way, flip } = turnOf(label.label, r);
-  const a = load.torque || load.span ? 0 : ((way + (flip ? 180 : 0)) * Math.PI) / 180;
+  const a = load.torque || load.span ? 0 : ((way + (flip ? 180 : 0)) * PI) / 180;
   const dx = label.home[0] - load.on[1];
   const dy = label.home[1] - load.on[2];
-  return { home: [p[0] + Math.cos(a) * dx + Math.sin(a) * dy, p[1] - Math.sin(a) * dx + Math.cos(a) * dy], anchor: null };
+  return { home: [p[0] + cos(a) * dx + sin(a) * dy, p[1] - sin(a) * dx + cos(a) * dy], anchor: null };
 }
 function candidates(item) {
   const found = item.home ? [item.home] : [];
@@ -52,8 +52,8 @@ function overlap(p, size, boxes) {
 }
 /* The nearest place that is whole in the picture. */
 function held(p, size) {
-  const x = Math.max(LEFT + size[0], Math.min(RIGHT - size[0], p[0]));
-  const y = Math.max(TOP + size[1], Math.min(BOTTOM - size[1], p[1]));
+  const x = max(LEFT + size[0], min(RIGHT - size[0], p[0]));
+  const y = max(TOP + size[1], min(BOTTOM - size[1], p[1]));
   return [x, y];
 }
 /* What a label costs that lies on lines: more, the more of them it covers; no sum above `most` matters. */
@@ -63,8 +63,8 @@ function crossed([x, y], [w, h], strokes, most) {
     if ((x1 < x - w && x2 < x - w) || (x1 > x + w && x2 > x + w)) continue;
     if ((y1 < y - h && y2 < y - h) || (y1 > y + h && y2 > y + h)) continue;
     const [dx, dy] = [x2 - x1 || 1e-9, y2 - y1 || 1e-9];
-    const first = Math.max(0, (x - x1 - w * Math.sign(dx)) / dx, (y - y1 - h * Math.sign(dy)) / dy);
-    const last = Math.min(1, (x - x1 + w * Math.sign(dx)) / dx, (y - y1 + h * Math.sign(dy)) / dy);
+    const first = max(0, (x - x1 - w * Math.sign(dx)) / dx, (y - y1 - h * Math.sign(dy)) / dy);
+    const last = min(1, (x - x1 + w * Math.sign(dx)) / dx, (y - y1 + h * Math.sign(dy)) / dy);
     if (last > first) sum += 4 + 0.25 * (last - first) * hypot(dx, dy);
     if (sum > most) break;
   }
@@ -120,8 +120,8 @@ function arrows(r) {
   for (const { load, name, along } of shafts) {
     const { way, flip } = turnOf(name, r);
     const p = carried(load.on, r);
-    const a = ((way + (flip ? 180 : 0)) * Math.PI) / 180;
-    for (const [x, y] of along) found.push([p[0] + Math.cos(a) * x + Math.sin(a) * y, p[1] - Math.sin(a) * x + Math.cos(a) * y, 5, 5]);
+    const a = ((way + (flip ? 180 : 0)) * PI) / 180;
+    for (const [x, y] of along) found.push([p[0] + cos(a) * x + sin(a) * y, p[1] - sin(a) * x + cos(a) * y, 5, 5]);
   }
   return found;
 }
@@ -129,7 +129,7 @@ function arrows(r) {
 const PIECE = 24;
 function pieces(path) {
   const length = path.getTotalLength();
-  const count = Math.max(1, Math.ceil(length / PIECE));
+  const count = max(1, Math.ceil(length / PIECE));
   const ends = [...Array(count + 1).keys()].map((k) => path.getPointAtLength((length * k) / count));
   return ends.slice(1).map((q, k) => [ends[k].x, ends[k].y, q.x, q.y]);
 }

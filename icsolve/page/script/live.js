@@ -12,7 +12,7 @@ const scene = { status: "ok", words: "", changed: false, solved: null };
 const handles = [];
 const filled = (value) => Array(rows).fill(value);
 const placeOf = (name) => inPicture(fromFrame(laboratory.points[live.points[name]]));
-const turned = (u, v) => (Math.atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]) * 180) / Math.PI;
+const turned = (u, v) => (Math.atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]) * 180) / PI;
 const wrenchOf = (load) => [load[1], -load[0]];
 const written = {};
 
@@ -70,11 +70,11 @@ function senseOf(name, solved) {
   const n = live.loads.findIndex((load) => load.name === name);
   const value = valueOf(name, solved);
   if (live.posed.length) return solved.stability || "";
-  if (live.still) return value ? `at ${degreesWords((Math.atan2(...forceIn(name, solved).reverse()) * 180) / Math.PI)}` : "";
+  if (live.still) return value ? `at ${degreesWords((Math.atan2(...forceIn(name, solved).reverse()) * 180) / PI)}` : "";
   if (value === 0) return "";
   if (n < 0) {
     const [x, y] = ["x", "y"].map((axis) => solved.values[live.loads.findIndex((load) => load.name === `${name}.${axis}`)]);
-    return `at ${degreesWords((Math.atan2(y, x) * 180) / Math.PI)}`;
+    return `at ${degreesWords((Math.atan2(y, x) * 180) / PI)}`;
   }
   const load = live.loads[n];
   const wrench = solved.loads[n];
@@ -90,7 +90,7 @@ function senseOf(name, solved) {
     if (pulls) return `toward ${load.toward}`;
   }
   const [x, y] = wrenchOf(wrench);
-  return `at ${degreesWords((Math.atan2(y, x) * 180) / Math.PI + (value > 0 ? 0 : 180))}`;
+  return `at ${degreesWords((Math.atan2(y, x) * 180) / PI + (value > 0 ? 0 : 180))}`;
 }
 function degreesWords(d) {
   return `${number(Number((((d % 360) + 360) % 360).toFixed(6)) % 360, 4)}°`;

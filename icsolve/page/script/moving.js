@@ -131,7 +131,7 @@ for (const [, x, y, s, path] of Object.values(data.ropes || {}).flat())
   }
 function moveParts(r) {
   for (const [e, { at: [x, y], size, spokes, paths }] of rounds) {
-    const k = Math.max(...paths.map((path) => grown(path, r)));
+    const k = max(...paths.map((path) => grown(path, r)));
     set(e, "r", f(size * k));
     for (const spoke of spokes) set(spoke, "transform", `translate(${x} ${y}) scale(${k}) translate(${-x} ${-y})`);
   }
@@ -155,7 +155,7 @@ function moveParts(r) {
     const [a0, b0] = load.span.map((s) => s.slice(1));
     const [a, b] = load.span.map((s) => carried(s, r));
     const [u, v] = [minus(b0, a0), minus(b, a)];
-    const angle = (w) => (Math.atan2(w[1], w[0]) * 180) / Math.PI;
+    const angle = (w) => (Math.atan2(w[1], w[0]) * 180) / PI;
     const k = hypot(...v) / hypot(...u);
     set(e, "transform", `translate(${f(a[0])} ${f(a[1])}) rotate(${f(angle(v))}) scale(${k.toFixed(4)} 1) rotate(${f(-angle(u))}) translate(${-a0[0]} ${-a0[1]})`);
   }

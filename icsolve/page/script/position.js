@@ -50,7 +50,7 @@ function moveTo(r, beyond = "") {
     return;
   }
   leave();
-  row = Math.max(0, Math.min(rows - 1, Math.round(r)));
+  row = max(0, min(rows - 1, Math.round(r)));
   if (live) follow(row);
   slider.value = degreesOf(row);
   hint.textContent = hintOf(row, beyond);
@@ -83,7 +83,7 @@ function start() {
     if (motion.turns) place = ((place % (rows - 1)) + rows - 1) % (rows - 1);
     else if (place > rows - 1 || place < 0) {
       sign = -sign;
-      place = Math.max(0, Math.min(rows - 1, place));
+      place = max(0, min(rows - 1, place));
     }
     moveTo(place);
   };
@@ -116,7 +116,7 @@ if (motion) {
       const matrix = plot.svg.getScreenCTM().inverse();
       const x = new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix).x;
       const share = (x - plot.box[0]) / (plot.box[2] - plot.box[0]);
-      turnTo(plot.x[0] + Math.max(0, Math.min(1, share)) * (plot.x[1] - plot.x[0]));
+      turnTo(plot.x[0] + max(0, min(1, share)) * (plot.x[1] - plot.x[0]));
     };
     plot.svg.addEventListener("pointerdown", point);
     plot.svg.addEventListener("pointermove", point);

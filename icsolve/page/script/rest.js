@@ -21,7 +21,7 @@ function powerAt(told, x, figure, value, before) {
 function restOf(told, x, figure) {
   const [{ range, turns, number: n }] = told.posed;
   const [low, high] = range.map((end, k) => (end === null ? (k ? Infinity : -Infinity) : end));
-  const pace = high - low < Infinity ? Math.min((high - low) / SCANNED, turns ? 2.5 : Infinity) : turns ? 2.5 : 0.02 / told.frame[2];
+  const pace = high - low < Infinity ? min((high - low) / SCANNED, turns ? 2.5 : Infinity) : turns ? 2.5 : 0.02 / told.frame[2];
   const at = (value, before) => {
     try {
       return powerAt(told, x, figure, value, before);
@@ -30,7 +30,7 @@ function restOf(told, x, figure) {
       return null;
     }
   };
-  const first = Math.min(Math.max(x[n], low), high);
+  const first = min(max(x[n], low), high);
   let start = at(first, null);
   for (let k = 1; !start && k <= SCANNED; k++)
     for (const value of [first + k * pace, first - k * pace]) if (!start && value >= low && value <= high) start = at(value, null);
@@ -40,7 +40,7 @@ function restOf(told, x, figure) {
   for (let k = 0; k < 3 * SCANNED && sides.some((side) => side.going); k++)
     for (const side of sides) {
       if (!side.going) continue;
-      const value = Math.min(Math.max(side.last.value + side.way * side.pace, low), high);
+      const value = min(max(side.last.value + side.way * side.pace, low), high);
       const next = value === side.last.value ? null : at(value, side.last);
       if (!next) {
         side.pace /= 2;
@@ -59,9 +59,9 @@ function restOf(told, x, figure) {
 }
 /* Where the power vanishes between two values, by false position and halving; null where it jumps there. */
 function zeroBetween(at, a, b, jump) {
-  const most = Math.min(abs(a.power), abs(b.power));
+  const most = min(abs(a.power), abs(b.power));
   let [p, q] = [a, b];
-  for (let k = 0; k < 120 && p.power && q.power && abs(q.value - p.value) > 2e-16 * Math.max(abs(p.value), abs(q.value)); k++) {
+  for (let k = 0; k < 120 && p.power && q.power && abs(q.value - p.value) > 2e-16 * max(abs(p.value), abs(q.value)); k++) {
     const share = k % 3 === 2 ? 0.5 : p.power / (p.power - q.power);
     const middle = at(p.value + share * (q.value - p.value), p);
     if (!middle) return null;

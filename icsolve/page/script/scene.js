@@ -14,24 +14,24 @@ class Refusal {
 const refused = (error) => { if (!(error instanceof Refusal)) throw error; };
 const spread = (some) => hypot(...some.flat());
 const apart = (p, q) => hypot(p[0] - q[0], p[1] - q[1]);
-const largest = (some) => some.reduce((most, v) => Math.max(most, abs(v)), 0);
+const largest = (some) => some.reduce((most, v) => max(most, abs(v)), 0);
 const powerOfTwo = (v) => (v > 0 && Number.isFinite(v) ? 2 ** (Math.floor(Math.log2(v)) + 1) : 1);
 
 /* All x with rows x = 0, by elimination with complete pivoting. */
 function nullSpace(rows, columns, zero = 64 * UNIT, unit = 0) {
   const work = rows.map((row) => [...row]);
   const order = [...Array(columns).keys()];
-  const limit = zero * Math.max(work.length, 1);
+  const limit = zero * max(work.length, 1);
   const pivots = [];
   let rank = 0;
   let dropped = 0;
-  while (rank < Math.min(work.length, columns)) {
+  while (rank < min(work.length, columns)) {
     let best = -1;
     let at = [rank, rank];
     for (let r = rank; r < work.length; r++)
       for (let c = rank; c < columns; c++)
         if (abs(work[r][c]) > best) [best, at] = [abs(work[r][c]), [r, c]];
-    const fraction = best > 0 ? best / (pivots.length ? pivots[0] : Math.max(best, unit)) : 0;
+    const fraction = best > 0 ? best / (pivots.length ? pivots[0] : max(best, unit)) : 0;
     if (!(fraction > limit)) {
       dropped = fraction;
       break;
@@ -105,8 +105,8 @@ function figureOf(program, told, x) {
   }
   const size = () => {
     const own = Object.values(told.points).map((k) => points[k]).filter(Boolean);
-    const span = (n) => Math.max(...own.map((p) => p[n])) - Math.min(...own.map((p) => p[n]));
-    return Math.max(span(0), span(1));
+    const span = (n) => max(...own.map((p) => p[n])) - min(...own.map((p) => p[n]));
+    return max(span(0), span(1));
   };
 
   /* A step with the branch that `s` has: its places, and what else it gives. */
@@ -132,7 +132,7 @@ function figureOf(program, told, x) {
       if (!sound(n)) break;
       let move = step.p.map((k) => [points[k][0] - q[2 * k], points[k][1] - q[2 * k + 1]]);
       const longest = largest(move.flat());
-      const share = Math.min(1, 0.4 / (longest || 1));
+      const share = min(1, 0.4 / (longest || 1));
       step.p.forEach((k, m) => {
         q[2 * k] += share * move[m][0];
         q[2 * k + 1] += share * move[m][1];
@@ -161,7 +161,7 @@ function figureOf(program, told, x) {
       return new Refusal("cannot-assemble", `two lines that are to meet at ${name} are parallel`, off);
     }
     if (step.sign === undefined) return sound(n) ? [null] : new Refusal("cannot-assemble", `${name} has no place`);
-    const slack = 16 * UNIT * Math.max(1, largest(gaps));
+    const slack = 16 * UNIT * max(1, largest(gaps));
     if (step.round) {
       const [far, over, under] = gaps;
       const d = (over + under) / 2;
@@ -171,7 +171,7 @@ function figureOf(program, told, x) {
         return new Refusal("cannot-assemble", `${name}: two circles about one centre do not meet`, other);
       }
     }
-    const least = Math.min(...gaps);
+    const least = min(...gaps);
     if (least < -slack) {
       const words = `the links do not meet at ${name}: they miss each other by ${measure(-least)}`;
       points[step.p[0]] = between(step, loci, gaps);
@@ -234,7 +234,7 @@ function figureOf(program, told, x) {
       const words = `more data than the figure needs, and these contradict each other at ${plain(names[0])}`;
       if (!ahead) return new Refusal("inconsistent", words);
       if (abs(off) <= 1e-10 * whole) continue;
-      const most = Math.min(0.002 * whole, allowance(kind, names, place, off));
+      const most = min(0.002 * whole, allowance(kind, names, place, off));
       if (!(abs(off) <= most)) return new Refusal("inconsistent", `${words}: off by ${measure(abs(off))}`, abs(off));
     }
     return null;
@@ -242,7 +242,7 @@ function figureOf(program, told, x) {
   function residual(kind, names, place) {
     const [p, o, v, w] = names.map((k) => points[k]);
     const value = place === null ? 0 : x[place];
-    const turned = (d) => [Math.cos((d * Math.PI) / 180), Math.sin((d * Math.PI) / 180)];
+    const turned = (d) => [cos((d * PI) / 180), sin((d * PI) / 180)];
     if (kind === "length") return [apart(p, o) - value * told.frame[2], true];
     if (kind === "x" || kind === "y") {
       const n = kind === "x" ? 0 : 1;
@@ -268,9 +268,9 @@ function figureOf(program, told, x) {
     /* An arm whose length is a datum may be so short that doubles tell no direction. */
     const isLength = (a) => told.checks.some(([k, ends]) => k === "length" && ends.includes(a) && ends.includes(names[1]));
     if (arms.some((arm, n) => arm <= NEAR && isLength(names[2 * n]))) return [0, true];
-    if (Math.min(...arms) <= TOO_CLOSE) return [Math.max(...arms), false];
+    if (min(...arms) <= TOO_CLOSE) return [max(...arms), false];
     const [tx, ty] = [c * one[0] - t * one[1], t * one[0] + c * one[1]];
-    return [(tx * two[1] - ty * two[0]) / Math.min(...arms), tx * two[0] + ty * two[1] > 0];
+    return [(tx * two[1] - ty * two[0]) / min(...arms), tx * two[0] + ty * two[1] > 0];
   }
   /* What half a unit of the last decimal of each number does to a residual, added up. */
   function allowance(kind, names, place, off) {
@@ -308,7 +308,7 @@ function figureOf(program, told, x) {
         if (miss) ends.push({ depth, miss, path });
         else {
           modes.push({ path, points: points.map((p) => [...p]), s: [...s], q: [...q] });
-          best = Math.min(best, path.off);
+          best = min(best, path.off);
         }
         return;
       }
@@ -341,7 +341,7 @@ function figureOf(program, told, x) {
   function parted(one, two) {
     const [ours, theirs] = [line(one), line(two)];
     let at = 0;
-    while (at < Math.min(ours.length, theirs.length) && ours[at] === theirs[at]) at += 1;
+    while (at < min(ours.length, theirs.length) && ours[at] === theirs[at]) at += 1;
     const places = (paths) => new Map(paths.flatMap((path) => [...path.places]).filter(([k]) => near.has(k)));
     return [places(ours.slice(at)), places(theirs.slice(at))];
   }
@@ -411,6 +411,20 @@ function figureOf(program, told, x) {
       }
       wind(1);
       wind(0);
+    },
+    /* The figure as rounding may have it where two loci all but touch: with a longer half of their chord, or
+       with one where they were taken to touch; one such step a time, and at last as it is. */
+    *shaken() {
+      const again = () => every.forEach(run);
+      for (const n of every) {
+        const [k, { gaps }] = [told.steps[n].p[0], run(n)];
+        const own = s[k];
+        const left = (2 * UNIT * max(1, largest(gaps))) / abs(min(...gaps));
+        if (told.steps[n].sign !== undefined && left > LEAST_TRUST)
+          for (s[k] of own ? [own + own * left] : [1, -1]) yield again();
+        s[k] = own;
+      }
+      again();
     },
     /* From where it is: the same branches, Newton's method from the last places; the point that is pulled
        (its number and where to) goes to the side to which it is pulled. */
@@ -491,7 +505,7 @@ function motionsOf(told, [rows, paths, , , courses, threads], points) {
       path.reduce((t, [k, a, b, c]) => [t[0] + rates[k] * a, t[1] + rates[k] * b, t[2] + rates[k] * c], [0, 0, 0])));
   const mobility = found.basis.length;
   withEnds(told, twists, courses, threads, points);
-  return { twists, mobility, redundant: Math.max(mobility - told.freedoms, 0), trust: exact ? last : 1 };
+  return { twists, mobility, redundant: max(mobility - told.freedoms, 0), trust: exact ? last : 1 };
 }
 
 /* The unknown loads from the sums of power of all motions; `power` is that of a unit of each load. */
@@ -518,7 +532,7 @@ function balanceOf(told, loads, motions) {
     });
     return sums.map((v, k) => (abs(v) <= NOISE * terms[k] ? 0 : v)).concat([terms]);
   });
-  const trust = Math.min(1, ...rows.flatMap((row) => row.slice(0, unknown.length).map((v, k) => (v === 0 ? 1 : abs(v) / row[columns][k]))));
+  const trust = min(1, ...rows.flatMap((row) => row.slice(0, unknown.length).map((v, k) => (v === 0 ? 1 : abs(v) / row[columns][k]))));
   const plain = rows.map((row) => row.slice(0, columns));
   const working = plain.filter((row) => row.some((v) => v !== 0));
   const idle = plain.length - working.length;
@@ -534,7 +548,7 @@ function solved(working, idle, unknown, scale) {
   const rows = working.map((row) => row.map((v) => v / powerOfTwo(largest(row))));
   const free = nullSpace(rows.map((row) => row.slice(0, count)), count, 1e-13);
   const whole = nullSpace(rows, count + 1, 1e-13);
-  const workless = Math.max(0, unknown.findIndex((_, k) => rows.every((row) => row[k] === 0)));
+  const workless = max(0, unknown.findIndex((_, k) => rows.every((row) => row[k] === 0)));
   if (whole.rank > free.rank)
     return { verdict: free.rank < count && rows.length <= count ? "no value" : "too few unknowns", culprit: workless };
   if (free.rank < count) return { verdict: count > rows.length + idle ? "too many unknowns" : "any value", culprit: workless };
@@ -551,7 +565,7 @@ function refuseUnbalanced(told, motions, found) {
   const count = found.unknown.length;
   if (found.verdict === "balanced" || !count) return;
   const active = motions.mobility - found.idle;
-  if (found.verdict.startsWith("too") || count > Math.max(active, 1))
+  if (found.verdict.startsWith("too") || count > max(active, 1))
     throw new Refusal(motions.redundant && told.freedoms === count ? "change-point" : "mobility");
   const load = told.loads[found.unknown[found.culprit]];
   const others = found.verdict === "no value";
@@ -579,12 +593,12 @@ function speedOf(told, x, motions, points) {
     if (still(...speeds.flat())) throw new Refusal("dead-centre", `the point to which link ${given.link}'s motion is given is at rest`);
     const target = -x[given.speed] * told.frame[2];
     if (given.angle === undefined) return [...speeds.map((v) => dot(v, rightward(longest(speeds), still))), target];
-    const a = (x[given.angle] * Math.PI) / 180;
-    const along = [Math.cos(a), Math.sin(a)];
+    const a = (x[given.angle] * PI) / 180;
+    const along = [cos(a), sin(a)];
     if (own.length > 1) return [...speeds.map((v) => dot(v, along)), target];
     const [v] = speeds;
     const size = hypot(...v);
-    if (abs(v[0] * along[1] - v[1] * along[0]) > size * Math.sin(Math.PI / 180))
+    if (abs(v[0] * along[1] - v[1] * along[0]) > size * sin(PI / 180))
       throw new Refusal("inconsistent", `the point of link ${given.link} cannot move in the direction that the motion gives`);
     return [dot(v, along) > 0 ? size : -size, target];
   });
@@ -631,6 +645,7 @@ const thrustsOf = (told, loads, values, threads, points) =>
     return [-fy, fx, x * fy - y * fx];
   });
 const LEAST_TRUST = 1e-11;
+const LEAST_DIGITS = 1e-5;
 /* The twist of every body in the motion that is meant; null where that leaves it open. */
 function movedAs(told, x, motions, points) {
   if (!motions.mobility) return motions.twists.map(() => null);
@@ -646,7 +661,7 @@ function rollsOn(told, x, { points }, [n, contact, centre]) {
   return centre === null || abs(apart(points[contact], points[centre]) - r) <= told.offRadius * r;
 }
 /* The inertia forces of the given motion among the loads. */
-function withInertia(told, x, figure, twists, loads) {
+function withInertia(told, x, figure, motions, twists, loads) {
   if (told.rolls.some((wheel) => !rollsOn(told, x, figure, wheel))) throw new Refusal("unsupported");
   const starts = (own) => own.point !== undefined && own.acceleration !== undefined && !x[own.speed];
   if (told.motion.some(starts)) throw new Refusal("unsupported"); // the path of the point is told by its speed
@@ -657,21 +672,40 @@ function withInertia(told, x, figure, twists, loads) {
     for (const [k, value] of row) if (Math.floor(k / 3) !== told.ground) dense[k] += value;
     return dense;
   });
+  const size = powerOfTwo(largest(rows.map((row) => row[count]))); // what speeds make, beside coefficients of 1
+  rows.forEach((row) => (row[count] /= size));
   const held = [0, 1, 2].map((n) => [...Array(count + 1).keys()].map((k) => (k === 3 * told.ground + n ? 1 : 0)));
   const { basis } = nullSpace([...rows, ...held], count + 1, 1e-13);
   const first = basis.reduce((best, v) => (abs(v[count]) > abs(best ? best[count] : 0) ? v : best), null);
-  if (!first || abs(first[count]) < 1e-9 * largest(first)) throw new Refusal("change-point");
+  const part = first ? abs(first[count]) / largest(first) : 0;
+  if (part < 1e-12) throw new Refusal("change-point");
+  /* Beside a change point places, speeds and accelerations lose digits each, beside a point's rest the last two. */
+  if (motions.trust ** 3 * part ** 2 < LEAST_TRUST) throw new Refusal("near-singular");
   const unit = first.map((v) => v / first[count]);
   const open = basis.filter((v) => v !== first).map((v) => v.map((x, k) => x - v[count] * unit[k]));
   const isOpen = (link) => open.some((v) => largest(v.slice(3 * told.body[link], 3 * told.body[link] + 3)) > 1e-9);
   if (told.heavy.some(isOpen)) throw new Refusal("mobility");
-  const forces = figure.inertia(unit.slice(0, count));
+  const forces = figure.inertia(unit.slice(0, count).map((v) => v * size));
   const own = told.loads.map((_, n) => n).filter((n) => told.loads[n].name.startsWith("inertia "));
   own.forEach((n, k) => { loads[n] = [...forces[k], loads[n][3], loads[n][4], 1]; });
 }
+/* A scene whose points are placed; refused where what rounding leaves of their places gives other loads. */
+function solvedScene(told, x, figure) {
+  const solved = sceneAsPlaced(told, x, figure);
+  const most = LEAST_DIGITS * largest(solved.values);
+  let alike = true;
+  for (const _ of figure.shaken())
+    try {
+      alike &&= sceneAsPlaced(told, x, figure).values.every((v, n) => abs(v - solved.values[n]) <= most);
+    } catch (refusal) {
+      alike = refused(refusal);
+    }
+  if (!alike) throw new Refusal("near-singular");
+  return solved;
+}
 /* All of a scene whose points are placed: loads, and the twist of every body in the motion that is meant (null
    where that is left open). */
-function solvedScene(told, x, figure) {
+function sceneAsPlaced(told, x, figure) {
   refuseMisfit(told, x, figure.points);
   const parts = figure.scene();
   const [, , loads, bases, courses, threads] = parts;
@@ -685,10 +719,10 @@ function solvedScene(told, x, figure) {
   });
   const motions = motionsOf(told, parts, figure.points);
   const moved = told.dynamic ? movedAs(told, x, motions, figure.points) : null;
-  if (moved) withInertia(told, x, figure, moved, loads);
+  if (moved) withInertia(told, x, figure, motions, moved, loads);
   const found = balanceOf(told, loads, motions);
   refuseUnbalanced(told, motions, found);
-  if (Math.min(motions.trust, found.trust) < LEAST_TRUST) throw new Refusal("near-singular");
+  if (min(motions.trust, found.trust) < LEAST_TRUST) throw new Refusal("near-singular");
   const twists = moved || movedAs(told, x, motions, figure.points);
   const root = new Map(found.unknown.map((n, k) => [told.loads[n].root, found.values ? found.values[k] : 0]));
   const values = told.loads.map((load, n) => loads[n][4] * (root.has(load.root) ? root.get(load.root) : loads[n][5]));

@@ -69,7 +69,7 @@ function turnTable() {
   const key = mover ? `${live.input} ${mover.numbers.join()}` : String(scene.changed);
   if (shadow.key !== key) {
     shadow.key = key;
-    const pace = Math.max(1, Math.round(rows / 180));
+    const pace = max(1, Math.round(rows / 180));
     const some = [...Array(rows).keys()].filter((r) => r % pace === 0);
     const held = mover && [{ ...mover.at }, [...mover.pose]];
     const home = () => { if (held) [mover.at, mover.pose] = [{ ...held[0] }, [...held[1]]]; };
@@ -91,7 +91,7 @@ function arrow(parent, kind, [x, y], [u, v], words) {
   const size = hypot(u, v);
   if (!(size > 1.5)) return;
   const [a, b] = [u / size, v / size];
-  const head = Math.min(9, size);
+  const head = min(9, size);
   const g = make("g", { class: kind }, parent);
   make("path", { d: `M${f(x)},${f(y)} L${f(x + u - a * head * 0.8)},${f(y + v - b * head * 0.8)}` }, g);
   const side = [-b * head * 0.38, a * head * 0.38];
@@ -114,7 +114,7 @@ function drawVelocities(state) {
       if (!name.startsWith("@") && v.every(Number.isFinite) && hypot(...v) > 0 && !some.some((one) => one.name === name && apart(one.v, v) < (live ? 1e-9 : 1e-4 * hypot(...v)))) some.push({ name, link, v });
     }
   }
-  const most = Math.max(...some.map(({ v }) => hypot(...v)));
+  const most = max(...some.map(({ v }) => hypot(...v)));
   const several = (name) => some.filter((one) => one.name === name).length > 1;
   const called = ({ name, link }) => `v${name}${several(name) ? ` on ${link}` : ""}`;
   for (const one of most > 0 ? some : []) {
@@ -144,11 +144,11 @@ function drawRotation(state, link) {
     if (r < 1 || r > 1e5) continue;
     make("path", { d: `M${f(c[0])},${f(c[1])} L${f(p[0])},${f(p[1])}` }, g);
     const a = Math.atan2(p[1] - c[1], p[0] - c[0]);
-    const wide = Math.min(0.5, 60 / r) * sign;
-    const at = (b) => [c[0] + r * Math.cos(b), c[1] + r * Math.sin(b)];
+    const wide = min(0.5, 60 / r) * sign;
+    const at = (b) => [c[0] + r * cos(b), c[1] + r * sin(b)];
     const [from, to] = [at(a - wide), at(a + wide)];
     make("path", { class: "sweep", d: `M${f(from[0])},${f(from[1])} A${f(r)},${f(r)} 0 0 ${sign > 0 ? 1 : 0} ${f(to[0])},${f(to[1])}` }, g);
-    arrow(g, "spin", at(a + wide * 0.9), [to[0] - at(a + wide * 0.9)[0] + Math.cos(a + wide + sign * 1.571) * 9, to[1] - at(a + wide * 0.9)[1] + Math.sin(a + wide + sign * 1.571) * 9]);
+    arrow(g, "spin", at(a + wide * 0.9), [to[0] - at(a + wide * 0.9)[0] + cos(a + wide + sign * 1.571) * 9, to[1] - at(a + wide * 0.9)[1] + sin(a + wide + sign * 1.571) * 9]);
   }
   const low = document.createElementNS(NS, "text");
   for (const [key, value] of Object.entries({ x: f(c[0] + 9), y: f(c[1] - 9), "font-size": 12 })) set(low, key, value);
@@ -177,15 +177,15 @@ function drawCentrodes(state, link) {
     const t = one && one.twist(link);
     return t && abs(t[2]) * 1e5 > hypot(t[0], t[1]) * told.frame[2] && t[2] !== 0 ? placeIn([t[0] / t[2], t[1] / t[2]]) : null;
   };
-  const near = (p) => p && Math.max(abs(p[0]), abs(p[1])) < 5000;
+  const near = (p) => p && max(abs(p[0]), abs(p[1])) < 5000;
   const fixed = table.map(centre).map((p) => (near(p) ? p : null));
   const back = (p, [x, y, a]) => {
-    const b = (a * Math.PI) / 180;
-    return [Math.cos(b) * (p[0] - x) - Math.sin(b) * (p[1] - y), Math.sin(b) * (p[0] - x) + Math.cos(b) * (p[1] - y)];
+    const b = (a * PI) / 180;
+    return [cos(b) * (p[0] - x) - sin(b) * (p[1] - y), sin(b) * (p[0] - x) + cos(b) * (p[1] - y)];
   };
   const forth = ([u, v], [x, y, a]) => {
-    const b = (a * Math.PI) / 180;
-    return [x + Math.cos(b) * u + Math.sin(b) * v, y - Math.sin(b) * u + Math.cos(b) * v];
+    const b = (a * PI) / 180;
+    return [x + cos(b) * u + sin(b) * v, y - sin(b) * u + cos(b) * v];
   };
   make("path", { class: "fixed-centrode", d: path(fixed) || "M0,0" }, overlay);
   const moving = state && fixed.map((p, n) => p && forth(back(p, table[n].poses[link]), state.poses[link]));
@@ -298,7 +298,7 @@ function drawBody(link, acting, spots, [force, torque], least) {
   }
   const found = acting.filter((one) => one.open || hypot(...one.force) > 1e-9 || abs(one.couple) > 1e-3 * least);
   const forces = found.filter((one) => !one.open && hypot(...one.force) > 0);
-  const most = Math.max(...forces.map((one) => hypot(...one.force)), 1e-300);
+  const most = max(...forces.map((one) => hypot(...one.force)), 1e-300);
   const real = forces.filter((one) => hypot(...one.force) > 1e-9 * most);
   if (!spots.length) {
     said.textContent = "No point of this link has a place of its own.";
@@ -306,9 +306,9 @@ function drawBody(link, acting, spots, [force, torque], least) {
   }
   const wheel = figure.querySelector(`[id="wheel-${CSS.escape(link)}"] circle`);
   const disc = wheel && [carried([link, ...["cx", "cy"].map((c) => Number(wheel.getAttribute(c)))], row), Number(wheel.getAttribute("r"))];
-  const middle = (n) => (Math.min(...spots.map((p) => p[n])) + Math.max(...spots.map((p) => p[n]))) / 2;
-  const reach = Math.max(...spots.map((p) => Math.max(abs(p[0] - middle(0)), abs(p[1] - middle(1)))), disc ? disc[1] : 1);
-  const zoom = Math.min(1, 60 / reach);
+  const middle = (n) => (min(...spots.map((p) => p[n])) + max(...spots.map((p) => p[n]))) / 2;
+  const reach = max(...spots.map((p) => max(abs(p[0] - middle(0)), abs(p[1] - middle(1)))), disc ? disc[1] : 1);
+  const zoom = min(1, 60 / reach);
   const here = (p) => [170 + (p[0] - middle(0)) * zoom, 150 + (p[1] - middle(1)) * zoom];
   if (disc) {
     const [x, y] = here(disc[0]);
@@ -327,9 +327,9 @@ function drawBody(link, acting, spots, [force, torque], least) {
   }
   const ends = [[0, 0]];
   for (const { force } of real) ends.push([ends[ends.length - 1][0] + force[0], ends[ends.length - 1][1] - force[1]]);
-  const span = (n) => [Math.min(...ends.map((p) => p[n])), Math.max(...ends.map((p) => p[n]))];
+  const span = (n) => [min(...ends.map((p) => p[n])), max(...ends.map((p) => p[n]))];
   const [[left, right], [top, bottom]] = [span(0), span(1)];
-  const scale = 170 / Math.max(right - left, bottom - top, 1e-300);
+  const scale = 170 / max(right - left, bottom - top, 1e-300);
   const put2 = (p) => [450 + (p[0] - (left + right) / 2) * scale, 150 + (p[1] - (top + bottom) / 2) * scale];
   real.forEach((one, n) => {
     const [a, b] = [put2(ends[n]), put2(ends[n + 1])];
@@ -338,7 +338,7 @@ function drawBody(link, acting, spots, [force, torque], least) {
     const off = [((b[1] - a[1]) / size) * 14, ((a[0] - b[0]) / size) * 14];
     make("text", { x: f((a[0] + b[0]) / 2 + off[0]), y: f((a[1] + b[1]) / 2 + off[1] + 4), "text-anchor": "middle", "font-size": 12, class: one.known ? "f-load" : "f-joint" }, svg).textContent = one.name;
   });
-  const toward = (one) => degreesWords((Math.atan2(one.force[1], one.force[0]) * 180) / Math.PI);
+  const toward = (one) => degreesWords((Math.atan2(one.force[1], one.force[0]) * 180) / PI);
   const words = real.map((one) => `${one.name} = ${number(hypot(...one.force), 4)} ${force} at ${toward(one)}`);
   const couples = found.filter((one) => !one.open && abs(one.couple) > most * least);
   words.push(...couples.map((one) => `${one.at ? "couple of " : ""}${one.name} = ${number(one.couple, 4)} ${torque}`));

@@ -22,7 +22,7 @@ const slotOf = (body) => 3 * mover.bodies.indexOf(body);
 function carriedBy(body, p) {
   if (body === live.ground) return { at: p, arm: [0, 0] };
   const [x, y, a] = mover.pose.slice(slotOf(body), slotOf(body) + 3);
-  const arm = [Math.cos(a) * p[0] - Math.sin(a) * p[1], Math.sin(a) * p[0] + Math.cos(a) * p[1]];
+  const arm = [cos(a) * p[0] - sin(a) * p[1], sin(a) * p[0] + cos(a) * p[1]];
   return { at: [arm[0] + x, arm[1] + y], arm };
 }
 const angleOf = (body) => (body === live.ground ? 0 : mover.pose[slotOf(body) + 2]);
@@ -57,7 +57,7 @@ function conditions() {
     const body = live.body[link];
     const target = mover.at[link] || 0;
     const [t] = mover.twists[body];
-    if (live.turning.includes(link)) found.push([angleOf(body) - (target * Math.PI) / 180, ...angle(body, 1)]);
+    if (live.turning.includes(link)) found.push([angleOf(body) - (target * PI) / 180, ...angle(body, 1)]);
     else {
       const size = hypot(t[0], t[1]) || 1;
       const way = [t[1] / size, -t[0] / size];
@@ -69,7 +69,7 @@ function conditions() {
   return found;
 }
 /* Torsion springs turn with the bodies that they are between, from rest on. */
-const windUp = () => live.wound.forEach(([a, b], n) => (laboratory.w[n] = mover.w[n] + ((angleOf(a) - angleOf(b)) * 180) / Math.PI));
+const windUp = () => live.wound.forEach(([a, b], n) => (laboratory.w[n] = mover.w[n] + ((angleOf(a) - angleOf(b)) * 180) / PI));
 /* What the meshes keep: weights of both wheels, and the body that carries them. */
 function meshesOf() {
   mover.meshes = live.bonds.map(([one, two], k) => {
@@ -106,8 +106,8 @@ function arrive() {
 function numbersMoved(targets) {
   meshesOf();
   const from = { ...mover.at };
-  const way = Math.max(...Object.entries(targets).map(([link, v]) => abs(v - (from[link] || 0)) / (live.turning.includes(link) ? 4 : 0.02 / live.frame[2])));
-  const steps = Math.max(1, Math.ceil(way));
+  const way = max(...Object.entries(targets).map(([link, v]) => abs(v - (from[link] || 0)) / (live.turning.includes(link) ? 4 : 0.02 / live.frame[2])));
+  const steps = max(1, Math.ceil(way));
   const pose = [...mover.pose];
   for (let n = 1; n <= steps; n++) {
     for (const [link, v] of Object.entries(targets)) mover.at[link] = (from[link] || 0) + ((v - (from[link] || 0)) * n) / steps;
@@ -122,13 +122,13 @@ function measured() {
   const some = [...mover.numbers];
   const now = (k) => (mover.of.has(k) ? carriedBy(mover.of.get(k), mover.rest[k]).at : mover.rest[k]);
   const change = (p, q) => turned([mover.rest[q][0] - mover.rest[p][0], mover.rest[q][1] - mover.rest[p][1]], [now(q)[0] - now(p)[0], now(q)[1] - now(p)[1]]);
-  const put = (n, value) => { if (abs(value - some[n]) > 1e-9 * Math.max(1, abs(some[n]))) some[n] = value; };
+  const put = (n, value) => { if (abs(value - some[n]) > 1e-9 * max(1, abs(some[n]))) some[n] = value; };
   for (const [kind, n, ...what] of live.measures) {
     if (kind === "x" || kind === "y") put(n, fromFrame(now(what[0]))[kind === "x" ? 0 : 1]);
     else if (kind === "length") put(n, apart(now(what[0]), now(what[1])) / live.frame[2]);
     else if (kind === "ray") put(n, some[n] + change(what[0], what[1]));
     else if (kind === "corner") put(n, some[n] + change(what[1], what[2]) - change(what[1], what[0]));
-    else put(n, some[n] + (angleOf(live.body[what[0]]) * 180) / Math.PI);
+    else put(n, some[n] + (angleOf(live.body[what[0]]) * 180) / PI);
   }
   return some;
 }
