@@ -30,8 +30,7 @@ from icsolve.draw.marks import (
 from icsolve.draw.place import Label, Soft, joined, nearest
 from icsolve.draw.scene import Part, Scene, around, together, with_labels
 from icsolve.draw.words import force_runs, name_runs, quantity
-from icsolve.report.derivation.known import Acting, acting_loads
-from icsolve.report.derivation.ropes import pulls_on
+from icsolve.report.derivation.known import Acting, acting_loads, pulls_on
 from icsolve.tuples import NamedTuple
 
 LONGEST = 78.0

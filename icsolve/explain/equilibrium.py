@@ -11,8 +11,8 @@ from icsolve.case import Case, Spring, TorsionSpring, is_angle
 from icsolve.case.figure import Corner, Direction, Length
 from icsolve.explain.document import Block, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, product
-from icsolve.explain.given import Figures, load_name
 from icsolve.explain.power import AGREE, factor_of, gain_of, sprung, torque_words
+from icsolve.explain.worked import Worked, load_name
 from icsolve.report.derivation.known import Acting, Known, acting_loads, known_at
 from icsolve.report.derivation.ratios import OneMotion, independent_motions, speed_words
 from icsolve.report.text import place_text
@@ -33,13 +33,13 @@ LEAST = 1e-7
 """An unknown that moves less than this fraction of the figure stands at a limit."""
 
 
-def equilibrium_section(known: Known, figures: Figures) -> Iterable[Section]:
+def equilibrium_section(work: Worked) -> Iterable[Section]:
     """The virtual work of the loads in each position, where one is told so."""
-    positions = () if known.answer is None else known.answer.positions or ()
-    said = [block for one in positions for block in _position(known, figures, one)]
+    positions = () if work.answer is None else work.answer.positions or ()
+    said = [block for one in positions for block in _position(work, one)]
     if not said:
         return
-    terms = tuple((1, product(_exerted(acting), _way(acting))) for acting in acting_loads(known))
+    terms = tuple((1, product(_exerted(acting), _way(acting))) for acting in acting_loads(work.known))
     blocks = (words(WORK), formula(Name("Q"), Sum(terms)), words(CONDITION))
     yield Section("Virtual work", (*blocks, *said))
 
@@ -55,62 +55,62 @@ def _way(acting: Acting) -> Name:
     return Name("k", "".join(load_name(acting.load.name)))
 
 
-def _position(known: Known, figures: Figures, position: EquilibriumPosition) -> list[Block]:
+def _position(work: Worked, position: EquilibriumPosition) -> list[Block]:
     """One position: the equation of each unknown, then the derivative; nothing where friction holds it."""
     if position.stability is None or position.answer.scene is None:
         return []
-    here = known_at(known, position.answer)
-    place = f"In the position {place_text(here.case, position, figures.digits)}"
+    here = work._replace(known=known_at(work.known, position.answer))
+    place = f"In the position {place_text(here.case, position, work.digits)}"
     for path in position.at:
-        loose = [name for name in _ends(known.case, path) if name not in here.points]
+        loose = [name for name in _ends(work.case, path) if name not in here.known.points]
         if loose:
             return [words(f"{place} no motion is told by {path}: no link carries {loose[0]}.")]
-    motions = _by_unknowns(here, known.case, list(position.at))
+    motions = _by_unknowns(here.known, work.case, list(position.at))
     if not motions:  # a change point, which has more of them
         return []
     blocks: list[Block] = [words(f"{place}:")]
-    blocks += torque_words(here.case.units)
+    blocks += torque_words(here.units)
     loads = []
-    least = (
-        max((abs(acting.value or 0.0) for acting in acting_loads(here)), default=0.0) * NOTHING * here.size
-    )
-    for acting in acting_loads(here):
-        exerted, said = _force(here, figures, acting)
+    acting_here = acting_loads(here.known)
+    largest = max((abs(acting.value or 0.0) for acting in acting_here), default=0.0)
+    least = largest * NOTHING * here.known.size
+    for acting in acting_here:
+        exerted, said = _force(here, acting)
         loads.append(exerted)
         blocks += said
     for n, ((told, motion), path) in enumerate(zip(motions, position.at, strict=True), 1):
-        per = here.case.units.torque_per_force_length if is_angle(path) else 1.0
+        per = here.units.torque_per_force_length if is_angle(path) else 1.0
         low = str(n) if len(motions) > 1 else ""
         blocks.append(words(f"While {told}:"))
         terms: list[tuple[int, Expr]] = []
         works = []
         for acting in loads:
-            k, said = factor_of(here, figures, acting, motion, int(low or 0), per)
+            k, said = factor_of(here, acting, motion, int(low or 0), per)
             blocks += said
             works.append((acting.value or 0.0) * k)
             if k:
-                terms.append((1, product(figures.number(acting.value or 0.0), figures.number(k))))
+                terms.append((1, product(work.number(acting.value or 0.0), work.number(k))))
         if abs(sum(works)) > AGREE * max(map(abs, works), default=0.0) + least:
             return []  # a rope or a screw takes a part, which its own equations tell
         if not terms:
             blocks.append(words("No load does work."))
         whole = terms[0][1] if len(terms) == 1 else Sum(tuple(terms))
         blocks.append(formula(Name("Q", low), whole if terms else Num("0"), Num("0")))
-    return [*blocks, *_derivative(figures, position)]
+    return [*blocks, *_derivative(work, position)]
 
 
-def _force(known: Known, figures: Figures, acting: Acting) -> tuple[Acting, list[Block]]:
+def _force(work: Worked, acting: Acting) -> tuple[Acting, list[Block]]:
     """A load by what it exerts: a spring by its force or moment in the position."""
     if not isinstance(acting.load, Spring | TorsionSpring):
         return acting, []
-    value, stretched = gain_of(known, figures, acting)
-    _, force, said = sprung(known, figures, acting, value)
+    value, stretched = gain_of(work, acting)
+    _, force, said = sprung(work, acting, value)
     turns = force.at is None
-    gain = 1.0 / known.case.units.torque_per_force_length if turns else 1.0
+    gain = 1.0 / work.units.torque_per_force_length if turns else 1.0
     return force._replace(gain=gain), [*stretched, *said]
 
 
-def _derivative(figures: Figures, position: EquilibriumPosition) -> Iterable[Block]:
+def _derivative(work: Worked, position: EquilibriumPosition) -> Iterable[Block]:
     """The sign of the derivative, and what it says."""
     stiffness, told = position.stiffness, position.stability
     if stiffness is None:
@@ -126,7 +126,7 @@ def _derivative(figures: Figures, position: EquilibriumPosition) -> Iterable[Blo
         for j, value in enumerate(row, 1):
             above, below = (Name(s, "" if single else str(n)) for s, n in (("dQ", i), ("dq", j)))
             shown = -value if abs(value) > NOTHING * largest else 0.0
-            yield formula(Quotient(above, below), figures.quantity(shown, units[i - 1][j - 1]))
+            yield formula(Quotient(above, below), work.quantity(shown, units[i - 1][j - 1]))
     signs = {
         "stable": "less than zero",
         "unstable": "greater than zero",

@@ -15,8 +15,7 @@ from itertools import combinations
 
 from icsolve.answer import Centre
 from icsolve.case import Case, Pair, Rope, Screw, is_link, link_order
-from icsolve.report.derivation.known import Known
-from icsolve.report.derivation.ropes import moving_names
+from icsolve.report.derivation.known import Known, moving_names
 from icsolve.scene.parts import wanted_pairs
 from icsolve.scene.program import Want
 from icsolve.screws.plane import Triple
