@@ -280,7 +280,7 @@ def _symbol(scene: Scene, joint: Joint) -> list[Mark]:
         case Roll() | Contact():
             return [Disc(p, 2.4, "dot")]
         case Weld():
-            return [_square(p)]
+            return [area(shapely.box(p[0] - 4.0, p[1] - 4.0, p[0] + 4.0, p[1] + 4.0), "pin")]
         case KnownCentre():
             return [Disc(p, 4.0, "primary")]
         case Gears() | Belt():  # their wheels show them
@@ -296,10 +296,6 @@ def _friction_circle(scene: Scene, joint: Joint, p: Point) -> list[Mark]:
         return []
     radius = friction.radius.value * math.sin(math.atan(friction.mu.value)) * scene.view.scale
     return [Disc(p, radius, "box")] if radius > 1.0 else []
-
-
-def _square(p: Point) -> Mark:
-    return area(shapely.box(p[0] - 4.0, p[1] - 4.0, p[0] + 4.0, p[1] + 4.0), "pin")
 
 
 def point_parts(scene: Scene) -> list[Part]:

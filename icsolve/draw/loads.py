@@ -4,7 +4,7 @@ with the answer beside it. Velocities of the points, square to their radii."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 
 import shapely
 
@@ -319,7 +319,8 @@ def velocity_parts(scene: Scene) -> list[Part]:
         length = LONGEST * size / fastest
         if length < LEAST:
             continue
-        parts.append(_arrow(scene, point, link, (v[0] / size, -v[1] / size), length, _shared(found, point)))
+        several = sum(other == point for other, _ in found) > 1  # one for each of its links
+        parts.append(_arrow(scene, point, link, (v[0] / size, -v[1] / size), length, several))
     return parts
 
 
@@ -334,11 +335,6 @@ def _velocities(scene: Scene) -> dict[tuple[str, str], Point]:
         if not any(other == point and math.dist(v, w) <= least for (other, _), w in found.items()):
             found[(point, link)] = v
     return found
-
-
-def _shared(found: Mapping[tuple[str, str], Point], point: str) -> bool:
-    """Whether a point has several velocities, one for each of its links."""
-    return sum(1 for other, _ in found if other == point) > 1
 
 
 def _arrow(scene: Scene, point: str, link: str, u: Point, length: float, several: bool) -> Part:
