@@ -152,11 +152,10 @@ def _blocks(work: Worked, ratios: Ratios, ratio: Ratio) -> Iterable[Block]:
         case "one":
             yield words(f"Links {ratio.of} and {ratio.link} are welded: they move as one.")
         case "alike":
-            yield words("", common, f" is at infinity: links {ratio.of} and {ratio.link} turn alike.")
+            yield words(common, f" is at infinity: links {ratio.of} and {ratio.link} turn alike.")
             yield formula(left, value)
         case "turns":
             yield words(
-                "",
                 common,
                 f" is a point of links {ratio.of} and {ratio.link}, with one velocity; {_sense(ratio)}.",
             )
@@ -173,7 +172,6 @@ def _blocks(work: Worked, ratios: Ratios, ratio: Ratio) -> Iterable[Block]:
             yield formula(left, _by_distances(work, ratio), work.distance(ratio.value))
         case "drives":
             yield words(
-                "",
                 common,
                 f" of link {ratio.link} moves as link {ratio.of}: {_heading(work, ratios, ratio.of)}.",
             )
@@ -196,7 +194,7 @@ def _sense(ratio: Ratio) -> str:
 
 
 def _heading(work: Worked, ratios: Ratios, link: str) -> str:
-    heading = work.number(ratios.headings[link]).digits
+    heading = work.show(ratios.headings[link])
     return f"at {heading} deg where the speed of link {ratios.reference} is positive"
 
 
@@ -226,9 +224,9 @@ def _gliding(work: Worked, ratios: Ratios, ratio: Ratio, left: Expr) -> Iterable
     along = (centre.place[0] + 90.0) % 180.0
     headings = [ratios.headings[link] for link in (ratio.of, ratio.link)]
     yield words(
-        f"Link {ratio.of} slides at {work.number(headings[0]).digits} deg, link {ratio.link} at "
-        f"{work.number(headings[1]).digits} deg, and each on the other along "
-        f"{work.number(along).digits} deg: "
+        f"Link {ratio.of} slides at {work.show(headings[0])} deg, link {ratio.link} at "
+        f"{work.show(headings[1])} deg, and each on the other along "
+        f"{work.show(along)} deg: "
         "across that direction they move alike."
     )
     sines = [Trig("sin", Sum(((1, work.number(h)), (-1, work.number(along))))) for h in headings]
@@ -243,8 +241,8 @@ def _carried(work: Worked, ratios: Ratios) -> Iterable[Block]:
             continue
         yield words(
             f"So where {link_words(ratios.reference)} has 1, {link_words(ratio.link)} has "
-            f"{work.number(ratios.rates[ratio.of]).digits} x {work.number(ratio.value).digits} = "
-            f"{work.number(ratios.rates[ratio.link]).digits}."
+            f"{work.show(ratios.rates[ratio.of])} x {work.show(ratio.value)} = "
+            f"{work.show(ratios.rates[ratio.link])}."
         )
 
 

@@ -6,13 +6,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
+import numpy as np
+
 from icsolve.answer.equilibrium import EquilibriumPosition
 from icsolve.case import Case, Spring, TorsionSpring, is_angle
 from icsolve.case.figure import Corner, Direction, Length
 from icsolve.explain.document import Block, Section, formula, words
-from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, product
+from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, product, total
 from icsolve.explain.power import AGREE, factor_of, gain_of, sprung, torque_words
-from icsolve.explain.worked import Worked, load_name
+from icsolve.explain.worked import Worked, exerted_name, load_name
 from icsolve.report.derivation.known import Acting, Known, acting_loads, known_at
 from icsolve.report.derivation.ratios import OneMotion, independent_motions, speed_words
 from icsolve.report.text import place_text
@@ -29,6 +31,8 @@ CONDITION = (
     "a function of q as every k is. The loads balance where Q is zero. Where Q falls as q grows, the loads "
     "drive a small push back: the position is stable; where it rises, unstable."
 )
+SIGNS = {"stable": "less than zero", "unstable": "greater than zero", "neutral": "zero to within its error"}
+"""Of the derivative of Q in a position."""
 LEAST = 1e-7
 """An unknown that moves less than this fraction of the figure stands at a limit."""
 
@@ -39,20 +43,10 @@ def equilibrium_section(work: Worked) -> Iterable[Section]:
     said = [block for one in positions for block in _position(work, one)]
     if not said:
         return
-    terms = tuple((1, product(_exerted(acting), _way(acting))) for acting in acting_loads(work.known))
+    ways = [(acting, Name("k", "".join(load_name(acting.load.name)))) for acting in acting_loads(work.known)]
+    terms = tuple((1, product(exerted_name(acting.load), way)) for acting, way in ways)
     blocks = (words(WORK), formula(Name("Q"), Sum(terms)), words(CONDITION))
     yield Section("Virtual work", (*blocks, *said))
-
-
-def _exerted(acting: Acting) -> Name:
-    """What a load exerts as a symbol; a spring's force is not its stiffness."""
-    if isinstance(acting.load, Spring | TorsionSpring):
-        return Name("T" if isinstance(acting.load, TorsionSpring) else "F", acting.load.name)
-    return load_name(acting.load.name)
-
-
-def _way(acting: Acting) -> Name:
-    return Name("k", "".join(load_name(acting.load.name)))
 
 
 def _position(work: Worked, position: EquilibriumPosition) -> list[Block]:
@@ -94,8 +88,7 @@ def _position(work: Worked, position: EquilibriumPosition) -> list[Block]:
             return []  # a rope or a screw takes a part, which its own equations tell
         if not terms:
             blocks.append(words("No load does work."))
-        whole = terms[0][1] if len(terms) == 1 else Sum(tuple(terms))
-        blocks.append(formula(Name("Q", low), whole if terms else Num("0"), Num("0")))
+        blocks.append(formula(Name("Q", low), total(terms), Num("0")))
     return [*blocks, *_derivative(work, position)]
 
 
@@ -127,13 +120,8 @@ def _derivative(work: Worked, position: EquilibriumPosition) -> Iterable[Block]:
             above, below = (Name(s, "" if single else str(n)) for s, n in (("dQ", i), ("dq", j)))
             shown = -value if abs(value) > NOTHING * largest else 0.0
             yield formula(Quotient(above, below), work.quantity(shown, units[i - 1][j - 1]))
-    signs = {
-        "stable": "less than zero",
-        "unstable": "greater than zero",
-        "neutral": "zero to within its error",
-    }
     if single:
-        yield words(f"It is {signs[told or '']}: {told}.")
+        yield words(f"It is {SIGNS[told or '']}: {told}.")
     else:
         yield words(f"By the eigenvalues of the symmetric part of these the position is {told}.")
 
@@ -148,30 +136,23 @@ def _by_unknowns(known: Known, written: Case, paths: Sequence[str]) -> list[tupl
     if len(motions) != len(paths):
         return []
     rates = [[_rate(known, written, path, motion) for motion in motions] for path in paths]
-    determinant = rates[0][0] if len(paths) == 1 else rates[0][0] * rates[1][1] - rates[0][1] * rates[1][0]
-    if not abs(determinant) > LEAST:
+    if not abs(np.linalg.det(rates)) > LEAST:
         return [(speed_words(motion), motion) for motion in motions]
-    told = [
-        f"{path} grows at 1 {'rad' if path.startswith('angles.') else known.case.units.length}/s"
-        for path in paths
-    ]
-    if len(paths) == 1:
-        return [(told[0], _mixed(motions, [1.0 / determinant]))]
-    (a, b), (c, d) = rates
-    return [
-        (f"{told[0]} and {paths[1]} stands still", _mixed(motions, [d / determinant, -c / determinant])),
-        (f"{told[1]} and {paths[0]} stands still", _mixed(motions, [-b / determinant, a / determinant])),
-    ]
+    found = []
+    for path, weights in zip(paths, np.linalg.inv(rates).T.tolist(), strict=True):
+        told = f"{path} grows at 1 {'rad' if is_angle(path) else known.case.units.length}/s"
+        still = "".join(f" and {other} stands still" for other in paths if other != path)
+        found.append((told + still, _mixed(motions, weights)))
+    return found
 
 
 def _mixed(motions: Sequence[OneMotion], weights: Sequence[float]) -> OneMotion:
+    """The sum of motions, each so many times."""
+
     def twist(link: str) -> Triple:
         parts = [(w, m.twists[link]) for w, m in zip(weights, motions, strict=True)]
-        return (
-            sum(w * t[0] for w, t in parts),
-            sum(w * t[1] for w, t in parts),
-            sum(w * t[2] for w, t in parts),
-        )
+        x, y, turn = (sum(w * t[k] for w, t in parts) for k in range(3))
+        return (x, y, turn)
 
     return motions[0]._replace(twists={link: twist(link) for link in motions[0].twists})
 
@@ -191,29 +172,20 @@ def _ends(written: Case, path: str) -> tuple[str, ...]:
 def _rate(known: Known, written: Case, path: str, motion: OneMotion) -> float:
     """How fast a datum grows in a motion [rad/s for an angle, length/s]."""
     if path.startswith("points."):
-        along: float = _velocity(known, path.split(".")[1], motion)["xy".index(path[-1])]
-        return along
+        return float(_velocity(known, path.split(".")[1], motion)["xy".index(path[-1])])
     datum = _datum(written, path)
     if isinstance(datum, Corner):
-        return _turning(known, datum.at, datum.b, motion) - _turning(known, datum.at, datum.a, motion)
+        return (_growth(known, datum.at, datum.b, motion) - _growth(known, datum.at, datum.a, motion)).imag
+    growth = _growth(known, datum.a, datum.b, motion)
     if isinstance(datum, Direction):
-        return _turning(known, datum.a, datum.b, motion)
-    (x, y), (u, v) = _arm_and_rate(known, datum.a, datum.b, motion)
-    rate: float = (x * u + y * v) / math.hypot(x, y)
-    return rate
+        return growth.imag
+    return growth.real * math.dist(known.points[datum.a], known.points[datum.b])
 
 
-def _turning(known: Known, a: str, b: str, motion: OneMotion) -> float:
-    (x, y), (u, v) = _arm_and_rate(known, a, b, motion)
-    rate: float = (x * v - y * u) / (x * x + y * y)
-    return rate
-
-
-def _arm_and_rate(known: Known, a: str, b: str, motion: OneMotion) -> tuple[Point, Point]:
-    """From a to b, and how fast that changes."""
-    (ax, ay), (bx, by) = known.points[a], known.points[b]
-    (au, av), (bu, bv) = _velocity(known, a, motion), _velocity(known, b, motion)
-    return (bx - ax, by - ay), (bu - au, bv - av)
+def _growth(known: Known, a: str, b: str, motion: OneMotion) -> complex:
+    """How fast the arm from a to b grows, as a share of itself; the imaginary part is how fast it turns."""
+    (p, q), (u, v) = [known.points[name] for name in (a, b)], [_velocity(known, n, motion) for n in (a, b)]
+    return (complex(*v) - complex(*u)) / (complex(*q) - complex(*p))
 
 
 def _velocity(known: Known, point: str, motion: OneMotion) -> Point:

@@ -101,14 +101,10 @@ def _rubs(work: Worked, one: Rubbing) -> str:
     units = work.units
     unit = units.torque if one.kind == "pin" else units.force
     what = "moment about the pin" if one.kind == "pin" else "friction along the guide"
-    size = work.number(abs(one.value)).digits
+    size = work.show(abs(one.value))
     force = work.answer.reactions.get(one.joint) if work.answer and work.answer.reactions else None
-    of = (
-        ""
-        if force is None or force.magnitude is None
-        else f" = {work.number(force.magnitude).digits} {units.force}"
-    )
+    of = "" if force is None or force.magnitude is None else f" = {work.show(force.magnitude)} {units.force}"
     arm = ""
     if one.radius is not None:
-        arm = f", tangent to the circle of radius {work.number(one.radius).digits} {units.length}"
+        arm = f", tangent to the circle of radius {work.show(one.radius)} {units.length}"
     return f"{one.joint}{of} at {one.where}{arm}: {what} {size} {unit}"

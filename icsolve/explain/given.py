@@ -159,6 +159,6 @@ KINDS = {
 
 
 def _load(work: Worked, push: Push) -> tuple[Inline, ...]:
-    value = "" if push.value is None else f" of {work.number(push.value).digits} {push.unit}"
+    value = "" if push.value is None else f" of {work.show(push.value)} {push.unit}"
     what = f"a {'couple' if push.at is None else 'load'}{'' if push.unknown else value}"
     return load_name(push.name), f": {what} on link {push.link}{at_words(push.where)}, {push.way}"

@@ -21,7 +21,7 @@ from icsolve.case import (
 from icsolve.explain.document import Block, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Quotient, Square, Sum, Trig, product, solved_for, total
 from icsolve.explain.friction import Rubbed, rubbed
-from icsolve.explain.worked import Worked, gain_names, lever, load_name
+from icsolve.explain.worked import Worked, exerted_name, gain_names, lever, load_name
 from icsolve.report.derivation.known import Acting, Known
 from icsolve.report.derivation.ratios import OneMotion, Ratios, independent_motions, speed_words
 from icsolve.screws.plane import velocity
@@ -102,7 +102,7 @@ def sprung(work: Worked, acting: Acting, value: float) -> tuple[Name, Acting, li
     """A spring as the force, or the moment, that it exerts."""
     torsion, stiffness = isinstance(acting.load, TorsionSpring), acting.value or 0.0
     unit = work.units.torque if torsion else work.units.force
-    name = Name("T" if torsion else "F", acting.load.name)
+    name = exerted_name(acting.load)
     numbers = product(work.number(stiffness), work.number(value))
     size = work.quantity(stiffness * value, unit)
     said = words("So its ", "moment" if torsion else "force", " is")
@@ -251,7 +251,7 @@ def _numbers(
     for term in terms:
         yield from _term(work, reference, term, unit)
     for r in friction:
-        yield words(f"{r.words}, {work.number(r.value).digits} {r.unit}:")
+        yield words(f"{r.words}, {work.show(r.value)} {r.unit}:")
         ratio = r.power / (r.value * r.rate) if r.value * r.rate else 1.0
         numbers = product(work.number(r.value), work.number(r.rate), work.number(ratio))
         yield formula(r.name, numbers, work.quantity(r.power, unit))
@@ -330,7 +330,7 @@ def motions_section(work: Worked, loads: Sequence[Acting]) -> Iterable[Section]:
         row, said = _motion(work, loads, motion, n if count > 1 else 0)
         if row and friction:
             row += _rubbing(work.known, friction, motion)
-            said[-2:] = [*(words(f"{r.words}, {work.number(r.value).digits} {r.unit}.") for r in friction)]
+            said[-2:] = [*(words(f"{r.words}, {work.show(r.value)} {r.unit}.") for r in friction)]
             said += [words("The sum of power:"), _summed(work, row, found=False)]
         rows.append(row)
         blocks += said
@@ -406,7 +406,7 @@ def factor_of(
     extra = [work.number(f) for f in (acting.gain, units) if f != 1.0]
     whole = product(*extra, along) if extra else along
     said = f" has its point move at ({x.digits}, {y.digits}) {work.units.length}/s:"
-    return value, [words("", load_name(acting.load.name), said), formula(name, whole, work.number(value))]
+    return value, [words(load_name(acting.load.name), said), formula(name, whole, work.number(value))]
 
 
 def _turned(

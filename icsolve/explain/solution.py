@@ -17,7 +17,7 @@ from icsolve.explain.friction import friction_section
 from icsolve.explain.given import asked_section, given_section
 from icsolve.explain.power import motions_section, power_section
 from icsolve.explain.ropes import ropes_section, screws_section
-from icsolve.explain.worked import Worked, load_name, rate_name, worked
+from icsolve.explain.worked import Worked, exerted_name, load_name, rate_name, worked
 from icsolve.report.derivation.known import Known, acting_loads
 from icsolve.report.derivation.ratios import Step, all_steps, answer_ratios, needed_steps
 from icsolve.report.text import positions_text
@@ -56,7 +56,7 @@ def answer_section(work: Worked) -> Iterable[Section]:
 
 def _found(work: Worked, name: str, found: Found) -> tuple[Inline, ...]:
     if found.holds is not None:
-        return (load_name(name), f" {holding(found, lambda value: work.number(value).digits)}.")
+        return (load_name(name), f" {holding(found, work.show)}.")
     sense = spelt(found.sense)
     size = work.quantity(abs(found.value), found.unit)
     said = f", {sense}" if sense else ""
@@ -79,7 +79,7 @@ def _advantage(work: Worked) -> Iterable[Block]:
     under, unit, value = load_name(bottom), units[bottom], answer.advantage
     for acting in acting_loads(work.known):
         if acting.load.name == bottom and isinstance(acting.load, Spring):  # its force, not its stiffness
-            under, unit, value = Name("F", bottom), work.units.force, value / acting.gain
+            under, unit, value = exerted_name(acting.load), work.units.force, value / acting.gain
     alike = units[top] == unit
     kind = (
         f"The mechanical advantage, where {top} is the output" if alike else "For one unit of the known load"

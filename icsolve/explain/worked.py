@@ -62,6 +62,10 @@ class Worked(NamedTuple):
         rounded = float(format(value, f".{self.digits}g")) + 0.0
         return Num(format(rounded, f".{max(self.digits, 12)}g"))
 
+    def show(self, value: float) -> str:
+        """The digits of a number, among words."""
+        return self.number(value).digits
+
     def length(self, value: float) -> Num:
         """A coordinate or distance to the figure's last place."""
         places = self.digits - 1 - math.floor(math.log10(self.size)) if self.size > 0.0 else 0
@@ -87,7 +91,7 @@ class Worked(NamedTuple):
         """The words of the case, its numbers as they are written, or with these digits."""
 
         def show(number: Number) -> str:
-            return number.digits if number.factor == 1.0 else self.number(number.value).digits
+            return number.digits if number.factor == 1.0 else self.show(number.value)
 
         return Statement(self.case, show, self.known.posed)
 
@@ -103,7 +107,7 @@ class Worked(NamedTuple):
             x, y = (self.length(c).digits for c in centre.place)
             return f"({x}, {y})"
         if centre.kind == "toward":
-            return f"at infinity, toward {self.number(centre.place[0]).digits} deg"
+            return f"at infinity, toward {self.show(centre.place[0])} deg"
         return centre.why
 
     def motion_name(self, link: str) -> Name:
@@ -149,6 +153,13 @@ def load_name(name: str) -> Name:
         return Name(*(run.text for run in name_runs(name)))
     letters = name.rstrip("0123456789")
     return Name(letters, name[len(letters) :]) if len(letters) == 1 else Name(name)
+
+
+def exerted_name(load: Load) -> Name:
+    """What a load exerts as a symbol: the force or moment of a spring is not its stiffness."""
+    if isinstance(load, Spring | TorsionSpring):
+        return Name("T" if isinstance(load, TorsionSpring) else "F", load.name)
+    return load_name(load.name)
 
 
 def gain_names(load: Load) -> tuple[Name, ...]:
