@@ -274,13 +274,10 @@ def arrow(tail: Point, tip: Point, kind: str, size: float = HEAD) -> tuple[Mark,
     return (Stroke((tail, neck), kind), head(tip, u, f"{kind}-head", size))
 
 
-def turning(
-    centre: Point, radius: float, start: float, ccw: bool, kind: str, sweep: float = 250.0
-) -> tuple[Mark, ...]:
+def turning(centre: Point, radius: float, start: float, ccw: bool, kind: str) -> tuple[Mark, ...]:
     """An arc with a head, counterclockwise or clockwise as seen, from a direction in degrees."""
-    sign = 1.0 if ccw else -1.0
     lean = math.degrees(0.75 * HEAD / radius)
-    arc = ArcMark(centre, radius, start, sign * (sweep - lean), kind)
-    tip = arc.at(sign * sweep)
-    tail = arc.at(sign * (sweep - lean * 1.25))
+    sweep, lean = (250.0, lean) if ccw else (-250.0, -lean)
+    arc = ArcMark(centre, radius, start, sweep - lean, kind)
+    tip, tail = arc.at(sweep), arc.at(sweep - lean * 1.25)
     return (arc, head(tip, unit(tip[0] - tail[0], tip[1] - tail[1]), f"{kind}-head"))

@@ -218,7 +218,7 @@ def power_section(work: Worked, ratios: Ratios, loads: Sequence[Acting]) -> Sect
         blocks += said
         terms += [] if term is None else [term]
     friction = rubbed(work.known, ratios.reference)
-    if not _agrees(work.known, terms, friction):
+    if not _agrees(terms, friction):
         return None
     blocks.append(
         words("In equilibrium the powers of all loads add up to zero:" if not friction else SLIDING)
@@ -230,7 +230,7 @@ def power_section(work: Worked, ratios: Ratios, loads: Sequence[Acting]) -> Sect
     return Section("Power", tuple(blocks))
 
 
-def _agrees(known: Known, terms: Sequence[ShownTerm], friction: Sequence[Rubbed]) -> bool:
+def _agrees(terms: Sequence[ShownTerm], friction: Sequence[Rubbed]) -> bool:
     """Whether the terms give the answer (centres that contradict each other a little do not)."""
     roots = [term for term in terms if term.acting.unknown and _is_root(term.acting)]
     if len(roots) != 1 or roots[0].acting.value is None:
