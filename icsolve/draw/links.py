@@ -59,7 +59,7 @@ def body_of(scene: Scene, link: str) -> DrawnBody:
     blocks = [tilted(block_place(scene, j), guide_in_picture(scene, j), *BLOCK) for j in sliding]
     blocks += crates.values()
     wheels = tuple(
-        Disc(scene.view.at(w.centre), w.radius * scene.view.scale, "wheel" if w.kind == "gear" else "body")
+        Disc(*scene.circle(w), "wheel" if w.kind == "gear" else "body")
         for w in scene.round.wheels
         if w.link == link and not w.rim
     )
@@ -208,7 +208,7 @@ def block_place(scene: Scene, joint: Guided) -> Point:
     the roller and away from what it touches."""
     p, u = scene.at[joint.at], guide_in_picture(scene, joint)
     for wheel in scene.round.wheels if joint.keeps_direction else ():
-        centre, radius = scene.view.at(wheel.centre), wheel.radius * scene.view.scale
+        centre, radius = scene.circle(wheel)
         rolled = (j for j in scene.joints() if not j.stays_known and not j.stands_in)
         touching = [scene.at[j.at or ""] for j in rolled if wheel.link in j.links]
         if math.dist(p, centre) > 1.0 or radius < BLOCK[0] / 2.0 or not touching:

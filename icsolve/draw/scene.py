@@ -324,6 +324,14 @@ class Scene(NamedTuple):
         back, forth = self.travel.get((link, place), (0.0, 0.0))
         return along(p, u, back - reach), along(p, u, forth + reach)
 
+    def circle(self, wheel: Wheel) -> tuple[Point, float]:
+        """The centre and the radius of a wheel in the picture."""
+        return self.view.at(wheel.centre), wheel.radius * self.view.scale
+
+    def carried(self, link: str) -> list[Point]:
+        """The points that a link carries and that can be placed."""
+        return [self.at[p] for p in self.case.carries.get(link, ()) if p in self.at]
+
     def joints(self) -> Iterable[Joint]:
         """The joints whose points can be placed."""
         return (joint for joint in self.case.joints if all(p in self.at for p in joint.points))

@@ -13,7 +13,6 @@ from icsolve.case import (
     Number,
     Spring,
     Stretch,
-    Torque,
     TorsionSpring,
     Units,
     Weight,
@@ -112,8 +111,7 @@ def sprung(work: Worked, acting: Acting, value: float) -> tuple[Name, Acting, li
 
 def links_of(known: Known, acting: Acting) -> list[tuple[int, str]]:
     """The links on which a load acts, with their signs: the frame does no work, a clockwise torque has -1."""
-    turn = -1 if isinstance(acting.load, Torque) and acting.load.turns == "cw" else 1
-    both = [(turn, acting.link), (-turn, acting.against)]
+    both = [(acting.sign, acting.link), (-acting.sign, acting.against)]
     return [(sign, link) for sign, link in both if link != known.case.ground]
 
 

@@ -285,9 +285,8 @@ def _of_load(
         ), [] if one.name in shown else said
     if work.pivot(acting.link) is None:
         return None, []
-    turn = -1 if isinstance(acting.load, Torque) and acting.load.turns == "cw" else 1
     per = work.number(1.0 / work.units.torque_per_force_length)
-    return RopeWork(turn, name, (Num("1"),), (per,), number, new), []
+    return RopeWork(acting.sign, name, (Num("1"),), (per,), number, new), []
 
 
 # --- screws ------------------------------------------------------------------------------------------------

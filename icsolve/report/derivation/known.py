@@ -13,7 +13,19 @@ from icsolve.answer.equilibrium import EquilibriumPosition
 from icsolve.answer.space import SpatialReaction
 from icsolve.assembly import Frame, case_point, solve_figure
 from icsolve.assembly.workspace import PlacedCase
-from icsolve.case import Case, Coordinates, ForceVector, Joint, Like, Load, Pair, Rope, is_angle, ordered_pair
+from icsolve.case import (
+    Case,
+    Coordinates,
+    ForceVector,
+    Joint,
+    Like,
+    Load,
+    Pair,
+    Rope,
+    Torque,
+    is_angle,
+    ordered_pair,
+)
 from icsolve.case.figure import Unknown
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS, turn_of
@@ -305,6 +317,11 @@ class Acting(NamedTuple):
         """Components of the force in force units; zero for a torque, and where the number is not known."""
         size = 0.0 if self.at is None else (self.value or 0.0) * self.gain
         return (size * self.direction[0], size * self.direction[1])
+
+    @property
+    def sign(self) -> int:
+        """-1 for a torque that is positive clockwise: its power has a minus in the equation."""
+        return -1 if isinstance(self.load, Torque) and self.load.turns == "cw" else 1
 
     @property
     def couple(self) -> float:
