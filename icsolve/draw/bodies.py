@@ -31,7 +31,7 @@ from icsolve.draw.marks import (
 from icsolve.draw.place import Label, Soft, joined, nearest
 from icsolve.draw.scene import Part, Scene, around, together, with_labels
 from icsolve.draw.words import force_runs, name_runs, quantity
-from icsolve.report.derivation.known import Acting, acting_loads, pulls_on, reactions_on
+from icsolve.report.derivation.known import Acting, acting_loads, pulls_on
 from icsolve.tuples import NamedTuple
 
 LONGEST = 78.0
@@ -120,7 +120,7 @@ def pushes_on(scene: Scene, link: str) -> Iterable[DrawnPush]:
     """All that acts on a link."""
     answer = scene.known.answer
     assert answer is not None
-    for name, reaction in reactions_on(answer.reactions, link):
+    for name, reaction in answer.reactions.of_link(link) if answer.reactions else ():
         yield _reaction(scene, name, reaction)
     yield from _pulls(scene, link)
     for acting in acting_loads(scene.known):

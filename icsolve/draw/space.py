@@ -35,7 +35,7 @@ from icsolve.draw.marks import (
 from icsolve.draw.place import Label, Soft, area, bar, hatched, joined, plate, tilted
 from icsolve.draw.scene import HALF, PIN, Part, around, together, with_labels
 from icsolve.draw.words import force_runs, name_runs, quantity
-from icsolve.report.derivation.known import Known, reactions_on
+from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.spatial import InSpace, Push, in_space
 from icsolve.screws.plane import add, cross, subtract
 from icsolve.screws.space import AXES, ZERO, Vec, dot, size, times
@@ -298,7 +298,7 @@ def _pushes(sketch: Sketch, known: Known, link: str) -> Iterable[On]:
     """Name, words, force, couple, and kind with place, of all that acts on a link."""
     assert known.answer is not None and known.answer.spatial is not None
     units = known.case.units
-    for name, r in reactions_on(known.answer.spatial.reactions, link):
+    for name, r in known.answer.spatial.reactions.of_link(link):
         words = "?" if r.magnitude is None else quantity(r.magnitude, units.force)
         words += f", M = {quantity(r.moment, units.torque)}" if r.moment else ""
         runs = (*force_runs(name, r.by, r.on, r.where), TextRun(f" = {words}"))

@@ -5,15 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from icsolve.answer.bodies import Reaction
-from icsolve.answer.space import SpatialReaction
+from icsolve.answer.bodies import Reaction, SpatialReaction
 from icsolve.case import is_link, is_named
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, product
 from icsolve.explain.worked import Worked, load_name
-from icsolve.report.derivation.known import Known, acting_loads, reactions_on, rope_pulls
+from icsolve.report.derivation.known import Known, acting_loads, rope_pulls
 from icsolve.report.derivation.spatial import InSpace, in_space
-from icsolve.report.published import components, spatial
+from icsolve.report.published import spatial
 from icsolve.screws.plane import subtract
 from icsolve.screws.space import ZERO, Vec, size, times
 from icsolve.tuples import NamedTuple
@@ -71,8 +70,8 @@ def reactions_section(
 
 def _acting_on(known: Known, link: str) -> Iterable[On | None]:
     """Every reaction and load on a link; None for a reaction that is not determined."""
-    assert known.answer is not None
-    for name, reaction in reactions_on(known.answer.reactions, link):
+    assert known.answer is not None and known.answer.reactions is not None
+    for name, reaction in known.answer.reactions.of_link(link):
         yield _reaction(known, name, reaction)
     for rope in known.case.ropes:
         for pull in rope_pulls(known, rope):
@@ -89,7 +88,7 @@ def _acting_on(known: Known, link: str) -> Iterable[On | None]:
 
 def _reaction(known: Known, name: str, r: Reaction | SpatialReaction) -> On | None:
     """A reaction on its second link; None of one that is not determined."""
-    (x, y, z), (mx, my, mz) = components(r)
+    (x, y, z), (mx, my, mz) = r.components
     if x is None or y is None or z is None or mx is None or my is None or mz is None:
         return None
     low = r.by + r.on if len(r.by) == len(r.on) == 1 else f"{r.by}-{r.on}"
@@ -197,7 +196,7 @@ def _link(work: Worked, scene: InSpace, link: str) -> Section:
 def _acting(known: Known, scene: InSpace, link: str) -> Iterable[On | None]:
     """All reactions and loads on a link; None for a reaction that is open."""
     assert known.answer is not None and known.answer.spatial is not None
-    for name, reaction in reactions_on(known.answer.spatial.reactions, link):
+    for name, reaction in known.answer.spatial.reactions.of_link(link):
         yield _reaction(known, name, reaction)
     for push in scene.loads:
         if link in (push.link, push.against):

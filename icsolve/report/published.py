@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 
 from icsolve.answer import Answer
-from icsolve.answer.bodies import Reaction
-from icsolve.answer.space import Parts, SpatialReaction
+from icsolve.answer.bodies import Reaction, SpatialReaction
 from icsolve.case import pair_name
 from icsolve.case.expected import ArmIs, FrictionRadiusIs, OfBodies, ReactionIs, TensionIs
 from icsolve.screws.plane import add, cross, subtract
@@ -96,7 +95,7 @@ def _arm(answer: Answer, reaction: Reaction | SpatialReaction, point: str) -> fl
     is to that line, as books draw it.
     """
     place = place_of(answer, point)
-    force, couple = components(reaction)
+    force, couple = reaction.components
     rubbed = _rubbed(answer, reaction, point) if isinstance(reaction, Reaction) else 0.0
     if None in (*force, *couple):
         raise LookupError(f"the force is not determined: {reaction.why}")
@@ -114,13 +113,6 @@ def place_of(answer: Answer, point: str) -> tuple[float, ...]:
     if point not in points:
         raise LookupError(f"the point {point} was not found")
     return points[point]
-
-
-def components(reaction: Reaction | SpatialReaction) -> tuple[Parts, Parts]:
-    """Force and couple along x, y and z."""
-    if isinstance(reaction, Reaction):
-        return (reaction.x, reaction.y, 0.0), (0.0, 0.0, reaction.moment)
-    return reaction.force, reaction.couple
 
 
 def spatial(place: tuple[float, ...]) -> Vec:

@@ -8,15 +8,14 @@ from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer, Centre, Found, Term
-from icsolve.answer.bodies import FrictionFound, Reaction, Rubbing, Witness
 from icsolve.case import Case, Coordinates, Pair, Torque, Units, is_angle, is_named, link_order, pair_name
 from icsolve.scene.parts import scene_of
 from icsolve.tuples import replace
 from icsolve.wording.senses import NOTHING, SPELT, holding, plain_vector, spelt
 
 if TYPE_CHECKING:
+    from icsolve.answer.bodies import FrictionFound, Reaction, Rubbing, Spatial, SpatialReaction, Witness
     from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
-    from icsolve.answer.space import Spatial, SpatialReaction
 
 Format = Callable[[float], str]
 """A number with the digits that were asked for."""

@@ -1,16 +1,13 @@
 """All that is known of a scene: its answer or why there is none, every point that can be placed, how the
-links move, and what loads, joints and ropes do to a link."""
+links move, and what loads and ropes do to them."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import TypeVar
+from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.answer import Answer, Centre, by_load
-from icsolve.answer.bodies import Reaction
 from icsolve.answer.equilibrium import EquilibriumPosition
-from icsolve.answer.space import SpatialReaction
 from icsolve.assembly import Frame, case_point, solve_figure
 from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import (
@@ -379,17 +376,7 @@ def joint_of_normal(joints: Iterable[Joint], lines: Sequence[Sequence[Pair]], nu
     return found[before] if before < len(found) else None
 
 
-# --- what joints and ropes do to a link ------------------------------------------------------------------
-
-
-R = TypeVar("R", Reaction, SpatialReaction)
-
-
-def reactions_on(reactions: Mapping[str, R] | None, link: str) -> Iterator[tuple[str, R]]:
-    """The reactions in the joints of a link, each as it acts on the link."""
-    for name, one in (reactions or {}).items():
-        if link in (one.by, one.on):
-            yield name, one if one.on == link else one.reversed()
+# --- what ropes do to a link -----------------------------------------------------------------------------
 
 
 class Pull(NamedTuple):
