@@ -12,7 +12,8 @@ from cams import sliding, table
 from grade_shell import CASES
 from icsolve.case import Coordinates
 from icsolve.explain.document import AsText, Document
-from icsolve.explain.given import Figures, asked_section, given_section
+from icsolve.explain.given import asked_section, given_section
+from icsolve.explain.worked import Worked
 from icsolve.report.derivation.known import Known
 from icsolve.sweep.numbers import numbers_of
 from icsolve.wording.statement import Statement
@@ -92,9 +93,8 @@ def test_every_number_of_a_plane_case_is_told(path: Path) -> None:
         for n, p in case.points.items()
         if isinstance(p, Coordinates) and p.x and p.y
     }
-    known = Known(case, None, None, None, places, {}, 0.0)
-    figures = Figures(8, 0.0, case.units)
-    sections = (given_section(known, figures), asked_section(known, figures))
+    work = Worked(Known(case, None, None, None, places, {}, 0.0), 8, 0.0)
+    sections = (given_section(work), asked_section(work))
     solution = AsText().whole(Document("", (), sections))
     question = " ".join(f"{name} {value}" for name, value in Statement(case).rows())
     for said in (question, solution):
@@ -102,6 +102,6 @@ def test_every_number_of_a_plane_case_is_told(path: Path) -> None:
         for place, number in numbers_of(case).items():
             if place == "gravity":
                 continue
-            forms = {number.digits, number.digits.lstrip("-+"), figures.number(number.value).digits}
+            forms = {number.digits, number.digits.lstrip("-+"), work.number(number.value).digits}
             forms |= {f"{number.value:.10g}", f"{abs(number.value):.10g}"}
             assert forms & words, (place, number)

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from icsolve import Answer, load, solve
-from icsolve.answer.space import SpatialReaction
+from icsolve.answer.bodies import SpatialReaction
 from icsolve.errors import CaseError, SceneError
 from icsolve.explain import explain
 from icsolve.page import page_html

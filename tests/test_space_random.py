@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from icsolve import Answer, Case, load, solve
-from icsolve.answer.space import SpatialReaction
+from icsolve.answer.bodies import SpatialReaction
 from sizes import FULL
 from space_statics import load_wrench, place
 from space_statics import solve as solve_apart

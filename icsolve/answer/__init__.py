@@ -11,9 +11,8 @@ from icsolve.errors import SceneError
 from icsolve.tuples import NamedTuple, cached_property, dataclass, field
 
 if TYPE_CHECKING:
-    from icsolve.answer.bodies import FrictionFound, Reactions, Tension, Touching, Witness
+    from icsolve.answer.bodies import FrictionFound, Reactions, Spatial, Tension, Touching, Witness
     from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
-    from icsolve.answer.space import Spatial
 
 
 class Found(NamedTuple):

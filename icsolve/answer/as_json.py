@@ -10,8 +10,16 @@ from icsolve.case import Case, is_named, pair_name
 from icsolve.errors import SceneError
 
 if TYPE_CHECKING:
-    from icsolve.answer import Answer, Centre, Found, Term, space
-    from icsolve.answer.bodies import FrictionFound, Reaction, Rubbing, Tension, Witness
+    from icsolve.answer import Answer, Centre, Found, Term
+    from icsolve.answer.bodies import (
+        FrictionFound,
+        Reaction,
+        Rubbing,
+        Spatial,
+        SpatialReaction,
+        Tension,
+        Witness,
+    )
 
 SCHEMA = "icsolve/solve/1"
 
@@ -247,7 +255,7 @@ def _rubbing(rubbing: Rubbing) -> dict[str, Any]:
     return {key: value for key, value in rubbing._asdict().items() if value is not None}
 
 
-def _space_dict(spatial: space.Spatial) -> dict[str, Any]:
+def _space_dict(spatial: Spatial) -> dict[str, Any]:
     """``reactions`` and ``free_bodies`` of the JSON object."""
     shown: dict[str, Any] = {
         "reactions": {name: _reaction_in_space(r) for name, r in spatial.reactions.items()}
@@ -257,7 +265,7 @@ def _space_dict(spatial: space.Spatial) -> dict[str, Any]:
     return shown
 
 
-def _reaction_in_space(reaction: space.SpatialReaction) -> dict[str, Any]:
+def _reaction_in_space(reaction: SpatialReaction) -> dict[str, Any]:
     x, y, z = reaction.force
     entry: dict[str, Any] = {
         "x": x,

@@ -1,11 +1,16 @@
-"""What free bodies find, as frozen values in case units."""
+"""What free bodies find, in the plane and in space, as frozen values in case units."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping
 from types import MappingProxyType
+from typing import TypeVar
 
 from icsolve.tuples import NamedTuple
+
+Parts = tuple[float | None, float | None, float | None]
+"""Components along x, y and z; None for one that equilibrium leaves open."""
 
 
 class Reaction(NamedTuple):
@@ -33,6 +38,11 @@ class Reaction(NamedTuple):
     opposite: float | None = None
     errors: Mapping[str, float] = MappingProxyType({})
 
+    @property
+    def components(self) -> tuple[Parts, Parts]:
+        """Force and couple along x, y and z."""
+        return (self.x, self.y, 0.0), (0.0, 0.0, self.moment)
+
     def reversed(self) -> Reaction:
         """The force of ``on`` on ``by``: equal and opposite."""
         x, y, moment = (None if v is None else 0.0 - v for v in (self.x, self.y, self.moment))
@@ -40,14 +50,78 @@ class Reaction(NamedTuple):
         return turned._replace(direction=self.opposite, opposite=self.direction)
 
 
-class Reactions(dict[str, Reaction]):
+class SpatialReaction(NamedTuple):
+    """The force of link ``by`` on link ``on`` at a joint, with its couple about ``at``.
+
+    ``force`` and ``couple`` are along x, y, z; a component that equilibrium leaves open is None, and ``why``
+    says so. ``kind`` is the joint's, ``where`` the name of its point. ``parts`` are shares by name:
+    ``radial``, ``thrust``, ``tangential``, ``separating``, ``axial`` (None where open). ``errors`` bounds the
+    errors of the components of force and couple; empty where none is proven.
+    """
+
+    by: str
+    on: str
+    kind: str
+    where: str
+    at: tuple[float, float, float]
+    force: Parts
+    couple: Parts
+    why: str = ""
+    parts: tuple[tuple[str, float | None], ...] = ()
+    errors: tuple[Parts, Parts] | None = None
+
+    @property
+    def components(self) -> tuple[Parts, Parts]:
+        """Force and couple along x, y and z."""
+        return self.force, self.couple
+
+    @property
+    def magnitude(self) -> float | None:
+        """Size of the force."""
+        return _size(self.force)
+
+    @property
+    def moment(self) -> float | None:
+        """Size of the couple."""
+        return _size(self.couple)
+
+    def reversed(self) -> SpatialReaction:
+        """The force of ``on`` on ``by``: equal and opposite."""
+        force, couple = _negative(self.force), _negative(self.couple)
+        return self._replace(by=self.on, on=self.by, force=force, couple=couple)
+
+
+def _size(parts: Parts) -> float | None:
+    known = [part for part in parts if part is not None]
+    return math.hypot(*known) if len(known) == 3 else None
+
+
+def _negative(parts: Parts) -> Parts:
+    x, y, z = (None if part is None else 0.0 - part for part in parts)
+    return (x, y, z)
+
+
+R = TypeVar("R", Reaction, SpatialReaction)
+
+
+class ByJoint(dict[str, R]):
     """Reactions by name; ``F43`` finds the opposite of ``F34``."""
 
-    def __missing__(self, name: str) -> Reaction:
+    def __missing__(self, name: str) -> R:
         for reaction in self.values():
             if name in names_of(reaction.on, reaction.by, reaction.where):
                 return reaction.reversed()
         raise KeyError(name)
+
+    def of_link(self, link: str) -> Iterator[tuple[str, R]]:
+        """The reactions in the joints of a link, each as it acts on the link."""
+        for name, one in self.items():
+            if link in (one.by, one.on):
+                yield name, one if one.on == link else one.reversed()
+
+
+Reactions = ByJoint[Reaction]
+SpatialReactions = ByJoint[SpatialReaction]
 
 
 class Tension(NamedTuple):
@@ -87,6 +161,18 @@ class Witness(NamedTuple):
     bodies: float
     difference: float
     bound: float
+
+
+class Spatial(NamedTuple):
+    """What a case in space has beyond its unknown loads, case units.
+
+    ``residual`` is what is left of the equilibrium of any body, as a fraction of the largest term.
+    """
+
+    points: dict[str, tuple[float, float, float]]
+    reactions: SpatialReactions
+    witnesses: tuple[Witness, ...] = ()
+    residual: float = 0.0
 
 
 class Rubbing(NamedTuple):

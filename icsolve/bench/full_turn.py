@@ -56,13 +56,14 @@ SLIDER_CRANK = (1.0, 3.0, 0.4, 10.0)
 STEPHENSON = (1.0, 3.5, 2.5, 4.0, 2.0, 1.0, 4.0, 3.0, 5.5, -1.0, 10.0)
 
 
-def four_bar(angle: Array) -> Array:
-    """Torque on the crank for one on the rocker, (rows,)."""
-    a, b, c, d, t = FOUR_BAR
+def four_bar(angle: Array, data: Sequence[Any] = FOUR_BAR) -> Array:
+    """Torque on the crank for one on the rocker, (rows,); numbers of one four-bar, or of one a row."""
+    a, b, c, d, t = data
     bx, by = a * np.cos(angle), a * np.sin(angle)
     cx, cy = _dyad(bx, by, d, 0.0, b, c)
     ex, ey = cx - bx, cy - by
-    return -t * (ey * bx - ex * by) / (ey * (cx - d) - ex * cy)
+    torque: Array = -t * (ey * bx - ex * by) / (ey * (cx - d) - ex * cy)
+    return torque
 
 
 def slider_crank(angle: Array) -> Array:

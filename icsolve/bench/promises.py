@@ -19,7 +19,7 @@ from random import Random
 import numpy as np
 
 from icsolve.bench.families import BUTTERFLY, by_sides, chain, linkage
-from icsolve.bench.full_turn import FOUR_BAR, FOUR_BAR_CASE, Array, compiled, in_c
+from icsolve.bench.full_turn import FOUR_BAR, FOUR_BAR_CASE, Array, compiled, four_bar, in_c
 from icsolve.bench.gates import USUAL, Effort, Gate, Kept, cpu_seconds, least, once, own_command, ratio, table
 from icsolve.bench.growth import butterflies, growth, memory
 from icsolve.case import Case, Number, Torque
@@ -159,9 +159,9 @@ def _families(effort: Effort, kept: Kept, sizes: tuple[int, ...]) -> str:
         angles = np.tile(np.linspace(60.0, 420.0, POSITIONS, endpoint=False), figures)
         loads = np.repeat(rng.uniform(5.0, 15.0, figures), POSITIONS)
         varied = {**sides, "angles.AB": angles, "loads.T4": loads}
-        hand = (*sides.values(), np.radians(angles), loads)
+        hand = (np.radians(angles), (*sides.values(), FOUR_BAR[3], loads))
         calls = (
-            partial(_torque, *hand),
+            partial(four_bar, *hand),
             partial(evaluator(case, tuple(varied)), *varied.values()),
             partial(sweep, case, varied),
         )
@@ -180,19 +180,6 @@ def _families(effort: Effort, kept: Kept, sizes: tuple[int, ...]) -> str:
     kept.gates.append(Gate("one row of a four-bar by the evaluator", 1e6 * one, 20, " us"))
     head = ("families, ns a row", "numpy by hand", "evaluator", "sweep", "evaluator / numpy", "sweep / numpy")
     return table(head, shown)
-
-
-def _torque(a: Array, b: Array, c: Array, angle: Array, load: Array) -> Array:
-    """As `closed.four_bar`, of arrays of lengths."""
-    d = FOUR_BAR[3]
-    bx, by = a * np.cos(angle), a * np.sin(angle)
-    dx, dy = d - bx, -by
-    s = np.sqrt(dx * dx + dy * dy)
-    along = ((s - c) * (s + c) + b * b) / (2.0 * s)
-    h = np.sqrt((s + b + c) * (b + c - s) * (s - b + c) * (s + b - c)) / (2.0 * s)
-    ex, ey = (along * dx - h * dy) / s, (along * dy + h * dx) / s
-    torque: Array = -load * (ey * bx - ex * by) / (ey * (bx + ex - d) - ex * (by + ey))
-    return torque
 
 
 # --- tables, folders and starts -------------------------------------------------------------------

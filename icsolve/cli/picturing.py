@@ -32,16 +32,9 @@ if TYPE_CHECKING:
     from icsolve.report.derivation.known import Known
 
 DRAWN = {".svg": "svg", ".tex": "tex"}
-EXPLAINED = {
-    ".txt": "text",
-    ".md": "md",
-    ".markdown": "md",
-    ".html": "html",
-    ".htm": "html",
-    ".tex": "tex",
-}
-SHEETS = {".tex": "tex"}
 PAGED = {".html": "html", ".htm": "html"}
+EXPLAINED = {".txt": "text", ".md": "md", ".markdown": "md", **PAGED, ".tex": "tex"}
+SHEETS = {".tex": "tex"}
 
 
 @click.command("draw", cls=Verb)
@@ -71,14 +64,13 @@ def draw_command(case: str, output: str | None, settings: dict[str, str], **aske
     The ending of the file says what is written: .svg, or .tex (TikZ for LaTeX). A case without an answer is
     drawn as far as it is known, with the reason below; exit status 1.
     """
-    form = form_of("draw", case, output, DRAWN)
 
-    def made(known: Known) -> str:
+    def made(known: Known, form: str) -> str:
         from icsolve.draw import Drawing, draw
 
-        return draw(known.case, Drawing(**asked), known, form or "svg")
+        return draw(known.case, Drawing(**asked), known, form)
 
-    return laid_out("draw", case, output, settings, made, reactions=asked["bodies"]) if form else UNREADABLE
+    return laid_out("draw", DRAWN, case, output, settings, made, reactions=asked["bodies"])
 
 
 @click.command("explain", cls=Verb)
@@ -106,15 +98,14 @@ def explain_command(
 
     A case without an answer is explained as far as it goes, with the reason; exit status 1.
     """
-    form = form or form_of("explain", case, output, EXPLAINED)
 
-    def made(known: Known) -> bytes:
+    def made(known: Known, form: str) -> bytes:
         from icsolve.explain import explain
 
-        text = explain(known.case, form or "text", digits, bodies=bodies, known=known)
+        text = explain(known.case, form, digits, bodies=bodies, known=known)
         return text.encode("utf-8", "backslashreplace")
 
-    return laid_out("explain", case, output, settings, made) if form else UNREADABLE
+    return laid_out("explain", EXPLAINED, case, output, settings, made, form)
 
 
 @click.command("page", cls=Verb)
@@ -133,13 +124,12 @@ def page_command(case: str, output: str | None, settings: dict[str, str]) -> int
     the reason; one without an answer too, with exit status 1.
     """
 
-    def made(known: Known) -> str:
+    def made(known: Known, _form: str) -> str:
         from icsolve.page import page_html
 
         return page_html(known)
 
-    known_ending = form_of("page", case, output, PAGED)
-    return laid_out("page", case, output, settings, made) if known_ending else UNREADABLE
+    return laid_out("page", PAGED, case, output, settings, made)
 
 
 @click.command("sheet", cls=Verb)
@@ -166,7 +156,7 @@ def sheet_command(
     except (OSError, ValueError) as error:
         complain(f"icsolve sheet: {variants or '--student'}: {error}")
         return UNREADABLE
-    from icsolve.explain.sheet import Exercise, exercise, sheet_tex
+    from icsolve.explain.typeset import Exercise, exercise, sheet_tex
 
     sheets: list[tuple[str, list[Exercise]]] = []
     worst = DONE
@@ -231,22 +221,26 @@ def form_of(verb: str, case: str, output: str | None, endings: Mapping[str, str]
 
 def laid_out(
     verb: str,
+    endings: Mapping[str, str],
     argument: str,
     output: str | None,
     settings: Mapping[str, str],
-    made: Callable[[Known], str | bytes],
+    made: Callable[[Known, str], str | bytes],
+    asked: str | None = None,
     *,
     reactions: bool = True,
 ) -> int:
-    """Write what is made of one case that was solved as far as it goes; returns the exit status."""
-    if not one_source(verb, argument):
+    """Write what is made of one case that was solved as far as it goes, in the form that is ``asked`` or that
+    the ending of the file means; returns the exit status."""
+    form = asked or form_of(verb, argument, output, endings)
+    if form is None or not one_source(verb, argument):
         return UNREADABLE
 
     def work(case: Case, path: str) -> int:
         from icsolve.report.derivation.known import known_of
 
         known = known_of(case, reactions=reactions)
-        code = write_output(verb, made(known), output)
+        code = write_output(verb, made(known, form), output)
         if known.refusal is not None:
             on_stderr(case, path, known.refusal)
             return max(code, NO_ANSWER)

@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from icsolve.case import Case
-    from icsolve.sweep import Sweep
 
     Values = npt.NDArray[np.float64]
 
@@ -256,24 +255,22 @@ def _table(read: Case, path: str, asked: SweepOptions) -> int:
             what, path = "--drive" if driven else "--plot", read.unknowns[0].path
             raise RequestError(f"{path} is unknown, and {what} is for a case in which it is given")
         content, some = _positions_table(read, varied, asked.suffix)
-        return _written([content], asked.output, asked) or (DONE if some else NO_ANSWER)
+        return _written([content], asked.output) or (DONE if some else NO_ANSWER)
     with Progress(math.prod(len(values) for _, values in (*asked.vary, *asked.drive))) as progress:
         found = sweep(read, varied, asked.want, drive=driven, progress=progress.told)
     for note in found.notes:
         complain(f"{path}: {note}")
-    code = _pictured(found, asked) if asked.plot is not None else DONE
+    code = DONE
+    if asked.plot is not None:
+        from icsolve.draw.plot import sweep_svg
+
+        code = _written(sweep_svg(found), asked.plot)
     if asked.plot is None or asked.output is not None:
-        code = max(code, _written(FORMATS[asked.suffix](found), asked.output, asked))
+        code = max(code, _written(FORMATS[asked.suffix](found), asked.output))
     return code or (DONE if (found.status == "ok").any() else NO_ANSWER)
 
 
-def _pictured(found: Sweep, asked: SweepOptions) -> int:
-    from icsolve.draw.plot import sweep_svg
-
-    return _written(sweep_svg(found), asked.plot, asked)
-
-
-def _written(content: str | Iterable[bytes], path: str | None, asked: SweepOptions) -> int:
+def _written(content: str | Iterable[bytes], path: str | None) -> int:
     """Write a table or a picture; that a file was there is said."""
     there = path is not None and os.path.isfile(path)
     code = write_output("sweep", content, path)
@@ -290,7 +287,7 @@ def _find(read: Case, path: str, asked: SweepOptions) -> int:
     text = as_json(read, found) if asked.as_json else as_text(read, found, asked.digits)
     for note in () if asked.as_json else found.notes:
         complain(f"{path}: {note}")
-    return _written(text, asked.output, asked)
+    return _written(text, asked.output)
 
 
 def _columns(asked: SweepOptions) -> tuple[Mapping[str, Values], Mapping[str, Values]]:

@@ -12,7 +12,7 @@ from icsolve.answer.bodies import Reaction
 from icsolve.case import is_link
 from icsolve.draw.frame import point_parts, rims
 from icsolve.draw.links import bars, body_of, link_part, wheel_parts
-from icsolve.draw.loads import ARC, axle, heads, hidden, ways
+from icsolve.draw.loads import ARC, axle, heads, hidden, kind_of, ways
 from icsolve.draw.marks import (
     Box,
     Disc,
@@ -25,13 +25,13 @@ from icsolve.draw.marks import (
     arrow,
     bounds,
     moved,
+    plain_text,
     turning,
 )
 from icsolve.draw.place import Label, Soft, joined, nearest
 from icsolve.draw.scene import Part, Scene, around, together, with_labels
 from icsolve.draw.words import force_runs, name_runs, quantity
-from icsolve.report.derivation.known import Acting, acting_loads
-from icsolve.report.derivation.ropes import pulls_on
+from icsolve.report.derivation.known import Acting, acting_loads, pulls_on
 from icsolve.tuples import NamedTuple
 
 LONGEST = 78.0
@@ -120,9 +120,8 @@ def pushes_on(scene: Scene, link: str) -> Iterable[DrawnPush]:
     """All that acts on a link."""
     answer = scene.known.answer
     assert answer is not None
-    for name, reaction in (answer.reactions or {}).items():
-        if link in (reaction.by, reaction.on):
-            yield _reaction(scene, name, reaction if reaction.on == link else reaction.reversed())
+    for name, reaction in answer.reactions.of_link(link) if answer.reactions else ():
+        yield _reaction(scene, name, reaction)
     yield from _pulls(scene, link)
     for acting in acting_loads(scene.known):
         if not is_link(acting.link):
@@ -155,21 +154,16 @@ def _reaction(scene: Scene, name: str, reaction: Reaction) -> DrawnPush:
         known = TextRun(f" = {quantity(abs(part), scene.case.units.force)}")
         force = (0.0, -part) if axis == "y" else (part, 0.0)
         return DrawnPush(words, (runs[0], low, known), "reaction", at, force, 0.0)
-    size = math.hypot(reaction.x, reaction.y)
+    size, force = math.hypot(reaction.x, reaction.y), (reaction.x, -reaction.y)
+    text: tuple[TextRun, ...] = (*runs, TextRun(f" = {quantity(size, scene.case.units.force)}"))
     offset = _off_pin(scene, reaction, size)
     if offset is not None:
         p = scene.view.at((reaction.at[0] + offset[0], reaction.at[1] + offset[1]))
-        said = (*runs, TextRun(f" = {quantity(size, scene.case.units.force)}"))
-        return DrawnPush(words, said, "reaction", p, (reaction.x, -reaction.y), 0.0, circle=at)
-    text: tuple[TextRun, ...] = (*runs, TextRun(f" = {quantity(size, scene.case.units.force)}"))
+        return DrawnPush(words, text, "reaction", p, force, 0.0, circle=at)
     if reaction.moment and abs(reaction.moment) > NOTHING * size * scene.known.size:
-        couple = (
-            TextRun(", M"),
-            runs[1],
-            TextRun(f" = {quantity(abs(reaction.moment), scene.case.units.torque)}"),
-        )
-        text = (*text, *couple)
-    return DrawnPush(words, text, "reaction", at, (reaction.x, -reaction.y), reaction.moment or 0.0)
+        couple = quantity(abs(reaction.moment), scene.case.units.torque)
+        text = (*text, TextRun(", M"), runs[1], TextRun(f" = {couple}"))
+    return DrawnPush(words, text, "reaction", at, force, reaction.moment or 0.0)
 
 
 def _off_pin(scene: Scene, reaction: Reaction, size: float) -> Point | None:
@@ -186,17 +180,15 @@ def _off_pin(scene: Scene, reaction: Reaction, size: float) -> Point | None:
 
 
 def _load(scene: Scene, acting: Acting, sign: float) -> DrawnPush:
-    kind = "unknown" if acting.unknown else "known"
-    name = f"body-load-{acting.load.name}-on-{acting.link if sign > 0 else acting.against}"
+    kind, link = kind_of(acting), acting.link if sign > 0 else acting.against
+    name = f"body-load-{acting.load.name}-on-{link}"
     x, y = acting.force
     value = abs(acting.value or 0.0) if acting.at is None else math.hypot(x, y)
     unit = scene.case.units.torque if acting.at is None else scene.case.units.force
     words = (*name_runs(acting.load.name), TextRun(f" = {quantity(value, unit)}"))
     place = acting.at if acting.at is None or sign > 0.0 else _other_end(scene, acting)
-    if place is None:
-        link = acting.link if sign > 0 else acting.against
-        return DrawnPush(name, words, kind, axle(scene, link) or (0.0, 0.0), (0.0, 0.0), sign * acting.couple)
-    return DrawnPush(name, words, kind, scene.view.at(place), (sign * x, -sign * y), 0.0)
+    at = (axle(scene, link) or (0.0, 0.0)) if place is None else scene.view.at(place)
+    return DrawnPush(name, words, kind, at, (sign * x, -sign * y), sign * acting.couple)
 
 
 def _other_end(scene: Scene, acting: Acting) -> Point | None:
@@ -209,35 +201,36 @@ def _other_end(scene: Scene, acting: Acting) -> Point | None:
 def _panel(scene: Scene, link: str, pushes: Sequence[DrawnPush], largest: float) -> list[Mark]:
     body = body_of(scene, link)
     solid = bars(body)
-    alone = scene._replace(
-        at={p: q for p, q in scene.at.items() if p in scene.case.carries.get(link, ())},
-    )
+    own = scene.case.carries.get(link, ())
+    alone = scene._replace(at={p: q for p, q in scene.at.items() if p in own})
     parts = [*wheel_parts([body]), *rims(scene, link), link_part(scene, body)]
-    parts += [_point(p) for p in dict.fromkeys(alone.at.values())]
+    dots = dict.fromkeys(alone.at.values())
+    parts += [Part((Disc(p, 2.4, "dot"),), (), (around(p, 2.8),)) for p in dots]
     taken = solid
-    for n, push in enumerate(
-        sorted(pushes, key=lambda push: not push.pull)
-    ):  # a rope can't be drawn otherwise
+    pulls_first = sorted(pushes, key=lambda push: not push.pull)  # a rope can't be drawn otherwise
+    for n, push in enumerate(pulls_first):
         drawn = list(_drawn(scene, push, largest, solid, n, taken))
         taken = joined([taken, *(soft.geometry for part in drawn for soft in part.soft)])
         parts += drawn
     parts += [part._replace(marks=()) for part in point_parts(alone)]
-    left, top, right, bottom = bounds(together(parts).marks)
-    window: Box = (left - ROUND, top - ROUND, right + ROUND, bottom + ROUND)
-    marks = [renamed(link, mark) for mark in with_labels(together(parts), window)]
+    return panel(link, parts, ROUND)
+
+
+def panel(link: str, parts: Iterable[Part], room: float = 0.0) -> list[Mark]:
+    """A link by itself, with its labels in so much room around it."""
+    whole = together(parts)
+    left, top, right, bottom = bounds(whole.marks)
+    window: Box = (left - room, top - room, right + room, bottom + room)
+    marks = (_renamed(link, mark) for mark in with_labels(whole, window))
     return [MarkGroup(f"body-{link}", "", tuple(marks), f"link {link} by itself")]
 
 
-def renamed(link: str, mark: Mark) -> Mark:
+def _renamed(link: str, mark: Mark) -> Mark:
     """Ids stand once: those that the figure has too get a prefix."""
     own = ("reaction-", "body-", "label-reaction", "label-body")
     if isinstance(mark, MarkGroup) and mark.name and not mark.name.startswith(own):
         return mark._replace(name=f"free-{link}-{mark.name}")
     return mark
-
-
-def _point(p: Point) -> Part:
-    return Part((Disc(p, 2.4, "dot"),), (), (around(p, 2.8),))
 
 
 def _drawn(
@@ -269,5 +262,5 @@ def _drawn(
         anchors.append((push.at[0], push.at[1] + ARC - 6.0))
     soft += heads(marks)
     label = Label(f"label-{push.name}", push.words, f"t-{push.kind}", 12.5, tuple(anchors), 6.0)
-    title = "".join(run.text for run in push.words)
-    yield Part((MarkGroup(push.name, "", tuple(marks), title),) if marks else (), tuple(soft), (), (label,))
+    group = MarkGroup(push.name, "", tuple(marks), plain_text(push.words))
+    yield Part((group,) if marks else (), tuple(soft), (), (label,))

@@ -87,8 +87,12 @@ def _lines(scene: Scene, spots: dict[Pair, CentreSpot], step: Step) -> Iterable[
         marks = tuple(Stroke(piece, "construction") for piece in pieces)
         name = f"line-{_name(scene.known, step.centre.pair)}-{number}"
         soft = tuple(Soft(shapely.LineString(piece), 0.7) for piece in pieces)
-        data = (("data-step", str(step.number)),)
-        yield Part((MarkGroup(name, "", marks, title, data),), soft)
+        yield Part((MarkGroup(name, "", marks, title, _step_data(step)),), soft)
+
+
+def _step_data(step: Step) -> tuple[tuple[str, str], ...]:
+    """By which a page shows a step."""
+    return (("data-step", str(step.number)),)
 
 
 def _chain(places: Sequence[CentreSpot]) -> tuple[Point, ...]:
@@ -230,17 +234,21 @@ def circle_marks(
     places = _places(links, centre, radius)
     chords = Part(tuple(mark for step in steps for mark in _chord(known, places, step)))
     now = [step for step in steps if step.number and (each or step.number == lit)]
-    triangles = [mark for step in now for mark in _triangles(places, step)]
+    triangles: list[Mark] = [mark for step in now for mark in _triangles(places, step)]
     if each:
-        triangles = [_of_step(f"closed-{s.number}", s, _triangles(places, s)) for s in now]
+        triangles = [
+            MarkGroup(f"closed-{s.number}", "", tuple(_triangles(places, s)), "", _step_data(s)) for s in now
+        ]
     numbers = Part(
-        soft=tuple(Soft(shapely.LineString([places[a], places[b]]), 0.5) for a, b in _pairs(steps)),
+        soft=tuple(Soft(shapely.LineString([places[link] for link in s.centre.pair]), 0.5) for s in steps),
         solid=tuple(around(p, node) for p in places.values()),
         labels=tuple(_order(places, step) for step in steps if step.number),
     )
     title = TextMark((centre[0], at[1] + 6.0), (TextRun("Kennedy circle"),), "t-note", 12.0)
     window: Box = (at[0], at[1], at[0] + 2.0 * (radius + node), at[1] + 2.0 * (radius + node) + 22.0)
-    nodes = [mark for link, p in places.items() for mark in _node(link, p, node)]
+    nodes: list[Mark] = []
+    for link, p in places.items():
+        nodes += [Disc(p, node, "node"), TextMark(p, (TextRun(link),), "t-link", SIZE)]
     marks = [title, *triangles, *with_labels(chords, window), *nodes, *with_labels(numbers, window)]
     return [MarkGroup("circle", "", tuple(marks), "Kennedy circle diagram")]
 
@@ -260,17 +268,13 @@ def _places(links: Sequence[str], centre: Point, radius: float) -> dict[str, Poi
     }
 
 
-def _pairs(steps: Sequence[Step]) -> list[Pair]:
-    return [step.centre.pair for step in steps]
-
-
 def _chord(known: Known, places: dict[str, Point], step: Step) -> list[Mark]:
     a, b = step.centre.pair
     kind = "edge-found" if step.number else "edge-known"
     name = pair_name(known.case, step.centre.pair)
     found = f", found as number {step.number}" if step.number else ", by inspection"
-    data = (("data-step", str(step.number)),)
-    return [MarkGroup(f"chord-{name}", "", (Stroke((places[a], places[b]), kind),), f"I{name}{found}", data)]
+    line = Stroke((places[a], places[b]), kind)
+    return [MarkGroup(f"chord-{name}", "", (line,), f"I{name}{found}", _step_data(step))]
 
 
 def _triangles(places: dict[str, Point], step: Step) -> list[Mark]:
@@ -283,10 +287,6 @@ def _triangles(places: dict[str, Point], step: Step) -> list[Mark]:
     return marks
 
 
-def _of_step(name: str, step: Step, marks: Sequence[Mark]) -> MarkGroup:
-    return MarkGroup(name, "", tuple(marks), "", (("data-step", str(step.number)),))
-
-
 def _order(places: dict[str, Point], step: Step) -> Label:
     """The number of a found chord, near its middle."""
     a, b = (places[link] for link in step.centre.pair)
@@ -294,7 +294,3 @@ def _order(places: dict[str, Point], step: Step) -> Label:
     return Label(
         f"order-{step.number}", (TextRun(str(step.number)),), "t-centre", SIZE, anchors, 1.0, True, True
     )
-
-
-def _node(link: str, p: Point, reach: float) -> list[Mark]:
-    return [Disc(p, reach, "node"), TextMark(p, (TextRun(link),), "t-link", SIZE)]

@@ -4,7 +4,7 @@ asked for: which steps and panels, what stands above and below them."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from itertools import combinations
 
 import shapely
@@ -146,7 +146,7 @@ def figure_marks(scene: Scene, steps: Sequence[Step], *, velocities: bool) -> li
     parts = [
         *mechanism.parts,
         *centre_parts(scene, steps),
-        *load_parts(scene, _filled(mechanism.filled, speeds)),
+        *load_parts(scene, joined([mechanism.filled, *(soft.geometry for p in speeds for soft in p.soft)])),
         *_supports(scene, mechanism.filled),
         *speeds,
         *point_parts(scene),
@@ -168,11 +168,6 @@ def _hides_its_foot(scene: Scene, body: DrawnBody) -> bool:
     plate, pins = inside_plate(body), scene.case.pivots(body.link, scene.case.ground)
     places = (scene.at[pin] for pin in pins if pin in scene.at)
     return any(shapely.contains(plate, shapely.Point(place).buffer(FOOT)) for place in places)
-
-
-def _filled(links: shapely.Geometry, parts: Iterable[Part]) -> shapely.Geometry:
-    """What the arrow of a load had better not cover."""
-    return joined([links, *(soft.geometry for part in parts for soft in part.soft)])
 
 
 # --- the drawing that is asked for -----------------------------------------------------------------------

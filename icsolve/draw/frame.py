@@ -145,16 +145,15 @@ def _rail(scene: Scene, joint: Guided, links: shapely.Geometry) -> FramePiece:
 
 def _beside_cams(scene: Scene, p: Point, a: Point, b: Point) -> Iterable[tuple[Point, Point]]:
     """The part of a rail next to p that does not run through a cam."""
-    profiles = [
+    shapes = [
         shapely.Polygon(map(scene.view.at, corners))
         for _, corners in outlines(scene.case, scene.known.points)
     ]
-    discs = [
-        shapely.Point(scene.view.at(w.centre)).buffer(w.radius * scene.view.scale)
-        for w in scene.round.wheels
-        if w.kind == "cam"
-    ]
-    cams = joined([*profiles, *discs]).buffer(8.0)
+    for wheel in scene.round.wheels:
+        if wheel.kind == "cam":
+            centre, radius = scene.circle(wheel)
+            shapes.append(shapely.Point(centre).buffer(radius))
+    cams = joined(shapes).buffer(8.0)
     clear = shapely.difference(shapely.LineString([a, b]), cams)
     pieces = [piece for piece in getattr(clear, "geoms", (clear,)) if piece.length > 12.0]
     if pieces:
@@ -215,7 +214,7 @@ def _surface(scene: Scene, edge: Edge) -> FramePiece:
 
 def _annulus(scene: Scene, wheel: Wheel) -> FramePiece:
     """A pitch circle of the frame with hatching outside."""
-    centre, radius = scene.view.at(wheel.centre), wheel.radius * scene.view.scale
+    centre, radius = scene.circle(wheel)
     count = max(int(2.0 * math.pi * radius / 9.0), 12)
     marks: list[Mark] = [Disc(centre, radius, "rim" if wheel.kind == "gear" else "foot")]
     outer = radius + 5.0 if wheel.rim else radius - 5.0
@@ -239,7 +238,7 @@ def rims(scene: Scene, link: str = "") -> list[Part]:
     parts = []
     for wheel in scene.round.wheels:
         if wheel.rim and wheel.link != scene.case.ground and link in ("", wheel.link):
-            centre, radius = scene.view.at(wheel.centre), wheel.radius * scene.view.scale
+            centre, radius = scene.circle(wheel)
             marks = (Disc(centre, radius, "rim"), Disc(centre, radius + 7.0, "frame"))
             ring = shapely.Point(centre).buffer(radius + 3.0).boundary
             spots = tuple(_polar(centre, radius + 7.0, a) for a in (-0.8, -2.3, 0.8, 2.3))
@@ -280,7 +279,7 @@ def _symbol(scene: Scene, joint: Joint) -> list[Mark]:
         case Roll() | Contact():
             return [Disc(p, 2.4, "dot")]
         case Weld():
-            return [_square(p)]
+            return [area(shapely.box(p[0] - 4.0, p[1] - 4.0, p[0] + 4.0, p[1] + 4.0), "pin")]
         case KnownCentre():
             return [Disc(p, 4.0, "primary")]
         case Gears() | Belt():  # their wheels show them
@@ -296,10 +295,6 @@ def _friction_circle(scene: Scene, joint: Joint, p: Point) -> list[Mark]:
         return []
     radius = friction.radius.value * math.sin(math.atan(friction.mu.value)) * scene.view.scale
     return [Disc(p, radius, "box")] if radius > 1.0 else []
-
-
-def _square(p: Point) -> Mark:
-    return area(shapely.box(p[0] - 4.0, p[1] - 4.0, p[0] + 4.0, p[1] + 4.0), "pin")
 
 
 def point_parts(scene: Scene) -> list[Part]:

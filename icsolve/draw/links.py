@@ -51,27 +51,31 @@ def body_of(scene: Scene, link: str) -> DrawnBody:
     geneva = _geneva(scene, link)
     if geneva is not None:
         return DrawnBody(link, geneva, (), (), (), tuple(points))
-    levers = list(_slots(scene, link))
-    rods = list(_rods(scene, link))
+    levers = list(_lines(scene, link, SLOT, turns=True))
+    rods = list(_lines(scene, link, RAIL, turns=False))
     crates = dict(_crates(scene, link, [*levers, *rods]))
     points = [p for p in points if p not in crates]
-    blocks = (*_blocks(scene, link), *crates.values())
+    sliding = list(_guided(scene, link, 0, turns=False))
+    blocks = [tilted(block_place(scene, j), guide_in_picture(scene, j), *BLOCK) for j in sliding]
+    blocks += crates.values()
     wheels = tuple(
-        Disc(scene.view.at(w.centre), w.radius * scene.view.scale, "wheel" if w.kind == "gear" else "body")
+        Disc(*scene.circle(w), "wheel" if w.kind == "gear" else "body")
         for w in scene.round.wheels
         if w.link == link and not w.rim
     )
-    square = not _pivots(scene, link)
+    square = not any(p in scene.at for p in scene.case.pivots(link, scene.case.ground))
     parts = [*_frame_of_points(points, rods, levers, wheels, square=square)]
     parts += [bar(ends, 11.0) for ends in levers]
-    parts += [*_stems(scene, link), *_cams(scene, link), *_profiles(scene, link)]
+    stems = ((scene.at[joint.at], block_place(scene, joint)) for joint in sliding)  # of followers
+    parts += [bar(ends, HALF) for ends in stems if ends[0] != ends[1]]
+    parts += [*_cams(scene, link), *_profiles(scene, link)]
     parts += _edges(scene, link, points, square=square)
     dashed = bool(points) and all(j.stands_in for j in scene.case.joints if link in j.links)
     if dashed:
         parts = [plate(points, 4.0)] if len(points) != 2 else [bar(points, 0.01)]
     shape = joined(parts) if parts else None
     holes = tuple(bar(_inside(ends), PIN + 0.8) for ends in levers)
-    return DrawnBody(link, shape, wheels, blocks, holes, _anchors(points, rods, wheels, shape), dashed)
+    return DrawnBody(link, shape, wheels, tuple(blocks), holes, _anchors(points, rods, wheels, shape), dashed)
 
 
 def _only_slides(scene: Scene, link: str) -> bool:
@@ -199,17 +203,12 @@ def _guided(scene: Scene, link: str, place: int, *, turns: bool) -> Iterable[Gui
     return (joint for joint in joints if joint.keeps_direction != turns)
 
 
-def _blocks(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
-    for joint in _guided(scene, link, 0, turns=False):
-        yield tilted(block_place(scene, joint), guide_in_picture(scene, joint), *BLOCK)
-
-
 def block_place(scene: Scene, joint: Guided) -> Point:
     """Where a block is drawn: at its point; where a roller is about that, on the stem of the follower, beyond
     the roller and away from what it touches."""
     p, u = scene.at[joint.at], guide_in_picture(scene, joint)
     for wheel in scene.round.wheels if joint.keeps_direction else ():
-        centre, radius = scene.view.at(wheel.centre), wheel.radius * scene.view.scale
+        centre, radius = scene.circle(wheel)
         rolled = (j for j in scene.joints() if not j.stays_known and not j.stands_in)
         touching = [scene.at[j.at or ""] for j in rolled if wheel.link in j.links]
         if math.dist(p, centre) > 1.0 or radius < BLOCK[0] / 2.0 or not touching:
@@ -220,25 +219,11 @@ def block_place(scene: Scene, joint: Guided) -> Point:
     return p
 
 
-def _stems(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
-    """From the points of followers to their blocks."""
-    for joint in _guided(scene, link, 0, turns=False):
-        place = block_place(scene, joint)
-        if place != scene.at[joint.at]:
-            yield bar([scene.at[joint.at], place], HALF)
-
-
-def _rods(scene: Scene, link: str) -> Iterable[tuple[Point, Point]]:
-    """The rods of a moving link along which blocks of others slide."""
-    for joint in _guided(scene, link, 1, turns=False):
+def _lines(scene: Scene, link: str, reach: float, *, turns: bool) -> Iterable[tuple[Point, Point]]:
+    """The rods of a moving link along which blocks of others slide, or the slots in which their pins turn."""
+    for joint in _guided(scene, link, 1, turns=turns):
         p, u = scene.at[joint.at], guide_in_picture(scene, joint)
-        yield scene.ends(link, scene.known.points[joint.at], p, u, RAIL)
-
-
-def _slots(scene: Scene, link: str) -> Iterable[tuple[Point, Point]]:
-    for joint in _guided(scene, link, 1, turns=True):
-        p, u = scene.at[joint.at], guide_in_picture(scene, joint)
-        yield scene.ends(link, scene.known.points[joint.at], p, u, SLOT)
+        yield scene.ends(link, scene.known.points[joint.at], p, u, reach)
 
 
 def _inside(lever: tuple[Point, Point]) -> list[Point]:
@@ -272,11 +257,6 @@ def _frame_of_points(
         yield plate(held, HALF)
     elif not lines and len(held) == 1 and not wheels:
         yield bar(held, HALF + 2.5)
-
-
-def _pivots(scene: Scene, link: str) -> bool:
-    """Whether a link turns about a pin on the frame."""
-    return any(p in scene.at for p in scene.case.pivots(link, scene.case.ground))
 
 
 def _stem(line: shapely.LineString, p: Point, *, square: bool) -> list[Point]:

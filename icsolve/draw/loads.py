@@ -4,7 +4,7 @@ with the answer beside it. Velocities of the points, square to their radii."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 
 import shapely
 
@@ -246,8 +246,7 @@ def _torque(scene: Scene, acting: Acting, turned: dict[Point, int]) -> Part | No
     earlier = turned.setdefault(centre, 0)
     turned[centre] += 1
     radius = ARC + 11.0 * earlier
-    others = [scene.at[p] for p in scene.case.carries.get(link, ()) if p in scene.at]
-    far = max(others, key=lambda p: math.dist(p, centre), default=centre)
+    far = max(scene.carried(link), key=lambda p: math.dist(p, centre), default=centre)
     gap = math.degrees(math.atan2(centre[1] - far[1], far[0] - centre[0])) if far != centre else 270.0
     ccw = acting.couple > 0.0 or (not acting.couple and acting.gain > 0.0)
     marks = turning(centre, radius, gap + (50.0 if ccw else -50.0), ccw, kind_of(acting))
@@ -268,10 +267,9 @@ def axle(scene: Scene, link: str) -> Point | None:
         place = scene.view.at((own.place[0], own.place[1]))
         if scene.view.holds(place):
             return place
-    points = [scene.at[p] for p in scene.case.carries.get(link, ()) if p in scene.at]
     wheels = [scene.view.at(w.centre) for w in scene.round.wheels if w.link == link]
     joints = [scene.at[at] for j in scene.joints() if link in j.links and (at := getattr(j, "at", None))]
-    return next(iter([*wheels, *points, *joints]), None)
+    return next(iter([*wheels, *scene.carried(link), *joints]), None)
 
 
 def _following(acting: Acting, marks: Iterable[Mark], *more: tuple[str, str]) -> MarkGroup:
@@ -319,7 +317,8 @@ def velocity_parts(scene: Scene) -> list[Part]:
         length = LONGEST * size / fastest
         if length < LEAST:
             continue
-        parts.append(_arrow(scene, point, link, (v[0] / size, -v[1] / size), length, _shared(found, point)))
+        several = sum(other == point for other, _ in found) > 1  # one for each of its links
+        parts.append(_arrow(scene, point, link, (v[0] / size, -v[1] / size), length, several))
     return parts
 
 
@@ -334,11 +333,6 @@ def _velocities(scene: Scene) -> dict[tuple[str, str], Point]:
         if not any(other == point and math.dist(v, w) <= least for (other, _), w in found.items()):
             found[(point, link)] = v
     return found
-
-
-def _shared(found: Mapping[tuple[str, str], Point], point: str) -> bool:
-    """Whether a point has several velocities, one for each of its links."""
-    return sum(1 for other, _ in found if other == point) > 1
 
 
 def _arrow(scene: Scene, point: str, link: str, u: Point, length: float, several: bool) -> Part:

@@ -143,7 +143,11 @@ def box_of(mark: AreaMark | Stroke | Disc | ArcMark | TextMark) -> Box:
 
 def bounds(marks: Iterable[Mark]) -> Box:
     """The rectangle around marks; empty at the origin where there are none."""
-    boxes = [box_of(mark) for mark in leaves(marks)]
+    return around_all([box_of(mark) for mark in leaves(marks)])
+
+
+def around_all(boxes: Sequence[Box]) -> Box:
+    """The rectangle around rectangles; empty at the origin where there are none."""
     if not boxes:
         return (0.0, 0.0, 0.0, 0.0)
     left, top, right, bottom = zip(*boxes, strict=True)
@@ -217,7 +221,7 @@ def view_of(
     mechanism: Sequence[Box], centres: Iterable[Point], size: float, room: Point = (WIDTH, HEIGHT)
 ) -> View:
     """The view of a mechanism (rectangles in case units) and of those centres that are not far, in a room."""
-    left, low, right, high = _grown(mechanism) if mechanism else (0.0, 0.0, 0.0, 0.0)
+    left, low, right, high = around_all(mechanism)
     span = max(right - left, high - low, 0.2 * size) or 1.0
     middle = ((left + right) / 2.0, (low + high) / 2.0)
     for x, y in sorted(centres, key=lambda p: math.dist(p, middle)):
@@ -228,11 +232,6 @@ def view_of(
     scale = min(room[0] / width, room[1] / height, 0.75 * max(room) / (0.4 * span))
     half = (width * scale / 2.0 + MARGIN, height * scale / 2.0 + MARGIN)
     return View(scale, ((left + right) / 2.0, (low + high) / 2.0), (-half[0], -half[1], *half))
-
-
-def _grown(boxes: Sequence[Box]) -> Box:
-    lefts, lows, rights, highs = zip(*boxes, strict=True)
-    return (min(lefts), min(lows), max(rights), max(highs))
 
 
 def direction(degrees: float) -> Point:
@@ -275,13 +274,10 @@ def arrow(tail: Point, tip: Point, kind: str, size: float = HEAD) -> tuple[Mark,
     return (Stroke((tail, neck), kind), head(tip, u, f"{kind}-head", size))
 
 
-def turning(
-    centre: Point, radius: float, start: float, ccw: bool, kind: str, sweep: float = 250.0
-) -> tuple[Mark, ...]:
+def turning(centre: Point, radius: float, start: float, ccw: bool, kind: str) -> tuple[Mark, ...]:
     """An arc with a head, counterclockwise or clockwise as seen, from a direction in degrees."""
-    sign = 1.0 if ccw else -1.0
     lean = math.degrees(0.75 * HEAD / radius)
-    arc = ArcMark(centre, radius, start, sign * (sweep - lean), kind)
-    tip = arc.at(sign * sweep)
-    tail = arc.at(sign * (sweep - lean * 1.25))
+    sweep, lean = (250.0, lean) if ccw else (-250.0, -lean)
+    arc = ArcMark(centre, radius, start, sweep - lean, kind)
+    tip, tail = arc.at(sweep), arc.at(sweep - lean * 1.25)
     return (arc, head(tip, unit(tip[0] - tail[0], tip[1] - tail[1]), f"{kind}-head"))

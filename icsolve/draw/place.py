@@ -27,7 +27,6 @@ from icsolve.draw.marks import (
     TextMark,
     TextRun,
     along,
-    plain_text,
     text_width,
     unit,
 )
@@ -292,8 +291,3 @@ def _badge(at: Point, half: Point) -> Mark:
         return Disc(at, half[1], "badge")
     reach = half[0] - half[1]
     return area(bar([(at[0] - reach, at[1]), (at[0] + reach, at[1])], half[1]), "badge")
-
-
-def said(label: Label) -> str:
-    """What a label says."""
-    return plain_text(label.runs)

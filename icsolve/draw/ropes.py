@@ -20,7 +20,7 @@ from icsolve.draw.words import quantity
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.numbers.units import Number
-from icsolve.report.derivation.ropes import tension_name
+from icsolve.report.derivation.known import tension_name
 from icsolve.screws.ropes import offsets_of, rope_parts
 from icsolve.tuples import NamedTuple
 

@@ -6,7 +6,7 @@ Gear wheels, pulleys, rolling wheels, cams and racks are found in case units; ro
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 
 from icsolve.case import Case, Joint, Spring
@@ -62,33 +62,29 @@ class Round(NamedTuple):
 
 def round_things(case: Case, points: Mapping[str, Point]) -> Round:
     """The wheels, edges, belts and cams whose places are known."""
-    wheels: list[Wheel] = []
-    edges: list[Edge] = []
+    things: list[Wheel | Edge] = []
     loops: list[BeltLoop] = []
     cams: list[Sliding] = []
     for bond in _meshes(case):
         if set(bond.pivots) <= set(points):
             both = _mesh(bond, points)
-            wheels += both
+            things += both
             if isinstance(bond.joint, Mesh) and bond.joint.pulls:
                 loops.append(BeltLoop(both[0], both[1], not bond.joint.turns_alike))
     for joint in case.joints:
         if isinstance(joint, Rolling) and joint.at in points:
-            rolled = _rolled(case, joint, points)
-            wheels += [thing for thing in rolled if isinstance(thing, Wheel)]
-            edges += [thing for thing in rolled if isinstance(thing, Edge)]
+            things += _rolled(case, joint, points)
         if isinstance(joint, Sliding) and joint.only_pushes and joint.at in points:
             if case.profiles is not None and {*joint.links} <= case.profiles.shapes.keys():
-                known = surfaces(case, joint, points)
-                wheels += [thing for thing in known if isinstance(thing, Wheel)]
-                edges += [thing for thing in known if isinstance(thing, Edge)]
+                things += surfaces(case, joint, points)
                 continue
             first, second = _touching(case, joint, points)
-            wheels += [thing for thing in (first, second) if isinstance(thing, Wheel)]
-            edges += [thing for thing in (first, second) if isinstance(thing, Edge)]
+            things += [second] if first is None else [first, second]
             cams += [joint] if first is None else []
-    wheels += _drums(case, points)
-    return Round(tuple(_once(wheels)), tuple(edges), tuple(loops), tuple(cams))
+    things += _drums(case, points)
+    wheels = _once([thing for thing in things if isinstance(thing, Wheel)])
+    edges = tuple(thing for thing in things if isinstance(thing, Edge))
+    return Round(tuple(wheels), edges, tuple(loops), tuple(cams))
 
 
 def _drums(case: Case, points: Mapping[str, Point]) -> Iterable[Wheel]:
@@ -101,9 +97,8 @@ def _drums(case: Case, points: Mapping[str, Point]) -> Iterable[Wheel]:
                 yield Wheel(link, points[p], radius.value, "post" if link == case.ground else "pulley")
 
 
-def _once(wheels: Iterable[Wheel]) -> Iterable[Wheel]:
+def _once(wheels: Sequence[Wheel]) -> Iterable[Wheel]:
     """Each circle once (a gear may mesh with several)."""
-    wheels = list(wheels)
     seen: dict[tuple[str, float, float, float], Wheel] = {}
     fine = 1e6 / (max((wheel.radius for wheel in wheels), default=0.0) or 1.0)
     for wheel in wheels:
@@ -328,6 +323,14 @@ class Scene(NamedTuple):
         """The ends of a guide of a link along u about p, the picture of ``place``."""
         back, forth = self.travel.get((link, place), (0.0, 0.0))
         return along(p, u, back - reach), along(p, u, forth + reach)
+
+    def circle(self, wheel: Wheel) -> tuple[Point, float]:
+        """The centre and the radius of a wheel in the picture."""
+        return self.view.at(wheel.centre), wheel.radius * self.view.scale
+
+    def carried(self, link: str) -> list[Point]:
+        """The points that a link carries and that can be placed."""
+        return [self.at[p] for p in self.case.carries.get(link, ()) if p in self.at]
 
     def joints(self) -> Iterable[Joint]:
         """The joints whose points can be placed."""

@@ -12,7 +12,7 @@ from itertools import pairwise
 import shapely
 
 from icsolve.case import is_named
-from icsolve.draw.bodies import renamed, titled
+from icsolve.draw.bodies import panel, titled
 from icsolve.draw.marks import (
     AreaMark,
     Box,
@@ -38,7 +38,7 @@ from icsolve.draw.words import force_runs, name_runs, quantity
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.spatial import InSpace, Push, in_space
 from icsolve.screws.plane import add, cross, subtract
-from icsolve.screws.space import AXES, Vec, dot, size, times
+from icsolve.screws.space import AXES, ZERO, Vec, dot, size, times
 from icsolve.statics.space.reaction_basis import SpatialTie
 from icsolve.tuples import NamedTuple
 
@@ -188,15 +188,21 @@ def _seen(direction: Vec) -> Point:
 
 
 def _load(sketch: Sketch, push: Push, solid: shapely.Geometry) -> Part:
-    kind = "unknown" if push.unknown else "known"
+    kind, runs, at = _kind(push), _load_runs(push), _acts_at(sketch, push)
     sign = -1.0 if (push.value or 0.0) < 0.0 else 1.0
-    at = _acts_at(sketch, push)
-    value = "?" if push.value is None else quantity(abs(push.value), push.unit)
-    runs = (*name_runs(push.name), TextRun(f" = {value}"))
     marks, far = vector(at, times(sign, push.direction), ARROW, kind, solid, double=push.at is None)
     soft = (along_arrow(at, far),)
     label = Label(f"label-{push.name}", runs, f"t-{kind}", 14.0, (far, at), 7.0)
     return Part((MarkGroup(f"load-{push.name}", "", marks, plain_text(runs)),), soft, (), (label,))
+
+
+def _kind(push: Push) -> str:
+    return "unknown" if push.unknown else "known"
+
+
+def _load_runs(push: Push) -> tuple[TextRun, ...]:
+    value = "?" if push.value is None else quantity(abs(push.value), push.unit)
+    return (*name_runs(push.name), TextRun(f" = {value}"))
 
 
 def along_arrow(at: Point, far: Point) -> Soft:
@@ -292,41 +298,22 @@ def _pushes(sketch: Sketch, known: Known, link: str) -> Iterable[On]:
     """Name, words, force, couple, and kind with place, of all that acts on a link."""
     assert known.answer is not None and known.answer.spatial is not None
     units = known.case.units
-    for name, reaction in known.answer.spatial.reactions.items():
-        if link not in (reaction.by, reaction.on):
-            continue
-        r = reaction if reaction.on == link else reaction.reversed()
-        low = force_runs(name, r.by, r.on, r.where)
+    for name, r in known.answer.spatial.reactions.of_link(link):
         words = "?" if r.magnitude is None else quantity(r.magnitude, units.force)
-        force = (r.force[0] or 0.0, r.force[1] or 0.0, r.force[2] or 0.0)
-        couple = (r.couple[0] or 0.0, r.couple[1] or 0.0, r.couple[2] or 0.0)
-        text: tuple[TextRun, ...] = (*low, TextRun(f" = {words}"))
-        if r.moment:
-            text = (*text, TextRun(f", M = {quantity(r.moment, units.torque)}"))
-        yield f"reaction-{name}-on-{r.on}", text, force, couple, ("reaction", r.at)
+        words += f", M = {quantity(r.moment, units.torque)}" if r.moment else ""
+        runs = (*force_runs(name, r.by, r.on, r.where), TextRun(f" = {words}"))
+        force, couple = ((x or 0.0, y or 0.0, z or 0.0) for x, y, z in (r.force, r.couple))
+        yield f"reaction-{name}-on-{r.on}", runs, force, couple, ("reaction", r.at)
     for push in sketch.scene.loads:
         if link in (push.link, push.against):
             sign = 1.0 if link == push.link else -1.0
-            runs = (
-                *name_runs(push.name),
-                TextRun(" = ?" if push.value is None else f" = {quantity(abs(push.value), push.unit)}"),
-            )
-            carried = sketch.scene.carried(link)
-            place = push.at or (carried[0] if carried else (0.0, 0.0, 0.0))
-            kind = "unknown" if push.unknown else "known"
-            yield (
-                f"body-load-{push.name}-on-{link}",
-                runs,
-                times(sign, push.force),
-                times(sign, push.couple),
-                (kind, place),
-            )
+            place = push.at or next(iter(sketch.scene.carried(link)), ZERO)
+            force, couple = times(sign, push.force), times(sign, push.couple)
+            yield f"body-load-{push.name}-on-{link}", _load_runs(push), force, couple, (_kind(push), place)
 
 
 def _panel(sketch: Sketch, link: str, pushes: Sequence[On], largest: float) -> list[Mark]:
-    part = body_part(sketch, link)
-    solid = outline_of(sketch, link)
-    parts = [part]
+    solid, parts = outline_of(sketch, link), [body_part(sketch, link)]
     for name, words, force, couple, (kind, place) in pushes:
         at = sketch.at(place)
         marks: tuple[Mark, ...] = ()
@@ -342,6 +329,4 @@ def _panel(sketch: Sketch, link: str, pushes: Sequence[On], largest: float) -> l
         label = Label(f"label-{name}", words, f"t-{kind}", 12.5, (far, at), 7.0)
         group = (MarkGroup(name, "", marks, plain_text(words)),) if marks else ()
         parts.append(Part(group, tuple(soft), (around(at, 2.8),), (label,)))
-    window = bounds(together(parts).marks)
-    found = [renamed(link, mark) for mark in with_labels(together(parts), window)]
-    return [MarkGroup(f"body-{link}", "", tuple(found), f"link {link} by itself")]
+    return panel(link, parts)

@@ -5,14 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from icsolve.answer.bodies import Reaction
-from icsolve.answer.space import Parts, SpatialReaction
+from icsolve.answer.bodies import Reaction, SpatialReaction
 from icsolve.case import is_link, is_named
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, product
-from icsolve.explain.given import Figures, load_name
-from icsolve.report.derivation.known import Known, acting_loads
-from icsolve.report.derivation.ropes import rope_pulls
+from icsolve.explain.worked import Worked, load_name
+from icsolve.report.derivation.known import Known, acting_loads, rope_pulls
+from icsolve.report.derivation.spatial import InSpace, in_space
+from icsolve.report.published import spatial
 from icsolve.screws.plane import subtract
 from icsolve.screws.space import ZERO, Vec, size, times
 from icsolve.tuples import NamedTuple
@@ -31,27 +31,27 @@ class On(NamedTuple):
     couple: Vec
 
 
-def bodies_sections(known: Known, figures: Figures) -> Iterable[Section]:
+def bodies_sections(work: Worked) -> Iterable[Section]:
     """The equilibrium of every moving link, then all reactions."""
-    answer = known.answer
+    answer = work.answer
     if answer is None or not answer.reactions:
         return
-    units, reactions = known.case.units, answer.reactions
+    units, reactions = work.units, answer.reactions
     heading = (f"x, {units.force}", f"y, {units.force}", "size", f"couple, {units.torque}")
     rows = [(name, r, (r.x, r.y, r.magnitude, r.moment)) for name, r in reactions.items()]
-    told = reactions_section(figures, heading, rows)
+    told = reactions_section(work, heading, rows)
     open_ones = sorted({r.why for r in reactions.values() if None in (r.x, r.y, r.moment) and r.why})
     more = (Items(tuple((f"? : {why}",) for why in open_ones)),) if open_ones else ()
     yield told._replace(blocks=(*told.blocks, *more))
-    for link in known.case.links:
-        if link != known.case.ground:
-            forces = list(_acting_on(known, link))
-            yield link_section(figures, link, forces, _about(known, link), known.size, "xy")
+    for link in work.case.links:
+        if link != work.case.ground:
+            forces = list(_acting_on(work.known, link))
+            yield link_section(work, link, forces, _about(work.known, link), work.known.size, "xy")
 
 
 def reactions_section(
-    figures: Figures,
-    heading: tuple[str, ...],
+    work: Worked,
+    heading: Sequence[str],
     rows: Iterable[tuple[str, Reaction | SpatialReaction, Sequence[float | None]]],
 ) -> Section:
     """A table of the reactions: name, joint, and numbers under a heading, question marks for those that
@@ -60,7 +60,7 @@ def reactions_section(
         (
             (name,),
             (f"{r.kind} at {r.where}" if r.where else r.kind,),
-            *(("?" if value is None else figures.number(value),) for value in numbers),
+            *(("?" if value is None else work.number(value),) for value in numbers),
         )
         for name, r, numbers in rows
     ]
@@ -70,12 +70,9 @@ def reactions_section(
 
 def _acting_on(known: Known, link: str) -> Iterable[On | None]:
     """Every reaction and load on a link; None for a reaction that is not determined."""
-    answer = known.answer
-    assert answer is not None
-    for name, reaction in (answer.reactions or {}).items():
-        if link in (reaction.by, reaction.on):
-            r = reaction if reaction.on == link else reaction.reversed()
-            yield reaction_on(known, name, r, (r.x, r.y, 0.0), (0.0, 0.0, r.moment))
+    assert known.answer is not None and known.answer.reactions is not None
+    for name, reaction in known.answer.reactions.of_link(link):
+        yield _reaction(known, name, reaction)
     for rope in known.case.ropes:
         for pull in rope_pulls(known, rope):
             if pull.link == link:
@@ -89,21 +86,18 @@ def _acting_on(known: Known, link: str) -> Iterable[On | None]:
             yield On(own.base, own.low, place, times(sign, force), times(sign, couple))
 
 
-def reaction_on(
-    known: Known, name: str, r: Reaction | SpatialReaction, force: Parts, couple: Parts
-) -> On | None:
+def _reaction(known: Known, name: str, r: Reaction | SpatialReaction) -> On | None:
     """A reaction on its second link; None of one that is not determined."""
-    x, y, z, mx, my, mz = (*force, *couple)
+    (x, y, z), (mx, my, mz) = r.components
     if x is None or y is None or z is None or mx is None or my is None or mz is None:
         return None
     low = r.by + r.on if len(r.by) == len(r.on) == 1 else f"{r.by}-{r.on}"
     low, per = f"{low}@{r.where}," if "@" in name else low, known.case.units.torque_per_force_length
-    x0, y0, *z0 = r.at
-    return On("F", low, (x0, y0, z0[0] if z0 else 0.0), (x, y, z), (mx / per, my / per, mz / per))
+    return On("F", low, spatial(r.at), (x, y, z), (mx / per, my / per, mz / per))
 
 
 def link_section(
-    figures: Figures, link: str, forces: Sequence[On | None], about: tuple[Vec, str], reach: float, axes: str
+    work: Worked, link: str, forces: Sequence[On | None], about: tuple[Vec, str], reach: float, axes: str
 ) -> Section:
     """The sums of the forces along the axes, and of the moments about a point and its name; in the plane
     (``axes`` xy) of those about z. ``reach`` is the size of an arm [case length]."""
@@ -116,9 +110,9 @@ def link_section(
     place, where = about
     blocks: list[Block] = []
     for k, axis in enumerate(axes):
-        blocks += [words(f"Forces along {axis}:"), _forces(figures, found, k, axis, largest)]
+        blocks += [words(f"Forces along {axis}:"), _forces(work, found, k, axis, largest)]
     for k, along in [(2, "")] if len(axes) == 2 else [(k, f" along {axis}") for k, axis in enumerate(axes)]:
-        moments = _moments(figures, found, place, k, NOTHING * largest * reach)
+        moments = _moments(work, found, place, k, NOTHING * largest * reach)
         blocks += [words(f"Moments about {where}{along}:"), moments]
     return Section(title, tuple(blocks))
 
@@ -131,26 +125,80 @@ def _about(known: Known, link: str) -> tuple[Vec, str]:
     return ZERO, "the origin"
 
 
-def _forces(figures: Figures, forces: Sequence[On], k: int, axis: str, largest: float) -> Block:
+def _forces(work: Worked, forces: Sequence[On], k: int, axis: str, largest: float) -> Block:
     """Symbols, then numbers, then zero."""
     kept = [on for on in forces if abs(on.force[k]) > NOTHING * largest]
     if not kept:
         return words("No force acts that way.")
     symbols = Sum(tuple((1, Name(on.name, on.low + axis)) for on in kept))
-    return formula(symbols, Sum(tuple((1, figures.number(on.force[k])) for on in kept)), Num("0"))
+    return formula(symbols, Sum(tuple((1, work.number(on.force[k])) for on in kept)), Num("0"))
 
 
-def _moments(figures: Figures, forces: Sequence[On], about: Vec, k: int, least: float) -> Block:
+def _moments(work: Worked, forces: Sequence[On], about: Vec, k: int, least: float) -> Block:
     """Arms times components, and couples: M_x = y F_z - z F_y and so on round."""
     i, j = (k + 1) % 3, (k + 2) % 3
     terms: list[tuple[int, Expr]] = []
     for on in forces:
         arm = subtract(on.at, about) if on.at is not None else ZERO
         if abs(arm[i] * on.force[j]) > least:
-            terms.append((1, product(figures.length(arm[i]), figures.number(on.force[j]))))
+            terms.append((1, product(work.length(arm[i]), work.number(on.force[j]))))
         if abs(arm[j] * on.force[i]) > least:
             sign = 1 if arm[j] < 0.0 else -1
-            terms.append((sign, product(figures.length(abs(arm[j])), figures.number(on.force[i]))))
+            terms.append((sign, product(work.length(abs(arm[j])), work.number(on.force[i]))))
         if abs(on.couple[k]) > least:
-            terms.append((1, figures.number(on.couple[k])))
+            terms.append((1, work.number(on.couple[k])))
     return formula(Sum(tuple(terms)), Num("0")) if terms else words("No force has an arm about it.")
+
+
+# --- in space --------------------------------------------------------------------------------------------
+
+
+def sections_in_space(work: Worked) -> Iterable[Section]:
+    """Power, the reactions, and the equilibrium of every link."""
+    answer = work.answer
+    if answer is None or answer.spatial is None:
+        return
+    if answer.terms:
+        yield _power(work)
+    yield _reactions(work)
+    scene = in_space(work.known)
+    for link in work.case.links:
+        if link != work.case.ground:
+            yield _link(work, scene, link)
+
+
+def _power(work: Worked) -> Section:
+    """One term a load, for the motion in which the unknown moves at 1."""
+    assert work.answer is not None
+    terms = [term for term in work.answer.terms if term.power or term.unknown]
+    numbers = Sum(tuple((1, product(work.number(t.value), work.number(t.factor))) for t in terms))
+    symbols = Sum(tuple((1, product(load_name(t.load), Name("k", t.load))) for t in terms))
+    said = "Where the unknown load moves at 1, every load moves along itself at k; the powers add up to zero:"
+    return Section("Power", (words(said), formula(symbols, numbers, Num("0"))))
+
+
+def _reactions(work: Worked) -> Section:
+    assert work.answer is not None and work.answer.spatial is not None
+    forces, couples = (f"F{{}}, {work.units.force}", f"M{{}}, {work.units.torque}")
+    heading = [form.format(axis) for form in (forces, couples) for axis in "xyz"]
+    rows = [(name, r, (*r.force, *r.couple)) for name, r in work.answer.spatial.reactions.items()]
+    return reactions_section(work, heading, rows)
+
+
+def _link(work: Worked, scene: InSpace, link: str) -> Section:
+    forces = list(_acting(work.known, scene, link))
+    about = next(iter(scene.carried(link)), ZERO)
+    where = next((name for name, place in scene.places.items() if place == about), "the origin")
+    reach = max((size(subtract(p, about)) for p in scene.places.values()), default=0.0)
+    return link_section(work, link, forces, (about, where), reach, "xyz")
+
+
+def _acting(known: Known, scene: InSpace, link: str) -> Iterable[On | None]:
+    """All reactions and loads on a link; None for a reaction that is open."""
+    assert known.answer is not None and known.answer.spatial is not None
+    for name, reaction in known.answer.spatial.reactions.of_link(link):
+        yield _reaction(known, name, reaction)
+    for push in scene.loads:
+        if link in (push.link, push.against):
+            sign, own = 1.0 if link == push.link else -1.0, load_name(push.name)
+            yield On(own.base, own.low, push.at, times(sign, push.force), times(sign, push.couple))

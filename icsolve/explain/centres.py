@@ -22,25 +22,24 @@ from icsolve.explain.formula import (
     minus,
     product,
 )
-from icsolve.explain.given import Figures, centre_name, place_words, rate_name
-from icsolve.explain.levers import difference, motion_name, place
 from icsolve.explain.ropes import rope_ratio, screw_ratio
+from icsolve.explain.worked import Worked, rate_name
 from icsolve.report.derivation.known import Known, joint_of_normal
 from icsolve.report.derivation.ratios import Ratio, Ratios, Step, ratios_of
 from icsolve.wording.joints import centre_words, normal_words
 from icsolve.wording.sentences import link_words
 
 
-def centre_sections(known: Known, figures: Figures, steps: Sequence[Step]) -> list[Section]:
+def centre_sections(work: Worked, steps: Sequence[Step]) -> list[Section]:
     """Centres by inspection, and by construction in order."""
     first = [step.centre for step in steps if step.number == 0]
     later = [step for step in steps if step.number]
     sections = []
     if first:
-        entries = tuple(tuple(_inspected(known, figures, centre)) for centre in first)
-        sections.append(Section("Centres by inspection", (_count(known, len(steps)), Items(entries))))
+        entries = tuple(tuple(_inspected(work, centre)) for centre in first)
+        sections.append(Section("Centres by inspection", (_count(work.known, len(steps)), Items(entries))))
     if later:
-        entries = tuple(tuple(_constructed(known, figures, step.centre)) for step in later)
+        entries = tuple(tuple(_constructed(work, step.centre)) for step in later)
         said = words(
             "Three links have their three centres on one line (Aronhold and Kennedy). "
             "A centre lies where two such lines meet."
@@ -62,13 +61,13 @@ def _count(known: Known, needed: int) -> Block:
     return words(f"The {n} links have {n}({n} - 1)/2 = {total} centres; {these} found here.")
 
 
-def _inspected(known: Known, figures: Figures, centre: Centre) -> Iterable[Inline]:
-    yield centre_name(known, centre.pair)
-    yield f" {_is_at(figures, centre)}: {_why(known, centre)}"
+def _inspected(work: Worked, centre: Centre) -> Iterable[Inline]:
+    yield work.centre_name(centre.pair)
+    yield f" {_is_at(work, centre)}: {_why(work.known, centre)}"
 
 
-def _is_at(figures: Figures, centre: Centre) -> str:
-    place = place_words(figures, centre)
+def _is_at(work: Worked, centre: Centre) -> str:
+    place = work.centre_words(centre)
     return f"= {place}" if centre.kind == "at" else f"is {place}"
 
 
@@ -82,18 +81,18 @@ def _why(known: Known, centre: Centre) -> str:
     return "the links that they are welded to show it"
 
 
-def _constructed(known: Known, figures: Figures, centre: Centre) -> Iterable[Inline]:
-    yield centre_name(known, centre.pair)
-    yield f" {_is_at(figures, centre)}"
+def _constructed(work: Worked, centre: Centre) -> Iterable[Inline]:
+    yield work.centre_name(centre.pair)
+    yield f" {_is_at(work, centre)}"
     if not centre.lines:
         yield ", from the loop equations of the whole mechanism"
         return
-    lines = ordered_lines(known, centre)
+    lines = ordered_lines(work.known, centre)
     for n, line in enumerate(lines):
         yield ": on " if n == 0 else ", and on "
         if len(line) == 1:
-            yield f"the {_normal(joint_of_normal(known.case.joints, lines, n))}"
-        yield from _line(known, centre, line)
+            yield f"the {_normal(joint_of_normal(work.case.joints, lines, n))}"
+        yield from _line(work, centre, line)
 
 
 def ordered_lines(known: Known, centre: Centre) -> list[tuple[Pair, ...]]:
@@ -102,21 +101,21 @@ def ordered_lines(known: Known, centre: Centre) -> list[tuple[Pair, ...]]:
     return sorted(lines, key=lambda line: (len(line) < 2, [pair_name(known.case, pair) for pair in line]))
 
 
-def _line(known: Known, centre: Centre, line: tuple[Pair, ...]) -> Iterable[Inline]:
+def _line(work: Worked, centre: Centre, line: tuple[Pair, ...]) -> Iterable[Inline]:
     if len(line) == 1:
         (roller,) = {*line[0]} - {*centre.pair} or {""}
         if roller:  # a passive one
             yield ", on which "
-            yield centre_name(known, known.pair(roller, centre.pair[0]))
+            yield work.centre_name(work.known.pair(roller, centre.pair[0]))
             yield " and "
-            yield centre_name(known, known.pair(roller, centre.pair[1]))
+            yield work.centre_name(work.known.pair(roller, centre.pair[1]))
             yield f" lie (roller {roller} turns freely)"
         return
-    links = sorted({link for pair in (*line, centre.pair) for link in pair}, key=known.case.links.index)
+    links = sorted({link for pair in (*line, centre.pair) for link in pair}, key=work.case.links.index)
     yield "the line "
-    yield centre_name(known, line[0])
+    yield work.centre_name(line[0])
     yield " "
-    yield centre_name(known, line[1])
+    yield work.centre_name(line[1])
     yield f" (links {', '.join(links)})"
 
 
@@ -131,63 +130,61 @@ def _normal(joint: Joint | None) -> str:
 # --- ratios of speeds ------------------------------------------------------------------------------------
 
 
-def ratio_section(known: Known, figures: Figures, ratios: Ratios) -> Iterable[Section]:
+def ratio_section(work: Worked, ratios: Ratios) -> Iterable[Section]:
     """How the other links move beside the reference, where anything follows."""
-    blocks = [block for ratio in ratios.ratios for block in _blocks(known, figures, ratios, ratio)]
-    blocks += _carried(figures, ratios)
+    blocks = [block for ratio in ratios.ratios for block in _blocks(work, ratios, ratio)]
+    blocks += _carried(work, ratios)
     if blocks:
         yield Section("Ratios of the speeds", tuple(blocks))
 
 
-def _blocks(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio) -> Iterable[Block]:
+def _blocks(work: Worked, ratios: Ratios, ratio: Ratio) -> Iterable[Block]:
     if ratio.rope is not None:
-        yield from rope_ratio(known, figures, ratios, ratio)
+        yield from rope_ratio(work, ratios, ratio)
         return
     if ratio.screw is not None:
-        yield from screw_ratio(known, figures, ratio)
+        yield from screw_ratio(work, ratio)
         return
-    own, other, common = (centre_name(known, pair) for pair in ratio.pairs)
-    left = Quotient(motion_name(known, ratio.link), motion_name(known, ratio.of))
-    value = figures.number(ratio.value)
+    own, other, common = (work.centre_name(pair) for pair in ratio.pairs)
+    left = Quotient(work.motion_name(ratio.link), work.motion_name(ratio.of))
+    value = work.number(ratio.value)
     match ratio.kind:
         case "one":
             yield words(f"Links {ratio.of} and {ratio.link} are welded: they move as one.")
         case "alike":
-            yield words("", common, f" is at infinity: links {ratio.of} and {ratio.link} turn alike.")
+            yield words(common, f" is at infinity: links {ratio.of} and {ratio.link} turn alike.")
             yield formula(left, value)
         case "turns":
             yield words(
-                "",
                 common,
                 f" is a point of links {ratio.of} and {ratio.link}, with one velocity; {_sense(ratio)}.",
             )
-            yield from _distances(known, figures, (own, common, other), ratio)
-            numbers = Quotient(*(_measured(known, figures, ratio, n) for n in (0, 1)))
-            yield formula(left, _by_distances(known, ratio), _signed(numbers, ratio), value)
+            yield from _distances(work, (own, common, other), ratio)
+            numbers = Quotient(*(_measured(work, ratio, n) for n in (0, 1)))
+            yield formula(left, _by_distances(work, ratio), _signed(numbers, ratio), value)
         case "slides":
             yield words(
                 f"Link {ratio.link} slides, so all of it moves as ",
                 common,
-                f" does: {_heading(figures, ratios, ratio.link)}.",
+                f" does: {_heading(work, ratios, ratio.link)}.",
             )
-            yield from _distances(known, figures, (own, common), ratio)
-            yield formula(left, _by_distances(known, ratio), figures.distance(ratio.value))
+            yield from _distances(work, (own, common), ratio)
+            yield formula(left, _by_distances(work, ratio), work.distance(ratio.value))
         case "drives":
             yield words(
-                "",
                 common,
-                f" of link {ratio.link} moves as link {ratio.of}: {_heading(figures, ratios, ratio.of)}.",
+                f" of link {ratio.link} moves as link {ratio.of}: {_heading(work, ratios, ratio.of)}.",
             )
-            yield from _distances(known, figures, (other, common), ratio)
-            numbers = Quotient(Num("1"), _measured(known, figures, ratio, 1))
-            yield formula(left, _by_distances(known, ratio), _signed(numbers, ratio), value)
+            yield from _distances(work, (other, common), ratio)
+            numbers = Quotient(Num("1"), _measured(work, ratio, 1))
+            yield formula(left, _by_distances(work, ratio), _signed(numbers, ratio), value)
         case "glides":
-            yield from _gliding(known, figures, ratios, ratio, left)
+            yield from _gliding(work, ratios, ratio, left)
 
 
-def _measured(known: Known, figures: Figures, ratio: Ratio, n: int) -> Num:
+def _measured(work: Worked, ratio: Ratio, n: int) -> Num:
     """The distance of the common centre from that of the other link (0) or of the link (1) with the frame."""
-    return figures.number(math.dist(place(known, ratio.pairs[n]), place(known, ratio.pairs[2])))
+    return work.number(math.dist(work.place(ratio.pairs[n]), work.place(ratio.pairs[2])))
 
 
 def _sense(ratio: Ratio) -> str:
@@ -196,8 +193,8 @@ def _sense(ratio: Ratio) -> str:
     return "it lies between the other two centres, so they turn in opposite senses"
 
 
-def _heading(figures: Figures, ratios: Ratios, link: str) -> str:
-    heading = figures.number(ratios.headings[link]).digits
+def _heading(work: Worked, ratios: Ratios, link: str) -> str:
+    heading = work.show(ratios.headings[link])
     return f"at {heading} deg where the speed of link {ratios.reference} is positive"
 
 
@@ -205,38 +202,38 @@ def _signed(expression: Expr, ratio: Ratio) -> Expr:
     return minus(expression) if ratio.value < 0.0 else expression
 
 
-def _distances(known: Known, figures: Figures, names: tuple[Name, ...], ratio: Ratio) -> Iterable[Block]:
+def _distances(work: Worked, names: tuple[Name, ...], ratio: Ratio) -> Iterable[Block]:
     """The distance of the common centre from each of the others, from the coordinates."""
-    pairs = dict(zip((centre_name(known, pair) for pair in ratio.pairs), ratio.pairs, strict=True))
+    pairs = dict(zip((work.centre_name(pair) for pair in ratio.pairs), ratio.pairs, strict=True))
     common = names[1]
     for end in (names[0], *names[2:]):
-        a, b = place(known, pairs[end]), place(known, pairs[common])
-        yield formula(Spanned(end, common), distance(figures, a, b), figures.distance(math.dist(a, b)))
+        a, b = work.place(pairs[end]), work.place(pairs[common])
+        yield formula(Spanned(end, common), distance(work, a, b), work.distance(math.dist(a, b)))
 
 
-def distance(figures: Figures, a: tuple[float, float], b: tuple[float, float]) -> Expr:
+def distance(work: Worked, a: tuple[float, float], b: tuple[float, float]) -> Expr:
     """The root of the squares of the differences."""
-    squares = tuple((1, Square(difference(figures, q, p))) for p, q in zip(a, b, strict=True))
+    squares = tuple((1, Square(work.difference(q, p))) for p, q in zip(a, b, strict=True))
     return RootOf(Sum(squares))
 
 
-def _gliding(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio, left: Expr) -> Iterable[Block]:
+def _gliding(work: Worked, ratios: Ratios, ratio: Ratio, left: Expr) -> Iterable[Block]:
     """Two translations: their parts across the direction in which one slides on the other are equal."""
-    centre = known.centre(*ratio.pairs[2])
+    centre = work.known.centre(*ratio.pairs[2])
     assert centre is not None
     along = (centre.place[0] + 90.0) % 180.0
     headings = [ratios.headings[link] for link in (ratio.of, ratio.link)]
     yield words(
-        f"Link {ratio.of} slides at {figures.number(headings[0]).digits} deg, link {ratio.link} at "
-        f"{figures.number(headings[1]).digits} deg, and each on the other along "
-        f"{figures.number(along).digits} deg: "
+        f"Link {ratio.of} slides at {work.show(headings[0])} deg, link {ratio.link} at "
+        f"{work.show(headings[1])} deg, and each on the other along "
+        f"{work.show(along)} deg: "
         "across that direction they move alike."
     )
-    sines = [Trig("sin", Sum(((1, figures.number(h)), (-1, figures.number(along))))) for h in headings]
-    yield formula(left, Quotient(sines[0], sines[1]), figures.number(ratio.value))
+    sines = [Trig("sin", Sum(((1, work.number(h)), (-1, work.number(along))))) for h in headings]
+    yield formula(left, Quotient(sines[0], sines[1]), work.number(ratio.value))
 
 
-def _carried(figures: Figures, ratios: Ratios) -> Iterable[Block]:
+def _carried(work: Worked, ratios: Ratios) -> Iterable[Block]:
     """Ratios to the reference where they follow in several steps."""
     values: Mapping[str, Ratio] = {ratio.link: ratio for ratio in ratios.ratios}
     for ratio in ratios.ratios:
@@ -244,43 +241,43 @@ def _carried(figures: Figures, ratios: Ratios) -> Iterable[Block]:
             continue
         yield words(
             f"So where {link_words(ratios.reference)} has 1, {link_words(ratio.link)} has "
-            f"{figures.number(ratios.rates[ratio.of]).digits} x {figures.number(ratio.value).digits} = "
-            f"{figures.number(ratios.rates[ratio.link]).digits}."
+            f"{work.show(ratios.rates[ratio.of])} x {work.show(ratio.value)} = "
+            f"{work.show(ratios.rates[ratio.link])}."
         )
 
 
-def worked_speeds(known: Known, figures: Figures) -> Iterable[Section]:
+def worked_speeds(work: Worked) -> Iterable[Section]:
     """The speeds from centre to centre where the case gives one: ratios, rates, v = w r of every point."""
-    whole, case = known.whole, known.case
+    whole, case = work.known.whole, work.case
     given = next((motion.link for motion in case.motion if motion.speed is not None), None)
     if whole is None or whole.rates is None or whole.mobility != 1 or given is None:
         return
-    moving = [link for link in case.links if link != case.ground and not known.rests(link)]
-    ratios = ratios_of(known, sorted(moving, key=lambda link: link != given))
+    moving = [link for link in case.links if link != case.ground and not work.known.rests(link)]
+    ratios = ratios_of(work.known, sorted(moving, key=lambda link: link != given))
     if ratios is None:
         return
-    yield from ratio_section(known, figures, ratios)
+    yield from ratio_section(work, ratios)
     reference = ratios.reference
-    x, y, w = known.twists[reference]
-    speed = w if known.turns(reference) else math.hypot(x, y)
-    own = motion_name(known, reference)
-    blocks: list[Block] = [words("So with ", own, " = ", _speed(known, figures, reference, speed), ":")]
+    x, y, w = work.known.twists[reference]
+    speed = w if work.known.turns(reference) else math.hypot(x, y)
+    own = work.motion_name(reference)
+    blocks: list[Block] = [words("So with ", own, " = ", _speed(work, reference, speed), ":")]
     for ratio in ratios.ratios:
         before = ratios.rates[ratio.of] * speed
-        numbers = product(figures.number(before), figures.number(ratio.value))
-        result = _speed(known, figures, ratio.link, ratio.value * before)
-        symbols = product(motion_name(known, ratio.of), _by_distances(known, ratio))
-        blocks.append(formula(motion_name(known, ratio.link), symbols, numbers, result))
-    blocks += _of_points(known, figures)
+        numbers = product(work.number(before), work.number(ratio.value))
+        result = _speed(work, ratio.link, ratio.value * before)
+        symbols = product(work.motion_name(ratio.of), _by_distances(work, ratio))
+        blocks.append(formula(work.motion_name(ratio.link), symbols, numbers, result))
+    blocks += _of_points(work)
     yield Section("Speeds by centres", tuple(blocks))
 
 
-def _by_distances(known: Known, ratio: Ratio) -> Expr:
+def _by_distances(work: Worked, ratio: Ratio) -> Expr:
     """A ratio of speeds by the distances of its centres."""
     tied = ratio.rope is not None or ratio.screw is not None
     if tied or (ratio.kind not in ("turns", "slides", "drives") and ratio.value != 1.0):
-        return Quotient(motion_name(known, ratio.link), motion_name(known, ratio.of))
-    own, other, common = (centre_name(known, pair) for pair in ratio.pairs)
+        return Quotient(work.motion_name(ratio.link), work.motion_name(ratio.of))
+    own, other, common = (work.centre_name(pair) for pair in ratio.pairs)
     match ratio.kind:
         case "turns":
             return _signed(Quotient(Spanned(own, common), Spanned(other, common)), ratio)
@@ -291,26 +288,26 @@ def _by_distances(known: Known, ratio: Ratio) -> Expr:
     return Num("1")
 
 
-def _speed(known: Known, figures: Figures, link: str, value: float) -> Expr:
-    unit = "rad/s" if known.turns(link) else f"{known.case.units.length}/s"
-    return figures.quantity(value, unit)
+def _speed(work: Worked, link: str, value: float) -> Expr:
+    unit = "rad/s" if work.known.turns(link) else f"{work.units.length}/s"
+    return work.quantity(value, unit)
 
 
-def _of_points(known: Known, figures: Figures) -> Iterable[Block]:
+def _of_points(work: Worked) -> Iterable[Block]:
     """The speed of every point of a link that turns: its rate times the distance from its centre."""
     said: set[str] = set()
-    for link in known.case.links:
-        pair = known.pair(link, known.case.ground)
-        centre = known.centre(*pair) if link in known.twists and known.turns(link) else None
+    for link in work.case.links:
+        pair = work.own_centre(link)
+        centre = work.known.centre(*pair) if link in work.known.twists and work.known.turns(link) else None
         if centre is None or centre.kind != "at":
             continue
-        own, rate = place(known, pair), abs(known.twists[link][2])
-        for point in known.case.carries.get(link, ()):
-            gap = math.dist(known.points[point], own) if point in known.points else 0.0
-            if not is_named(point) or point in said or gap <= 1e-9 * known.size:
+        own, rate = work.place(pair), abs(work.known.twists[link][2])
+        for point in work.case.carries.get(link, ()):
+            gap = math.dist(work.known.points[point], own) if point in work.known.points else 0.0
+            if not is_named(point) or point in said or gap <= 1e-9 * work.known.size:
                 continue
             said.add(point)
-            arm = Spanned(centre_name(known, pair), Name(point))
-            numbers = product(figures.number(rate), figures.number(gap))
-            speed = figures.quantity(rate * gap, f"{known.case.units.length}/s")
+            arm = Spanned(work.centre_name(pair), Name(point))
+            numbers = product(work.number(rate), work.number(gap))
+            speed = work.quantity(rate * gap, f"{work.units.length}/s")
             yield formula(Name("v", point), product(rate_name(link), arm), numbers, speed)

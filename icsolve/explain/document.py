@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 from icsolve.explain.formula import LATEX, PLAIN, Expr, Notation, Quantity
+from icsolve.report.text import table
 from icsolve.tuples import NamedTuple
 
 Inline = str | Expr
@@ -142,11 +143,7 @@ class AsText(Layout):
                         self.inline(entry), self.width, initial_indent=mark, subsequent_indent="     "
                     )
             case ShownTable():
-                rows = self.cells(block)
-                widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-                for row in rows:
-                    padded = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
-                    yield f"  {'  '.join(padded)}".rstrip()
+                yield from table(self.cells(block))
 
 
 class AsMarkdown(Layout):

@@ -6,13 +6,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
+import numpy as np
+
 from icsolve.answer.equilibrium import EquilibriumPosition
 from icsolve.case import Case, Spring, TorsionSpring, is_angle
 from icsolve.case.figure import Corner, Direction, Length
 from icsolve.explain.document import Block, Section, formula, words
-from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, product
-from icsolve.explain.given import Figures, load_name
+from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, product, total
 from icsolve.explain.power import AGREE, factor_of, gain_of, sprung, torque_words
+from icsolve.explain.worked import Worked, exerted_name, load_name
 from icsolve.report.derivation.known import Acting, Known, acting_loads, known_at
 from icsolve.report.derivation.ratios import OneMotion, independent_motions, speed_words
 from icsolve.report.text import place_text
@@ -29,88 +31,79 @@ CONDITION = (
     "a function of q as every k is. The loads balance where Q is zero. Where Q falls as q grows, the loads "
     "drive a small push back: the position is stable; where it rises, unstable."
 )
+SIGNS = {"stable": "less than zero", "unstable": "greater than zero", "neutral": "zero to within its error"}
+"""Of the derivative of Q in a position."""
 LEAST = 1e-7
 """An unknown that moves less than this fraction of the figure stands at a limit."""
 
 
-def equilibrium_section(known: Known, figures: Figures) -> Iterable[Section]:
+def equilibrium_section(work: Worked) -> Iterable[Section]:
     """The virtual work of the loads in each position, where one is told so."""
-    positions = () if known.answer is None else known.answer.positions or ()
-    said = [block for one in positions for block in _position(known, figures, one)]
+    positions = () if work.answer is None else work.answer.positions or ()
+    said = [block for one in positions for block in _position(work, one)]
     if not said:
         return
-    terms = tuple((1, product(_exerted(acting), _way(acting))) for acting in acting_loads(known))
+    ways = [(acting, Name("k", "".join(load_name(acting.load.name)))) for acting in acting_loads(work.known)]
+    terms = tuple((1, product(exerted_name(acting.load), way)) for acting, way in ways)
     blocks = (words(WORK), formula(Name("Q"), Sum(terms)), words(CONDITION))
     yield Section("Virtual work", (*blocks, *said))
 
 
-def _exerted(acting: Acting) -> Name:
-    """What a load exerts as a symbol; a spring's force is not its stiffness."""
-    if isinstance(acting.load, Spring | TorsionSpring):
-        return Name("T" if isinstance(acting.load, TorsionSpring) else "F", acting.load.name)
-    return load_name(acting.load.name)
-
-
-def _way(acting: Acting) -> Name:
-    return Name("k", "".join(load_name(acting.load.name)))
-
-
-def _position(known: Known, figures: Figures, position: EquilibriumPosition) -> list[Block]:
+def _position(work: Worked, position: EquilibriumPosition) -> list[Block]:
     """One position: the equation of each unknown, then the derivative; nothing where friction holds it."""
     if position.stability is None or position.answer.scene is None:
         return []
-    here = known_at(known, position.answer)
-    place = f"In the position {place_text(here.case, position, figures.digits)}"
+    here = work._replace(known=known_at(work.known, position.answer))
+    place = f"In the position {place_text(here.case, position, work.digits)}"
     for path in position.at:
-        loose = [name for name in _ends(known.case, path) if name not in here.points]
+        loose = [name for name in _ends(work.case, path) if name not in here.known.points]
         if loose:
             return [words(f"{place} no motion is told by {path}: no link carries {loose[0]}.")]
-    motions = _by_unknowns(here, known.case, list(position.at))
+    motions = _by_unknowns(here.known, work.case, list(position.at))
     if not motions:  # a change point, which has more of them
         return []
     blocks: list[Block] = [words(f"{place}:")]
-    blocks += torque_words(here.case.units)
+    blocks += torque_words(here.units)
     loads = []
-    least = (
-        max((abs(acting.value or 0.0) for acting in acting_loads(here)), default=0.0) * NOTHING * here.size
-    )
-    for acting in acting_loads(here):
-        exerted, said = _force(here, figures, acting)
+    acting_here = acting_loads(here.known)
+    largest = max((abs(acting.value or 0.0) for acting in acting_here), default=0.0)
+    least = largest * NOTHING * here.known.size
+    for acting in acting_here:
+        exerted, said = _force(here, acting)
         loads.append(exerted)
         blocks += said
     for n, ((told, motion), path) in enumerate(zip(motions, position.at, strict=True), 1):
-        per = here.case.units.torque_per_force_length if is_angle(path) else 1.0
+        per = here.units.torque_per_force_length if is_angle(path) else 1.0
         low = str(n) if len(motions) > 1 else ""
         blocks.append(words(f"While {told}:"))
         terms: list[tuple[int, Expr]] = []
         works = []
         for acting in loads:
-            k, said = factor_of(here, figures, acting, motion, int(low or 0), per)
+            k, said = factor_of(here, acting, motion, int(low or 0), per)
             blocks += said
             works.append((acting.value or 0.0) * k)
             if k:
-                terms.append((1, product(figures.number(acting.value or 0.0), figures.number(k))))
+                terms.append((1, product(work.number(acting.value or 0.0), work.number(k))))
         if abs(sum(works)) > AGREE * max(map(abs, works), default=0.0) + least:
             return []  # a rope or a screw takes a part, which its own equations tell
         if not terms:
             blocks.append(words("No load does work."))
-        whole = terms[0][1] if len(terms) == 1 else Sum(tuple(terms))
-        blocks.append(formula(Name("Q", low), whole if terms else Num("0"), Num("0")))
-    return [*blocks, *_derivative(figures, position)]
+        blocks.append(formula(Name("Q", low), total(terms), Num("0")))
+    return [*blocks, *_derivative(work, position)]
 
 
-def _force(known: Known, figures: Figures, acting: Acting) -> tuple[Acting, list[Block]]:
+def _force(work: Worked, acting: Acting) -> tuple[Acting, list[Block]]:
     """A load by what it exerts: a spring by its force or moment in the position."""
     if not isinstance(acting.load, Spring | TorsionSpring):
         return acting, []
-    value, stretched = gain_of(known, figures, acting)
-    _, force, said = sprung(known, figures, acting, value)
+    value, stretched = gain_of(work, acting)
+    _, force, said = sprung(work, acting, value)
     turns = force.at is None
-    gain = 1.0 / known.case.units.torque_per_force_length if turns else 1.0
+    gain = 1.0 / work.units.torque_per_force_length if turns else 1.0
     return force._replace(gain=gain), [*stretched, *said]
 
 
-def _derivative(figures: Figures, position: EquilibriumPosition) -> Iterable[Block]:
+def _derivative(work: Worked, position: EquilibriumPosition) -> Iterable[Block]:
     """The sign of the derivative, and what it says."""
     stiffness, told = position.stiffness, position.stability
     if stiffness is None:
@@ -126,14 +119,9 @@ def _derivative(figures: Figures, position: EquilibriumPosition) -> Iterable[Blo
         for j, value in enumerate(row, 1):
             above, below = (Name(s, "" if single else str(n)) for s, n in (("dQ", i), ("dq", j)))
             shown = -value if abs(value) > NOTHING * largest else 0.0
-            yield formula(Quotient(above, below), figures.quantity(shown, units[i - 1][j - 1]))
-    signs = {
-        "stable": "less than zero",
-        "unstable": "greater than zero",
-        "neutral": "zero to within its error",
-    }
+            yield formula(Quotient(above, below), work.quantity(shown, units[i - 1][j - 1]))
     if single:
-        yield words(f"It is {signs[told or '']}: {told}.")
+        yield words(f"It is {SIGNS[told or '']}: {told}.")
     else:
         yield words(f"By the eigenvalues of the symmetric part of these the position is {told}.")
 
@@ -148,30 +136,23 @@ def _by_unknowns(known: Known, written: Case, paths: Sequence[str]) -> list[tupl
     if len(motions) != len(paths):
         return []
     rates = [[_rate(known, written, path, motion) for motion in motions] for path in paths]
-    determinant = rates[0][0] if len(paths) == 1 else rates[0][0] * rates[1][1] - rates[0][1] * rates[1][0]
-    if not abs(determinant) > LEAST:
+    if not abs(np.linalg.det(rates)) > LEAST:
         return [(speed_words(motion), motion) for motion in motions]
-    told = [
-        f"{path} grows at 1 {'rad' if path.startswith('angles.') else known.case.units.length}/s"
-        for path in paths
-    ]
-    if len(paths) == 1:
-        return [(told[0], _mixed(motions, [1.0 / determinant]))]
-    (a, b), (c, d) = rates
-    return [
-        (f"{told[0]} and {paths[1]} stands still", _mixed(motions, [d / determinant, -c / determinant])),
-        (f"{told[1]} and {paths[0]} stands still", _mixed(motions, [-b / determinant, a / determinant])),
-    ]
+    found = []
+    for path, weights in zip(paths, np.linalg.inv(rates).T.tolist(), strict=True):
+        told = f"{path} grows at 1 {'rad' if is_angle(path) else known.case.units.length}/s"
+        still = "".join(f" and {other} stands still" for other in paths if other != path)
+        found.append((told + still, _mixed(motions, weights)))
+    return found
 
 
 def _mixed(motions: Sequence[OneMotion], weights: Sequence[float]) -> OneMotion:
+    """The sum of motions, each so many times."""
+
     def twist(link: str) -> Triple:
         parts = [(w, m.twists[link]) for w, m in zip(weights, motions, strict=True)]
-        return (
-            sum(w * t[0] for w, t in parts),
-            sum(w * t[1] for w, t in parts),
-            sum(w * t[2] for w, t in parts),
-        )
+        x, y, turn = (sum(w * t[k] for w, t in parts) for k in range(3))
+        return (x, y, turn)
 
     return motions[0]._replace(twists={link: twist(link) for link in motions[0].twists})
 
@@ -191,29 +172,20 @@ def _ends(written: Case, path: str) -> tuple[str, ...]:
 def _rate(known: Known, written: Case, path: str, motion: OneMotion) -> float:
     """How fast a datum grows in a motion [rad/s for an angle, length/s]."""
     if path.startswith("points."):
-        along: float = _velocity(known, path.split(".")[1], motion)["xy".index(path[-1])]
-        return along
+        return float(_velocity(known, path.split(".")[1], motion)["xy".index(path[-1])])
     datum = _datum(written, path)
     if isinstance(datum, Corner):
-        return _turning(known, datum.at, datum.b, motion) - _turning(known, datum.at, datum.a, motion)
+        return (_growth(known, datum.at, datum.b, motion) - _growth(known, datum.at, datum.a, motion)).imag
+    growth = _growth(known, datum.a, datum.b, motion)
     if isinstance(datum, Direction):
-        return _turning(known, datum.a, datum.b, motion)
-    (x, y), (u, v) = _arm_and_rate(known, datum.a, datum.b, motion)
-    rate: float = (x * u + y * v) / math.hypot(x, y)
-    return rate
+        return growth.imag
+    return growth.real * math.dist(known.points[datum.a], known.points[datum.b])
 
 
-def _turning(known: Known, a: str, b: str, motion: OneMotion) -> float:
-    (x, y), (u, v) = _arm_and_rate(known, a, b, motion)
-    rate: float = (x * v - y * u) / (x * x + y * y)
-    return rate
-
-
-def _arm_and_rate(known: Known, a: str, b: str, motion: OneMotion) -> tuple[Point, Point]:
-    """From a to b, and how fast that changes."""
-    (ax, ay), (bx, by) = known.points[a], known.points[b]
-    (au, av), (bu, bv) = _velocity(known, a, motion), _velocity(known, b, motion)
-    return (bx - ax, by - ay), (bu - au, bv - av)
+def _growth(known: Known, a: str, b: str, motion: OneMotion) -> complex:
+    """How fast the arm from a to b grows, as a share of itself; the imaginary part is how fast it turns."""
+    (p, q), (u, v) = [known.points[name] for name in (a, b)], [_velocity(known, n, motion) for n in (a, b)]
+    return (complex(*v) - complex(*u)) / (complex(*q) - complex(*p))
 
 
 def _velocity(known: Known, point: str, motion: OneMotion) -> Point:

@@ -10,7 +10,7 @@ from icsolve.case import Joint
 from icsolve.case.joints import Friction
 from icsolve.explain.document import Block, Items, Section, formula, words
 from icsolve.explain.formula import Name, Trig, product
-from icsolve.explain.given import Figures
+from icsolve.explain.worked import Worked
 from icsolve.report.derivation.known import Known
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
@@ -56,17 +56,17 @@ def rubbed(known: Known, reference: str) -> list[Rubbed]:
     return found
 
 
-def friction_section(known: Known, figures: Figures) -> Iterable[Section]:
+def friction_section(work: Worked) -> Iterable[Section]:
     """The rule at each joint that rubs: friction circles of pins, friction angles of guides; then what they
     come to in this position."""
-    rules = [block for joint in known.case.joints for block in _rule(figures, joint)]
+    rules = [block for joint in work.case.joints for block in _rule(work, joint)]
     if not rules:
         return
     blocks: list[Block] = [words(RULE), *rules]
-    friction = None if known.answer is None else known.answer.friction
+    friction = None if work.answer is None else work.answer.friction
     if friction is not None and friction.rubbing:
         blocks += [words("With the equations of equilibrium of all links (below) these give:")]
-        blocks += [Items(tuple((_rubs(known, figures, one),) for one in friction.rubbing))]
+        blocks += [Items(tuple((_rubs(work, one),) for one in friction.rubbing))]
     yield Section("Friction", tuple(blocks))
 
 
@@ -77,13 +77,13 @@ RULE = (
 )
 
 
-def _rule(figures: Figures, joint: Joint) -> Iterable[Block]:
+def _rule(work: Worked, joint: Joint) -> Iterable[Block]:
     """The angle of friction at a joint, and the friction circle of a pin."""
     friction: Friction | None = getattr(joint, "friction", None)
     if friction is None or not friction.mu.value:
         return
     at = getattr(joint, "at", "")
-    mu = figures.number(friction.mu.value)
+    mu = work.number(friction.mu.value)
     phi = math.degrees(math.atan(friction.mu.value))
     links = listed(joint.links)
     yield words(
@@ -91,24 +91,20 @@ def _rule(figures: Figures, joint: Joint) -> Iterable[Block]:
     )
     if joint.pivot and friction.radius is not None:
         radius = friction.radius.value
-        circle = figures.distance(radius * math.sin(math.radians(phi)))
-        numbers = product(figures.number(radius), Trig("sin", figures.number(phi)))
+        circle = work.distance(radius * math.sin(math.radians(phi)))
+        numbers = product(work.number(radius), Trig("sin", work.number(phi)))
         yield formula(product(Name("r", at), Trig("sin", Name("phi"))), numbers, circle)
 
 
-def _rubs(known: Known, figures: Figures, one: Rubbing) -> str:
+def _rubs(work: Worked, one: Rubbing) -> str:
     """What friction does at one place."""
-    units = known.case.units
+    units = work.units
     unit = units.torque if one.kind == "pin" else units.force
     what = "moment about the pin" if one.kind == "pin" else "friction along the guide"
-    size = figures.number(abs(one.value)).digits
-    force = known.answer.reactions.get(one.joint) if known.answer and known.answer.reactions else None
-    of = (
-        ""
-        if force is None or force.magnitude is None
-        else f" = {figures.number(force.magnitude).digits} {units.force}"
-    )
+    size = work.show(abs(one.value))
+    force = work.answer.reactions.get(one.joint) if work.answer and work.answer.reactions else None
+    of = "" if force is None or force.magnitude is None else f" = {work.show(force.magnitude)} {units.force}"
     arm = ""
     if one.radius is not None:
-        arm = f", tangent to the circle of radius {figures.number(one.radius).digits} {units.length}"
+        arm = f", tangent to the circle of radius {work.show(one.radius)} {units.length}"
     return f"{one.joint}{of} at {one.where}{arm}: {what} {size} {unit}"

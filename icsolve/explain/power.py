@@ -13,7 +13,6 @@ from icsolve.case import (
     Number,
     Spring,
     Stretch,
-    Torque,
     TorsionSpring,
     Units,
     Weight,
@@ -21,8 +20,7 @@ from icsolve.case import (
 from icsolve.explain.document import Block, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Quotient, Square, Sum, Trig, product, solved_for, total
 from icsolve.explain.friction import Rubbed, rubbed
-from icsolve.explain.given import Figures, gain_names, load_name
-from icsolve.explain.levers import lever, motion_name
+from icsolve.explain.worked import Worked, exerted_name, gain_names, lever, load_name
 from icsolve.report.derivation.known import Acting, Known
 from icsolve.report.derivation.ratios import OneMotion, Ratios, independent_motions, speed_words
 from icsolve.screws.plane import velocity
@@ -51,9 +49,9 @@ class ShownTerm(NamedTuple):
     factor: float
     name: Name
 
-    def symbols(self, known: Known, over: str | None = None) -> Expr:
+    def symbols(self, work: Worked, over: str | None = None) -> Expr:
         """The load times its levers and speeds (over the speed of a link)."""
-        parts = tuple((end.sign, _moving(known, end, over)) for end in self.ends)
+        parts = tuple((end.sign, _moving(work, end, over)) for end in self.ends)
         whole = parts[0][1] if len(parts) == 1 else Sum(parts)
         return product(self.name, *self.gain, whole)
 
@@ -63,51 +61,49 @@ class ShownTerm(NamedTuple):
         return self.ends[0].sign if len(self.ends) == 1 else 1
 
 
-def _moving(known: Known, end: TermEnd, over: str | None) -> Expr:
-    motion: Expr = motion_name(known, end.link)
+def _moving(work: Worked, end: TermEnd, over: str | None) -> Expr:
+    motion: Expr = work.motion_name(end.link)
     if over is not None:
-        motion = Num("1") if end.link == over else Quotient(motion, motion_name(known, over))
+        motion = Num("1") if end.link == over else Quotient(motion, work.motion_name(over))
     return product(*(() if end.lever is None else (end.lever,)), motion)
 
 
-def term_of(
-    known: Known, figures: Figures, ratios: Ratios, acting: Acting
-) -> tuple[ShownTerm | None, list[Block]]:
+def term_of(work: Worked, ratios: Ratios, acting: Acting) -> tuple[ShownTerm | None, list[Block]]:
     """A load's term and the formulas of its levers; None where all its links stand still."""
     said: list[Block] = []
     ends = []
-    for sign, link in links_of(known, acting):
-        if known.rests(link):
+    for sign, link in links_of(work.known, acting):
+        if work.known.rests(link):
             said.append(
                 words(f"Link {link} stands still: ", load_name(acting.load.name), " does no work on it.")
             )
             continue
-        end, more = _end(known, figures, ratios, acting, sign, link)
+        end, more = _end(work, ratios, acting, sign, link)
         ends.append(end)
         said += more
     if not ends:
         return None, said
-    value, more = gain_of(known, figures, acting)
+    value, more = gain_of(work, acting)
     name, gain = load_name(acting.load.name), gain_names(acting.load)
     if isinstance(acting.load, Spring | TorsionSpring) and acting.value is not None and not acting.unknown:
-        name, acting, said_so = sprung(known, figures, acting, value)
+        name, acting, said_so = sprung(work, acting, value)
         more, gain, value = [*more, *said_so], (), 1.0
-    scale = conversion(known, ratios, acting)
-    parts = tuple((end.sign, product(end.number, figures.number(ratios.rates[end.link]))) for end in ends)
+    scale = conversion(work.known, ratios, acting)
+    parts = tuple((end.sign, product(end.number, work.number(ratios.rates[end.link]))) for end in ends)
     whole = parts[0][1] if len(parts) == 1 else Sum(parts)
-    numbers = product(*(() if not gain else (figures.number(value),)), whole, figures.number(scale))
+    numbers = product(*(() if not gain else (work.number(value),)), whole, work.number(scale))
     sign = ends[0].sign if len(ends) == 1 else 1
     total = sum(end.sign * end.value * ratios.rates[end.link] for end in ends)
     return ShownTerm(acting, tuple(ends), gain, numbers, sign * total * value * scale, name), [*said, *more]
 
 
-def sprung(known: Known, figures: Figures, acting: Acting, value: float) -> tuple[Name, Acting, list[Block]]:
+def sprung(work: Worked, acting: Acting, value: float) -> tuple[Name, Acting, list[Block]]:
     """A spring as the force, or the moment, that it exerts."""
     torsion, stiffness = isinstance(acting.load, TorsionSpring), acting.value or 0.0
-    unit = known.case.units.torque if torsion else known.case.units.force
-    name = Name("T" if torsion else "F", acting.load.name)
-    numbers = product(figures.number(stiffness), figures.number(value))
-    size = figures.quantity(stiffness * value, unit)
+    unit = work.units.torque if torsion else work.units.force
+    name = exerted_name(acting.load)
+    numbers = product(work.number(stiffness), work.number(value))
+    size = work.quantity(stiffness * value, unit)
     said = words("So its ", "moment" if torsion else "force", " is")
     law = formula(name, product(load_name(acting.load.name), *gain_names(acting.load)), numbers, size)
     return name, acting._replace(value=stiffness * value, unit=unit), [said, law]
@@ -115,8 +111,7 @@ def sprung(known: Known, figures: Figures, acting: Acting, value: float) -> tupl
 
 def links_of(known: Known, acting: Acting) -> list[tuple[int, str]]:
     """The links on which a load acts, with their signs: the frame does no work, a clockwise torque has -1."""
-    turn = -1 if isinstance(acting.load, Torque) and acting.load.turns == "cw" else 1
-    both = [(turn, acting.link), (-turn, acting.against)]
+    both = [(acting.sign, acting.link), (-acting.sign, acting.against)]
     return [(sign, link) for sign, link in both if link != known.case.ground]
 
 
@@ -129,50 +124,50 @@ def conversion(known: Known, ratios: Ratios, acting: Acting) -> float:
     return 1.0 / ratio if torque else 1.0
 
 
-def gain_of(known: Known, figures: Figures, acting: Acting) -> tuple[float, list[Block]]:
+def gain_of(work: Worked, acting: Acting) -> tuple[float, list[Block]]:
     """The number of what stands beside a load (`gain_names`), and how it is found."""
     load = acting.load
     if not gain_names(load):
         return 1.0, []
     (name,) = gain_names(load)
     if isinstance(load, Weight):
-        weight = figures.quantity(acting.gain, f"{known.case.units.force}/kg")
+        weight = work.quantity(acting.gain, f"{work.units.force}/kg")
         return acting.gain, [words("A mass weighs g = ", weight, ".")]
     if isinstance(load, TorsionSpring):
-        slack = acting.gain * known.case.units.torque_per_force_length
-        size = figures.quantity(slack, "rad")
+        slack = acting.gain * work.units.torque_per_force_length
+        size = work.quantity(slack, "rad")
         angles = (load.free.value, load.free.value - math.degrees(slack))
-        begin, end = (figures.number(angle) for angle in angles)
+        begin, end = (work.number(angle) for angle in angles)
         turned = product(Sum(((1, begin), (-1, end))), Name("pi"))
         turn = formula(name, Quotient(turned, Num("180")), size)
         return slack, [words("By how much ", load_name(load.name), " is turned:"), turn]
     if isinstance(load, Force) and isinstance(load.over, Area):
-        return acting.gain, _area(known, figures, load, load.over, acting.gain)
+        return acting.gain, _area(work, load, load.over, acting.gain)
     if isinstance(load, Force) and load.over is not None:
-        length = figures.distance(acting.gain)
+        length = work.distance(acting.gain)
         said = words("The length over which ", load_name(load.name), " makes its resultant:")
-        return acting.gain, [said, formula(name, *_tapered(known, figures, load), length)]
+        return acting.gain, [said, formula(name, *_tapered(work, load), length)]
     assert isinstance(load, Spring)
-    a, b = known.points[load.at], known.points[load.to]
-    long, free = figures.length(math.dist(a, b)), figures.length(load.free.value)
-    stretch = formula(name, Sum(((1, long), (-1, free))), figures.distance(acting.gain))
+    a, b = work.known.points[load.at], work.known.points[load.to]
+    long, free = work.length(math.dist(a, b)), work.length(load.free.value)
+    stretch = formula(name, Sum(((1, long), (-1, free))), work.distance(acting.gain))
     return acting.gain, [words("The stretch of ", load_name(load.name), ":"), stretch]
 
 
-def _area(known: Known, figures: Figures, load: Force, over: Area, gain: float) -> list[Block]:
+def _area(work: Worked, load: Force, over: Area, gain: float) -> list[Block]:
     """The area under a pressure, and the force that a unit of the pressure makes on it."""
-    name, units, size = Name("A", load.name), known.case.units, 0.0 if over.area is None else over.area.value
+    name, units, size = Name("A", load.name), work.units, 0.0 if over.area is None else over.area.value
     numbers: tuple[Expr, ...] = ()
     if over.bore is not None:
         bore, rod = over.bore.value, 0.0 if over.rod is None else over.rod.value
         size = math.pi * (bore - rod) * (bore + rod) / 4.0
-        squares = [(sign, Square(figures.number(d))) for sign, d in ((1, bore), (-1, rod)) if d]
+        squares = [(sign, Square(work.number(d))) for sign, d in ((1, bore), (-1, rod)) if d]
         numbers = (Quotient(product(Name("pi"), total(squares)), Num("4")),)
-    area, square = figures.quantity(size, f"{units.length}^2"), f"{units.force}/{units.length}^2"
+    area, square = work.quantity(size, f"{units.length}^2"), f"{units.force}/{units.length}^2"
     blocks: list[Block] = [words("The area of ", load_name(load.name), ":"), formula(name, *numbers, area)]
     if abs(gain - size) > 1e-9 * size:
-        unit = figures.quantity(gain / size, square)
-        force = figures.quantity(gain, f"{units.force}/{units.pressure}")
+        unit = work.quantity(gain / size, square)
+        force = work.quantity(gain, f"{units.force}/{units.pressure}")
         blocks += [
             words(f"1 {units.pressure} is ", unit, ", so that"),
             formula(name, product(area.number, unit.number), force),
@@ -180,23 +175,23 @@ def _area(known: Known, figures: Figures, load: Force, over: Area, gain: float) 
     return blocks
 
 
-def _tapered(known: Known, figures: Figures, load: Force) -> Iterator[Expr]:
+def _tapered(work: Worked, load: Force) -> Iterator[Expr]:
     """The length of a load along a line that is another at its end, as far as its own number makes it."""
     if isinstance(load.over, Stretch) and load.over.end is not None and isinstance(load.value, Number):
-        first, last = (figures.number(number.value) for number in (load.value, load.over.end))
+        first, last = (work.number(number.value) for number in (load.value, load.over.end))
         mean = Quotient(Sum(((1, first), (1, last))), product(Num("2"), first))
-        yield product(mean, figures.number(math.dist(known.points[load.over.a], known.points[load.over.b])))
+        yield product(
+            mean, work.number(math.dist(work.known.points[load.over.a], work.known.points[load.over.b]))
+        )
 
 
-def _end(
-    known: Known, figures: Figures, ratios: Ratios, acting: Acting, sign: int, link: str
-) -> tuple[TermEnd, list[Block]]:
+def _end(work: Worked, ratios: Ratios, acting: Acting, sign: int, link: str) -> tuple[TermEnd, list[Block]]:
     if acting.at is None:
         return TermEnd(sign, link, None, Num("1"), 1.0), []
     low = "".join(load_name(acting.load.name))
-    low = low if len(links_of(known, acting)) == 1 else f"{low},{link}"
+    low = low if len(links_of(work.known, acting)) == 1 else f"{low},{link}"
     force = (load_name(acting.load.name),)
-    found, said = lever(known, figures, ratios.headings, force, low, link, acting.at, acting.direction)
+    found, said = lever(work, ratios.headings, force, low, link, acting.at, acting.direction)
     return TermEnd(sign, link, *found), said
 
 
@@ -211,29 +206,29 @@ SLIDING = (
 )
 
 
-def power_section(known: Known, figures: Figures, ratios: Ratios, loads: Sequence[Acting]) -> Section | None:
+def power_section(work: Worked, ratios: Ratios, loads: Sequence[Acting]) -> Section | None:
     """The sum of power and the unknown load that makes it zero; None where the centres are not sharp enough
     to give it."""
     blocks: list[Block] = []
     terms: list[ShownTerm] = []
     for acting in loads:
-        term, said = term_of(known, figures, ratios, acting)
+        term, said = term_of(work, ratios, acting)
         blocks += said
         terms += [] if term is None else [term]
-    friction = rubbed(known, ratios.reference)
-    if not _agrees(known, terms, friction):
+    friction = rubbed(work.known, ratios.reference)
+    if not _agrees(terms, friction):
         return None
     blocks.append(
         words("In equilibrium the powers of all loads add up to zero:" if not friction else SLIDING)
     )
-    symbols: list[tuple[int, Expr]] = [(term.sign, term.symbols(known)) for term in terms]
-    symbols += [(1, product(r.name, motion_name(known, ratios.reference))) for r in friction]
+    symbols: list[tuple[int, Expr]] = [(term.sign, term.symbols(work)) for term in terms]
+    symbols += [(1, product(r.name, work.motion_name(ratios.reference))) for r in friction]
     blocks.append(formula(Sum(tuple(symbols)), Num("0")))
-    blocks += _numbers(known, figures, ratios, terms, friction)
+    blocks += _numbers(work, ratios, terms, friction)
     return Section("Power", tuple(blocks))
 
 
-def _agrees(known: Known, terms: Sequence[ShownTerm], friction: Sequence[Rubbed]) -> bool:
+def _agrees(terms: Sequence[ShownTerm], friction: Sequence[Rubbed]) -> bool:
     """Whether the terms give the answer (centres that contradict each other a little do not)."""
     roots = [term for term in terms if term.acting.unknown and _is_root(term.acting)]
     if len(roots) != 1 or roots[0].acting.value is None:
@@ -243,53 +238,49 @@ def _agrees(known: Known, terms: Sequence[ShownTerm], friction: Sequence[Rubbed]
 
 
 def _numbers(
-    known: Known, figures: Figures, ratios: Ratios, terms: Sequence[ShownTerm], friction: Sequence[Rubbed]
+    work: Worked, ratios: Ratios, terms: Sequence[ShownTerm], friction: Sequence[Rubbed]
 ) -> Iterable[Block]:
     """A load at a time over the reference's speed, then the unknown from their sum."""
-    units, reference = known.case.units, ratios.reference
-    unit = units.torque if known.turns(reference) else units.force
-    if any(conversion(known, ratios, term.acting) != 1.0 for term in terms):
+    units, reference = work.units, ratios.reference
+    unit = units.torque if work.known.turns(reference) else units.force
+    if any(conversion(work.known, ratios, term.acting) != 1.0 for term in terms):
         yield from torque_words(units)
-    yield words("Over ", motion_name(known, reference), f", a load at a time, in {unit}:")
+    yield words("Over ", work.motion_name(reference), f", a load at a time, in {unit}:")
     for term in terms:
-        yield from _term(known, figures, reference, term, unit)
+        yield from _term(work, reference, term, unit)
     for r in friction:
-        yield words(f"{r.words}, {figures.number(r.value).digits} {r.unit}:")
+        yield words(f"{r.words}, {work.show(r.value)} {r.unit}:")
         ratio = r.power / (r.value * r.rate) if r.value * r.rate else 1.0
-        numbers = product(figures.number(r.value), figures.number(r.rate), figures.number(ratio))
-        yield formula(r.name, numbers, figures.quantity(r.power, unit))
-    yield from _solved(known, figures, terms, friction)
+        numbers = product(work.number(r.value), work.number(r.rate), work.number(ratio))
+        yield formula(r.name, numbers, work.quantity(r.power, unit))
+    yield from _solved(work, terms, friction)
 
 
-def _term(known: Known, figures: Figures, reference: str, term: ShownTerm, unit: str) -> Iterable[Block]:
+def _term(work: Worked, reference: str, term: ShownTerm, unit: str) -> Iterable[Block]:
     """The power of a known load; of the unknown one what it is multiplied by."""
-    symbols, name = term.symbols(known, over=reference), term.name
+    symbols, name = term.symbols(work, over=reference), term.name
     if not term.acting.unknown:
         assert term.acting.value is not None
-        power = figures.quantity(term.acting.value * term.factor, unit)
-        written = product(figures.number(term.acting.value), term.numbers)
+        power = work.quantity(term.acting.value * term.factor, unit)
+        written = product(work.number(term.acting.value), term.numbers)
         yield formula(symbols, power) if written == power.number else formula(symbols, written, power)
     elif term.numbers != Num("1"):
-        yield formula(symbols, product(name, term.numbers), product(name, figures.number(term.factor)))
+        yield formula(symbols, product(name, term.numbers), product(name, work.number(term.factor)))
 
 
-def _solved(
-    known: Known, figures: Figures, terms: Sequence[ShownTerm], friction: Sequence[Rubbed]
-) -> Iterable[Block]:
+def _solved(work: Worked, terms: Sequence[ShownTerm], friction: Sequence[Rubbed]) -> Iterable[Block]:
     """The unknown load: the powers of the others with the other sign, over its factor."""
     unknown = [term for term in terms if term.acting.unknown]
     roots = [term for term in unknown if _is_root(term.acting)]
-    if known.answer is None or len(roots) != 1:
+    if work.answer is None or len(roots) != 1:
         return
     root = roots[0].acting
-    found = known.answer.answers[root.load.name]
+    found = work.answer.answers[root.load.name]
     powers = [(t.sign, (t.acting.value or 0.0) * t.factor) for t in terms if not t.acting.unknown]
     powers += [(1, r.power) for r in friction]
-    rest = [(-sign, figures.number(power)) for sign, power in powers]
-    factors = [
-        (t.sign, product(figures.number(_times(t.acting, root)), figures.number(t.factor))) for t in unknown
-    ]
-    value = figures.quantity(found.value, found.unit)
+    rest = [(-sign, work.number(power)) for sign, power in powers]
+    factors = [(t.sign, product(work.number(_times(t.acting, root)), work.number(t.factor))) for t in unknown]
+    value = work.quantity(found.value, found.unit)
     yield words("So")
     numbers = () if factors == [(1, Num("1"))] and len(rest) == 1 else (solved_for(rest, factors),)
     yield formula(load_name(root.load.name), *numbers, value)
@@ -315,9 +306,9 @@ def _times(acting: Acting, root: Acting) -> float:
 # --- an equation for every motion ------------------------------------------------------------------------
 
 
-def motions_section(known: Known, figures: Figures, loads: Sequence[Acting]) -> Iterable[Section]:
+def motions_section(work: Worked, loads: Sequence[Acting]) -> Iterable[Section]:
     """One equation a motion, where the motions are known."""
-    motions = independent_motions(known)
+    motions = independent_motions(work.known)
     if not motions:
         return
     count = len(motions)
@@ -327,24 +318,24 @@ def motions_section(known: Known, figures: Figures, loads: Sequence[Acting]) -> 
         else (f"{count} freedoms: the powers of all loads add up to zero in each of {count} motions.")
     )
     blocks: list[Block] = [words(f"The mechanism has {freedoms}")]
-    blocks += torque_words(known.case.units)
+    blocks += torque_words(work.units)
     rows = []
-    friction = rubbed(known, motions[0].driver) if motions[0].driver in known.twists else []
+    friction = rubbed(work.known, motions[0].driver) if motions[0].driver in work.known.twists else []
     if count > 1 and any(r.value for r in friction):
         yield Section("Power", (*blocks, words(SHARED)))
         return
     for n, motion in enumerate(motions, 1):
-        row, said = _motion(known, figures, loads, motion, n if count > 1 else 0)
+        row, said = _motion(work, loads, motion, n if count > 1 else 0)
         if row and friction:
-            row += _rubbing(known, friction, motion)
-            said[-2:] = [*(words(f"{r.words}, {figures.number(r.value).digits} {r.unit}.") for r in friction)]
-            said += [words("The sum of power:"), _summed(figures, row, found=False)]
+            row += _rubbing(work.known, friction, motion)
+            said[-2:] = [*(words(f"{r.words}, {work.show(r.value)} {r.unit}.") for r in friction)]
+            said += [words("The sum of power:"), _summed(work, row, found=False)]
         rows.append(row)
         blocks += said
-    blocks += _found(known, figures)
-    if known.answer is not None and all(acting.value is not None for acting in loads):
+    blocks += _found(work)
+    if work.answer is not None and all(acting.value is not None for acting in loads):
         blocks.append(words("With these values the sums are"))
-        blocks += [_summed(figures, row, found=True) for row in rows if row]
+        blocks += [_summed(work, row, found=True) for row in rows if row]
     yield Section("Power", tuple(blocks))
 
 
@@ -363,9 +354,7 @@ def _rubbing(known: Known, friction: Sequence[Rubbed], motion: OneMotion) -> Fac
     return [(r, r.power * per * speed * times / r.value) for r in friction if r.value]
 
 
-def _motion(
-    known: Known, figures: Figures, loads: Sequence[Acting], motion: OneMotion, n: int
-) -> tuple[Factors, list[Block]]:
+def _motion(work: Worked, loads: Sequence[Acting], motion: OneMotion, n: int) -> tuple[Factors, list[Block]]:
     """The factor of every load that does work in a motion, and their equation."""
     others = "" if n == 0 else ", the drivers of the other motions held"
     told = speed_words(motion)
@@ -373,34 +362,34 @@ def _motion(
     blocks: list[Block] = [words(f"{told}{others}.")]
     factors: Factors = []
     for acting in loads:
-        factor, said = factor_of(known, figures, acting, motion, n, known.case.units.torque_per_force_length)
+        factor, said = factor_of(work, acting, motion, n, work.units.torque_per_force_length)
         blocks += said
         factors += [(acting, factor)] if factor else []
     if not factors:
         return [], [*blocks, words("In this motion no load does work.")]
-    return factors, [*blocks, words("The sum of power:"), _summed(figures, factors, found=False)]
+    return factors, [*blocks, words("The sum of power:"), _summed(work, factors, found=False)]
 
 
-def _summed(figures: Figures, factors: Factors, *, found: bool) -> Block:
+def _summed(work: Worked, factors: Factors, *, found: bool) -> Block:
     """The sum of power in a motion; the unknown loads by name or, once ``found``, by their numbers."""
     terms = []
     for acting, factor in factors:
         if isinstance(acting, Acting) and acting.unknown and not found:
             first: Expr = load_name(acting.load.name)
         else:
-            first = figures.number(acting.value or 0.0)
-        terms.append((1, product(first, figures.number(factor))))
+            first = work.number(acting.value or 0.0)
+        terms.append((1, product(first, work.number(factor))))
     return formula(Sum(tuple(terms)), Num("0"))
 
 
 def factor_of(
-    known: Known, figures: Figures, acting: Acting, motion: OneMotion, n: int, units: float
+    work: Worked, acting: Acting, motion: OneMotion, n: int, units: float
 ) -> tuple[float, list[Block]]:
     """Power per unit of a load: the rate of its link, or the part of its point's velocity along it; ``units``
     of power a second for a force times a length."""
     name = Name("k", "".join(load_name(acting.load.name)) + (f",{n}" if n else ""))
     if acting.at is None:
-        return _turned(figures, acting, motion, name, units)
+        return _turned(work, acting, motion, name, units)
     (ax, ay), (bx, by) = (velocity(motion.twists[link], acting.at) for link in (acting.link, acting.against))
     v = (ax - bx, ay - by)
     dx, dy = acting.direction
@@ -409,17 +398,17 @@ def factor_of(
     size = abs(acting.gain) * max(math.hypot(*v), NOTHING * fastest) * units
     if abs(value) <= NOTHING * size or size == 0.0:
         return 0.0, []
-    angle = figures.number(math.degrees(math.atan2(dy, dx)) % 360.0)
-    x, y = map(figures.number, plain_vector(v))
+    angle = work.number(math.degrees(math.atan2(dy, dx)) % 360.0)
+    x, y = map(work.number, plain_vector(v))
     along = Sum(((1, product(x, Trig("cos", angle))), (1, product(y, Trig("sin", angle)))))
-    extra = [figures.number(f) for f in (acting.gain, units) if f != 1.0]
+    extra = [work.number(f) for f in (acting.gain, units) if f != 1.0]
     whole = product(*extra, along) if extra else along
-    said = f" has its point move at ({x.digits}, {y.digits}) {known.case.units.length}/s:"
-    return value, [words("", load_name(acting.load.name), said), formula(name, whole, figures.number(value))]
+    said = f" has its point move at ({x.digits}, {y.digits}) {work.units.length}/s:"
+    return value, [words(load_name(acting.load.name), said), formula(name, whole, work.number(value))]
 
 
 def _turned(
-    figures: Figures, acting: Acting, motion: OneMotion, name: Name, units: float
+    work: Worked, acting: Acting, motion: OneMotion, name: Name, units: float
 ) -> tuple[float, list[Block]]:
     on, off = motion.twists[acting.link][2], motion.twists[acting.against][2]
     per = acting.gain * units  # of a torsion spring its turn
@@ -427,14 +416,14 @@ def _turned(
     value = per * (on - off)
     if not per or abs(on - off) <= NOTHING * (abs(on) + abs(off)):
         return 0.0, []
-    both = Sum(((turn, figures.number(on)), (-turn, figures.number(off))))
-    whole = product(figures.number(abs(per)), both if off else figures.number(turn * on))
-    return value, [formula(name, whole, figures.number(value))]
+    both = Sum(((turn, work.number(on)), (-turn, work.number(off))))
+    whole = product(work.number(abs(per)), both if off else work.number(turn * on))
+    return value, [formula(name, whole, work.number(value))]
 
 
-def _found(known: Known, figures: Figures) -> Iterable[Block]:
-    if known.answer is None or not known.answer.answers:
+def _found(work: Worked) -> Iterable[Block]:
+    if work.answer is None or not work.answer.answers:
         return
     yield words("So")
-    for name, found in known.answer.answers.items():
-        yield formula(load_name(name), figures.quantity(found.value, found.unit))
+    for name, found in work.answer.answers.items():
+        yield formula(load_name(name), work.quantity(found.value, found.unit))

@@ -27,8 +27,8 @@ from icsolve.draw.words import (
 )
 from icsolve.explain.document import Document, Formula, formula
 from icsolve.explain.formula import MATHML, OMEGA, Expr, Name, Num, Quotient, Sum, product
-from icsolve.explain.given import gain_names, load_name
 from icsolve.explain.typeset import AsHtml
+from icsolve.explain.worked import gain_names, load_name
 from icsolve.page.columns import Array, exact, script_json
 from icsolve.page.fields import section
 from icsolve.page.live import Live, why_presolved

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Callable, Container
 from collections.abc import Mapping as Table
 from itertools import chain, count
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from icsolve.case import (
     Belt,
@@ -14,6 +15,7 @@ from icsolve.case import (
     Friction,
     Gears,
     Guide,
+    Helix,
     Joint,
     KnownCentre,
     Number,
@@ -35,7 +37,9 @@ from icsolve.read.keys import (
     PRESSURE_ANGLE,
     SPACE_JOINTS,
     TEETH,
+    TOOTH_ANGLES,
     TOOTH_FORM,
+    TOOTH_SIZES,
     EntryKind,
     Key,
     Rule,
@@ -45,6 +49,9 @@ from icsolve.read.keys import (
 from icsolve.read.names import is_name, meant_by, shown, suggestion
 from icsolve.read.reading import Reading
 from icsolve.wording.sentences import listed
+
+if TYPE_CHECKING:
+    from icsolve.case.space import Teeth
 
 T = TypeVar("T")
 Builders = Table[str, Callable[[Entry, Any, Values], T | None]]
@@ -410,10 +417,7 @@ def _gears(entry: Entry, links: Pair, v: Values) -> Joint | None:
     if not _is_apart(entry, links, v):
         return None
     if any(key in HELICAL for key in entry.node.items):
-        from icsolve.read.teeth import read_helical
-
-        form = read_helical(entry, v)
-        return Gears(links, v["teeth"], v["carrier"], *form) if form else None
+        return _helical(entry, links, v)
     return Gears(links, v["teeth"], v["carrier"], v["pressure angle"], v["diametral pitch"], v["module"])
 
 
@@ -463,3 +467,59 @@ BUILDERS: Builders[Joint] = {
     "weld": lambda _, links, v: Weld(links, v["at"]),
     "screw": _screw,
 }
+
+
+# --- the form of teeth -----------------------------------------------------------------------------------
+
+
+def _helical(entry: Entry, links: Pair, v: Values) -> Gears | None:
+    """A mesh of the plane with helical teeth: what is given in their normal section is turned into it."""
+    teeth = read_teeth(entry, v, False)
+    if teeth is None or teeth.helix_angle is None:
+        return None
+    helix = Helix(teeth.helix_angle, v["bearing span"], teeth.normal_angle)
+    cosine = math.cos(math.radians(teeth.helix_angle.value)) if teeth.normal_pitch else 1.0
+    pitch, module = teeth.diametral_pitch, teeth.module
+    pitch = pitch and pitch._replace(value=pitch.value * cosine, half=pitch.half * cosine)
+    module = module and module._replace(value=module.value / cosine, half=module.half / cosine)
+    return Gears(links, v["teeth"], v["carrier"], teeth.pressure_angle, pitch, module, helix)
+
+
+def read_teeth(entry: Entry, values: Values, pitch_needed: bool) -> Teeth | None:
+    """The teeth of a mesh; None, with the reason noted, where they can't be read.
+
+    With a helix angle the pressure angle and the pitch say in which section they are meant: square to the
+    teeth (``normal``) or in the plane of the wheel (``transverse``).
+    """
+    from icsolve.case.space import Teeth
+
+    angle_key = next((key for key in TOOTH_ANGLES if entry.has(key)), "")
+    size_key = next((key for key in TOOTH_SIZES if entry.has(key)), "")
+    helical = entry.has("helix angle")
+    if not angle_key:
+        said = "that of the teeth, such as 20" + (", or 'transverse pressure angle'" if helical else "")
+        entry.need("normal pressure angle" if helical else "pressure angle", said)
+    if not size_key and pitch_needed:
+        said = "or 'module': it gives the pitch circle of a gear whose mate is not shown"
+        entry.need("diametral pitch", said)
+    for key in (angle_key, size_key):
+        _check_section(entry, key, helical)
+    if not entry.whole:
+        return None
+    size = values[size_key] if size_key else None
+    pitch, module = (size, None) if size_key.endswith("pitch") else (None, size)
+    normal_angle, normal_size = (key.startswith("normal") for key in (angle_key, size_key))
+    helix, hand = values["helix angle"], values["hand"] or "right"
+    return Teeth(values[angle_key], normal_angle, helix, hand, pitch, module, normal_size)
+
+
+def _check_section(entry: Entry, key: str, helical: bool) -> None:
+    """Straight teeth have one section; of a helix one must say which."""
+    if not key or key.startswith(("normal", "transverse")) == helical:
+        return
+    if helical:
+        said = f"with a helix angle say whether it is the 'normal {key}' or the 'transverse {key}'"
+    else:
+        kind = key.partition(" ")[2]
+        said = f"straight teeth have one {kind}; without a helix angle leave out the first word"
+    entry.refuse(entry.mark(key), f"'{key}' of {entry.what}: {said}")

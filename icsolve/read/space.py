@@ -31,12 +31,11 @@ from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry, Values
 from icsolve.read.expect import read_expect
 from icsolve.read.figure import read_points
-from icsolve.read.joints import Builders, mention_links, read_list
+from icsolve.read.joints import Builders, mention_links, read_list, read_teeth
 from icsolve.read.keys import GRAVITY, SECTIONS, SPACE_JOINTS, SPACE_LOADS
 from icsolve.read.loads import Forms, heading, read_section, spring, weight
 from icsolve.read.names import Problems, suggestion
 from icsolve.read.reading import Reading, number
-from icsolve.read.teeth import read_teeth
 
 WORDS = ("x", "y", "z", "-x", "-y", "-z")
 _FORM = "x, y, z, -z, components such as [0, 3, 4], or two points [A, B]"

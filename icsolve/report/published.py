@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 
 from icsolve.answer import Answer
-from icsolve.answer.bodies import Reaction
-from icsolve.answer.space import Parts, SpatialReaction
+from icsolve.answer.bodies import Reaction, SpatialReaction
 from icsolve.case import pair_name
 from icsolve.case.expected import ArmIs, FrictionRadiusIs, OfBodies, ReactionIs, TensionIs
 from icsolve.screws.plane import add, cross, subtract
@@ -96,14 +95,14 @@ def _arm(answer: Answer, reaction: Reaction | SpatialReaction, point: str) -> fl
     is to that line, as books draw it.
     """
     place = place_of(answer, point)
-    force, couple = _components(reaction)
+    force, couple = reaction.components
     rubbed = _rubbed(answer, reaction, point) if isinstance(reaction, Reaction) else 0.0
     if None in (*force, *couple):
         raise LookupError(f"the force is not determined: {reaction.why}")
     if not any(force):
         raise LookupError("the force is zero: it has no arm")
     per = answer.case.units.torque_per_force_length
-    moment = cross(subtract(_in_space(reaction.at), _in_space(place)), force)
+    moment = cross(subtract(spatial(reaction.at), spatial(place)), force)
     whole = add(moment, times(1.0 / per, add(couple, (0.0, 0.0, rubbed))))
     return float(size(whole) / size(force))
 
@@ -116,14 +115,7 @@ def place_of(answer: Answer, point: str) -> tuple[float, ...]:
     return points[point]
 
 
-def _components(reaction: Reaction | SpatialReaction) -> tuple[Parts, Parts]:
-    """Force and couple along x, y and z."""
-    if isinstance(reaction, Reaction):
-        return (reaction.x, reaction.y, 0.0), (0.0, 0.0, reaction.moment)
-    return reaction.force, reaction.couple
-
-
-def _in_space(place: tuple[float, ...]) -> Vec:
+def spatial(place: tuple[float, ...]) -> Vec:
     """A place of the plane or of space by three coordinates."""
     x, y, *z = place
     return (x, y, z[0] if z else 0.0)

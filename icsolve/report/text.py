@@ -1,19 +1,20 @@
-"""An answer as text for people: the unknown with its unit and its sense in words, and why."""
+"""An answer as text for people: the unknown with its unit and its sense in words, and why; free bodies."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer, Centre, Found, Term
-from icsolve.case import Case, Coordinates, Pair, Torque, is_angle, is_named, link_order, pair_name
+from icsolve.case import Case, Coordinates, Pair, Torque, Units, is_angle, is_named, link_order, pair_name
 from icsolve.scene.parts import scene_of
 from icsolve.tuples import replace
 from icsolve.wording.senses import NOTHING, SPELT, holding, plain_vector, spelt
 
 if TYPE_CHECKING:
+    from icsolve.answer.bodies import FrictionFound, Reaction, Rubbing, Spatial, SpatialReaction, Witness
     from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
 
 Format = Callable[[float], str]
@@ -35,7 +36,7 @@ def answer_text(answer: Answer, digits: int = 6) -> str:
         _rates(answer, digits),
         _velocities(answer, digits),
         _accelerations(answer, show),
-        _reactions(answer, show),
+        _bodies(answer, show),
         _sentences("Notes", answer.notes),
         _sentences("Not examined", answer.skipped),
     ]
@@ -85,7 +86,7 @@ def _in_positions(answer: Answer, digits: int) -> Iterable[list[str]]:
     for position in answer.positions or ():
         scene = _without_rounding(position.answer)
         asked = [section(scene, digits) for section in (_centres, _rates, _velocities)]
-        if any((*asked, forces := _reactions(scene, show))):
+        if any((*asked, forces := _bodies(scene, show))):
             yield [f"In the position {place_text(answer.case, position, digits)}"]
             yield from (*asked, forces)
 
@@ -194,10 +195,11 @@ def _centres(answer: Answer, digits: int) -> list[str]:
     if not answer.centres:
         return []
     case = answer.case
-    names = [f"I{pair_name(case, pair)}" for pair in answer.centres]
-    places = [_place(centre, digits) for centre in answer.centres.values()]
-    hows = [_how(case, centre) for centre in answer.centres.values()]
-    return ["Instant centres", *_table(names, places, hows)]
+    rows = (
+        (f"I{pair_name(case, pair)}", _place(centre, digits), _how(case, centre))
+        for pair, centre in answer.centres.items()
+    )
+    return ["Instant centres", *table(rows)]
 
 
 def _place(centre: Centre, digits: int) -> str:
@@ -229,9 +231,8 @@ def _power(answer: Answer, digits: int) -> list[str]:
         return []
     error = _power_error(answer)
     rows = [_term(answer, term, _certain(term.power, error, digits), digits) for term in answer.terms]
-    columns: list[list[str]] = [list(column) for column in zip(*rows, strict=True)]
     summed = _sum_of_powers(answer, _formatter(digits))
-    return [f"Power in {answer.case.units.torque}/s: {summed}", *_table(*columns)]
+    return [f"Power in {answer.case.units.torque}/s: {summed}", *table(rows)]
 
 
 def _power_error(answer: Answer) -> float:
@@ -274,11 +275,11 @@ def _rates(answer: Answer, digits: int) -> list[str]:
         return []
     unit = "Angular velocities, rad/s" if _has_speed(answer.case) else "Angular velocities, scaled"
     errors = answer.errors.get("rates", {})
-    rates = []
+    rows = []
     for link, rate in answer.rates.items():
         certain = digits if isinstance(rate, str) else _certain(abs(rate), errors.get(link), digits)
-        rates.append(_signed(rate, _formatter(certain)))
-    return [unit, *_table([f"w{link}" for link in answer.rates], rates)]
+        rows.append((f"w{link}", _signed(rate, _formatter(certain))))
+    return [unit, *table(rows)]
 
 
 def _has_speed(case: Case) -> bool:
@@ -289,26 +290,34 @@ def _velocities(answer: Answer, digits: int) -> list[str]:
     if not answer.velocities:
         return []
     error = _velocity_error(answer)
-    named = {key: v for key, v in answer.velocities.items() if is_named(key[0])}
-    names = [f"{point} on {link}" for point, link in named]
-    shown = [v if isinstance(v, str) else [_shown(c, error, digits) for c in v] for v in named.values()]
-    values = [v if isinstance(v, str) else f"({', '.join(v)})" for v in shown]
+    rows = _vectors(answer.velocities, lambda value: _shown(value, error, digits))
     unit = f"{answer.case.units.length}/s" if _has_speed(answer.case) else "scaled"
-    return [f"Velocities, {unit}", *_table(names, values)]
+    return [f"Velocities, {unit}", *table(row for key, row in rows if is_named(key[0]))]
+
+
+def _vectors(
+    vectors: Mapping[tuple[str, str], tuple[float, float] | str], show: Format
+) -> Iterable[tuple[tuple[str, str], tuple[str, str]]]:
+    """Rows of vectors at points of links; of one that is open why."""
+    for (point, link), v in vectors.items():
+        yield (point, link), (f"{point} on {link}", v if isinstance(v, str) else _vector(v, show))
+
+
+def _vector(parts: Iterable[float | None], show: Format) -> str:
+    """Components in brackets, question marks for those that equilibrium leaves open."""
+    return f"({', '.join(_number(part, show) for part in parts)})"
 
 
 def _accelerations(answer: Answer, show: Format) -> list[str]:
     """Accelerations of links and points, where the inertia forces of the motion are among the loads."""
     if answer.angular_accelerations is None or answer.accelerations is None:
         return []
-    turning = answer.angular_accelerations
-    links = [f"a{link}" for link in turning]
-    lines = ["Angular accelerations, rad/s^2", *_table(links, [_signed(a, show) for a in turning.values()])]
-    points = {f"{point} on {link}": a for (point, link), a in answer.accelerations.items()}
+    turning = ((f"a{link}", _signed(a, show)) for link, a in answer.angular_accelerations.items())
+    lines = ["Angular accelerations, rad/s^2", *table(turning)]
+    points = [row for _, row in _vectors(answer.accelerations, show)]
     if not points:
         return lines
-    values = [a if isinstance(a, str) else f"({show(a[0])}, {show(a[1])})" for a in points.values()]
-    return [*lines, "", f"Accelerations, {answer.case.units.length}/s^2", *_table(list(points), values)]
+    return [*lines, "", f"Accelerations, {answer.case.units.length}/s^2", *table(points)]
 
 
 def _signed(rate: float | str, show: Format) -> str:
@@ -331,19 +340,8 @@ def _points(answer: Answer, show: Format) -> list[str]:
     """The points that the figure's data, and not their coordinates, determine."""
     coordinates = {n: data for n, data in answer.case.points.items() if isinstance(data, Coordinates)}
     given = {name for name, data in coordinates.items() if None not in data}
-    points = {name: place for name, place in answer.shown_points.items() if name not in given}
-    if not points:
-        return []
-    places = [", ".join(map(show, place)) for place in points.values()]
-    return [f"Points found, {answer.case.units.length}", *_table(list(points), [f"({p})" for p in places])]
-
-
-def _reactions(answer: Answer, show: Format) -> list[str]:
-    if answer.reactions is None and answer.friction is None and answer.spatial is None:
-        return []
-    from icsolve.report.bodies import bodies_lines
-
-    return bodies_lines(answer, show, _table)
+    rows = [(name, _vector(p, show)) for name, p in answer.shown_points.items() if name not in given]
+    return [f"Points found, {answer.case.units.length}", *table(rows)] if rows else []
 
 
 def _sentences(title: str, sentences: Iterable[str]) -> list[str]:
@@ -351,11 +349,111 @@ def _sentences(title: str, sentences: Iterable[str]) -> list[str]:
     return [title, *lines] if lines else []
 
 
-def _table(*columns: list[str]) -> list[str]:
-    """Columns side by side, each as wide as its widest entry."""
-    widths = [max(len(entry) for entry in column) for column in columns]
-    rows = zip(*columns, strict=True)
-    return [
-        "  " + "  ".join(entry.ljust(width) for entry, width in zip(row, widths, strict=True)).rstrip()
-        for row in rows
-    ]
+def table(rows: Iterable[Sequence[str]]) -> list[str]:
+    """Rows of entries as lines, each column as wide as its widest entry."""
+    rows = list(rows)
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    padded = ((entry.ljust(width) for entry, width in zip(row, widths, strict=True)) for row in rows)
+    return [f"  {'  '.join(row)}".rstrip() for row in padded]
+
+
+# --- free bodies, in the plane and in space --------------------------------------------------------------
+
+
+def _bodies(answer: Answer, show: Format) -> list[str]:
+    """Reactions, friction, and the unknown loads by free bodies."""
+    if answer.spatial is not None:
+        return _space(answer, answer.spatial, show)
+    if answer.reactions is None and answer.friction is None:
+        return []
+    blocks = [_reactions(answer, show), _tensions(answer, show)]
+    if answer.friction is not None:
+        blocks.append(_friction(answer.friction, answer.case.units, show))
+    blocks.append(_witnesses(answer.witnesses, show))
+    return "\n\n".join("\n".join(lines) for lines in blocks if lines).splitlines()
+
+
+def _reactions(answer: Answer, show: Format) -> list[str]:
+    """A line for each joint: components, size and direction, couple."""
+    if not answer.reactions:
+        return []
+    couples = any(reaction.moment for reaction in answer.reactions.values())
+    rows = ((name, *_columns(reaction, show)) for name, reaction in answer.reactions.items())
+    return [_title_of_forces(answer.case.units, couples), *table(rows)]
+
+
+def _title_of_forces(units: Units, couples: bool) -> str:
+    unit = f"{units.force}; couples in {units.torque}" if couples else units.force
+    return f"Reactions, {unit}: the force of the first link on the second"
+
+
+def _space(answer: Answer, spatial: Spatial, show: Format) -> list[str]:
+    """A line for each joint in space: components, size, couple and shares; then the witness."""
+    couples = any(map(_has_couple, spatial.reactions.values()))
+    rows = ((name, _vector(r.force, show), _shares(r, show)) for name, r in spatial.reactions.items())
+    lines = [f"{_title_of_forces(answer.case.units, couples)}, along x, y, z", *table(rows)]
+    return [*lines, "", *_witnesses(spatial.witnesses, show)] if spatial.witnesses else lines
+
+
+def _has_couple(reaction: SpatialReaction) -> bool:
+    return any(part is None or part != 0.0 for part in reaction.couple)
+
+
+def _shares(reaction: SpatialReaction, show: Format) -> str:
+    size = "" if reaction.magnitude is None else f"= {show(reaction.magnitude)}; "
+    couple = f", couple {_vector(reaction.couple, show)}" if _has_couple(reaction) else ""
+    parts = "".join(f", {name} {_number(part, show)}" for name, part in reaction.parts)
+    return f"{size}{reaction.kind} at {reaction.where}{couple}{parts}"
+
+
+def _tensions(answer: Answer, show: Format) -> list[str]:
+    """A line for each rope: its pull, or that of each of its parts."""
+    if not answer.tensions:
+        return []
+    pulls = ((tension.name, tension.parts or (tension.tension,)) for tension in answer.tensions)
+    rows = ((name, ", ".join(_number(pull, show) for pull in each)) for name, each in pulls)
+    return [f"Pulls of ropes, {answer.case.units.force}", *table(rows)]
+
+
+def _columns(reaction: Reaction, show: Format) -> tuple[str, str, str]:
+    """The force by components, by size and direction, and what goes with it."""
+    size = "" if reaction.magnitude is None else f"= {show(reaction.magnitude)}"
+    if reaction.direction is not None:
+        size += f" at {show(reaction.direction)} deg"
+    place = f"{reaction.kind} at {reaction.where}" if reaction.where else reaction.kind
+    couple = "" if reaction.moment == 0.0 else f", couple {_number(reaction.moment, show)}"
+    parts = "".join(f", {name} {show(value)}" for name, value in reaction.parts if value)
+    return _vector((reaction.x, reaction.y), show), size, f"{place}{couple}{parts}"
+
+
+def _friction(friction: FrictionFound, units: Units, show: Format) -> list[str]:
+    """A line for each rub, what friction takes, and the efficiency."""
+    rows = [_rub(rub, units, show) for rub in friction.rubbing]
+    lines = ["Friction", *table(rows)] if rows else []
+    if friction.efficiency is not None:
+        lines.append(f"Efficiency {show(100.0 * friction.efficiency)} % (power out over power in)")
+    return lines
+
+
+def _rub(rub: Rubbing, units: Units, show: Format) -> tuple[str, str, str]:
+    place = f"{rub.kind} {rub.joint[1:]}" + (f" at {rub.where}" if rub.where else "")
+    unit = units.torque if rub.kind == "pin" else units.force
+    circle = f", friction circle {show(rub.radius)} {units.length}" if rub.radius is not None else ""
+    loss = show(rub.loss * units.torque_per_force_length)
+    return place, f"{show(abs(rub.value))} {unit}", f"takes {loss} {units.torque}/s{circle}"
+
+
+def _number(value: float | None, show: Format) -> str:
+    return "?" if value is None else show(value)
+
+
+def _witnesses(witnesses: Sequence[Witness], show: Format) -> list[str]:
+    """A line for each unknown load, in the plane and in space."""
+    lines = []
+    for w in witnesses:
+        apart = f"{abs(w.difference):.1e} apart" if w.difference else "no difference"
+        bound = (
+            f"rounding may make {w.bound:.1e}" if math.isfinite(w.bound) else "with no bound on the rounding"
+        )
+        lines.append(f"  {w.load} = {show(w.bodies)}, by power {show(w.power)}: {apart}, {bound}")
+    return ["By the equilibrium of the links alone", *lines] if lines else []

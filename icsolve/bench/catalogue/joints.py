@@ -54,7 +54,6 @@ CRANK_ALIGNED = "1, 0", "3, 0", "3, 2"
 """Crank and coupler in line: the rocker at its limit."""
 
 DEAD = ("dead-centre",)
-CLOSE = ("dead-centre", "near-singular")
 
 
 def pinned(points: str, edges: str, loads: str) -> str:

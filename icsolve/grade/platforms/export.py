@@ -255,9 +255,6 @@ def _text(path: str) -> str:
         return file.read()
 
 
-KINDS = ("moodle-xml", "gift", "qti", "prairielearn", "gradescope-zip")
-
-
 _SETUP = """\
 #!/usr/bin/env bash
 # Gradescope runs this once, when the image is built. icsolve itself is in this zip.

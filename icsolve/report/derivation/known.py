@@ -1,20 +1,34 @@
 """All that is known of a scene: its answer or why there is none, every point that can be placed, how the
-links move, and what every load exerts."""
+links move, and what loads and ropes do to them."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.answer import Answer, Centre, by_load
 from icsolve.answer.equilibrium import EquilibriumPosition
 from icsolve.assembly import Frame, case_point, solve_figure
 from icsolve.assembly.workspace import PlacedCase
-from icsolve.case import Case, Coordinates, ForceVector, Joint, Like, Load, Pair, is_angle, ordered_pair
+from icsolve.case import (
+    Case,
+    Coordinates,
+    ForceVector,
+    Joint,
+    Like,
+    Load,
+    Pair,
+    Rope,
+    Torque,
+    is_angle,
+    ordered_pair,
+)
 from icsolve.case.figure import Unknown
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS, turn_of
 from icsolve.scene.parts import AnswerBuilder, scene_of
 from icsolve.screws.plane import Point, Triple
+from icsolve.screws.ropes import rope_parts
 from icsolve.solve import Attempt, attempt
 from icsolve.statics.inertia import as_given
 from icsolve.statics.load_wrenches import Wrench, place_of, points_of, wrenches
@@ -272,7 +286,7 @@ def _size(points: Mapping[str, Point]) -> float:
     return max(max(xs) - min(xs), max(ys) - min(ys), 0.0) if points else 0.0
 
 
-# --- what every load exerts ------------------------------------------------------------------------------
+# --- what loads exert ------------------------------------------------------------------------------------
 
 
 class Acting(NamedTuple):
@@ -300,6 +314,11 @@ class Acting(NamedTuple):
         """Components of the force in force units; zero for a torque, and where the number is not known."""
         size = 0.0 if self.at is None else (self.value or 0.0) * self.gain
         return (size * self.direction[0], size * self.direction[1])
+
+    @property
+    def sign(self) -> int:
+        """-1 for a torque that is positive clockwise: its power has a minus in the equation."""
+        return -1 if isinstance(self.load, Torque) and self.load.turns == "cw" else 1
 
     @property
     def couple(self) -> float:
@@ -355,3 +374,81 @@ def joint_of_normal(joints: Iterable[Joint], lines: Sequence[Sequence[Pair]], nu
     before = sum(len(line) == 1 and set(line[0]) == pair for line in lines[:number])
     found = [joint for joint in joints if joint.has_normal and pair <= set(joint.links)]
     return found[before] if before < len(found) else None
+
+
+# --- what ropes do to a link -----------------------------------------------------------------------------
+
+
+class Pull(NamedTuple):
+    """``strands`` parts of a rope, on one line, pull ``link`` along ``direction`` at a place of the line.
+
+    ``part`` is the number of the first from 1, ``tension`` what each pulls with (None where it is not known),
+    ``symbol`` its name with what stands low, ``where`` the part by its points (or their common point). The
+    link of a free end is the rope's ``end``.
+    """
+
+    rope: Rope
+    part: int
+    strands: int
+    link: str
+    at: Point
+    direction: Point
+    tension: float | None
+    symbol: tuple[str, str]
+    where: str
+
+    @property
+    def force(self) -> Point:
+        """What all of them pull with; zero where that is not known."""
+        size = self.strands * (self.tension or 0.0)
+        return (size * self.direction[0], size * self.direction[1])
+
+
+def rope_pulls(known: Known, rope: Rope) -> list[Pull]:
+    """The pulls of a rope on all links, its free end and the frame; none where it can't be laid."""
+    try:
+        parts = rope_parts(rope, known.points, 1.0, FLOATS)
+    except (SceneError, KeyError):
+        return []
+    tensions = () if known.answer is None else known.answer.tensions
+    found = next((t for t in tensions if t.rope == rope.name), None)
+    pulls = []
+    for n, part in enumerate(parts, 1):
+        pull = None if found is None else found.parts[n - 1] if found.parts else found.tension
+        symbol = tension_name(known.case, rope, n if rope.slips else 0)
+        (x, y), (u, v), length = part.at, part.along, float(part.length)
+        where = "".join(rope.points[n - 1 : n + 1]) if all(len(p) == 1 for p in rope.points) else f"part {n}"
+        ends = ((part.links[0], (x, y), (u, v)), (part.links[1], (x + length * u, y + length * v), (-u, -v)))
+        for end, (link, at, way) in enumerate(ends):
+            own = Pull(rope, n, 1, link or rope.end, at, way, pull, symbol, where)
+            pulls.append((own, rope.points[n - 1 + end]))
+    alike = Counter((p.link, p.at, p.direction, p.symbol) for p, _ in pulls)
+    merged: dict[object, Pull] = {}
+    for p, point in pulls:
+        key = (p.link, p.at, p.direction, p.symbol)
+        many = p._replace(strands=alike[key], where=point) if alike[key] > 1 else p
+        merged.setdefault(key, many)
+    return list(merged.values())
+
+
+def pulls_on(known: Known, link: str) -> Iterable[Pull]:
+    """The pulls of all ropes on a link, where their tensions are known."""
+    for rope in known.case.ropes:
+        for pull in rope_pulls(known, rope):
+            if pull.link == link and pull.tension is not None:
+                yield pull
+
+
+def tension_name(case: Case, rope: Rope, part: int) -> tuple[str, str]:
+    """The symbol of a rope's tension, and what stands low: T, of its second ``part`` T2; with the rope's
+    name where there are several, or a load is called so."""
+    low = str(part) if part else ""
+    if len(case.ropes) > 1 or f"T{low}" in {load.name for load in case.loads}:
+        low = f"{rope.name},{low}" if low else rope.name
+    return ("T", low)
+
+
+def moving_names(case: Case) -> tuple[str, ...]:
+    """The links, and what stands for one: free ends of ropes, screws that a torque turns."""
+    ends = (rope.end for rope in case.ropes if rope.is_free)
+    return (*case.links, *ends, *(screw.rotor for screw in case.screws))

@@ -13,10 +13,12 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import combinations
 
+import numpy as np
+import numpy.typing as npt
+
 from icsolve.answer import Centre
 from icsolve.case import Case, Pair, Rope, Screw, is_link, link_order
-from icsolve.report.derivation.known import Known
-from icsolve.report.derivation.ropes import moving_names
+from icsolve.report.derivation.known import Known, moving_names
 from icsolve.scene.parts import wanted_pairs
 from icsolve.scene.program import Want
 from icsolve.screws.plane import Triple
@@ -338,62 +340,38 @@ def independent_motions(known: Known) -> tuple[OneMotion, ...]:
     motions = scene.outcome.motions.twists
     links = list(dict.fromkeys((*loaded_links(known.case), *known.case.links)))
     count = len(next(iter(motions.values()), ()))
-    rows = [{link: motions[link][m] for link in links} for m in range(count)]
-    drivers: list[tuple[str, int]] = []
+    rows = np.array([[motions[link][m] for link in links] for m in range(count)], dtype=np.float64)
+    drivers: list[tuple[int, int]] = []
     for n in range(count):
-        driver = _driver(rows, n, links)
+        driver = _driver(rows[n])
         if driver is None:
             return ()
         drivers.append(driver)
-        rows = _cleared(rows, n, driver)
-    frame = scene.figure.frame
-    return tuple(
-        OneMotion(
-            link,
-            place == 2,
-            {name: frame.twist_shown(t, 1.0 if place == 2 else 1.0 / frame.scale) for name, t in row.items()},
-        )
-        for (link, place), row in zip(drivers, rows, strict=True)
-    )
+        own = rows[n] * (1.0 / rows[n][driver])
+        part = rows[(slice(None), *driver)][:, None, None] * own
+        sizes = np.abs(rows) + np.abs(part)
+        rows = rows - part
+        rows[np.abs(rows) <= 1e-13 * sizes] = 0.0  # what rounding leaves of a difference
+        rows[n] = own
+    frame, found = scene.figure.frame, []
+    for (k, place), row in zip(drivers, rows.tolist(), strict=True):
+        scale = 1.0 if place == 2 else 1.0 / frame.scale
+        twists = {
+            link: frame.twist_shown((x, y, w), scale) for link, (x, y, w) in zip(links, row, strict=True)
+        }
+        found.append(OneMotion(links[k], place == 2, twists))
+    return tuple(found)
 
 
-Rows = list[dict[str, Triple]]
-
-
-def _driver(rows: Rows, n: int, links: list[str]) -> tuple[str, int] | None:
-    """The first link that clearly turns in motion n, else one that clearly moves, and by which number."""
-    row = rows[n]
-    for places in ((2,), (0, 1)):
-        sizes = {(link, place): abs(row[link][place]) for link in links for place in places}
-        largest = max(sizes.values())
-        if largest > LEAST * max(abs(v) for t in row.values() for v in t) and largest > 0.0:
-            return next(key for key, size in sizes.items() if size > 0.1 * largest)
+def _driver(row: npt.NDArray[np.float64]) -> tuple[int, int] | None:
+    """The first link that clearly turns in a motion, else one that clearly moves, and by which number of its
+    twist."""
+    for places in ([2], [0, 1]):
+        sizes = np.abs(row[:, places])
+        if sizes.max() > LEAST * np.abs(row).max():
+            k, place = np.argwhere(sizes > 0.1 * sizes.max())[0]
+            return int(k), places[place]
     return None
-
-
-def _cleared(rows: Rows, n: int, driver: tuple[str, int]) -> Rows:
-    """The motions with the driver at 1 in motion n and at rest in all others."""
-    link, place = driver
-    pivot = rows[n][link][place]
-    own = {name: _times(t, 1.0 / pivot) for name, t in rows[n].items()}
-    rest = []
-    for m, row in enumerate(rows):
-        amount = row[link][place]
-        rest.append(own if m == n else {name: _less(t, own[name], amount) for name, t in row.items()})
-    return rest
-
-
-def _times(t: Triple, s: float) -> Triple:
-    return (t[0] * s, t[1] * s, t[2] * s)
-
-
-def _less(t: Triple, other: Triple, s: float) -> Triple:
-    """t less s times another, without what rounding leaves of a difference."""
-    values = []
-    for a, b in zip(t, other, strict=True):
-        value = a - s * b
-        values.append(0.0 if abs(value) <= 1e-13 * (abs(a) + abs(s * b)) else value)
-    return (values[0], values[1], values[2])
 
 
 def speed_words(motion: OneMotion) -> str:

@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.answer import Term
-from icsolve.answer.space import SpatialReaction, SpatialReactions
+from icsolve.answer.bodies import SpatialReaction, SpatialReactions
 from icsolve.case import Case, Spring, Toward, Weight, is_named, ordered_pair
 from icsolve.case.space import (
     Along,

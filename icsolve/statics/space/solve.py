@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 
 from icsolve.answer import Answer, Deferred, Found
-from icsolve.answer.space import Spatial
+from icsolve.answer.bodies import Spatial
 from icsolve.case import Case, is_named
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Showing
