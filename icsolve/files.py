@@ -275,12 +275,10 @@ def _take_name(draft: str, real: str, path: str, force: bool) -> None:
 
 
 def _remove(folder: str) -> None:
-    """Remove a folder and the files in it."""
-    with suppress(OSError):
-        for name in os.listdir(folder):
-            with suppress(OSError):
-                os.unlink(os.path.join(folder, name))
-        os.rmdir(folder)
+    """Remove a folder and all that is in it."""
+    from shutil import rmtree
+
+    rmtree(folder, ignore_errors=True)
 
 
 def _remove_empty(folders: Iterable[str]) -> None:

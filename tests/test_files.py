@@ -17,7 +17,7 @@ from pathlib import Path
 
 import pytest
 
-from icsolve.files import KeptError, folder_of, one_call, reading, whole_file, write_whole
+from icsolve.files import KeptError, folder_of, one_call, reading, scratch, whole_file, write_whole
 from icsolve.manual import template
 from shell import exit_status
 from sizes import FULL
@@ -414,3 +414,14 @@ def test_ctrl_c_while_a_package_loads_is_no_fault() -> None:
     env = {**os.environ, "PYTHONPATH": ROOT}
     ran = subprocess.run(call, env=env, capture_output=True, check=False)
     assert (ran.returncode, ran.stdout, ran.stderr) == (130, b"", b"icsolve: interrupted\n")
+
+
+def test_a_folder_of_ones_own_is_gone_with_all_that_was_made_in_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Folders in it too, as the benchmark's cases have one."""
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    with scratch() as folder:
+        write_whole(os.path.join(folder, "cases", "deep", "1.yaml"), "x")
+        assert os.listdir(tmp_path)
+    assert not os.listdir(tmp_path)
