@@ -420,8 +420,10 @@ def test_a_folder_of_ones_own_is_gone_with_all_that_was_made_in_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Folders in it too, as the benchmark's cases have one."""
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    own = tmp_path / "own"
+    own.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(own))
     with scratch() as folder:
         write_whole(os.path.join(folder, "cases", "deep", "1.yaml"), "x")
-        assert os.listdir(tmp_path)
-    assert not os.listdir(tmp_path)
+        assert os.listdir(own)
+    assert not os.listdir(own)
