@@ -612,6 +612,10 @@ def test_rows_of_loads_that_all_but_cancel_are_scenes(kind: str, seed: int) -> N
     draw = random.Random(f"{kind} {seed}")
     large, left = 10 ** draw.randrange(4, 19), draw.choice([0, 1, -3])
     pair = f"L1: {{torque: {large + left}, link: 2}}, L2: {{torque: {-large}, link: 2}}, K:"
+    if seed % 2:  # a half of one, twice
+        half = "{torque: {like: L1, times: -0.5}, link: 2}"
+        rest = f"L4: {{torque: {left}, link: 2}}"
+        pair = f"L1: {{torque: {large}, link: 2}}, L2: {half}, L3: {half}, {rest}, K:"
     text = "icsolve: 1\nangles: {AB: 40}\n" + SHORT[kind].format(r=1.25).replace("K:", pair)
     path = draw.choice(["angles.AB", "loads.K"])
     values = [round(draw.uniform(10.0, 80.0), 2) for _ in range(2)]
