@@ -430,6 +430,50 @@ def test_a_changed_mechanism_is_turned_as_the_sweep_turns_it(name: str, shown: A
             assert float(value) == pytest.approx(rows.answers[load][n], rel=1e-7, abs=1e-9)
 
 
+STRAIGHT = """icsolve: 1
+points: {{A: [0, 0], D: [4, 0], G: {{centroid: [B, C]}}}}
+lengths: {{AB: {}, BC: {}, CD: {}}}
+angles: {{AB: 60}}
+near: {{C: [4, 3]}}
+links: {{3: {{points: [G], mass: 2 kg, centre: G, inertia: 1 kg*m^2}}}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
+loads: {{P: {{force: 10, link: 3, at: G, angle: 30}}, T: {{torque: unknown, link: 2}}}}
+"""
+"""All links lie on the line of the frame at 0 or 180 degrees, but for the last of the lengths below."""
+MOVED = {
+    "still": "",
+    "the crank's pin": "motion: {point: B, link: 3, speed: 3, angle: 150, acceleration: 2}\ndynamic: yes\n",
+}
+
+
+@pytest.mark.parametrize("motion", MOVED)
+@pytest.mark.parametrize("lengths", [(2, 4, 2), (1, 3, 2), (3, 3.5, 2.5), (1, 3.5, 2.5)])
+def test_a_changed_mechanism_goes_straight_on_through_change_points(
+    lengths: tuple[float, ...], motion: str, shown: Any
+) -> None:
+    """With another load it is turned as the sweep turns it, onto change points, over them and back, and the
+    given motion of a point goes on along its path (to 1e-6: the fields have ten digits)."""
+    text = STRAIGHT.format(*lengths) + MOVED[motion]
+    page = shown(text, moves=True)
+    put = """const field = document.getElementById('number-loads.P');
+        field.value = '20'; field.dispatchEvent(new Event('input'));"""
+    page.run(put)
+    found = page.run(
+        """return arguments[0].map((degrees) => {
+        const [slider, answer] = ['turn', 'answer-T'].map((id) => document.getElementById(id));
+        slider.value = degrees; slider.dispatchEvent(new Event('input'));
+        return [Number(slider.value), answer.dataset.value, answer.dataset.status]; })""",
+        [5, 40, -20, -59, -60, -61, -75, -58, 100, 120, 125, 170, 0],
+    )
+    link = page.run("return JSON.parse(document.getElementById('data').textContent).motion.driver")
+    case = icsolve.load(text.replace("force: 10", "force: 20"))
+    rows = icsolve.sweep(case, drive={link: [at for at, _, _ in found]}, want=("answers", "status"))
+    for n, (at, value, status) in enumerate(found):
+        assert status == rows.status[n], at
+        if status == "ok":
+            assert float(value) == pytest.approx(rows.answers["T"][n], rel=1e-6, abs=1e-6), at
+
+
 WOUND = """icsolve: 1
 title: Four-bar between torsion springs
 points: {A: [0, 0], D: [2.5, 0]}

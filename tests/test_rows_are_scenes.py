@@ -306,7 +306,7 @@ loads: {{T: {{torque: unknown, link: {}}}}}
 motion: {{point: B, link: {}, speed: 3, angle: {}, acceleration: 2}}
 dynamic: yes
 """
-CHANGING = ((3, 3.5, 2.5), (1, 4, 1), (2, 4, 2), (1, 3, 2))
+CHANGING = ((3, 3.5, 2.5), (1, 4, 1), (2, 4, 2))
 """Cranks, couplers and rockers that all lie on the line of a frame of 4 at 0 degrees."""
 
 
@@ -332,6 +332,21 @@ def test_a_point_goes_on_along_its_path_through_change_points(
         if one == 2:
             assert found.answers["T"] == pytest.approx(right.answers["T"], rel=1e-9)
         assert list(icsolve.sweep(case, turn, ("answers", "status")).status) == ["ok"] * 15
+
+
+@pytest.mark.parametrize("lengths", CHANGING)
+@pytest.mark.parametrize("want", [("answers", "status"), ("answers", "status", "rates")])
+def test_a_row_in_a_change_point_has_the_status_of_its_scene(
+    lengths: tuple[float, ...], want: tuple[str, ...]
+) -> None:
+    """Where the links lie on one line a row does not tell which way the pin goes; the scene does."""
+    written, there = (
+        FOUR_BAR.format(*lengths, 2, 3, 90.0 + at).replace("AB: 60", f"AB: {at}") for at in (60, 0)
+    )
+    found = icsolve.sweep(icsolve.load(written), {"angles.AB": [61.0, 0.0]}, want)
+    with pytest.raises(icsolve.SceneError) as refusal:
+        icsolve.solve(icsolve.load(there))
+    assert list(found.status) == ["ok", refusal.value.status]
 
 
 TANGENT = """icsolve: 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -176,3 +177,45 @@ joints:
 loads: {P: {force: 100, link: 4, at: C, angle: 180}, T: {torque: unknown, link: 2}}
 motion: {link: 2, turns: ccw}
 """
+
+
+PARALLEL = """icsolve: 1
+points: {{A: [0, 0], D: [4, 0]}}
+lengths: {{AB: 2, BC: 4, CD: 2}}
+angles: {{AB: {0}}}
+near: {{C: [{1}, {2}]}}
+joints:
+  - {{pin: [1, 2], at: A, mu: 0.3, radius: 0.2}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C, mu: 0.2, radius: 0.1}}
+  - {{pin: [4, 1], at: D}}
+loads: {{P: {{force: 10, link: 4, at: C, angle: 30}}, T: {{torque: unknown, link: 2}}}}
+"""
+
+
+def parallel(degrees: float, motion: str) -> icsolve.Case:
+    """A parallelogram with its cranks at an angle: C is at 4 + 2 cos, 2 sin."""
+    c, s = (2.0 * f(math.radians(degrees)) for f in (math.cos, math.sin))
+    return icsolve.load(PARALLEL.format(degrees, 4.0 + c, s) + motion)
+
+
+@pytest.mark.parametrize(
+    "motion",
+    [
+        "motion: {link: 2, turns: ccw}",
+        "motion: {link: 4, turns: cw}",
+        "",
+        "motion: {point: B, link: 3, speed: 1, angle: A}",
+    ],
+)
+@pytest.mark.parametrize("want", [("answers", "status"), ("answers", "status", "points")])
+def test_rows_with_friction_go_straight_on_through_change_points(motion: str, want: tuple[str, ...]) -> None:
+    """Whatever is wanted of them: all links lie on one line at 0 and 180 degrees; a row is the scene of the
+    parallelogram (to 1e-7: its places are doubles)."""
+    angles = [60.0 - 17.3 * n for n in range(15)]
+    found = icsolve.sweep(parallel(60.0, motion.replace("A}", "150}")), {"angles.AB": angles}, want)
+    for n, angle in enumerate(angles):
+        scene = icsolve.solve(parallel(angle, motion.replace("A}", f"{angle + 90.0}}}"))).answers["T"]
+        right = scene.holds or (scene.value, scene.value)
+        row = found.holds["T"][n] if scene.holds else [found.answers["T"][n]] * 2
+        assert row == pytest.approx(right, rel=1e-7)

@@ -160,9 +160,14 @@ PARTS = NAMES.split()
 
 @cache
 def _parts() -> str:
-    """What is the same in the script of every page, without its comments and indents."""
+    """What is the same in the script of every page, without its comments and indents, and without spaces
+    about signs in lines that have no strings, templates or expressions of their own."""
     text = "".join(_file("script", f"{part}.js") for part in PARTS)
-    return re.sub(r"^\s*/\*.*?\*/\s*|^\s+", "", text, flags=re.MULTILINE | re.DOTALL)
+    text = re.sub(r"^\s*/\*.*?\*/\s*|^\s+", "", text, flags=re.MULTILINE | re.DOTALL)
+    plain = re.compile(r"^[^\"'`/\n]+$", re.MULTILINE)
+    return plain.sub(
+        lambda line: re.sub(r" (=>|[=!]==|&&|\|\||[<>]?=|[*<>:]) |(?<=,) ", r"\1", line.group()), text
+    )
 
 
 def script(live: Live | None) -> str:

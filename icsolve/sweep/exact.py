@@ -8,7 +8,7 @@ row itself. The varied numbers are the shortest decimals that name their doubles
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from decimal import Context, Decimal, DivisionByZero, localcontext
 from functools import lru_cache
 
@@ -439,10 +439,12 @@ class RowScenes:
             for name in self.points:
                 x, y = (_without_dust(next(found)) / scale + o for o in (ox, oy))
                 points[name] = Coordinates(_exact(x, f"points.{name}.x"), _exact(y, f"points.{name}.y"))
-            turned = {path: angle(next(found), next(found)) for path in self.directions}
+            pairs = {path: (next(found), next(found)) for path in self.directions}
+            turned = {path: angle(*pair) for path, pair in pairs.items()}
+            lost = {path for path, pair in pairs.items() if max(map(abs, pair)) <= ZERO}
         numbers = {path: _exact(v, path) for path, v in {**values, **turned}.items()}
         numbers |= {path: _exact(next(found), path) for path in self.numbers}
-        return self._with(points, numbers, {name: float(next(found)) for name in self.springs})
+        return self._with(points, numbers, {name: float(next(found)) for name in self.springs}, lost)
 
     def _flat(self) -> list[Scalar]:
         pairs = (*self.points.values(), *self.directions.values())
@@ -453,12 +455,18 @@ class RowScenes:
         points: dict[str, Coordinates | Centroid],
         numbers: Mapping[str, Number],
         angles: Mapping[str, float],
+        lost: Collection[str],
     ) -> Case:
+        """``lost``: directions of given motions that no row in a change point tells; a scene has its own."""
         case = counted_about(with_numbers(self.scene.case, numbers), angles)
+        motion = [
+            given._replace(angle=None) if given.angle is not None and given.angle.path in lost else given
+            for given in case.motion
+        ]
         carries = {
             link: tuple(name for name in names if name in self.points) for link, names in case.carries.items()
         }
-        case = replace(case, lengths=(), angles=(), near={}, expect=())
+        case = replace(case, lengths=(), angles=(), near={}, expect=(), motion=tuple(motion))
         return replace(case, points=points, carries=carries)
 
 

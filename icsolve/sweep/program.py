@@ -148,6 +148,7 @@ def live_roots(compiled: CompiledSweep) -> list[Root]:
     stack = [
         v.index for values in compiled.outputs.values() for v in values if isinstance(v, Traced) and v.row
     ]
+    stack += compiled.rubbing.nodes if compiled.rubbing is not None else ()
     key = ("live roots", tuple(stack))
     if key not in record.kept:
         record.kept[key] = _live_roots(record, stack)

@@ -1,7 +1,7 @@
 /* Centres and the lines that find them. */
 const make = (name, attributes, parent) => {
   const e = document.createElementNS(NS, name);
-  for (const [key, value] of Object.entries(attributes)) set(e, key, value);
+  for (const [key, value] of entries(attributes)) set(e, key, value);
   parent.appendChild(e);
   return e;
 };
@@ -18,7 +18,7 @@ function fit(more, ends = []) {
   MIDDLE = [(LEFT + RIGHT) / 2, (TOP + BOTTOM) / 2];
   set(figure, "viewBox", [LEFT, TOP, RIGHT - LEFT, BOTTOM - TOP].map(f).join(" "));
   const clip = figure.querySelector("#window rect");
-  Object.entries({ x: LEFT, y: TOP, width: RIGHT - LEFT, height: BOTTOM - TOP }).forEach(([key, v]) => set(clip, key, f(v)));
+  entries({ x: LEFT, y: TOP, width: RIGHT - LEFT, height: BOTTOM - TOP }).forEach(([key, v]) => set(clip, key, f(v)));
 }
 if (stage) {
   const lined = make("g", { "clip-path": "url(#window)" }, stage);
@@ -99,7 +99,7 @@ function spotOf(c, r) {
 /* An arrow at the edge of the picture; gives boxes along it, which labels keep off. */
 function drawFar(c, u, count) {
   const tip = edge(u, 10 + 3 * count);
-  const turn = (Math.atan2(u[1], u[0]) * 180) / PI;
+  const turn = (atan2(u[1], u[0]) * 180) / PI;
   set(c.far, "transform", `translate(${f(tip[0])} ${f(tip[1])}) rotate(${f(turn)})`);
   return [2, 9, 16, 23, 30].map((s) => [tip[0] - s * u[0], tip[1] - s * u[1], 4, 4]);
 }

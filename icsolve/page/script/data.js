@@ -1,5 +1,6 @@
 /* The data of the page, and what is where in every position. */
-const { abs, cos, hypot, max, min, PI, sin } = Math;
+const { abs, atan2, cos, floor, hypot, max, min, PI, sin } = Math;
+const { entries } = Object;
 const data = JSON.parse(document.getElementById("data").textContent);
 const NS = "http://www.w3.org/2000/svg";
 const byId = (id) => document.getElementById(id);
@@ -22,12 +23,12 @@ const places = (o) => ({ x: column(o.x), y: column(o.y) });
 const links = {};
 const points = {};
 if (motion) {
-  for (const [name, o] of Object.entries(motion.links)) links[name] = { from: o.from, a: column(o.a), ...places(o) };
-  for (const [name, o] of Object.entries(motion.points)) points[name] = places(o);
+  for (const [name, o] of entries(motion.links)) links[name] = { from: o.from, a: column(o.a), ...places(o) };
+  for (const [name, o] of entries(motion.points)) points[name] = places(o);
 }
 const own = (o, name) => (Object.prototype.hasOwnProperty.call(o, name) ? o[name] : undefined);
 const loads = {};
-for (const [name, o] of Object.entries(data.loads)) loads[name] = { ...o, way: column(o.way), values: column(o.values) };
+for (const [name, o] of entries(data.loads)) loads[name] = { ...o, way: column(o.way), values: column(o.values) };
 const answers = data.answers.map((o) => ({ ...o, values: column(o.values), sense: column(o.sense) }));
 const centres = data.centres.map((o) => ({ ...o, ...places(o) }));
 const zero = motion ? motion.zero : 0;

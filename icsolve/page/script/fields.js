@@ -25,14 +25,14 @@ function leave() {
   scene.changed = false;
   byId("mechanism").classList.remove("stale");
   writtenNumbers();
-  laboratory.typed();
+  lab.typed();
   scene.solved = scene.first;
   rested();
   fit([]);
 }
 function writtenNumbers() {
   live.numbers.forEach((value, n) => enter(n, value, live.firstHalves[n], live.texts[n]));
-  for (const [k, at] of Object.entries(live.near)) laboratory.near.set(Number(k), [...at]);
+  for (const [k, at] of entries(live.near)) lab.near.set(Number(k), [...at]);
   liveHint.textContent = "";
 }
 function enter(n, value, half, text) {
@@ -43,10 +43,10 @@ function enter(n, value, half, text) {
   field.value = text;
   field.removeAttribute("aria-invalid");
 }
-function changed(dragged, driven = false, pulled = null) {
+function changed(dragged, driven, toward) {
   if (playing && !driven) stop();
   scene.changed = true;
-  resolve(dragged, pulled);
+  resolve(dragged, toward);
   row = LIVE;
   if (hint) hint.textContent = "";
   const words = data.statuses[scene.status] || "";
@@ -72,13 +72,15 @@ function rested() {
 /* An input turned, with the other numbers as they are. */
 function drive(degrees, link = live.input) {
   const some = numbersMoved({ [link]: degrees });
-  if (!some) {
+  if (!some && !mover.passes) {
     if (hint) hint.textContent = `The links do not meet beyond ${number(mover.at[link] || 0, 4)}.`;
     return;
   }
-  enterAll(some);
-  windUp();
-  changed(true, true);
+  if (some) {
+    enterAll(some);
+    windUp();
+  }
+  changed(true, true, some ? carriedTo : () => refuse("change-point"));
   const own = link === live.input ? slider : byId(`turn-${link}`);
   if (own) own.value = degrees;
   if (link === live.input && byId("angle")) byId("angle").textContent = `${number(abs(degrees), 5)}${motion ? motion.unit : "°"} ${motion ? motion.senses[degrees >= 0 ? 0 : 1] : ""}`;
@@ -127,12 +129,12 @@ function follow(r) {
     if (mover) windUp();
   }
   try {
-    laboratory[r === zero ? "typed" : "followed"]();
+    lab[r === zero ? "typed" : "followed"](mover ? carriedTo : undefined);
   } catch (refusal) {
     refused(refusal);
   }
 }
-const tidy = (value, unit) => Number((Math.round(value / unit) * unit).toFixed(max(0, -Math.floor(Math.log10(unit)))));
+const tidy = (value, unit) => Number((Math.round(value / unit) * unit).toFixed(max(0, -floor(Math.log10(unit)))));
 
 /* --- handles ------------------------------------------------------------------------------------------ */
 
@@ -146,15 +148,15 @@ function placeHandles() {
 }
 /* A point pulled to a place (case units): the numbers that place it follow. */
 function pull(h, to) {
-  const base = (k) => fromFrame(laboratory.points[live.points[k]]);
-  const step = 10 ** Math.floor(Math.log10(1 / view[0]));
+  const base = (k) => fromFrame(lab.points[live.points[k]]);
+  const step = 10 ** floor(Math.log10(1 / view[0]));
   for (const [kind, n, from, sense] of h.moves) {
     let [value, unit] = [0, step];
     if (kind === "x" || kind === "y") value = to[kind === "x" ? 0 : 1];
     else if (kind === "span") value = apart(base(from), to);
     else {
       const centre = base(from);
-      const now = fromFrame(laboratory.points[live.points[h.name]]);
+      const now = fromFrame(lab.points[live.points[h.name]]);
       const arm = (p) => minus(p, centre);
       [value, unit] = [numbers[n] + sense * turned(arm(now), arm(to)), 0.1];
     }
@@ -162,7 +164,7 @@ function pull(h, to) {
     if (Number.isFinite(shown) && !(kind === "span" && shown <= 0)) enter(n, shown, unit / 2, String(shown));
   }
   const spans = h.moves.some(([kind]) => kind === "span");
-  changed(true, false, spans && [live.points[h.name], to.map((v, m) => (v - live.frame[m]) * live.frame[2])]);
+  changed(true, false, (k) => spans && k === live.points[h.name] && to.map((v, m) => (v - live.frame[m]) * live.frame[2]));
 }
 function grip(name, moves) {
   const e = make("circle", { id: `handle-${name}`, class: "handle", r: 11, tabindex: 0, role: "button" }, byId("handles"));
@@ -184,7 +186,7 @@ function grip(name, moves) {
   e.addEventListener("pointerdown", (event) => {
     if (event.button) return;
     const at = place(event);
-    const own = fromFrame(laboratory.points[live.points[name]]);
+    const own = fromFrame(lab.points[live.points[name]]);
     held = { last: at, off: minus(at, own) };
     e.setPointerCapture(event.pointerId);
     event.preventDefault();
@@ -206,7 +208,7 @@ function grip(name, moves) {
     if (!way) return;
     event.preventDefault();
     const by = (event.shiftKey ? 20 : 4) / view[0];
-    const [x, y] = fromFrame(laboratory.points[live.points[name]]);
+    const [x, y] = fromFrame(lab.points[live.points[name]]);
     pull(h, [x + way[0] * by, y + way[1] * by]);
     fitNow();
     render();
@@ -220,7 +222,7 @@ const differing = () => numbers.map((value, n) => n).filter((n) => numbers[n] !=
 const textOf = (n, e = fieldOf(n)) => (e && numberIn(e.value, e.dataset.bound) ? e.value.trim().replace("−", "-").replace(",", ".") : String(numbers[n]));
 /* What `near` has to be so that the numbers alone lead here: nothing, where the way as typed is this one. */
 function nearHere() {
-  const here = laboratory.points.map((p) => [...p]);
+  const here = lab.points.map((p) => [...p]);
   let same = false;
   try {
     const fresh = figureOf(program, live, numbers);
@@ -236,14 +238,14 @@ function caseText() {
   const { text, at, near } = live.text;
   const swaps = differing().filter((n) => at[n]).map((n) => [...at[n], `${textOf(n)} ${live.written[live.paths[n]] || ""}`.trim()]);
   const moved = nearHere();
-  for (const [name, k] of Object.entries(live.points))
+  for (const [name, k] of entries(live.points))
     ["x", "y"].forEach((axis, m) => { if (moved[k] && near[`${name}.${axis}`]) swaps.push([...near[`${name}.${axis}`], number(moved[k][m], 6).replace("−", "-")]); });
   return swaps.sort((a, b) => b[0] - a[0]).reduce((all, [from, to, by]) => all.slice(0, from) + by + all.slice(to), text);
 }
 function linkText() {
   const parts = differing().map((n) => `${encodeURIComponent(live.paths[n])}=${encodeURIComponent(textOf(n))}`);
   const moved = nearHere();
-  for (const [name, k] of Object.entries(live.points))
+  for (const [name, k] of entries(live.points))
     if (moved[k]) ["x", "y"].forEach((axis, m) => parts.push(`near.${name}.${axis}=${moved[k][m]}`));
   return parts.join("&");
 }
@@ -264,7 +266,7 @@ function fromAddress() {
     if (found && n >= 0) enter(n, found.value, found.half, text);
     else if (found && near && live.near[live.points[near[1]]]) {
       const m = near[2] === "x" ? 0 : 1;
-      laboratory.near.get(live.points[near[1]])[m] = (found.value - live.frame[m]) * live.frame[2];
+      lab.near.get(live.points[near[1]])[m] = (found.value - live.frame[m]) * live.frame[2];
     } else continue;
     some = true;
   }
@@ -296,7 +298,7 @@ if (live) {
       const reach = angle ? 90 : abs(live.numbers[n]) || (path.startsWith("points.") ? 1 / live.frame[2] / 4 : 1);
       const limits = live.bounds[field.dataset.bound];
       const whole = limits.some(([than]) => than === "whole");
-      const unit = whole ? 1 : angle ? 0.5 : 10 ** (Math.floor(Math.log10(reach)) - 2);
+      const unit = whole ? 1 : angle ? 0.5 : 10 ** (floor(Math.log10(reach)) - 2);
       const within = [tidy(numbers[n] - reach, unit), tidy(numbers[n] + reach, unit)];
       for (const [than, limit] of limits) {
         if (than === "<" || (whole && numbers[n] < limit)) within[1] = min(within[1], limit - unit);
@@ -330,7 +332,7 @@ if (live) {
     copied(location.href);
   });
   make("g", { id: "handles" }, figure);
-  for (const [name, moves] of Object.entries(live.handles)) if (own(live.points, name) !== undefined) handles.push(grip(name, moves));
+  for (const [name, moves] of entries(live.handles)) if (own(live.points, name) !== undefined) handles.push(grip(name, moves));
   placeHandles();
   live.input = motion ? motion.driver : live.turning[0];
   rested();

@@ -7,12 +7,12 @@ const inPicture = ([x, y]) => [(x - view[1]) * view[0], (view[2] - y) * view[0]]
 const inCase = ([x, y]) => [x / view[0] + view[1], view[2] - y / view[0]];
 const fromFrame = ([x, y]) => [x / live.frame[2] + live.frame[0], y / live.frame[2] + live.frame[1]];
 const numbers = live ? [...live.numbers] : [];
-const laboratory = live ? figureOf(program, live, numbers) : null;
+const lab = live ? figureOf(program, live, numbers) : null;
 const scene = { status: "ok", words: "", changed: false, solved: null };
 const handles = [];
 const filled = (value) => Array(rows).fill(value);
-const placeOf = (name) => inPicture(fromFrame(laboratory.points[live.points[name]]));
-const turned = (u, v) => (Math.atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]) * 180) / PI;
+const placeOf = (name) => inPicture(fromFrame(lab.points[live.points[name]]));
+const turned = (u, v) => (atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]) * 180) / PI;
 const wrenchOf = (load) => [load[1], -load[0]];
 const written = {};
 
@@ -26,8 +26,8 @@ function poseOf(link) {
 }
 const guideOf = (k, own) => [own[k][1], -own[k][0]];
 if (live) {
-  laboratory.typed();
-  scene.solved = scene.first = solvedScene(live, numbers, laboratory);
+  lab.typed();
+  scene.solved = scene.first = solvedScene(live, numbers, lab);
   for (const one of live.posed) scene.first.at = numbers[one.number];
   for (const name of Object.keys(live.points)) {
     written[name] = placeOf(name);
@@ -70,11 +70,11 @@ function senseOf(name, solved) {
   const n = live.loads.findIndex((load) => load.name === name);
   const value = valueOf(name, solved);
   if (live.posed.length) return solved.stability || "";
-  if (live.still) return value ? `at ${degreesWords((Math.atan2(...forceIn(name, solved).reverse()) * 180) / PI)}` : "";
+  if (live.still) return value ? `at ${degreesWords((atan2(...forceIn(name, solved).reverse()) * 180) / PI)}` : "";
   if (value === 0) return "";
   if (n < 0) {
     const [x, y] = ["x", "y"].map((axis) => solved.values[live.loads.findIndex((load) => load.name === `${name}.${axis}`)]);
-    return `at ${degreesWords((Math.atan2(y, x) * 180) / PI)}`;
+    return `at ${degreesWords((atan2(y, x) * 180) / PI)}`;
   }
   const load = live.loads[n];
   const wrench = solved.loads[n];
@@ -90,7 +90,7 @@ function senseOf(name, solved) {
     if (pulls) return `toward ${load.toward}`;
   }
   const [x, y] = wrenchOf(wrench);
-  return `at ${degreesWords((Math.atan2(y, x) * 180) / PI + (value > 0 ? 0 : 180))}`;
+  return `at ${degreesWords((atan2(y, x) * 180) / PI + (value > 0 ? 0 : 180))}`;
 }
 function degreesWords(d) {
   return `${number(Number((((d % 360) + 360) % 360).toFixed(6)) % 360, 4)}°`;
@@ -111,7 +111,7 @@ function poseIn(pose, place, ownNow) {
   return [...place(pose.p), turns ? turned(guideOf(pose.guide, scene.first.own), guideOf(pose.guide, ownNow)) : 0];
 }
 function fillLinks(ownNow) {
-  for (const [link, pose] of Object.entries(live.poses)) {
+  for (const [link, pose] of entries(live.poses)) {
     const l = links[link];
     const now = poseIn(pose, placeOf, ownNow);
     if (now.every(Number.isFinite)) [l.x[LIVE], l.y[LIVE], l.a[LIVE]] = now;
@@ -163,19 +163,19 @@ function fillAnswers(solved) {
   });
 }
 /* The scene for the present numbers: as they are typed, or on from where it is. */
-function resolve(dragged, pulled) {
+function resolve(dragged, toward) {
   let solved = null;
   [scene.status, scene.words, scene.placed] = ["ok", "", false];
   let stability = "";
   const before = live.posed.map((one) => numbers[one.number]);
   try {
-    if (live.posed.length) stability = restOf(live, numbers, laboratory);
-    else if (dragged) laboratory.followed(pulled);
-    else laboratory.typed();
+    if (live.posed.length) stability = restOf(live, numbers, lab);
+    else if (dragged) lab.followed(toward);
+    else lab.typed();
     scene.placed = true;
     fillPlaces();
-    fillLinks(ownOf(live, laboratory.scene()[3]));
-    solved = solvedScene(live, numbers, laboratory);
+    fillLinks(ownOf(live, lab.scene()[3]));
+    solved = solvedScene(live, numbers, lab);
     for (const one of live.posed) [solved.at, solved.stability] = [numbers[one.number], stability];
     scene.solved = solved;
   } catch (refusal) {

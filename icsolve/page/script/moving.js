@@ -80,7 +80,7 @@ function bent(e, r) {
 function moveRail(e, r) {
   const at = e.dataset.rail;
   if (r !== LIVE || !own(written, at)) return e.removeAttribute("transform");
-  const [before, now] = [guideOf(live.rails[at], scene.first.own), guideOf(live.rails[at], ownOf(live, laboratory.scene()[3]))];
+  const [before, now] = [guideOf(live.rails[at], scene.first.own), guideOf(live.rails[at], ownOf(live, lab.scene()[3]))];
   const [p, q] = [written[at], [points[at].x[r], points[at].y[r]]];
   const across = (q[0] - p[0]) * now[1] + (q[1] - p[1]) * now[0];
   set(e, "transform", `translate(${f(p[0] + across * now[1])} ${f(p[1] + across * now[0])}) rotate(${f(-turned(before, now))}) translate(${-p[0]} ${-p[1]})`);
@@ -108,7 +108,7 @@ function layRope(e, circles, r) {
     const length = Math.sqrt(square - between * between);
     const [ux, uy] = [(length * dx + between * dy) / square, (length * dy - between * dx) / square];
     const start = [ax + s * uy, ay - s * ux];
-    const turn = before ? Math.atan2(before[0] * uy - before[1] * ux, before[0] * ux + before[1] * uy) * Math.sign(s) : 0;
+    const turn = before ? atan2(before[0] * uy - before[1] * ux, before[0] * ux + before[1] * uy) * Math.sign(s) : 0;
     const large = turn < -1e-6 ? 1 : 0;
     d += s && before ? `A${f(abs(s))},${f(abs(s))} 0 ${large} ${s > 0 ? 1 : 0} ` : before ? "L" : "M";
     d += `${start.map(f)} L${f(start[0] + length * ux)},${f(start[1] + length * uy)}`;
@@ -155,7 +155,7 @@ function moveParts(r) {
     const [a0, b0] = load.span.map((s) => s.slice(1));
     const [a, b] = load.span.map((s) => carried(s, r));
     const [u, v] = [minus(b0, a0), minus(b, a)];
-    const angle = (w) => (Math.atan2(w[1], w[0]) * 180) / PI;
+    const angle = (w) => (atan2(w[1], w[0]) * 180) / PI;
     const k = hypot(...v) / hypot(...u);
     set(e, "transform", `translate(${f(a[0])} ${f(a[1])}) rotate(${f(angle(v))}) scale(${k.toFixed(4)} 1) rotate(${f(-angle(u))}) translate(${-a0[0]} ${-a0[1]})`);
   }

@@ -9,7 +9,7 @@ function powerAt(told, x, figure, value, before) {
   figure.followed();
   const parts = figure.scene();
   const motions = motionsOf(told, parts, figure.points);
-  if (motions.mobility !== 1) throw new Refusal(motions.redundant ? "change-point" : "mobility");
+  if (motions.mobility !== 1) refuse(motions.redundant ? "change-point" : "mobility");
   const { power } = balanceOf(told, parts[2], motions);
   const own = power.map(([one], n) => one * parts[2][n][4] * parts[2][n][5] * told.loads[n].measure);
   const twist = motions.twists.flat(2);
@@ -55,7 +55,7 @@ function restOf(told, x, figure) {
       side.last = next;
       if (abs(next.value - start.value) >= (turns ? 180 : SCANNED * pace)) side.going = false;
     }
-  throw new Refusal(moving ? "no-value" : "any-value");
+  refuse(moving ? "no-value" : "any-value");
 }
 /* Where the power vanishes between two values, by false position and halving; null where it jumps there. */
 function zeroBetween(at, a, b, jump) {
@@ -78,13 +78,13 @@ function restAt(told, x, figure, found, [one, two], at, little) {
   const [below, above] = [-1, 1].map((way) => at(found.value + way * little, found));
   powerAt(told, x, figure, found.value, found);
   if (below && above) {
-    const ways = Object.entries(told.owner).map(([name, link]) => {
+    const ways = entries(told.owner).map(([name, link]) => {
       const [k, first] = [told.points[name], 3 * told.body[link]];
       return [velocity(found.twist.slice(first, first + 3), found.points[k]), [0, 1].map((m) => above.points[k][m] - below.points[k][m])];
     }).filter(([, change]) => change.every(Number.isFinite));
     const [v, change] = [ways.flatMap(([v]) => v), ways.flatMap(([, change]) => change)];
     const pace = dot(v, change) / dot(v, v);
-    if (hypot(...change.map((c, k) => c - pace * v[k])) > 1e-4 * hypot(...change)) throw new Refusal("unsupported", `${told.posed[0].name} does not pose the figure`);
+    if (hypot(...change.map((c, k) => c - pace * v[k])) > 1e-4 * hypot(...change)) refuse("unsupported", `${told.posed[0].name} does not pose the figure`);
     [one, two] = pace > 0 ? [below, above] : [above, below];
   } else if (one.value > two.value) [one, two] = [two, one];
   const pushed = two.power - one.power;

@@ -10,12 +10,13 @@ const SAME = 1e-11;
 class Refusal {
   constructor(status, words = "", amount = Infinity) { Object.assign(this, { status, words, amount }); }
 }
+const refuse = (...why) => { throw new Refusal(...why); };
 /* Nothing but a refusal is expected. */
 const refused = (error) => { if (!(error instanceof Refusal)) throw error; };
 const spread = (some) => hypot(...some.flat());
 const apart = (p, q) => hypot(p[0] - q[0], p[1] - q[1]);
 const largest = (some) => some.reduce((most, v) => max(most, abs(v)), 0);
-const powerOfTwo = (v) => (v > 0 && Number.isFinite(v) ? 2 ** (Math.floor(Math.log2(v)) + 1) : 1);
+const powerOfTwo = (v) => (v > 0 && Number.isFinite(v) ? 2 ** (floor(Math.log2(v)) + 1) : 1);
 
 /* All x with rows x = 0, by elimination with complete pivoting. */
 function nullSpace(rows, columns, zero = 64 * UNIT, unit = 0) {
@@ -98,7 +99,7 @@ function figureOf(program, told, x) {
   const q = [];
   const [t, r, w] = [[], [], []];
   const { steps, scene, rates, inertia } = program(x, s, q, t, r, w);
-  const near = new Map(Object.entries(told.near).map(([k, at]) => [Number(k), at]));
+  const near = new Map(entries(told.near).map(([k, at]) => [Number(k), at]));
   for (const step of told.steps) {
     if (step.sign !== undefined) s[step.p[0]] = step.sign;
     (step.start || []).forEach((at, n) => q.splice(2 * step.p[n], 2, ...at));
@@ -351,7 +352,7 @@ function figureOf(program, told, x) {
     return nearer(held.map((k) => ours.get(k)), held.map((k) => theirs.get(k)), held.map((k) => near.get(k)));
   }
   function chosen({ modes, ends, spent }) {
-    if (spent) throw new Refusal("ambiguous", "the figure has too many open branches to try them all");
+    if (spent) refuse("ambiguous", "the figure has too many open branches to try them all");
     if (!modes.length) {
       const first = ends.filter((end) => !clearly(ends[0], end.path));
       const worst = (first.length ? first : ends).sort((a, b) => b.depth - a.depth || a.miss.amount - b.miss.amount)[0];
@@ -360,7 +361,7 @@ function figureOf(program, told, x) {
     modes.sort((a, b) => a.path.off - b.path.off);
     for (const end of ends)
       if (clearly(end, modes[0].path))
-        throw new Refusal(end.miss.status, `what lies at near: does not assemble: ${end.miss.words}`, end.miss.amount);
+        refuse(end.miss.status, `what lies at near: does not assemble: ${end.miss.words}`, end.miss.amount);
     const names = Object.values(told.points);
     const differing = (a, b) => names.filter((k) => apart(a.points[k], b.points[k]) > SAME * (1 + hypot(...a.points[k])));
     const best = modes[0];
@@ -371,7 +372,7 @@ function figureOf(program, told, x) {
     });
     if (rivals.length) {
       const k = differing(best, rivals[0])[0];
-      throw new Refusal("ambiguous", `the figure assembles in several ways, of which nothing picks one, at ${plain(k)}`);
+      refuse("ambiguous", `the figure assembles in several ways, of which nothing picks one, at ${plain(k)}`);
     }
     return best;
   }
@@ -426,12 +427,12 @@ function figureOf(program, told, x) {
       }
       again();
     },
-    /* From where it is: the same branches, Newton's method from the last places; the point that is pulled
-       (its number and where to) goes to the side to which it is pulled. */
-    followed(pulled) {
+    /* From where it is: the same branches, Newton's method from the last places; a point of which `toward` has
+       a place goes to the side on which that is. */
+    followed(toward = () => null) {
       told.steps.forEach((step, n) => {
         if (step.start) {
-          if (!iterate(n)) throw new Refusal("cannot-assemble", `the links do not meet at ${plain(step.p[0])}`);
+          if (!iterate(n)) refuse("cannot-assemble", `the links do not meet at ${plain(step.p[0])}`);
           return;
         }
         const branch = s[step.p[0]];
@@ -444,14 +445,15 @@ function figureOf(program, told, x) {
         }
         const touching = step.sign !== undefined && some.length === 1;
         let side = branch || 1;
-        if (pulled && pulled[0] === step.p[0] && !touching && step.sign !== undefined) {
-          const off = [1, -1].map((one) => (take(n, one), apart(points[step.p[0]], pulled[1])));
+        const aim = step.sign !== undefined && !touching && toward(step.p[0]);
+        if (aim) {
+          const off = [1, -1].map((one) => (take(n, one), apart(points[step.p[0]], aim)));
           side = off[0] <= off[1] ? 1 : -1;
         }
         const { rest } = take(n, touching ? 0 : side);
         if (step.sign !== undefined) s[step.p[0]] = side;
         if (!step.spare && rest.some((v) => !(v > TOO_CLOSE)))
-          throw new Refusal("cannot-assemble", `the links meet at ${plain(step.p[0])} only on the wrong side`);
+          refuse("cannot-assemble", `the links meet at ${plain(step.p[0])} only on the wrong side`);
       });
       const miss = contradicted(needed);
       if (miss) throw miss;
@@ -497,8 +499,8 @@ function motionsOf(told, [rows, paths, , , courses, threads], points) {
     return { twists, mobility: 0, redundant: 0, trust: last };
   }
   if (!found.basis.length) {
-    if (told.given) throw new Refusal("contradictory-centres");
-    throw new Refusal(last < 1e-6 ? "near-singular" : "structure");
+    if (told.given) refuse("contradictory-centres");
+    refuse(last < 1e-6 ? "near-singular" : "structure");
   }
   const twists = paths.map((path) =>
     found.basis.map((rates) =>
@@ -555,7 +557,7 @@ function solved(working, idle, unknown, scale) {
   if (!whole.basis.length || !count) return { verdict: "balanced", values: Array(count).fill(0) };
   const vector = whole.basis[0];
   const last = vector[count];
-  if (abs(last) <= NOISE) throw new Refusal("near-singular");
+  if (abs(last) <= NOISE) refuse("near-singular");
   const most = largest(vector);
   const values = vector.slice(0, count).map((v, k) => (abs(v) <= NOISE * most ? 0 : v / (last * scale * unknown[k].measure)));
   return { verdict: "balanced", values };
@@ -566,13 +568,13 @@ function refuseUnbalanced(told, motions, found) {
   if (found.verdict === "balanced" || !count) return;
   const active = motions.mobility - found.idle;
   if (found.verdict.startsWith("too") || count > max(active, 1))
-    throw new Refusal(motions.redundant && told.freedoms === count ? "change-point" : "mobility");
+    refuse(motions.redundant && told.freedoms === count ? "change-point" : "mobility");
   const load = told.loads[found.unknown[found.culprit]];
   const others = found.verdict === "no value";
   const fast = largest(motions.twists.flat(2));
   const rests = found.relative[found.unknown[found.culprit]].every((t) => t.every((v) => abs(v) <= NOISE * fast));
-  if (load.on === load.against || !rests) throw new Refusal(others ? "no-value" : "any-value");
-  throw new Refusal(others ? "dead-centre" : "any-value");
+  if (load.on === load.against || !rests) refuse(others ? "no-value" : "any-value");
+  refuse(others ? "dead-centre" : "any-value");
 }
 const velocity = (t, p) => [t[1] - t[2] * p[1], t[2] * p[0] - t[0]];
 const dot = (a, b) => a.reduce((sum, v, k) => sum + v * b[k], 0);
@@ -586,11 +588,11 @@ function speedOf(told, x, motions, points) {
     const own = twists(given.link);
     if (given.point === undefined) {
       const rates = own.map((t) => t[2]);
-      if (still(...rates)) throw new Refusal("dead-centre", `link ${given.link} cannot drive in this position`);
+      if (still(...rates)) refuse("dead-centre", `link ${given.link} cannot drive in this position`);
       return [...rates, -(given.cw ? -1 : 1) * (given.speed === undefined ? 1 : x[given.speed])];
     }
     const speeds = own.map((t) => velocity(t, points[given.point]));
-    if (still(...speeds.flat())) throw new Refusal("dead-centre", `the point to which link ${given.link}'s motion is given is at rest`);
+    if (still(...speeds.flat())) refuse("dead-centre", `the point to which link ${given.link}'s motion is given is at rest`);
     const target = -x[given.speed] * told.frame[2];
     if (given.angle === undefined) return [...speeds.map((v) => dot(v, rightward(longest(speeds), still))), target];
     const a = (x[given.angle] * PI) / 180;
@@ -599,7 +601,7 @@ function speedOf(told, x, motions, points) {
     const [v] = speeds;
     const size = hypot(...v);
     if (abs(v[0] * along[1] - v[1] * along[0]) > size * sin(PI / 180))
-      throw new Refusal("inconsistent", `the point of link ${given.link} cannot move in the direction that the motion gives`);
+      refuse("inconsistent", `the point of link ${given.link} cannot move in the direction that the motion gives`);
     return [dot(v, along) > 0 ? size : -size, target];
   });
   if (!rows.length) rows.push(normal(told, twists, still));
@@ -607,7 +609,7 @@ function speedOf(told, x, motions, points) {
   const scaled = rows.map((row) => row.map((v) => v / powerOfTwo(largest(row))));
   const found = nullSpace(scaled, motions.mobility + 1, 1e-12).basis;
   const first = found.find((v) => abs(v[motions.mobility]) > 1e-9);
-  if (!first) throw new Refusal("inconsistent", "the motions given contradict each other");
+  if (!first) refuse("inconsistent", "the motions given contradict each other");
   const meant = first.slice(0, -1).map((v) => v / first[motions.mobility]);
   return { meant, open: found.filter((v) => v !== first).map((v) => meant.map((m, k) => v[k] - v[motions.mobility] * m)) };
 }
@@ -622,17 +624,17 @@ function normal(told, twists, still) {
   const turning = told.order.map((link) => twists(link).map((t) => t[2])).find((rates) => !still(...rates));
   if (turning) return [...turning, -1];
   const moving = told.order.map((link) => twists(link).map((t) => [t[1], -t[0]])).find((speeds) => !still(...speeds.flat()));
-  if (!moving) throw new Refusal("structure");
+  if (!moving) refuse("structure");
   return [...moving.map((v) => dot(v, rightward(longest(moving), still))), -told.frame[2]];
 }
 /* What two points or teeth must not be. */
 function refuseMisfit(told, x, points) {
   for (const [a, b] of told.aims)
-    if (points[a].every((p, n) => abs(points[b][n] - p) <= NOISE * (1 + abs(p)))) throw new Refusal("inconsistent", "two points that give a direction lie at one place");
+    if (points[a].every((p, n) => abs(points[b][n] - p) <= NOISE * (1 + abs(p)))) refuse("inconsistent", "two points that give a direction lie at one place");
   for (const [a, b, one, two, size, module] of told.meshes) {
     const fit = (abs(x[one] + x[two]) * (module ? x[size] : 1 / x[size])) / 2;
     if (abs(apart(points[a], points[b]) / told.frame[2] - fit) > 2e-3 * fit)
-      throw new Refusal("inconsistent", "the teeth do not fit the distance of the pivots");
+      refuse("inconsistent", "the teeth do not fit the distance of the pivots");
   }
 }
 /* The basis twist that tells a joint's own centre, or the direction of its guide. */
@@ -662,29 +664,30 @@ function rollsOn(told, x, { points }, [n, contact, centre]) {
 }
 /* The inertia forces of the given motion among the loads. */
 function withInertia(told, x, figure, motions, twists, loads) {
-  if (told.rolls.some((wheel) => !rollsOn(told, x, figure, wheel))) throw new Refusal("unsupported");
+  if (told.rolls.some((wheel) => !rollsOn(told, x, figure, wheel))) refuse("unsupported");
   const starts = (own) => own.point !== undefined && own.acceleration !== undefined && !x[own.speed];
-  if (told.motion.some(starts)) throw new Refusal("unsupported"); // the path of the point is told by its speed
-  if (told.heavy.some((link) => !twists[told.body[link]])) throw new Refusal("mobility");
+  if (told.motion.some(starts)) refuse("unsupported"); // the path of the point is told by its speed
+  if (told.heavy.some((link) => !twists[told.body[link]])) refuse("mobility");
   const count = 3 * told.bodies;
   const rows = figure.rates(twists.slice(0, told.bodies).flatMap((t) => t || [0, 0, 0])).map((row) => {
     const dense = Array(count + 1).fill(0);
-    for (const [k, value] of row) if (Math.floor(k / 3) !== told.ground) dense[k] += value;
+    for (const [k, value] of row) if (floor(k / 3) !== told.ground) dense[k] += value;
     return dense;
   });
-  const size = powerOfTwo(largest(rows.map((row) => row[count]))); // what speeds make, beside coefficients of 1
+  /* What speeds make, beside coefficients of 1. */
+  const size = powerOfTwo(largest(rows.map((row) => row[count])));
   rows.forEach((row) => (row[count] /= size));
   const held = [0, 1, 2].map((n) => [...Array(count + 1).keys()].map((k) => (k === 3 * told.ground + n ? 1 : 0)));
   const { basis } = nullSpace([...rows, ...held], count + 1, 1e-13);
   const first = basis.reduce((best, v) => (abs(v[count]) > abs(best ? best[count] : 0) ? v : best), null);
   const part = first ? abs(first[count]) / largest(first) : 0;
-  if (part < 1e-12) throw new Refusal("change-point");
+  if (part < 1e-12) refuse("change-point");
   /* Beside a change point places, speeds and accelerations lose digits each, beside a point's rest the last two. */
-  if (motions.trust ** 3 * part ** 2 < LEAST_TRUST) throw new Refusal("near-singular");
+  if (motions.trust ** 3 * part ** 2 < LEAST_TRUST) refuse("near-singular");
   const unit = first.map((v) => v / first[count]);
   const open = basis.filter((v) => v !== first).map((v) => v.map((x, k) => x - v[count] * unit[k]));
   const isOpen = (link) => open.some((v) => largest(v.slice(3 * told.body[link], 3 * told.body[link] + 3)) > 1e-9);
-  if (told.heavy.some(isOpen)) throw new Refusal("mobility");
+  if (told.heavy.some(isOpen)) refuse("mobility");
   const forces = figure.inertia(unit.slice(0, count).map((v) => v * size));
   const own = told.loads.map((_, n) => n).filter((n) => told.loads[n].name.startsWith("inertia "));
   own.forEach((n, k) => { loads[n] = [...forces[k], loads[n][3], loads[n][4], 1]; });
@@ -700,7 +703,7 @@ function solvedScene(told, x, figure) {
     } catch (refusal) {
       alike = refused(refusal);
     }
-  if (!alike) throw new Refusal("near-singular");
+  if (!alike) refuse("near-singular");
   return solved;
 }
 /* All of a scene whose points are placed: loads, and the twist of every body in the motion that is meant (null
@@ -710,19 +713,19 @@ function sceneAsPlaced(told, x, figure) {
   const parts = figure.scene();
   const [, , loads, bases, courses, threads] = parts;
   if (courses.flat().some((part) => !(part[0] > 0)))
-    throw new Refusal("inconsistent", "a rope has no straight part between two of its points");
+    refuse("inconsistent", "a rope has no straight part between two of its points");
   told.loads.forEach(({ kind, on }) => {
     const k = kind === "Weight" ? told.ropes.findIndex((rope) => rope.end === on) : -1;
     const last = k < 0 ? [0, -1] : courses[k][courses[k].length - 1].slice(4);
     if (abs(last[0]) > told.hangs || last[1] > 0)
-      throw new Refusal("inconsistent", "a weight hangs from a part of a rope that does not hang");
+      refuse("inconsistent", "a weight hangs from a part of a rope that does not hang");
   });
   const motions = motionsOf(told, parts, figure.points);
   const moved = told.dynamic ? movedAs(told, x, motions, figure.points) : null;
   if (moved) withInertia(told, x, figure, motions, moved, loads);
   const found = balanceOf(told, loads, motions);
   refuseUnbalanced(told, motions, found);
-  if (min(motions.trust, found.trust) < LEAST_TRUST) throw new Refusal("near-singular");
+  if (min(motions.trust, found.trust) < LEAST_TRUST) refuse("near-singular");
   const twists = moved || movedAs(told, x, motions, figure.points);
   const root = new Map(found.unknown.map((n, k) => [told.loads[n].root, found.values ? found.values[k] : 0]));
   const values = told.loads.map((load, n) => loads[n][4] * (root.has(load.root) ? root.get(load.root) : loads[n][5]));
@@ -730,7 +733,7 @@ function sceneAsPlaced(told, x, figure) {
   const solved = { motions, twists, values, loads, bases, courses, thrusts, own: ownOf(told, bases), power: found.power };
   if (told.ropes.length && found.unknown.length) {
     const { ropes, most } = reactionsOf({ solved });
-    if (ropes.some((pull) => pull !== null && pull < -1e-11 * most)) throw new Refusal("slack");
+    if (ropes.some((pull) => pull !== null && pull < -1e-11 * most)) refuse("slack");
   }
   return solved;
 }

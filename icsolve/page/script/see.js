@@ -8,7 +8,7 @@ const before = !live && data.forces && data.forces.links;
 const told = live || (before && {
   frame: [0, 0, 1],
   unit: data.forces.units[2],
-  links: Object.fromEntries(Object.entries(before).map(([link, one]) => [link, one.names])),
+  links: Object.fromEntries(entries(before).map(([link, one]) => [link, one.names])),
 });
 for (const one of Object.values(before || {})) one.twist = one.twist.map(column);
 const placeIn = ([x, y]) => inPicture([x / told.frame[2] + told.frame[0], y / told.frame[2] + told.frame[1]]);
@@ -23,23 +23,23 @@ if (shadow) {
 const stateOf = (lab, solved) => {
   const place = (name) => inPicture(fromFrame(lab.points[live.points[name]]));
   const places = Object.fromEntries(Object.keys(live.points).map((name) => [name, place(name)]));
-  const poses = Object.fromEntries(Object.entries(live.poses).map(([link, pose]) => [link, poseIn(pose, (n) => places[n], solved.own)]));
+  const poses = Object.fromEntries(entries(live.poses).map(([link, pose]) => [link, poseIn(pose, (n) => places[n], solved.own)]));
   const frame = lab.points.map((p) => [...p]);
   return { places, poses, solved, frame, twist: (link) => solved.twists[live.body[link]], where: (name) => frame[live.points[name]] };
 };
 function stateBefore(r) {
   const known = Object.values(before).some((one) => one.twist[0][r] !== null);
   if (!known) return null;
-  const spots = Object.entries(before).flatMap(([, one]) => one.names.map((name, n) => [name, own(points, name) ? at(name, r) : one.spots[n]]));
+  const spots = entries(before).flatMap(([, one]) => one.names.map((name, n) => [name, own(points, name) ? at(name, r) : one.spots[n]]));
   const places = Object.fromEntries(spots);
-  const poses = Object.fromEntries(Object.entries(links).map(([link, l]) => [link, [l.x[r], l.y[r], l.a[r]]]));
+  const poses = Object.fromEntries(entries(links).map(([link, l]) => [link, [l.x[r], l.y[r], l.a[r]]]));
   const twist = (link) => { const t = before[link].twist.map((part) => part[r]); return t[0] === null ? null : t; };
   return { places, poses, twist, where: (name) => inCase(places[name]) };
 }
 function shadowed(numbersNow) {
   numbersNow.forEach((value, n) => (shadow.numbers[n] = value));
   try {
-    shadow.figure.followed();
+    shadow.figure.followed(mover ? carriedTo : undefined);
     return stateOf(shadow.figure, solvedScene(live, shadow.numbers, shadow.figure));
   } catch (refusal) {
     refused(refusal);
@@ -52,13 +52,13 @@ function numbersAt(r) {
   if (r !== zero && (!live.moves || live.posed.length || scene.changed)) return null;
   const some = [...live.numbers];
   if (r !== zero)
-    for (const [name, moves] of Object.entries(live.handles))
+    for (const [name, moves] of entries(live.handles))
       for (const [kind, n] of moves) some[n] = inCase([points[name].x[r], points[name].y[r]])[kind === "x" ? 0 : 1];
   return some;
 }
 function stateAt(r) {
   if (!live) return stateBefore(r);
-  if (r === LIVE) return scene.status === "ok" ? stateOf(laboratory, scene.solved) : null;
+  if (r === LIVE) return scene.status === "ok" ? stateOf(lab, scene.solved) : null;
   const some = numbersAt(r);
   return some && shadowed(some);
 }
@@ -74,10 +74,10 @@ function turnTable() {
     const held = mover && [{ ...mover.at }, [...mover.pose]];
     const home = () => { if (held) [mover.at, mover.pose] = [{ ...held[0] }, [...held[1]]]; };
     const middle = some.findIndex((r) => r >= zero);
-    shadow.figure.adopt(laboratory.state());
+    shadow.figure.adopt(lab.state());
     const up = some.slice(middle).map(stateAt);
     home();
-    shadow.figure.adopt(laboratory.state());
+    shadow.figure.adopt(lab.state());
     const down = some.slice(0, middle).reverse().map(stateAt);
     home();
     shadow.list = [...down.reverse(), ...up];
@@ -107,7 +107,7 @@ function nameAt(parent, kind, [x, y], [u, v], words) {
 const FASTEST = 80;
 function drawVelocities(state) {
   const some = [];
-  for (const [link, names] of Object.entries(told.links)) {
+  for (const [link, names] of entries(told.links)) {
     const t = state.twist(link);
     for (const name of t ? names : []) {
       const v = velocity(t, state.where(name));
@@ -143,7 +143,7 @@ function drawRotation(state, link) {
     const r = apart(p, c);
     if (r < 1 || r > 1e5) continue;
     make("path", { d: `M${f(c[0])},${f(c[1])} L${f(p[0])},${f(p[1])}` }, g);
-    const a = Math.atan2(p[1] - c[1], p[0] - c[0]);
+    const a = atan2(p[1] - c[1], p[0] - c[0]);
     const wide = min(0.5, 60 / r) * sign;
     const at = (b) => [c[0] + r * cos(b), c[1] + r * sin(b)];
     const [from, to] = [at(a - wide), at(a + wide)];
@@ -151,7 +151,7 @@ function drawRotation(state, link) {
     arrow(g, "spin", at(a + wide * 0.9), [to[0] - at(a + wide * 0.9)[0] + cos(a + wide + sign * 1.571) * 9, to[1] - at(a + wide * 0.9)[1] + sin(a + wide + sign * 1.571) * 9]);
   }
   const low = document.createElementNS(NS, "text");
-  for (const [key, value] of Object.entries({ x: f(c[0] + 9), y: f(c[1] - 9), "font-size": 12 })) set(low, key, value);
+  for (const [key, value] of entries({ x: f(c[0] + 9), y: f(c[1] - 9), "font-size": 12 })) set(low, key, value);
   low.textContent = `ω${link} = ${number(t[2], 4)} rad/s`;
   g.appendChild(low);
 }
@@ -338,7 +338,7 @@ function drawBody(link, acting, spots, [force, torque], least) {
     const off = [((b[1] - a[1]) / size) * 14, ((a[0] - b[0]) / size) * 14];
     make("text", { x: f((a[0] + b[0]) / 2 + off[0]), y: f((a[1] + b[1]) / 2 + off[1] + 4), "text-anchor": "middle", "font-size": 12, class: one.known ? "f-load" : "f-joint" }, svg).textContent = one.name;
   });
-  const toward = (one) => degreesWords((Math.atan2(one.force[1], one.force[0]) * 180) / PI);
+  const toward = (one) => degreesWords((atan2(one.force[1], one.force[0]) * 180) / PI);
   const words = real.map((one) => `${one.name} = ${number(hypot(...one.force), 4)} ${force} at ${toward(one)}`);
   const couples = found.filter((one) => !one.open && abs(one.couple) > most * least);
   words.push(...couples.map((one) => `${one.at ? "couple of " : ""}${one.name} = ${number(one.couple, 4)} ${torque}`));

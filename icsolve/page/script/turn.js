@@ -7,15 +7,15 @@ const perp = ([x, y]) => [-y, x];
 /* Bodies at rest: where the mechanism now is. */
 function restHere() {
   if (!mover) return;
-  mover.rest = laboratory.points.map((p) => [...p]);
+  mover.rest = lab.points.map((p) => [...p]);
   mover.numbers = [...numbers];
-  mover.own = ownOf(live, laboratory.scene()[3]);
+  mover.own = ownOf(live, lab.scene()[3]);
   mover.bodies = [...Array(live.bodies).keys()].filter((b) => b !== live.ground);
   mover.pose = Array(3 * mover.bodies.length).fill(0);
   mover.twists = scene.solved.motions.twists;
   mover.at = {};
-  mover.w = [...laboratory.w];
-  mover.of = new Map(Object.entries(live.owner).map(([name, link]) => [live.points[name], live.body[link]]));
+  mover.w = [...lab.w];
+  mover.of = new Map(entries(live.owner).map(([name, link]) => [live.points[name], live.body[link]]));
 }
 const slotOf = (body) => 3 * mover.bodies.indexOf(body);
 /* A place of a body now, and how it goes with x, y and angle of the body. */
@@ -69,7 +69,7 @@ function conditions() {
   return found;
 }
 /* Torsion springs turn with the bodies that they are between, from rest on. */
-const windUp = () => live.wound.forEach(([a, b], n) => (laboratory.w[n] = mover.w[n] + ((angleOf(a) - angleOf(b)) * 180) / PI));
+const windUp = () => live.wound.forEach(([a, b], n) => (lab.w[n] = mover.w[n] + ((angleOf(a) - angleOf(b)) * 180) / PI));
 /* What the meshes keep: weights of both wheels, and the body that carries them. */
 function meshesOf() {
   mover.meshes = live.bonds.map(([one, two], k) => {
@@ -83,6 +83,29 @@ function meshesOf() {
     return [w - q, q, live.body[carrier]];
   });
 }
+/* How the bodies go with an input (unit by unit of its condition); null where that does not tell. */
+function paceOf(input) {
+  const count = mover.pose.length;
+  const found = conditions();
+  const own = found.length - mover.inputs.length + mover.inputs.indexOf(input);
+  const rows = found.map(([, ...parts], n) => {
+    const row = [...Array(count).fill(0), n === own ? -1 : 0];
+    for (const [i, d] of parts) row[i] += d;
+    return row;
+  });
+  const [pace, more] = nullSpace(rows, count + 1, 1e-10).basis;
+  return more || !pace || abs(pace[count]) < 1e-9 * largest(pace) ? null : pace.map((v) => v / pace[count]);
+}
+/* The velocity of a point of a link as the input grows. */
+function pathOf({ link, point }) {
+  const [pace, body] = [paceOf(mover.inputs[0]), live.body[link]];
+  if (!pace || body === live.ground) return null;
+  const [x, y, w] = pace.slice(slotOf(body));
+  const turn = perp(carriedBy(body, mover.rest[point]).arm);
+  return [x + w * turn[0], y + w * turn[1]];
+}
+/* Where the bodies carry a point. */
+const carriedTo = (k) => mover.of.has(k) && carriedBy(mover.of.get(k), mover.rest[k]).at;
 function arrive() {
   const count = mover.pose.length;
   for (let round = 0; round < 25; round++) {
@@ -102,17 +125,25 @@ function arrive() {
   }
   return largest(conditions().map(([value]) => value)) < 1e-9;
 }
-/* The numbers of the case with inputs turned (or moved) so far from rest; null where the links do not meet. */
+/* The numbers of the case with inputs turned (or moved) so far from rest; null where the links do not meet, and
+   where they stand in a change point, which `passes`. Small steps along the tangent go straight on through one. */
 function numbersMoved(targets) {
   meshesOf();
-  const from = { ...mover.at };
-  const way = max(...Object.entries(targets).map(([link, v]) => abs(v - (from[link] || 0)) / (live.turning.includes(link) ? 4 : 0.02 / live.frame[2])));
-  const steps = max(1, Math.ceil(way));
-  const pose = [...mover.pose];
+  const [from, first] = [{ ...mover.at }, mover.pose];
+  const ways = entries(targets).map(([link, v]) => [link, v - (from[link] || 0), live.turning.includes(link) ? PI / 180 : live.frame[2]]);
+  const steps = max(1, Math.ceil(max(...ways.map(([, v, unit]) => abs(v * unit))) / 0.02));
+  let [pose, done, paces] = [first, 0, null];
+  const stepTo = (n) => {
+    paces ||= ways.map(([link, v, unit]) => (paceOf(link) || pose.map(() => 0)).map((d) => (d * v * unit) / steps));
+    mover.pose = pose.map((v, k) => v + paces.reduce((sum, pace) => sum + pace[k] * (n - done), 0));
+    for (const [link, v] of ways) mover.at[link] = (from[link] || 0) + (v * n) / steps;
+    return arrive();
+  };
   for (let n = 1; n <= steps; n++) {
-    for (const [link, v] of Object.entries(targets)) mover.at[link] = (from[link] || 0) + ((v - (from[link] || 0)) * n) / steps;
-    if (!arrive()) {
-      [mover.at, mover.pose] = [from, pose];
+    if (stepTo(n)) [pose, done, paces] = [mover.pose, n, null];
+    else if (n === steps || n > done + 3) {
+      mover.passes = n === steps && stepTo(n + 1);
+      [mover.at, mover.pose] = [from, first];
       return null;
     }
   }
@@ -120,7 +151,7 @@ function numbersMoved(targets) {
 }
 function measured() {
   const some = [...mover.numbers];
-  const now = (k) => (mover.of.has(k) ? carriedBy(mover.of.get(k), mover.rest[k]).at : mover.rest[k]);
+  const now = (k) => carriedTo(k) || mover.rest[k];
   const change = (p, q) => turned([mover.rest[q][0] - mover.rest[p][0], mover.rest[q][1] - mover.rest[p][1]], [now(q)[0] - now(p)[0], now(q)[1] - now(p)[1]]);
   const put = (n, value) => { if (abs(value - some[n]) > 1e-9 * max(1, abs(some[n]))) some[n] = value; };
   for (const [kind, n, ...what] of live.measures) {
@@ -129,6 +160,14 @@ function measured() {
     else if (kind === "ray") put(n, some[n] + change(what[0], what[1]));
     else if (kind === "corner") put(n, some[n] + change(what[1], what[2]) - change(what[1], what[0]));
     else put(n, some[n] + (angleOf(live.body[what[0]]) * 180) / PI);
+  }
+  const { pose } = mover;
+  for (const given of mover.inputs.length > 1 ? [] : live.motion.filter((own) => own.angle !== undefined)) {
+    mover.pose = pose.map(() => 0);
+    const before = pathOf(given);
+    mover.pose = pose;
+    const after = before && pathOf(given);
+    if (after) put(given.angle, some[given.angle] + turned(before, after));
   }
   return some;
 }

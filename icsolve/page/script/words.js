@@ -38,7 +38,7 @@ function tell(r) {
     }
     if ((motion || live) && !(answer.holds && answer.holds[r])) relabel(answer.name, answer, r, sense);
   }
-  for (const [name, load] of Object.entries(loads))
+  for (const [name, load] of entries(loads))
     if (load.values) relabel(name, load, r, load.values[r] < 0 ? "clockwise" : "counterclockwise");
   const terms = data.terms;
   if (!terms) return;
