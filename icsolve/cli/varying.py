@@ -172,8 +172,12 @@ def _sheet_path(folder: str, task: VariantTask) -> str:
     return os.path.join(folder, "sheets", f"{file_name(task.person.student_id)}.html")
 
 
+QUESTIONS = ("moodle-xml", "gift", "qti", "prairielearn", "gradescope-zip")
+"""The kinds that are exported."""
+
+
 @click.command("export", cls=Verb)
-@click.argument("kind", type=click.Choice(["moodle-xml", "gift", "qti", "prairielearn", "gradescope-zip"]))
+@click.argument("kind", type=click.Choice(QUESTIONS))
 @click.argument("cases", metavar="CASES")
 @click.option("-o", "--output", metavar="FILE", required=True, help="The file; for prairielearn a folder.")
 @click.option(
