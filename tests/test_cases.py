@@ -63,9 +63,7 @@ def read(name: str) -> Case:
 @cache
 def examined(name: str) -> Answer:
     """All that is published of a case, solved for at once."""
-    want = wanted(read(name))
-    more = {"all_centres": want.all_centres, "rates": want.rates, "reactions": want.reactions}
-    return solve(read(name), examine=True, **more)
+    return solve(read(name), examine=True, **wanted(read(name)))
 
 
 @pytest.fixture(params=CASES)

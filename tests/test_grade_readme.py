@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 import yaml
 
+from icsolve.cli.varying import QUESTIONS
 from icsolve.grade.course import _COURSE, _POLICY, read_course
 from icsolve.grade.judge import VERDICTS
 from icsolve.grade.mistakes.lookup import CODES
-from icsolve.grade.platforms.export import KINDS as QUESTIONS
 from icsolve.grade.platforms.write import KINDS as OUTPUTS
 from icsolve.grade.results import HEADER
 from icsolve.grade.written.answer import Reader

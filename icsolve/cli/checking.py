@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -45,8 +45,30 @@ def check_command(
 
     Exit status: 1 where a value disagrees or a case has no answer; an erratum must not agree.
     """
-    show = _json if as_json else _table_row if as_table else _lines
-    return check_cases(cases, show, settings, jobs)
+    shown: Shown = _json if as_json else _table_row if as_table else _lines
+    tally: Counter[str] = Counter()
+    if as_table and not as_json:
+        click.echo(HEADER)
+
+    def work(case: Case, path: str) -> tuple[str, list[str]]:
+        rows = _rows(case)
+        return shown(case, path, rows), [row.verdict for row in rows]
+
+    def show(found: tuple[str, list[str]]) -> int:
+        text, verdicts = found
+        tally.update((CASE_SEEN, *verdicts))
+        click.echo(text)
+        return NO_ANSWER if DISAGREES in verdicts else DONE
+
+    tell = in_json(CHECK, values=[]) if as_json else on_stderr
+
+    def refuse(case: Case, path: str, error: SceneError) -> None:
+        tally.update((CASE_SEEN, UNANSWERED))
+        tell(case, path, error)
+
+    code = for_each(cases, work, refuse, settings, show=show, jobs=jobs)
+    complain(_summary(tally))
+    return code
 
 
 @click.command("validate", cls=Verb)
@@ -58,46 +80,15 @@ def validate_command(cases: tuple[str, ...], settings: dict[str, str]) -> int:
 
 
 CHECK = "icsolve/check/1"
+CASE_SEEN, UNANSWERED = "case", "without an answer"
+"""What is counted beside verdicts."""
 Shown = Callable[["Case", str, list[Row]], str]
-
-
-def check_cases(cases: tuple[str, ...], shown: Shown, settings: Mapping[str, str], jobs: int | None) -> int:
-    """Compare the published values of every case; returns the exit status."""
-    tally: Counter[str] = Counter()
-    if shown is _table_row:
-        click.echo(HEADER)
-    files = 0
-
-    def work(case: Case, path: str) -> tuple[str, list[str]]:
-        rows = _rows(case)
-        return shown(case, path, rows), [row.verdict for row in rows]
-
-    def show(found: tuple[str, list[str]]) -> int:
-        nonlocal files
-        files += 1
-        text, verdicts = found
-        tally.update(verdicts)
-        click.echo(text)
-        return NO_ANSWER if DISAGREES in verdicts else DONE
-
-    tell = in_json(CHECK, values=[]) if shown is _json else on_stderr
-
-    def refuse(case: Case, path: str, error: SceneError) -> None:
-        nonlocal files
-        files += 1
-        tally["without an answer"] += 1
-        tell(case, path, error)
-
-    code = for_each(cases, work, refuse, settings, show=show, jobs=jobs)
-    complain(_summary(files, tally))
-    return code
 
 
 def _rows(case: Case) -> list[Row]:
     from icsolve.solve import solve
 
-    centres, rates, reactions = wanted(case)
-    return compare(solve(case, all_centres=centres, rates=rates, examine=True, reactions=reactions))
+    return compare(solve(case, **wanted(case), examine=True))
 
 
 def _json(case: Case, path: str, rows: list[Row]) -> str:
@@ -121,12 +112,11 @@ def _line(row: Row) -> str:
     return f"{row.key} {verdict}: published {row.published}{found}{why}"
 
 
-def _summary(files: int, tally: Counter[str]) -> str:
-    words = {AGREES: "agree", DISAGREES: "disagree", ERRATUM: "errata", NOT_EXAMINED: NOT_EXAMINED}
-    counts = [f"{tally[verdict]} {word}" for verdict, word in words.items() if tally[verdict]]
-    if tally["without an answer"]:
-        counts.append(f"{tally['without an answer']} without an answer")
-    return f"{files} {'case' if files == 1 else 'cases'}: {', '.join(counts) or 'no values'}"
+def _summary(tally: Counter[str]) -> str:
+    words = {AGREES: "agree", DISAGREES: "disagree", ERRATUM: "errata"}
+    verdicts = (*words, NOT_EXAMINED, UNANSWERED)
+    counts = [f"{tally[verdict]} {words.get(verdict, verdict)}" for verdict in verdicts if tally[verdict]]
+    return f"{plural(tally[CASE_SEEN], 'case')}: {', '.join(counts) or 'no values'}"
 
 
 def _validate(case: Case, path: str) -> int:

@@ -87,7 +87,8 @@ def _job(options: dict[str, Any]) -> Job:
     _note_inputs(options)
     outputs = [options[name] for name in ("output", "jsonl", "html", "changes", "review")]
     for path in (*outputs, *_pairs(options["writes"]).values()):
-        _check(path, options)
+        if path not in (None, "-"):  # not there already, nor one of the inputs
+            check_free(path, options["force"])
     if options["changes"] and not options["against"]:
         raise ValueError("--changes needs --against OLD.csv, the results to compare with")
     if options["against"] and not os.path.isfile(options["against"]):
@@ -129,12 +130,6 @@ def _check_kinds(options: dict[str, Any]) -> None:
             check_kind(kind)
     if options["template"] and not os.path.exists(options["template"]):
         raise FileNotFoundError(2, "No such file or directory", options["template"])
-
-
-def _check(path: str | None, options: dict[str, Any]) -> None:
-    """An output may not be there already, nor be one of the inputs."""
-    if path is not None and path != "-":
-        check_free(path, options["force"])
 
 
 def _course(options: dict[str, Any]) -> Course:
@@ -200,7 +195,9 @@ def _graded(job: Job, options: dict[str, Any]) -> int:
             if options["html"] or options["students"]:
                 _pages(graded, job, results, options)
     if not quiet:
-        _summary(graded, changed, options["output"] == "-")
+        from icsolve.grade.summary import summary
+
+        click.echo("\n\n".join(filter(None, (summary(graded), changed))), err=options["output"] == "-")
     return NO_ANSWER if graded.serious else DONE
 
 
@@ -290,9 +287,3 @@ def _pages(graded: Graded, job: Job, results: str, options: dict[str, Any]) -> N
             if student:
                 path = os.path.join(options["students"], f"{file_name(student)}.html")
                 write_whole(path, student_page(student, rows, job.course.title), options["force"])
-
-
-def _summary(graded: Graded, changed: str, on_stderr: bool) -> None:
-    from icsolve.grade.summary import summary
-
-    click.echo("\n\n".join(filter(None, (summary(graded), changed))), err=on_stderr)

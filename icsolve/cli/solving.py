@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -78,44 +78,31 @@ def solve_command(cases: tuple[str, ...], settings: dict[str, str], jobs: int | 
 
     Exit status: 0 solved, 1 a case has no answer, 2 a file can't be read; of several the largest.
     """
-    return solve_cases(cases, Options(**asked), settings, jobs)
-
-
-def solve_cases(
-    cases: tuple[str, ...], options: Options, settings: Mapping[str, str], jobs: int | None
-) -> int:
-    """Solve and print every case; returns the exit status."""
+    options = Options(**asked)
     if options.as_json:
         from icsolve.answer.as_json import SCHEMA
 
-        work, refuse = _as_json(options), in_json(SCHEMA)
-        return for_each(cases, work, refuse, settings, show=_print, jobs=jobs)
-    return for_each(cases, _as_text(options), settings=settings, show=_printer(_several(cases)), jobs=jobs)
+        return for_each(cases, _as_json(options), in_json(SCHEMA), settings, show=_print, jobs=jobs)
+    several = len(cases) > 1 or not (cases[0] == "-" or os.path.isfile(cases[0]))
+    return for_each(cases, _as_text(options), settings=settings, show=_printer(several), jobs=jobs)
 
 
-def _solve(case: Case, options: Options) -> Answer:
+def _solved(case: Case, options: Options) -> tuple[Answer, Report | None]:
+    """The answer, and the report where it is asked for, which needs every point of the figure."""
     from icsolve.solve import solve
 
+    case = replace(case, dynamic=case.dynamic or options.dynamic)
     asked = {"all_centres": options.all_centres, "rates": options.rates, "reactions": options.reactions}
-    case = _posed(case, options)
-    answer = solve(case, **asked)
-    if options.stability is None:
-        return answer
-    from icsolve.solve.stability import with_stability
+    answer, told = solve(case, **asked), None
+    if options.stability is not None:
+        from icsolve.solve.stability import with_stability
 
-    return with_stability(case, answer, options.stability)
+        answer = with_stability(case, answer, options.stability)
+    if options.report:
+        from icsolve.report.mechanism import report
 
-
-def _posed(case: Case, options: Options) -> Case:
-    return replace(case, dynamic=case.dynamic or options.dynamic)
-
-
-def _report(case: Case, options: Options) -> Report:
-    """The report; it needs every point of the figure, where the answer needs only its own."""
-    from icsolve.report.mechanism import report
-    from icsolve.solve import solve
-
-    return report(solve(_posed(case, options), examine=True))
+        told = report(solve(case, examine=True))
+    return answer, told
 
 
 def _print(text: str) -> int:
@@ -125,10 +112,10 @@ def _print(text: str) -> int:
 
 def _as_json(options: Options) -> Work[str]:
     def work(case: Case, path: str) -> str:
-        answer = _solve(case, options)
+        answer, report = _solved(case, options)
         entry = answer.to_dict()
-        if options.report:
-            entry["report"] = _report(case, options).to_dict()
+        if report is not None:
+            entry["report"] = report.to_dict()
         if options.sensitivity or options.tolerance:
             from icsolve.scene.sensitivity import entries
 
@@ -136,11 +123,6 @@ def _as_json(options: Options) -> Work[str]:
         return json_text(entry)
 
     return work
-
-
-def _several(cases: tuple[str, ...]) -> bool:
-    """Whether the arguments may mean more than one file."""
-    return len(cases) > 1 or not (cases[0] == "-" or os.path.isfile(cases[0]))
 
 
 def _printer(several: bool) -> Callable[[tuple[str, str]], int]:
@@ -161,10 +143,10 @@ def _as_text(options: Options) -> Work[tuple[str, str]]:
     def work(case: Case, path: str) -> tuple[str, str]:
         from icsolve.report.text import answer_text
 
-        answer = _solve(case, options)
+        answer, report = _solved(case, options)
         sections = [answer_text(answer, options.digits)]
-        if options.report:
-            sections.append(_report(case, options).text(options.digits))
+        if report is not None:
+            sections.append(report.text(options.digits))
         if options.sensitivity or options.tolerance:
             from icsolve.scene.sensitivity import text
 

@@ -21,7 +21,13 @@ def new_command(kind: str | None, output: str | None) -> int:
     icsolve new
     icsolve new slider-crank -o pump.yaml
     """
-    return list_kinds() if kind is None else write_template(kind, output)
+    if kind is not None:
+        return _write_template(kind, output)
+    width = max(map(len, kinds()))
+    for one in kinds():
+        says = template(one).splitlines()[0].partition(": ")[2]
+        click.echo(f"{one:<{width}}  {says}")
+    return DONE
 
 
 @click.command("schema", cls=Verb)
@@ -60,16 +66,7 @@ def manual_command(topic: str | None) -> int:
     return DONE
 
 
-def list_kinds() -> int:
-    """Print every kind and what its first line says of it."""
-    width = max(len(kind) for kind in kinds())
-    for kind in kinds():
-        says = template(kind).splitlines()[0].partition(": ")[2]
-        click.echo(f"{kind:<{width}}  {says}")
-    return DONE
-
-
-def write_template(kind: str, output: str | None) -> int:
+def _write_template(kind: str, output: str | None) -> int:
     """Print or write the case of a kind; never over a file that is there."""
     if kind not in kinds():
         alike = kinds_like(kind)[:3]

@@ -223,7 +223,9 @@ def _readable(
 
 def _with_varied(case: Case, asked: SweepOptions) -> Case:
     """The case with numbers for unknown data of its figure that are varied: as written, else the first."""
-    varied = {name if name.startswith("points.") else _path_of(case, name): at for name, at in asked.vary}
+    from icsolve.sweep.numbers import find_number
+
+    varied = {n if n.startswith("points.") else find_number(case, n).path: at for n, at in asked.vary}
     for unknown in case.unknowns:
         if unknown.path in varied:
             from icsolve.case.expected import PositionIs
@@ -234,12 +236,6 @@ def _with_varied(case: Case, asked: SweepOptions) -> Case:
             left = tuple(one for one in case.unknowns if one is not unknown)
             case = replace(given_at(case, unknown.path, first), unknowns=left, expect=expect)
     return case
-
-
-def _path_of(case: Case, name: str) -> str:
-    from icsolve.sweep.numbers import find_number
-
-    return find_number(case, name).path
 
 
 def _table(read: Case, path: str, asked: SweepOptions) -> int:

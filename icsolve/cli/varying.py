@@ -74,6 +74,8 @@ def existing(cases: str) -> str:
 def _all(
     case_store: CaseStore, people: list[Person], output: str, figures: bool, force: bool, quiet: bool
 ) -> int:
+    from icsolve.grade.tolerance import NoKeyError
+
     code, some = DONE, False
     for name in sorted(case_store.paths):
         varied = case_store.variation(name)
@@ -81,24 +83,17 @@ def _all(
             some = True
             code = max(code, _one(varied, people, os.path.join(output, name), figures, force, quiet))
         elif "$" in case_store.text(name):
-            code = max(code, _unreadable(case_store, name))
+            try:
+                case_store.solved(name)
+            except NoKeyError as error:
+                complain(str(error))
+                code = max(code, UNREADABLE)
     if not some:
         complain(
             "icsolve variants: no case has variables, as in `variables: {P: {range: [100, 500], step: 10}}`"
         )
         return max(code, UNREADABLE)
     return code
-
-
-def _unreadable(case_store: CaseStore, name: str) -> int:
-    from icsolve.grade.tolerance import NoKeyError
-
-    try:
-        case_store.solved(name)
-    except NoKeyError as error:
-        complain(str(error))
-        return UNREADABLE
-    return DONE
 
 
 def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force: bool, quiet: bool) -> int:
@@ -177,8 +172,12 @@ def _sheet_path(folder: str, task: VariantTask) -> str:
     return os.path.join(folder, "sheets", f"{file_name(task.person.student_id)}.html")
 
 
+QUESTIONS = ("moodle-xml", "gift", "qti", "prairielearn", "gradescope-zip")
+"""The kinds that are exported."""
+
+
 @click.command("export", cls=Verb)
-@click.argument("kind", type=click.Choice(["moodle-xml", "gift", "qti", "prairielearn", "gradescope-zip"]))
+@click.argument("kind", type=click.Choice(QUESTIONS))
 @click.argument("cases", metavar="CASES")
 @click.option("-o", "--output", metavar="FILE", required=True, help="The file; for prairielearn a folder.")
 @click.option(

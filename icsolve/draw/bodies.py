@@ -71,7 +71,8 @@ def body_panels(scene: Scene, left: float, top: float, width: float) -> list[Mar
     reactions = scene.known.answer.reactions if scene.known.answer is not None else None
     if not reactions:
         return []
-    scene = _smaller(scene)
+    view = scene.view._replace(scale=SMALLER * scene.view.scale)
+    scene = scene._replace(view=view, at={name: view.at(p) for name, p in scene.known.points.items()})
     pushes = {link: list(pushes_on(scene, link)) for link in scene.case.links if link != scene.case.ground}
     largest = max((math.hypot(*push.force) for some in pushes.values() for push in some), default=0.0)
     panels = [_panel(scene, link, some, largest) for link, some in pushes.items()]
@@ -90,11 +91,6 @@ def support_parts(scene: Scene, solid: shapely.Geometry) -> list[Part]:
     ]
     largest = max((math.hypot(*push.force) for push in pushes), default=0.0)
     return [part for n, push in enumerate(pushes) for part in _drawn(scene, push, largest, solid, n, solid)]
-
-
-def _smaller(scene: Scene) -> Scene:
-    view = scene.view._replace(scale=SMALLER * scene.view.scale)
-    return scene._replace(view=view, at={name: view.at(p) for name, p in scene.known.points.items()})
 
 
 def titled(panels: Iterable[list[Mark]], left: float, top: float, width: float) -> list[Mark]:

@@ -68,7 +68,9 @@ def body_of(scene: Scene, link: str) -> DrawnBody:
     parts += [bar(ends, 11.0) for ends in levers]
     stems = ((scene.at[joint.at], block_place(scene, joint)) for joint in sliding)  # of followers
     parts += [bar(ends, HALF) for ends in stems if ends[0] != ends[1]]
-    parts += [*_cams(scene, link), *_profiles(scene, link)]
+    given = (corners for own, corners in outlines(scene.case, scene.known.points) if own == link)
+    parts += _cams(scene, link)
+    parts += [shapely.Polygon(map(scene.view.at, corners)) for corners in given]
     parts += _edges(scene, link, points, square=square)
     dashed = bool(points) and all(j.stands_in for j in scene.case.joints if link in j.links)
     if dashed:
@@ -295,13 +297,6 @@ def _cams(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
         radius = min(max(0.4 * gap, 6.0), 34.0)
         nose = bar([(at[0] - n[0] * radius, at[1] + n[1] * radius)], radius)
         yield shapely.convex_hull(joined([nose, *(bar([p], 13.0) for p in points)]))
-
-
-def _profiles(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
-    """The cam of a link whose profile the case gives."""
-    for own, corners in outlines(scene.case, scene.known.points):
-        if own == link:
-            yield shapely.Polygon([scene.view.at(p) for p in corners])
 
 
 def _edges(scene: Scene, link: str, points: list[Point], *, square: bool) -> Iterable[shapely.Geometry]:

@@ -85,15 +85,11 @@ def load_words(acting: Acting) -> tuple[TextRun, ...]:
     return (*name, TextRun(text))
 
 
-def _heading(acting: Acting) -> Point:
-    """Unit vector in the picture of the force as it acts."""
-    sign = -1.0 if (acting.value or 0.0) < 0.0 else 1.0
-    return (sign * acting.direction[0], -sign * acting.direction[1])
-
-
 def _force(scene: Scene, acting: Acting, links: shapely.Geometry) -> Part | None:
     assert acting.at is not None
-    at, u, kind = scene.view.at(acting.at), _heading(acting), kind_of(acting)
+    at, kind = scene.view.at(acting.at), kind_of(acting)
+    sign = -1.0 if (acting.value or 0.0) < 0.0 else 1.0
+    u = (sign * acting.direction[0], -sign * acting.direction[1])  # as it acts
     if not is_link(acting.link):  # the free end of a rope, as it is drawn
         at = scene.at[getattr(acting.load, "at", "")]
     hung = _hung(acting, at)

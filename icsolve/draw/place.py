@@ -106,8 +106,11 @@ def hatched(a: Point, b: Point, side: float, depth: float = 7.0, pitch: float = 
 
 # --- labels ------------------------------------------------------------------------------------------------
 
-RINGS = ((0.0, 4.0, 9.0), (15.0, 22.0, 30.0), (40.0, 54.0, 70.0), (90.0, 115.0, 145.0))
-"""Distances from the anchor's rim that are tried together."""
+RINGS = (
+    *((0.0, 4.0, 9.0), (15.0, 22.0, 30.0), (40.0, 54.0, 70.0), (90.0, 115.0, 145.0)),
+    *((200.0 * 1.6**k, 250.0 * 1.6**k) for k in range(24)),
+)
+"""Distances from the anchor's rim that are tried together; the last are far outside any picture."""
 ROUND = [(math.cos(math.pi * k / 8.0), -math.sin(math.pi * k / 8.0)) for k in range(16)]
 SQUARE = [(x / max(abs(x), abs(y)), y / max(abs(x), abs(y))) for n, (x, y) in enumerate(ROUND) if n % 4]
 COMPASS = np.array(ROUND + SQUARE)
@@ -175,7 +178,7 @@ class Placer:
     def _best(self, label: Label, width: float, height: float) -> tuple[float, float, Point]:
         """The cheapest place: candidates by what their place costs, until no later one can be cheaper."""
         best: tuple[float, float, float, Point] | None = None
-        for ring in _rings():
+        for ring in RINGS:
             spots, costs, anchors = _candidates(label, ring, width, height)
             half = np.array((width / 2.0, height / 2.0))
             boxes = np.hstack((spots - half, spots + half))
@@ -235,11 +238,6 @@ def _cut(geometries: np.ndarray, box: np.ndarray) -> np.ndarray:
         return np.asarray(shapely.clip_by_rect(geometries, *box))
     except shapely.errors.GEOSException:  # it makes rings of three points where a box cuts off a corner's tip
         return np.asarray(shapely.intersection(geometries, shapely.box(*box)))
-
-
-def _rings() -> list[tuple[float, ...]]:
-    """The distances to try, without end in effect: the last are far outside any picture."""
-    return [*RINGS, *((200.0 * 1.6**k, 250.0 * 1.6**k) for k in range(24))]
 
 
 def _candidates(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import groupby
+from itertools import cycle, groupby
 from typing import TYPE_CHECKING
 
 from icsolve.draw.marks import AreaMark, Mark, MarkGroup, Point, Stroke, TextMark, TextRun, bounds, text_width
@@ -255,15 +255,10 @@ def plot_marks(
     frame = PlotFrame(left, top, corner[0] + size[0], top + size[1] - 60.0, span, (low, high))
     marks = [*_shaded(frame, shades), *_across(frame, ticks, texts), *_along(frame, x_name), *legend]
     marks += [_asymptote(frame, place) for place in dead]
-    for kind, curve in zip(_kinds(), curves, strict=False):
+    for kind, curve in zip(cycle(KINDS), curves, strict=False):
         lines = tuple(Stroke(piece, kind) for piece in pieces(frame, x, curve))
         marks.append(MarkGroup(f"curve-{curve.name}", "", lines, curve.name))
     return frame, marks
-
-
-def _kinds() -> Iterator[str]:
-    while True:
-        yield from KINDS
 
 
 def _ticks(low: float, high: float) -> list[float]:
@@ -308,7 +303,7 @@ def _entries(
     curves: Sequence[PlottedCurve], dead: Sequence[float], shades: Sequence[Shade]
 ) -> Iterable[LegendEntry]:
     """What the legend says."""
-    for kind, curve in zip(_kinds(), curves, strict=False):
+    for kind, curve in zip(cycle(KINDS), curves, strict=False):
         unit = f", {unit_word(curve.unit)}" if curve.unit else ""
         yield LegendEntry(kind, (*name_runs(curve.name), TextRun(unit)) if unit else name_runs(curve.name))
     if dead:

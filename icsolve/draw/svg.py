@@ -210,9 +210,10 @@ def element(mark: Mark, *, alone: bool = False) -> str:
         case ArcMark():
             return _arc(mark)
         case TextMark():
-            set_out = _from_its_start(mark) if alone and len(mark.runs) > 1 else mark
-            under = _text(set_out, " halo") + "\n" if alone and mark.kind in _HALOED else ""
-            return under + _text(set_out)
+            if alone and len(mark.runs) > 1:  # cairosvg centres each run of a text for itself
+                mark = mark._replace(at=(text_box(mark)[0], mark.at[1]), anchor="start")
+            under = _text(mark, " halo") + "\n" if alone and mark.kind in _HALOED else ""
+            return under + _text(mark)
         case MarkGroup():
             return _group(mark, alone)
 
@@ -226,11 +227,6 @@ def _arc(arc: ArcMark) -> str:
     large, turn = int(abs(arc.sweep) > 180.0), int(arc.sweep < 0.0)
     ends = (_chain((arc.at(0.0),)), _chain((arc.at(arc.sweep),)))
     return f'<path class="{arc.kind}" d="M{ends[0]} A{r},{r} 0 {large} {turn} {ends[1]}"/>'
-
-
-def _from_its_start(text: TextMark) -> TextMark:
-    """The text, set from where its room begins: cairosvg centres each run of a text for itself."""
-    return text._replace(at=(text_box(text)[0], text.at[1]), anchor="start")
 
 
 def _text(text: TextMark, more: str = "") -> str:

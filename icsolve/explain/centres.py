@@ -35,8 +35,10 @@ def centre_sections(work: Worked, steps: Sequence[Step]) -> list[Section]:
     first = [step.centre for step in steps if step.number == 0]
     later = [step for step in steps if step.number]
     sections = []
+    entries: tuple[tuple[Inline, ...], ...]
     if first:
-        entries = tuple(tuple(_inspected(work, centre)) for centre in first)
+        told = ((c, f" {_is_at(work, c)}: {_why(work.known, c)}") for c in first)
+        entries = tuple((work.centre_name(centre.pair), words) for centre, words in told)
         sections.append(Section("Centres by inspection", (_count(work.known, len(steps)), Items(entries))))
     if later:
         entries = tuple(tuple(_constructed(work, step.centre)) for step in later)
@@ -59,11 +61,6 @@ def _count(known: Known, needed: int) -> Block:
     if total == 1:
         return words(f"The {n} links have 1 centre.")
     return words(f"The {n} links have {n}({n} - 1)/2 = {total} centres; {these} found here.")
-
-
-def _inspected(work: Worked, centre: Centre) -> Iterable[Inline]:
-    yield work.centre_name(centre.pair)
-    yield f" {_is_at(work, centre)}: {_why(work.known, centre)}"
 
 
 def _is_at(work: Worked, centre: Centre) -> str:

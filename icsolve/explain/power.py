@@ -17,9 +17,9 @@ from icsolve.case import (
     Units,
     Weight,
 )
+from icsolve.explain.bodies import Rubbed, rubbed
 from icsolve.explain.document import Block, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Quotient, Square, Sum, Trig, product, solved_for, total
-from icsolve.explain.friction import Rubbed, rubbed
 from icsolve.explain.worked import Worked, exerted_name, gain_names, lever, load_name
 from icsolve.report.derivation.known import Acting, Known
 from icsolve.report.derivation.ratios import OneMotion, Ratios, independent_motions, speed_words

@@ -8,12 +8,11 @@ from collections.abc import Iterable, Sequence
 
 from icsolve.answer import Answer, Found
 from icsolve.case import ForceVector, Like, Load, Spring, Torque, is_named
-from icsolve.explain.bodies import bodies_sections, sections_in_space
+from icsolve.explain.bodies import bodies_sections, friction_section, sections_in_space
 from icsolve.explain.centres import centre_sections, ratio_section, worked_speeds
 from icsolve.explain.document import Block, Document, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.equilibrium import equilibrium_section
 from icsolve.explain.formula import Name, Num, Product, Quantity, Quotient, minus, product
-from icsolve.explain.friction import friction_section
 from icsolve.explain.given import asked_section, given_section
 from icsolve.explain.power import motions_section, power_section
 from icsolve.explain.ropes import ropes_section, screws_section

@@ -225,7 +225,8 @@ class Entry:
         if type(node) is not Sequence:
             return self.reading.point(node, what)
         axes = self.reading.axes
-        if len(node.items) != len(axes) or all(_is_word(one) for one in node.items):
+        named = all(type(one) is Scalar and one.text[:1].isalpha() for one in node.items)
+        if named or len(node.items) != len(axes):
             count = "two" if len(axes) == 2 else "three"
             self.refuse(node.mark, f"{what} should be a point, or {count} coordinates [{', '.join(axes)}]")
             return None
@@ -390,10 +391,6 @@ def _no_mapping(kind: str, node: Mapping) -> str:
         " ".join(part.text for part in parts if type(part) is Scalar) or next(iter(node.items), "") or "100"
     )
     return f"a number stands here without braces, '{kind}: {text}', or the name of another load, {{like: M2}}"
-
-
-def _is_word(node: Node) -> bool:
-    return type(node) is Scalar and node.text[:1].isalpha()
 
 
 MOST_TEETH = 1e9

@@ -108,7 +108,8 @@ def _readings(reading: Reading, key: str, points: set[str]) -> Iterator[Target]:
         yield from _in_words(reading, words, points)
         return
     yield from _rates(reading, key)
-    yield from _centres(reading, key)
+    yield from map(CentreIs, _links(reading, key[1:]) if key.startswith("I") else ())  # I24, I2-4
+    yield from map(CentreIs, _links(reading, key))
     yield from _distances(reading, key, points)
     yield from _reactions(reading, key, points)
 
@@ -140,12 +141,6 @@ def _rates(reading: Reading, key: str) -> Iterator[Target]:
             yield RateIs(over[1:])
         elif under[:1] == "w" and reading.knows_link(under[1:]):
             yield RatioIs(over[1:], under[1:])
-
-
-def _centres(reading: Reading, key: str) -> Iterator[CentreIs]:
-    """``I24``, ``I2-4``, and the bare pair."""
-    yield from map(CentreIs, _links(reading, key[1:]) if key.startswith("I") else ())
-    yield from map(CentreIs, _links(reading, key))
 
 
 def _links(reading: Reading, text: str) -> list[Pair]:

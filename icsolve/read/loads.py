@@ -292,10 +292,6 @@ def spring(entry: Entry, name: str, v: Values) -> Spring | None:
     return Spring(name, v["link"], v["at"], v["to"], v["spring"], v["free"], v["against"])
 
 
-def _power(entry: Entry, name: str, v: Values) -> Load:
-    return Torque(name, v["link"], v["power"], v["turns"] or "ccw", v["against"])
-
-
 PLANE: Forms[Load] = Forms(
     LOADS,
     {
@@ -307,7 +303,7 @@ PLANE: Forms[Load] = Forms(
         "torsion spring": _torsion,
         "pressure": _pressure,
         "distributed": _distributed,
-        "power": _power,
+        "power": lambda _, name, v: Torque(name, v["link"], v["power"], v["turns"] or "ccw", v["against"]),
     },
     "as in {force: 100, link: 4, at: E, angle: 180}",
     _ELSEWHERE,

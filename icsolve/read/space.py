@@ -140,10 +140,6 @@ def _torque(entry: Entry, name: str, v: Values) -> Load:
     return SpatialTorque(name, link, value, v["along"], against)
 
 
-def _power(entry: Entry, name: str, v: Values) -> Load:
-    return SpatialTorque(name, v["link"], v["power"], v["along"], v["against"])
-
-
 SPACE: Forms[Load] = Forms(
     SPACE_LOADS,
     {
@@ -152,7 +148,7 @@ SPACE: Forms[Load] = Forms(
         "weight": weight,
         "mass": weight,
         "spring": spring,
-        "power": _power,
+        "power": lambda _, name, v: SpatialTorque(name, v["link"], v["power"], v["along"], v["against"]),
     },
     "as in {force: 100, link: 2, at: E, along: -z}",
     _ELSEWHERE,

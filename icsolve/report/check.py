@@ -60,26 +60,18 @@ class Row(NamedTuple):
     text: str = ""
 
 
-class WantedValue(NamedTuple):
-    """What a case's published values ask of the solver, beyond its unknowns."""
-
-    all_centres: bool
-    rates: bool
-    reactions: bool = False
-
-
 class _NotAskedError(LookupError):
     """A value that was not solved for."""
 
 
-def wanted(case: Case) -> WantedValue:
-    """What must be solved for, so that every published value can be compared."""
+def wanted(case: Case) -> dict[str, bool]:
+    """The options of `icsolve.solve` by which every published value can be compared."""
     targets = [expected.target for expected in case.expect]
-    return WantedValue(
-        all_centres=any(isinstance(t, CentreIs | DistanceIs) for t in targets),
-        rates=any(isinstance(t, RatioIs | RateIs | SpeedIs) for t in targets),
-        reactions=any(isinstance(t, OfBodies) for t in targets),
-    )
+    return {
+        "all_centres": any(isinstance(t, CentreIs | DistanceIs) for t in targets),
+        "rates": any(isinstance(t, RatioIs | RateIs | SpeedIs) for t in targets),
+        "reactions": any(isinstance(t, OfBodies) for t in targets),
+    }
 
 
 def compare(answer: Answer) -> list[Row]:

@@ -43,7 +43,8 @@ def steps_of(known: Known, wanted: Iterable[Pair]) -> tuple[Step, ...]:
     first = [c for c in needed.values() if not c.lines and c.by != "loop equations"]
     later = [c for c in needed.values() if c.lines or c.by == "loop equations"]
     numbered = (Step(number, centre) for number, centre in enumerate(later, 1))
-    return (*(Step(0, centre) for centre in sorted(first, key=lambda c: _order(known, c.pair))), *numbered)
+    first.sort(key=lambda centre: [link_order(known.case, link) for link in centre.pair])
+    return (*(Step(0, centre) for centre in first), *numbered)
 
 
 def _need(known: Known, wanted: Pair, needed: dict[Pair, Centre]) -> None:
@@ -68,10 +69,6 @@ def _need(known: Known, wanted: Pair, needed: dict[Pair, Centre]) -> None:
 
 def _is_placed(centre: Centre | None) -> bool:
     return centre is not None and centre.kind in ("at", "toward")
-
-
-def _order(known: Known, pair: Pair) -> tuple[tuple[int, int], ...]:
-    return tuple(link_order(known.case, link) for link in pair)
 
 
 # --- ratios of speeds ------------------------------------------------------------------------------------
@@ -309,12 +306,8 @@ def needed_steps(known: Known) -> tuple[Step, ...]:
 
 def all_steps(known: Known) -> tuple[Step, ...]:
     """The steps to every centre, those that the answer needs first."""
-    return steps_of(known, _all_pairs(known))
-
-
-def _all_pairs(known: Known) -> Iterable[Pair]:
     pairs = (known.pair(a, b) for a, b in combinations(known.case.links, 2))
-    return dict.fromkeys((*needed_pairs(known), *pairs))
+    return steps_of(known, dict.fromkeys((*needed_pairs(known), *pairs)))
 
 
 # --- the motions of several freedoms ---------------------------------------------------------------------
