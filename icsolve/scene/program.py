@@ -114,9 +114,7 @@ def _wanted_bodies(case: Case, top: Topology, want: Want) -> frozenset[int]:
         return frozenset(range(len(top.members)))
     if case.ropes or case.screws:
         return frozenset(range(len(top.members)))
-    links = {link for load in case.loads for link in (load.link, load_wrenches.reacting(case, load))}
-    links |= {case.ground, *(given.link for given in case.motion)}  # by the frame their rates are told
-    return frozenset(top.body_of[link] for link in links)
+    return frozenset(top.body_of[link] for link in load_wrenches.moving_links(case))
 
 
 def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want) -> list[str]:

@@ -139,6 +139,13 @@ def reacting(case: Case, load: L) -> str:
     return getattr(load, "against", None) or case.ground
 
 
+def moving_links(case: Case) -> set[str]:
+    """The links whose twists the sum of power needs: those that loads act on or between, those whose motion
+    is given, and the frame, by which that is told."""
+    links = {link for load in case.loads for link in (load.link, reacting(case, load))}
+    return links | {case.ground, *(given.link for given in case.motion)}
+
+
 def points_of(load: Load) -> tuple[str, ...]:
     """The points that a load's wrench needs."""
     if isinstance(load, Force) and isinstance(load.heading, AlongRope):

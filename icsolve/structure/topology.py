@@ -99,7 +99,7 @@ class Topology(NamedTuple):
     @property
     def constraints(self) -> int:
         """What the joints and ropes take."""
-        return sum(3 - bond.freedom for bond in self.bonds) + len(self.ropes)
+        return sum(bond.bare.constraints for bond in self.bonds) + len(self.ropes)
 
     @property
     def afloat(self) -> tuple[tuple[int, ...], ...]:
@@ -114,8 +114,7 @@ class Topology(NamedTuple):
 
     def beside(self, body: int) -> list[int]:
         """The bodies that joints tie to this one."""
-        bonds = [self.bonds[k] for k in self.at[body]]
-        return [bond.b if bond.a == body else bond.a for bond in bonds]
+        return [self.bonds[k].bare.other(body) for k in self.at[body]]
 
 
 def reached(first: Iterable[T], following: Callable[[T], Iterable[T]]) -> dict[T, None]:

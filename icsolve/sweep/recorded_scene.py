@@ -333,12 +333,9 @@ def rested(scene: RecordedScene, contacts: Sequence[RestingContact], inputs: dic
 def statics(scene: RecordedScene, everything: bool) -> RecordedStatics:
     """Unknown loads and twists of the scene on the record; with ``everything`` the twist of every link."""
     case, top, place = scene.case, scene.top, scene.place
-    links = {link for load in case.loads for link in (load.link, load_wrenches.reacting(case, load))}
-    if case.motion:  # without the frame links move by one another
-        links |= {case.ground, *(given.link for given in case.motion)}
     unknown = any(power.is_unknown(load) for load in case.loads)
     some = unknown and not (everything or case.ropes or case.screws)
-    wanted = frozenset(top.body_of[link] for link in links) if some else None
+    wanted = frozenset(top.body_of[link] for link in load_wrenches.moving_links(case)) if some else None
     motions = motions_of(scene, wanted)
     scene.record.spent.clear()  # of what the motions were found by
     wrenches = load_wrenches.wrenches(place)
