@@ -219,6 +219,8 @@ class Answer:
     why_no_stiffness: str = ""
     spatial: Spatial | None = None
     """reactions and points of a case in space, which has no others"""
+    holds_still: bool | None = None
+    """whether friction holds loads that are all known; None of others, and where that is open"""
     scene: object = None
     """the solved scene, which `scene_of` has for pictures and explanations; it stays in its own process"""
 

@@ -47,6 +47,7 @@ def to_dict(answer: Answer) -> dict[str, Any]:
         "errors": _errors(answer),
         "advantage": None if answer.advantage is None else _plain(answer.advantage),
         "mobility": answer.mobility,
+        **({} if answer.holds_still is None else {"holds_still": answer.holds_still}),
         "terms": [_term(term) for term in answer.terms],
         "notes": list(answer.notes),
         "skipped": list(answer.skipped),

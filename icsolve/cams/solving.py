@@ -11,7 +11,6 @@ from icsolve.cams.contact_search import found
 from icsolve.cams.words import contact_said, lost_said
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
-from icsolve.statics.power import is_unknown
 from icsolve.tuples import replace
 
 WHY = (
@@ -65,15 +64,15 @@ def placed(case: Case) -> Case:
 def _solved(
     case: Case, solve: Callable[..., Answer], options: Mapping[str, Any]
 ) -> tuple[Answer, Reactions | None]:
-    """The answer, and the reactions, which tell whether a contact pulls, where there is a load to find."""
-    if options.get("reactions") or not any(map(is_unknown, case.loads)):
+    """The answer, and the reactions, which tell whether a contact pulls, where there are any."""
+    if options.get("reactions"):
         answer = solve(case, **options)
         return answer, answer.reactions
-    answer = solve(case, **options)
     try:
-        return answer, solve(case, bound=False, reactions=True).reactions
+        answer = solve(case, **{**options, "reactions": True})
     except SceneError:
-        return answer, None
+        return solve(case, **options), None
+    return replace(answer, reactions=None, tensions=(), witnesses=()), answer.reactions
 
 
 def pressed(one: Touching, case: Case, reactions: Reactions | None) -> Touching:

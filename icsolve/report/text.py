@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from icsolve.answer import Answer, Centre, Found, Term
 from icsolve.case import Case, Coordinates, Pair, Torque, Units, is_angle, is_named, link_order, pair_name
 from icsolve.scene.parts import scene_of
+from icsolve.statics.power import has_friction
 from icsolve.tuples import replace
 from icsolve.wording.senses import NOTHING, SPELT, holding, plain_vector, spelt
 
@@ -250,6 +251,8 @@ def _sum_of_powers(answer: Answer, show: Format) -> str:
         return "the terms add up to zero"
     if scene is None:
         return f"the terms add up to {show(math.fsum(term.power for term in answer.terms) * unit)}"
+    if has_friction(answer.case):
+        return f"without friction the terms add up to {show(scene.sum_of_powers() * unit)}"
     if scene.in_equilibrium:
         return "the terms add up to zero, the loads are in equilibrium"
     return f"the terms add up to {show(scene.sum_of_powers() * unit)}, the loads are not in equilibrium"

@@ -20,7 +20,8 @@ from icsolve.numbers.balls import is_long
 from icsolve.scene import refusals
 from icsolve.scene.parts import AnswerBuilder
 from icsolve.scene.program import EvaluatedScene, Want, prepare
-from icsolve.statics.power import is_unknown
+from icsolve.statics.power import has_friction, is_unknown
+from icsolve.tuples import replace
 
 
 def solve_scene(
@@ -56,8 +57,16 @@ def solve_scene(
             from icsolve.scene.dynamics import solve_dynamic
 
             return solve_dynamic(case, solve_scene, **{**asked, "rates": True}, reactions=reactions)
-        want = Want(all_centres, rates, examine, reactions, alone)
-        return _solved(case, wanted(case, want), bound, reactions)
+        asked_for = Want(all_centres, rates, examine, reactions, alone)
+        want, least = wanted(case, asked_for), wanted(case, asked_for, False)
+        try:
+            return _solved(case, want, bound, reactions)
+        except SceneError as refusal:
+            if want == least:
+                raise
+            answer = _solved(case, least, bound, reactions)
+            said = f"whether its contacts have to pull was not examined: {refusal.message}"
+            return replace(answer, notes=(*answer.notes, said))
     except SceneError as refusal:
         if not case.noticed or refusal.status not in MISTAKEN or NOTICED in refusal.message:
             raise
@@ -80,12 +89,15 @@ def without_inertia(case: Case, dynamic: bool) -> bool:
 
 
 @lru_cache(maxsize=32)
-def wanted(case: Case, asked: Want) -> Want:
-    """What is to be found for what was asked: without an unknown, what moves; with friction or ropes, which
-    have to pull, all forces."""
-    if not _asks(case):
-        return asked._replace(centres=True, rates=True)
-    return asked._replace(bodies=asked.bodies or bool(case.ropes) or refusals.rubs(case))
+def wanted(case: Case, asked: Want, touching: bool = True) -> Want:
+    """What is to be found for what was asked: without an unknown, what moves; with friction, ropes, which
+    have to pull, and contacts, which have to push (unless not ``touching``), all forces."""
+    asks = _asks(case)
+    presses = bool(case.ropes and asks) or refusals.rubs(case)
+    if touching and case.loads:
+        presses = presses or bool(case.ropes) or any(joint.only_pushes for joint in case.joints)
+    asked = asked._replace(bodies=asked.bodies or presses)
+    return asked if asks else asked._replace(centres=True, rates=True)
 
 
 def _asks(case: Case) -> bool:
@@ -145,8 +157,8 @@ def judged(parts: AnswerBuilder, reactions: bool) -> Answer:
         from icsolve.scene.free_bodies import with_friction
 
         return with_friction(parts, reactions)
-    slack = parts.case.ropes and _asks(parts.case)  # whether a rope would have to push, its tension tells
-    if reactions or slack:
+    rests = parts.in_equilibrium and not has_friction(parts.case)
+    if reactions or (parts.program.want.bodies and (_asks(parts.case) or rests)):
         from icsolve.scene.free_bodies import with_bodies
 
         return with_bodies(parts, reactions)

@@ -437,8 +437,8 @@ def _notes(found: Evaluation) -> list[str]:
         count = sentences.plural(len(solution.idle), "passive freedom")
         ends = sentences.free_ends(program.top, program.case)
         notes.append(f"{count} in which no load does work{': ' if ends else ''}{ends}.")
-    loads = program.case.loads
-    if loads and not any(map(power.is_unknown, loads)) and motions.mobility:
+    loads, rough = program.case.loads, power.has_friction(program.case)
+    if loads and not rough and not any(map(power.is_unknown, loads)) and motions.mobility:
         notes.append(sentences.nothing_asked(motions.mobility, solution.verdict == "balanced"))
     return notes
 

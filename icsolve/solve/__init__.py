@@ -14,8 +14,8 @@ from icsolve.errors import SceneError, Status
 from icsolve.scene import balanced, judged, solve_scene, wanted, without_inertia
 from icsolve.scene.parts import AnswerBuilder, scene_of
 from icsolve.scene.program import EvaluatedScene, Want, prepare
-from icsolve.statics.power import is_unknown
-from icsolve.tuples import NamedTuple
+from icsolve.statics.power import has_friction, is_unknown
+from icsolve.tuples import NamedTuple, replace
 
 
 def solve(
@@ -61,7 +61,7 @@ def solve(
         ``status`` is a member of `icsolve.errors.Status`, its message says what would mend it.
     """
     if not (case.unknowns or _asks_for_a_position(case)):
-        return solve_scene(
+        found = solve_scene(
             case,
             all_centres=all_centres,
             rates=rates,
@@ -70,6 +70,7 @@ def solve(
             reactions=reactions,
             dynamic=dynamic,
         )
+        return _judged(found, replace(case, dynamic=dynamic or case.dynamic))
     asked = {"all_centres": all_centres, "rates": rates, "reactions": reactions}
     if without_inertia(case, dynamic):
         from icsolve.scene.dynamics import solve_dynamic
@@ -78,6 +79,16 @@ def solve(
     from icsolve.solve.equilibrium import solve_positions
 
     return solve_positions(case, **asked)
+
+
+def _judged(found: Answer, case: Case) -> Answer:
+    """An answer with whether friction holds the loads, where these are all known."""
+    rests = not case.loads or any(map(is_unknown, case.loads)) or not found.mobility
+    if case.space is not None or rests or not has_friction(case):
+        return found
+    from icsolve.solve.rest import judged_with_friction
+
+    return judged_with_friction(found, case)
 
 
 def _asks_for_a_position(case: Case) -> bool:
@@ -118,12 +129,13 @@ def attempt(case: Case, *, reactions: bool = False) -> Attempt:
     except SceneError:  # of a link or point that the answer does not need, it may be
         return _tried(case, reactions)
     try:
-        return Attempt(judged(parts, reactions), None, parts)
+        return Attempt(_judged(judged(parts, reactions), case), None, parts)
     except SceneError as refusal:
         if not (reactions and refusal.status == Status.UNBALANCED):
-            return Attempt(None, refusal, parts)
+            without = wanted(case, Want(True, True, False, reactions), False) != want
+            return _tried(case, reactions) if without else Attempt(None, refusal, parts)
     try:  # its centres and speeds can still be told
-        return Attempt(judged(parts, False), None, parts)
+        return Attempt(_judged(judged(parts, False), case), None, parts)
     except SceneError as refusal:
         return Attempt(None, refusal, parts)
 

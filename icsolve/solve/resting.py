@@ -5,23 +5,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from functools import cache, partial
 from itertools import groupby
 
 import numpy as np
 
-from icsolve.case import Case, Load, is_angle
-from icsolve.case.joints import with_friction, without_friction
+from icsolve.case import Case, is_angle
+from icsolve.case.joints import with_friction
 from icsolve.errors import SceneError
-from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.roots import last_that_holds, zero_between
-from icsolve.scene import solve_scene
 from icsolve.solve.branches import Branches, nearest
 from icsolve.solve.followed import NOT_ALL, led_mechanisms
 from icsolve.solve.load_function import TogetherError
 from icsolve.solve.positions import functions_of, refuse_unwritten, search_modes, whole_range
-from icsolve.solve.rest import PROBE, probes
+from icsolve.solve.rest import smooth, spare_friction
 from icsolve.solve.settled import scene_at
 from icsolve.tuples import NamedTuple, replace
 
@@ -113,45 +110,6 @@ def _rough(case: Case, row: Case) -> Case:
     joints = map(with_friction, row.joints, case.joints)
     ropes = (rope._replace(mu=own.mu) for rope, own in zip(row.ropes, case.ropes, strict=True))
     return replace(row, joints=tuple(joints), ropes=tuple(ropes))
-
-
-def spare_friction(case: Case) -> float:
-    """How far a mechanism under known loads is from slipping as written: the least load in either sense
-    that would move it [case units], negative where it slips; infinite where none or any would."""
-    low, high = moving_loads(case)
-    return min(high, -low)
-
-
-def moving_loads(case: Case) -> tuple[float, float]:
-    """From what load to what load more on a link a mechanism under known loads holds still as written [case
-    units]: infinite where none would move it, or where any does (turned about)."""
-    case = replace(case, motion=(), expect=())
-    links = [link for link in joint_order(case) if link != case.ground]
-    for load in (
-        *probes(case, links, 1),
-        *probes(case, [], 1),
-    ):  # where nothing turns a force on a point holds it
-        if not _works(case, load):
-            continue
-        with suppress(SceneError):
-            found = solve_scene(replace(case, loads=(*case.loads, load))).answers[PROBE]
-            return found.holds or (found.value, found.value)
-    return math.inf, -math.inf
-
-
-def _works(case: Case, load: Load) -> bool:
-    """Whether an unknown load does work: one that does none holds by the friction alone that it makes."""
-    try:
-        solve_scene(smooth(replace(case, loads=(*case.loads, load))))
-    except SceneError:
-        return False
-    return True
-
-
-def smooth(case: Case) -> Case:
-    """The case without friction."""
-    ropes = tuple(rope._replace(mu=(None,) * len(rope.mu)) for rope in case.ropes)
-    return replace(case, joints=tuple(map(without_friction, case.joints)), ropes=ropes)
 
 
 def edge_of_rest(spare: Callable[[float], float], inside: float, outside: float) -> tuple[float, float]:

@@ -194,7 +194,8 @@ def _driven(case: Case) -> str:
 
 def holding_values(case: Case, path: str, low: float, high: float) -> list[TurningPower]:
     """The values of a number at which a mechanism under known loads begins or ceases to hold still."""
-    from icsolve.solve.resting import edge_of_rest, moving_loads
+    from icsolve.solve.rest import moving_loads
+    from icsolve.solve.resting import edge_of_rest
 
     own = find_number(case, path).path
 

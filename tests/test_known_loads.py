@@ -1,0 +1,160 @@
+"""Loads that are all known: whether friction holds them, and whether contacts and ropes carry them, is told
+as of the same scene with one load unknown.
+
+Values are a thousandth of the range (of the load) away from its ends, so that no rounding decides.
+"""
+
+from __future__ import annotations
+
+import math
+from random import Random
+
+import pytest
+
+import icsolve
+import rubbing
+import transcribe
+from growth import random_mechanism
+from sizes import FULL
+
+LADDER = """icsolve: 1
+points: {A: [0, 0], G: {centroid: [A, B]}}
+lengths: {AB: 5}
+angles: {AB: 60}
+joints:
+  - {contact: [1, 2], at: A, normal: 90, mu: 0.3}
+  - {contact: [1, 2], at: B, normal: 180, mu: 0.2}
+loads:
+  W: {weight: 200, link: 2, at: G}
+  U: {force: unknown, link: 2, at: A, angle: 0}
+"""
+CRATE = """icsolve: 1
+points: {A: [0, 0], B: [0.6, 0], G: [0.3, 0.6], H: [0, 1.1]}
+joints:
+  - {contact: [1, 2], at: A, normal: 90, mu: 0.4}
+  - {contact: [1, 2], at: B, normal: 90, mu: 0.4}
+loads:
+  W: {weight: 500, link: 2, at: G}
+  U: {force: unknown, link: 2, at: H, angle: 0}
+"""
+SLOPE = """icsolve: 1
+points: {A: [0, 0]}
+joints:
+  - {slide: [2, 1], at: A, along: 35, mu: 0.4}
+loads:
+  W: {weight: 100, link: 2, at: A}
+  U: {force: unknown, link: 2, at: A, angle: 0}
+"""
+PRESSED = """icsolve: 1
+points: {A: [0, 0]}
+joints:
+  - {slide: [2, 1], at: A, along: 90, mu: 0.4}
+loads:
+  W: {weight: 100, link: 2, at: A}
+  U: {force: unknown, link: 2, at: A, angle: 0}
+"""
+BY_NAME = {"ladder": LADDER, "crate": CRATE, "slope": SLOPE, "pressed": PRESSED}
+
+
+def known(text: str, value: float) -> icsolve.Case:
+    """The case with a number in place of its unknown."""
+    return icsolve.load(text.replace("unknown", repr(value)))
+
+
+def holds_as_its_range_says(text: str) -> int:
+    """How many values inside and outside of the range of the unknown load were compared."""
+    found = icsolve.solve(icsolve.load(text)).answers["U"]
+    assert found.holds is not None
+    low, high = found.holds
+    finite = [end for end in found.holds if math.isfinite(end)]
+    size = max([1.0, *(abs(end) for end in finite)])
+    inside = (max(low, -2.0 * size), min(high, 2.0 * size))
+    room = 1e-3 * (inside[1] - inside[0])
+    if not finite or room <= 1e-12 * size:
+        return 0
+    checks = [(inside[0] + room, True), (sum(inside) / 2, True), (inside[1] - room, True)]
+    checks += [(low - room, False), (low - size, False)] if math.isfinite(low) else []
+    checks += [(high + room, False), (high + size, False)] if math.isfinite(high) else []
+    for value, holds in checks:
+        answer = icsolve.solve(known(text, value))
+        assert answer.holds_still is holds, f"{value}\n{text}"
+        assert answer.to_dict()["holds_still"] is holds
+        said = " ".join(answer.notes)
+        assert ("friction is enough" in said) is holds, said
+        assert ("friction is not enough" in said) is not holds, said
+        assert "do not balance" not in said
+    return len(checks)
+
+
+@pytest.mark.parametrize("name", BY_NAME)
+def test_known_loads_hold_where_the_range_of_one_of_them_says(name: str) -> None:
+    """The ladder, the crate and the slope of the textbooks; a block pressed to a wall, whose load
+    does no work."""
+    assert holds_as_its_range_says(BY_NAME[name]) >= 4
+
+
+def test_known_loads_of_random_mechanisms_hold_where_the_range_of_one_of_them_says() -> None:
+    compared = 0
+    for seed in range(4700, 4700 + (200 if FULL else 10)):
+        rng = Random(seed)
+        text = transcribe.text(rubbing.roughened(rng, random_mechanism(rng), 3))
+        if "U: {spring" in text or "U: {weight" in text or "U: {mass" in text:  # not negative
+            continue
+        try:
+            answer = icsolve.solve(icsolve.load(text))
+        except icsolve.SceneError:  # the joints leave a rubbing force open
+            continue
+        if answer.answers["U"].holds and not any("contact would have to pull" in n for n in answer.notes):
+            compared += holds_as_its_range_says(text)
+    assert compared >= (400 if FULL else 20)
+
+
+def test_in_a_given_motion_known_loads_are_told_what_keeps_it_up() -> None:
+    """A block of 100 pulled up a slope of 35 degrees with mu 0.4 needs tan(35 + atan 0.4) horizontally;
+    with 10 more it needs -10 along the pull: told as a force on the block."""
+    up = SLOPE + "motion: {point: A, link: 2, speed: 1, angle: 35}\n"
+    value = icsolve.solve(icsolve.load(up)).answers["U"].value
+    assert value == pytest.approx(100 * math.tan(math.radians(35) + math.atan(0.4)), rel=1e-12)
+    for more in (-10.0, 10.0):
+        answer = icsolve.solve(known(up, value + more))
+        assert answer.holds_still is None
+        way = "at 0 deg" if more < 0.0 else "at 180 deg"
+        assert any(f"do not keep up this motion against friction: 10 N {way}" in n for n in answer.notes)
+        assert not any("do not balance" in note for note in answer.notes)
+
+
+LEVER = """icsolve: 1
+points: {{O: [0, 0], A: [2, 0], H: [1, 0]}}
+joints:
+  - {{pin: [1, 2], at: O}}
+  - {{contact: [3, 2], at: A, normal: 90}}
+  - {{slide: [1, 3], at: A, along: 90}}
+loads:
+  W: {{force: {}, link: 2, at: H, angle: 90}}
+  U: {{force: {}, link: 3, at: A, angle: 90}}
+"""
+
+
+@pytest.mark.parametrize("pushes", [True, False])
+@pytest.mark.parametrize("push", ["-50", "unknown"])
+def test_a_contact_that_would_have_to_pull_is_told_whatever_is_asked(push: str, pushes: bool) -> None:
+    """A lever on a rod that only touches it: held down by 100 at half its length it rests on 50."""
+    held = "-100" if pushes else "100"
+    given = push if push == "unknown" else ("50" if pushes else "-50")
+    case = icsolve.load(LEVER.format(held, given))
+    for reactions in (False, True):
+        said = [note for note in icsolve.solve(case, reactions=reactions).notes if "is lost" in note]
+        assert bool(said) is not pushes
+        assert len(said) <= 1
+
+
+def test_a_contact_is_looked_at_only_where_the_rest_of_the_scene_can_be_built() -> None:
+    """A rod that the answer does not need, and that does not reach, is no reason to refuse the lever."""
+    far = LEVER.format("-100", "unknown").replace("H: [1, 0]", "H: [1, 0], Q: [9, 9], S: {on: [Q, 20]}")
+    far = far.replace(
+        "loads:", "  - {pin: [2, 7], at: H}\n  - {pin: [7, 8], at: R}\n  - {pin: [8, 1], at: Q}\nloads:"
+    )
+    far = far.replace(", S: {on: [Q, 20]}", "").replace("loads:", "lengths: {HR: 1, RQ: 1}\nloads:")
+    answer = icsolve.solve(icsolve.load(far))
+    assert answer.answers["U"].value == pytest.approx(50.0, rel=1e-15)
+    assert any("whether its contacts have to pull was not examined" in note for note in answer.notes)
