@@ -450,17 +450,19 @@ def live(nodes: Sequence[Traced], wanted: Iterable[int], given: Container[int] =
 
     Nodes that are the same in every row are left out: their values stand in the record.
     """
-    seen = {k for k in wanted if nodes[k].row}
-    stack = list(seen)
-    while stack:
-        k = stack.pop()
-        if k in given:
-            continue
-        for n in nodes[k].of:
-            if n not in seen and nodes[n].row:
-                seen.add(n)
-                stack.append(n)
-    return sorted(seen)
+    marked = bytearray(len(nodes))
+    for k in wanted:
+        marked[k] = nodes[k].row
+    found, k = [], marked.rfind(1)
+    while k >= 0:  # operands stand before what is made of them
+        found.append(k)
+        if k not in given:
+            for n in nodes[k].of:
+                if not marked[n]:
+                    marked[n] = nodes[n].row
+        k = marked.rfind(1, 0, k)
+    found.reverse()
+    return found
 
 
 def terms_of(nodes: Sequence[Traced], k: int) -> float:
