@@ -597,3 +597,42 @@ def test_reactions_need_no_numpy(tmp_path: Any) -> None:
     path.write_text("icsolve: 1\n" + WATT)
     code = f"import sys, icsolve; icsolve.solve(icsolve.load({str(path)!r}), reactions=True).to_dict(); "
     subprocess.run([sys.executable, "-c", code + "assert 'numpy' not in sys.modules"], check=True)
+
+
+def test_what_balances_but_for_a_billionth_of_the_largest_is_told_by_that_of_a_multiple_too() -> None:
+    """A million times W both ways, W against C: 5e-4 is left, 5e-10 of the largest; 5e-2 is 5e-8 of it."""
+
+    def one(left: str) -> str:
+        return f"""
+points: {{O: [0, 0]}}
+joints:
+  - {{pin: [1, 2], at: O}}
+loads:
+  W: {{torque: 1.000000000000000, link: 2}}
+  L: {{torque: {{like: W, times: 1000000}}, link: 2}}
+  M: {{torque: {{like: W, times: -1000000}}, link: 2}}
+  C: {{torque: -1.{left}0000000, link: 2}}
+"""
+
+    notes = solved(one("0005")).notes
+    assert any("within a fraction of 5e-10" in note for note in notes), notes
+    with pytest.raises(SceneError) as caught:
+        solved(one("0500"))
+    assert caught.value.status == "unbalanced"
+
+
+def test_inertia_forces_have_no_last_decimals_that_would_excuse_what_is_left() -> None:
+    """A flywheel of 2 kg m^2 that gains 3 rad/s^2 takes 6 N m: 5.9 N m leave 0.1."""
+    text = """
+points: {O: [0, 0]}
+links: {2: {inertia: 2 kg*m^2}}
+joints:
+  - {pin: [1, 2], at: O}
+motion: {link: 2, speed: 1, acceleration: 3}
+dynamic: yes
+loads: {T: {torque: 5.900000, link: 2}}
+"""
+    with pytest.raises(SceneError, match=r"leave 0.1 N\*m cw on link 2") as caught:
+        solved(text)
+    assert caught.value.status == "unbalanced"
+    assert solved(text.replace("5.9", "6.0")).reactions is not None

@@ -20,6 +20,7 @@ import rubbing
 import transcribe
 from growth import random_mechanism
 from icsolve.answer import Answer, Found
+from icsolve.numbers.linear import solve_square
 from icsolve.statics.friction import solutions as homotopy
 from icsolve.statics.friction.equations import (
     Lengths,
@@ -28,6 +29,9 @@ from icsolve.statics.friction.equations import (
     newton,
     scale_at,
     without_friction,
+)
+from icsolve.statics.friction.equations import (
+    slopes as jacobian,
 )
 from reference import frame_of, motions, points_of
 from sizes import FULL, MORE
@@ -317,22 +321,23 @@ def test_self_locking_brake_jams() -> None:
     assert value(brake(9.0, "cw", "T"), "T") == exactly(-0.35 * 2 * 50 * 8 / (3 + 0.35 * 9.0))
 
 
-def test_force_that_presses_a_block_to_a_wall() -> None:
+@pytest.mark.parametrize("mu", [0.25, 0.75, 5.0])
+def test_force_that_presses_a_block_to_a_wall(mu: float) -> None:
     """It does no work; it holds the weight from W / mu up."""
-    text = """
-points: {A: [0, 0]}
+    text = f"""
+points: {{A: [0, 0]}}
 joints:
-  - {slide: [2, 1], at: A, along: 90, mu: 0.25}
+  - {{slide: [2, 1], at: A, along: 90, mu: {mu}}}
 loads:
-  W: {weight: 30, link: 2, at: A}
-  P: {force: unknown, link: 2, at: A, angle: 0}
+  W: {{weight: 30, link: 2, at: A}}
+  P: {{force: unknown, link: 2, at: A, angle: 0}}
 """
-    found = held(text, "P")
-    assert found.holds == (exactly(120), math.inf)
+    found, least = held(text, "P"), 30 / mu
+    assert found.holds == (exactly(least), math.inf)
     assert not found.self_locking
-    assert any("beyond P = -120, where it is about to move too" in note for note in solved(text).notes)
+    assert any(f"beyond P = -{least:g}, where it is about to move" in note for note in solved(text).notes)
     down = "motion: {point: A, link: 2, speed: 1, angle: 270}\n"
-    assert abs(value(text + down, "P")) == exactly(120)
+    assert abs(value(text + down, "P")) == exactly(least)
     assert refused(text + down.replace("270", "90")).status == "no-value"
 
 
@@ -783,6 +788,22 @@ def test_a_solution_that_is_followed_is_one_of_full_friction() -> None:
         assert before is not None and (max(before) > 1e3 * first) is grows
         assert homotopy.followed(equations.scaled((1.0 + 1e-4) * share))[0] is None
     assert all(ended.values())
+
+
+def test_newton_ends_where_no_further_step_is_better() -> None:
+    """At its end the misfit is a few roundings of the largest term, or the next step does not lessen it."""
+    several = 0
+    for equations in rubs_at_random(7, 60):
+        found = newton(equations, without_friction(equations))
+        if found is None:
+            continue
+        left = max(map(abs, misfits(equations, found)))
+        step = solve_square(jacobian(equations, found), misfits(equations, found))
+        if left <= 8 * 2.0**-52 * scale_at(equations, found) or step is None:
+            continue
+        several += 1
+        then = [a - b for a, b in zip(found, step, strict=True)]
+        assert max(map(abs, misfits(equations, then))) >= left, (several, left)
 
 
 def test_the_change_with_friction_is_the_tangent_of_its_solutions() -> None:
