@@ -309,7 +309,7 @@ def reduced(statics: Statics, senses: Sequence[float]) -> Reduced | None:
 
     least = NOTHING * largest_of([form(row)[0] for row in statics.general.solved.values()])
     vectors = [tuple(form(row, least) for row in rows) for rows in forces_of(statics)]
-    smooth = tuple(form(row, least) for row in _smooth_normals(statics))
+    smooth = tuple(form(row, least) for row in smooth_normals(statics))
     return Reduced(fixed_point(vectors, _touching(statics)), tuple(map(form, loads)), tuple(gains), smooth)
 
 
@@ -330,7 +330,7 @@ def _touching(statics: Statics) -> list[bool]:
     return [statics.ties[rub.tie].joint.only_pushes for rub in statics.rubs]
 
 
-def _smooth_normals(statics: Statics) -> Iterator[Row]:
+def smooth_normals(statics: Statics) -> Iterator[Row]:
     """The normal forces of contacts without friction, as combinations of the parameters."""
     rough = {rub.tie for rub in statics.rubs}
     for t, tie in enumerate(statics.ties):
