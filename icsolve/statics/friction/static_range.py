@@ -246,8 +246,8 @@ def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> En
     short = equations.equations.scaled(far)
     last = every.followed(short)[0] or without_friction(equations.equations)
     change = sum(a * x for a, x in zip(equations.loads[0][1:], last, strict=True))
-    pushes = is_sound(short, last) and equations.scaled(far).least_push(last) >= -ROUNDED
-    if pushing and not pushes:
+    pushes = equations.scaled(far).least_push(last) >= -ROUNDED
+    if pushing and not (pushes and is_sound(short, last)):
         return None
     if not pushes and (part := _where_one_parts(equations, last, far)) is not None:
         return End(part / statics.scale, tuple(senses), pushes=False)
@@ -294,8 +294,8 @@ def _moving(
 ) -> End | None:
     """The end at an equilibrium about to move, or where a contact parts before; None there if all are to be
     ``pushing``."""
-    pushes = is_sound(equations.equations, y) and equations.least_push(y) >= -ROUNDED
-    if pushing and not pushes:
+    pushes = equations.least_push(y) >= -ROUNDED
+    if pushing and not (pushes and is_sound(equations.equations, y)):
         return None
     if not pushes and (part := _where_one_parts(equations, y, 1.0)) is not None:
         return End(part / statics.scale, tuple(senses), pushes=False)
