@@ -220,3 +220,17 @@ def test_every_row_is_told_once_it_is_done(want: tuple[str, ...]) -> None:
     icsolve.sweep(case, {"angles.AB": np.linspace(0, 360, 10_001)}, want, progress=done.append)
     assert sum(done) == 10_001
     assert len(done) > 2
+
+
+def test_rows_that_friction_holds_are_answers_as_the_scene_is(tmp_path: Path) -> None:
+    """A range in which it holds is what `solve` ends with 0 for; of rows that are not posed none is one."""
+    block = tmp_path / "block.yaml"
+    block.write_text(
+        "icsolve: 1\npoints: {C: [0, 0]}\njoints: [{slide: [2, 1], at: C, along: 30, mu: 0.1}]\n"
+        "loads: {Q: {weight: 100, link: 2, at: C}, W: {force: unknown, link: 2, at: C, angle: 30}}\n"
+    )
+    assert exit_status("solve", block) == 0
+    assert exit_status("sweep", block, "--vary", "loads.Q=50:150:50") == 0
+    block.write_text(block.read_text().replace("angle: 30", "angle: 120").replace("mu: 0.1", "mu: 0"))
+    assert exit_status("solve", block) == 1
+    assert exit_status("sweep", block, "--vary", "loads.Q=50:150:50") == 1

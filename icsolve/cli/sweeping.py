@@ -159,7 +159,7 @@ def sweep_command(case: str, settings: dict[str, str], **options: Any) -> int:
 
     The ending of FILE says the form: .csv, .jsonl, .npz. A row without an answer has its status.
     --find says where the mechanism locks (dead), where an answer peaks (max), or where it takes a
-    value, to the last digit. Exit status: 1 where no row has an answer.
+    value, to the last digit. Exit status: 1 where no row has an answer (`ok` or `holds`).
     """
     want = ("answers", "status", *(word for word in MORE if options.pop(word)))
     asked = SweepOptions(case, want=want, **options)
@@ -263,7 +263,8 @@ def _table(read: Case, path: str, asked: SweepOptions) -> int:
         code = _written(sweep_svg(found), asked.plot)
     if asked.plot is None or asked.output is not None:
         code = max(code, _written(FORMATS[asked.suffix](found), asked.output))
-    return code or (DONE if (found.status == "ok").any() else NO_ANSWER)
+    answered = (found.status == "ok") | (found.status == "holds")
+    return code or (DONE if answered.any() else NO_ANSWER)
 
 
 def _written(content: str | Iterable[bytes], path: str | None) -> int:

@@ -198,7 +198,8 @@ def force_scale(b: PowerFactors[L]) -> float:
         if number:
             value = number.value if isinstance(number, Number) else vector_size(number)
             most = max(most, abs(value) * abs(gain) * measure)
-    return math.ldexp(1.0, -math.frexp(most)[1]) if 0.0 < most < math.inf else 1.0
+    # of loads of 1e-308 no double is one over them
+    return math.ldexp(1.0, min(-math.frexp(most)[1], 1023)) if 0.0 < most < math.inf else 1.0
 
 
 def known_value(w: UnitWrench[L]) -> float | None:

@@ -222,10 +222,12 @@ class Reduced(NamedTuple):
         )
 
     def least_push(self, y: Sequence[float]) -> float:
-        """The normal force of the contact that pushes least, over its terms; 1.0 where there is none."""
+        """The normal force of the contact that pushes least, over its terms; 1.0 where there is none, 0.0 of
+        one that is none beside the others."""
         touching = zip(self.equations.vectors, self.equations.touching, strict=True)
         normals = (*(forms[0] for forms, only in touching if only), *self.smooth)
-        return min((at(form, y) / (_size(form, y) or 1.0) for form in normals), default=1.0)
+        least, pushes = NOTHING * scale_at(self.equations, y), ((at(form, y), form) for form in normals)
+        return min((n / _size(form, y) if abs(n) > least else 0.0 for n, form in pushes), default=1.0)
 
     def sizes(self, y: Sequence[float]) -> tuple[float, ...]:
         """Sizes of the forces that press."""
@@ -309,7 +311,7 @@ def reduced(statics: Statics, senses: Sequence[float]) -> Reduced | None:
 
     least = NOTHING * largest_of([form(row)[0] for row in statics.general.solved.values()])
     vectors = [tuple(form(row, least) for row in rows) for rows in forces_of(statics)]
-    smooth = tuple(form(row, least) for row in _smooth_normals(statics))
+    smooth = tuple(form(row, least) for row in smooth_normals(statics))
     return Reduced(fixed_point(vectors, _touching(statics)), tuple(map(form, loads)), tuple(gains), smooth)
 
 
@@ -330,7 +332,7 @@ def _touching(statics: Statics) -> list[bool]:
     return [statics.ties[rub.tie].joint.only_pushes for rub in statics.rubs]
 
 
-def _smooth_normals(statics: Statics) -> Iterator[Row]:
+def smooth_normals(statics: Statics) -> Iterator[Row]:
     """The normal forces of contacts without friction, as combinations of the parameters."""
     rough = {rub.tie for rub in statics.rubs}
     for t, tie in enumerate(statics.ties):

@@ -21,6 +21,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import largest_of
 from icsolve.numbers.roots import zero_between
 from icsolve.statics.equilibrium import Statics
+from icsolve.statics.friction import pushing as limited
 from icsolve.statics.friction.equations import (
     Lengths,
     Reduced,
@@ -31,12 +32,15 @@ from icsolve.statics.friction.equations import (
     fixed_point,
     forces_of,
     is_sound,
+    loads_from_power,
     reduced,
     reduced_workless,
     without_friction,
 )
+from icsolve.statics.friction.interface import place_of
 from icsolve.statics.friction.limits import counted, too_many
 from icsolve.tuples import LateModule, NamedTuple
+from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:
     from icsolve.statics.friction import solutions as every
@@ -107,6 +111,12 @@ def static_range(statics: Statics, senses: Sequence[float], alone: bool) -> Stat
         Self-locking: it holds with the unknown at zero (against loads), or no value moves it one way.
     """
     ends = [end for d in (1.0, -1.0) if (end := _end(statics, [d * s for s in senses])) is not None]
+    parts = limited.may_part(statics) and not all(end.pushes for end in ends)
+    if parts or _nothing_presses(statics, senses):
+        starts = [(end.value * statics.scale, *end.friction) for end in ends if end.friction]
+        within = limited.held(statics, starts)
+        if within is not None:
+            return _of_limits(statics, senses, within, alone)
     found = range_of(ends)
     if alone:
         return found
@@ -114,6 +124,72 @@ def static_range(statics: Statics, senses: Sequence[float], alone: bool) -> Stat
     unbounded = math.isinf(found.least) or math.isinf(found.most)
     again = _again(statics, senses, found.least, found.most) if unbounded else ()
     return found._replace(possible=possible, how=how, again=again)
+
+
+def _nothing_presses(statics: Statics, senses: Sequence[float]) -> bool:
+    """Whether the known loads press nowhere without friction: from nothing no friction grows."""
+    equations = reduced(statics, senses)
+    return equations is not None and not any(without_friction(equations.equations))
+
+
+def _of_limits(
+    statics: Statics, senses: Sequence[float], within: Sequence[tuple[float, float]], alone: bool
+) -> StaticRange:
+    """The range, of those in which friction within its limits holds, that is nearest to the load without
+    friction. It ends where the mechanism is about to move, or where a contact parts.
+
+    Raises SceneError where there is none.
+    """
+    smooth = _smooth_load(statics)
+    if not within:
+        raise SceneError(Status.NO_VALUE, _lost(statics, smooth))
+    least, most = min(within, key=lambda pair: max(pair[0] - smooth, smooth - pair[1]))
+    again = sorted(end for pair in within if pair != (least, most) for end in pair if math.isfinite(end))
+    moving = [] if alone else _about_to_move(statics, senses)
+    ends = []
+    for value in (least, most):
+        room = SAME * abs(value) if math.isfinite(value) else -1.0
+        same = (end for end in moving if abs(end.value - value) <= room)
+        ends.append(next(same, End(value, tuple(senses), pushes=math.isinf(value))))
+    return range_of(ends)._replace(how=limited.how(statics), again=tuple(again))
+
+
+SAME = 1e-9
+"""Ends of two ways that differ by less of their size are one."""
+
+
+def _smooth_load(statics: Statics) -> float:
+    """The unknown load that balances without friction [case units]; 0.0 where it does no work."""
+    loads = loads_from_power(statics)
+    return 0.0 if loads is None else loads[0].get(statics.known, 0.0) / statics.scale
+
+
+def _lost(statics: Statics, smooth: float) -> str:
+    """Which contacts would have to pull, at the load without friction."""
+    (root,) = statics.roots
+    parameters = statics.parameters({root: smooth})
+    pulling = [
+        f"links {tie.by} and {tie.on}{place_of(tie)}"
+        for tie, column in zip(statics.ties, statics.first, strict=True)
+        if tie.joint.only_pushes and statics.value(column, parameters) < 0.0
+    ]
+    what = f"of {listed(pulling)} " if pulling else ""
+    return (
+        f"no value of {root} holds: the contact {what}is lost, its normal force would have to pull. The "
+        "links part there, and tip or lift off."
+    )
+
+
+def _about_to_move(statics: Statics, senses: Sequence[float]) -> list[End]:
+    """All equilibria that are about to move, one way or the other."""
+    found = []
+    for direction in (1.0, -1.0):
+        own = tuple([direction * s for s in senses])
+        equations = reduced(statics, own) or reduced_workless(statics, own)
+        if equations is not None:
+            by, roots = counted(statics, own, equations)
+            found += [End(by.load(y)[0] / statics.scale, own, by.friction(y)) for y in roots or ()]
+    return found
 
 
 def range_of(ends: Sequence[End]) -> StaticRange:
@@ -130,12 +206,7 @@ def _again(statics: Statics, senses: Sequence[float], least: float, most: float)
 
     A load that locks one way can lock the other way as well, from some value on: the range goes on there.
     """
-    found = set()
-    for direction in (1.0, -1.0):
-        equations = reduced(statics, [direction * s for s in senses])
-        if equations is not None:
-            by, roots = counted(statics, [direction * s for s in senses], equations)
-            found |= {by.load(y)[0] / statics.scale for y in roots or ()}
+    found = {end.value for end in _about_to_move(statics, senses)}
     room = 1e-9 * largest_of([end for end in (least, most) if math.isfinite(end)])
     return tuple(sorted(value for value in found if value < least - room or value > most + room))
 
@@ -175,8 +246,8 @@ def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> En
     short = equations.equations.scaled(far)
     last = every.followed(short)[0] or without_friction(equations.equations)
     change = sum(a * x for a, x in zip(equations.loads[0][1:], last, strict=True))
-    pushes = is_sound(short, last) and equations.scaled(far).least_push(last) >= -ROUNDED
-    if pushing and not pushes:
+    pushes = equations.scaled(far).least_push(last) >= -ROUNDED
+    if pushing and not (pushes and is_sound(short, last)):
         return None
     if not pushes and (part := _where_one_parts(equations, last, far)) is not None:
         return End(part / statics.scale, tuple(senses), pushes=False)
@@ -223,8 +294,8 @@ def _moving(
 ) -> End | None:
     """The end at an equilibrium about to move, or where a contact parts before; None there if all are to be
     ``pushing``."""
-    pushes = is_sound(equations.equations, y) and equations.least_push(y) >= -ROUNDED
-    if pushing and not pushes:
+    pushes = equations.least_push(y) >= -ROUNDED
+    if pushing and not (pushes and is_sound(equations.equations, y)):
         return None
     if not pushes and (part := _where_one_parts(equations, y, 1.0)) is not None:
         return End(part / statics.scale, tuple(senses), pushes=False)
@@ -306,6 +377,10 @@ def pressed(statics: Statics, senses: Sequence[float], driven: bool) -> StaticRa
     Raises SceneError where nothing drives the mechanism (any value holds) and where none holds it.
     """
     name = statics.roots[0]
+    if limited.may_part(statics):
+        within = limited.held(statics)
+        if within is not None and (driven or not any(math.isinf(end) for pair in within for end in pair)):
+            return _of_limits(statics, senses, within, False)
     (left,) = statics.general.left
     powers = [left.get(statics.rub(k), 0.0) for k in range(len(senses))]
     drive = left.get(statics.known, 0.0)

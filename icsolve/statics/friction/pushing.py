@@ -1,0 +1,192 @@
+"""Where contacts only push, or nothing presses without friction: the loads that friction within its limits
+can hold.
+
+Each friction is at most its coefficient times the force that presses, and a contact's force is not less than
+zero. Where the sense of each force that presses is given, these are linear inequalities in the unknown load
+and the frictions. The sense of a guide's force is tried both ways; that of a pin's is turned to where the
+force lies at the end that was found, until the end goes no farther: each time the range is one of equilibria.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from itertools import product
+
+from icsolve.numbers.arithmetic import largest_of
+from icsolve.numbers.inequalities import Form, region
+from icsolve.numbers.linear import Row
+from icsolve.statics.equilibrium import Statics
+from icsolve.statics.friction.equations import at, forces_of, smooth_normals
+from icsolve.tuples import NamedTuple
+
+MOST_GUIDES = 6
+"""More have too many combinations of senses."""
+TURNS = 60
+"""A pin's force is turned so often at most."""
+LOADS = (0.0, 1.0, -1.0, 1e3, -1e3)
+"""Loads at which the forces of pins are looked at first [scaled]."""
+ROUNDED = 1e-13
+"""What is left of terms that cancel, as a fraction of them, is rounding."""
+PROVEN = "proven: no friction within its limits holds more"
+TURNED = "the forces of pins were turned until no friction was found that holds more"
+Toward = Callable[[Sequence[float]], list[tuple[float, ...]]]
+"""Directions of the forces that press, of a load and frictions."""
+Interval = tuple[float, float]
+"""From what load to what load, perhaps infinite."""
+
+
+class Limits(NamedTuple):
+    """Affine forms in the unknown load and the frictions, each over its limit, without the one that follows
+    from the sum of power [scaled].
+
+    Attributes
+    ----------
+    presses : of each rub the components of the force that presses
+    frictions : of each rub
+    smooth : the normal forces of contacts without friction, and the pulls of ropes
+    kept : the places of the rubs whose frictions are variables
+    """
+
+    presses: tuple[tuple[Form, ...], ...]
+    frictions: tuple[Form, ...]
+    smooth: tuple[Form, ...]
+    kept: tuple[int, ...]
+
+    def inside(self, statics: Statics, start: Sequence[float]) -> list[float]:
+        """The variables at a load with its frictions."""
+        return [start[0], *(start[1 + k] / statics.rubs[k].limit for k in self.kept)]
+
+    def forms(self, toward: Sequence[Sequence[float]]) -> list[Form]:
+        """What is not less than zero in an equilibrium where each force that presses has, toward its unit
+        vector, at least the friction over its limit."""
+        found = list(self.smooth)
+        for forces, unit, friction in zip(self.presses, toward, self.frictions, strict=True):
+            force = _summed(forces, unit)
+            found += [_summed((force, friction), (1.0, side)) for side in (1.0, -1.0)]
+        return found
+
+
+def may_part(statics: Statics) -> bool:
+    """Whether there is a contact, which only pushes."""
+    return any(tie.joint.only_pushes for tie in statics.ties)
+
+
+def held(statics: Statics, starts: Sequence[Sequence[float]] = ()) -> list[Interval] | None:
+    """The ranges of the one unknown load in which friction within its limits holds, by rising value [case
+    units]; None where no friction does work, and where guides rub in too many places.
+
+    ``starts`` are loads with their frictions, (1 + rubs,) [scaled], at which the forces of pins are looked at
+    first.
+    """
+    limits = _limits(statics)
+    guides = [
+        k
+        for k, rub in enumerate(statics.rubs)
+        if len(rub.normal) == 1 and not statics.ties[rub.tie].joint.only_pushes
+    ]
+    if limits is None or len(guides) > MOST_GUIDES:
+        return None
+    found: list[Interval] = []
+    for senses in product((1.0, -1.0), repeat=len(guides)):
+        by_guide = dict(zip(guides, senses, strict=True))
+        own = [by_guide.get(k, 1.0) for k in range(len(statics.rubs))]
+        found += _with_senses(limits, own, [limits.inside(statics, start) for start in starts])
+    return _joined([(low / statics.scale, high / statics.scale) for low, high in found])
+
+
+def how(statics: Statics) -> str:
+    """How it is known that no friction holds more."""
+    return TURNED if any(len(rub.normal) == 2 for rub in statics.rubs) else PROVEN
+
+
+def _limits(statics: Statics) -> Limits | None:
+    """None where there is not one sum of power, or no friction in it."""
+    left, count = statics.general.left[0], len(statics.rubs)
+    if len(statics.general.left) > 1:
+        return None
+
+    columns = (statics.known, statics.root(0), *map(statics.rub, range(count)))
+    sizes = [largest_of([row.get(c, 0.0) for row in statics.general.solved.values()]) for c in columns]
+    units = (1.0, 1.0, *(rub.limit for rub in statics.rubs))
+
+    def whole(row: Row) -> Form:
+        three = zip(columns, sizes, units, strict=True)
+        return tuple(
+            [a * unit if abs(a := row.get(c, 0.0)) > ROUNDED * size else 0.0 for c, size, unit in three]
+        )
+
+    power = whole(left)
+    gone = max(range(2, 2 + count), key=lambda k: abs(power[k]), default=0)
+    if not gone or not power[gone]:
+        return None
+
+    def form(row: Row) -> Form:
+        own = whole(row)
+        share = -own[gone] / power[gone]
+        return _summed((own[:gone] + own[gone + 1 :], power[:gone] + power[gone + 1 :]), (1.0, share))
+
+    presses = tuple(tuple(map(form, rows)) for rows in forces_of(statics))
+    frictions = tuple(form({statics.rub(k): 1.0 / rub.limit}) for k, rub in enumerate(statics.rubs))
+    pulls = [statics.general.of(statics.tension(n)) for n in range(len(statics.ropes))]
+    kept = tuple([k for k in range(count) if k != gone - 2])
+    return Limits(presses, frictions, tuple(map(form, (*smooth_normals(statics), *pulls))), kept)
+
+
+def _summed(forms: Sequence[Form], shares: Sequence[float]) -> Form:
+    columns = [[a * s for a, s in zip(column, shares, strict=True)] for column in zip(*forms, strict=True)]
+    return tuple(
+        [total if abs(total := sum(terms)) > ROUNDED * largest_of(terms) else 0.0 for terms in columns]
+    )
+
+
+def _with_senses(
+    limits: Limits, senses: Sequence[float], starts: Sequence[Sequence[float]]
+) -> Iterator[Interval]:
+    """The ranges where guides and contacts press in these senses, and pins in any direction."""
+    pins = [k for k, forces in enumerate(limits.presses) if len(forces) == 2]
+
+    def toward(inside: Sequence[float]) -> list[tuple[float, ...]]:
+        """The directions of the forces at a load and frictions."""
+        found: list[tuple[float, ...]] = [(sense,) for sense in senses]
+        for k in pins:
+            x, y = (at(form, inside) for form in limits.presses[k])
+            size = math.hypot(x, y) or 1.0
+            found[k] = (x / size, y / size)
+        return found
+
+    if not pins:
+        found = region(limits.forms([(sense,) for sense in senses])).first
+        if found is not None:
+            yield found
+        return
+    for start in (*starts, *((load, *[0.0] * len(limits.kept)) for load in LOADS)):
+        units = toward(start)
+        if region(limits.forms(units)).first is not None:
+            yield _turned(limits, toward, units, 0), _turned(limits, toward, units, 1)
+
+
+def _turned(limits: Limits, toward: Toward, units: Sequence[tuple[float, ...]], end: int) -> float:
+    """An end of the range, the least or the most, with the forces of pins turned to where they lie there."""
+    last = math.nan
+    for _ in range(TURNS):
+        part = region(limits.forms(units))
+        if part.first is None or part.first[end] == last:  # but for rounding it is not empty
+            break
+        last = part.first[end]
+        if math.isinf(last):
+            break
+        units = toward((last, *part.point(last)))
+    return last
+
+
+def _joined(found: Sequence[Interval]) -> list[Interval]:
+    """The ranges that meet as one."""
+    joined: list[Interval] = []
+    for low, high in sorted(found):
+        room = ROUNDED * largest_of([end for end in (low, high) if math.isfinite(end)])
+        if joined and low <= joined[-1][1] + room:
+            joined[-1] = (joined[-1][0], max(joined[-1][1], high))
+        else:
+            joined.append((low, high))
+    return joined
