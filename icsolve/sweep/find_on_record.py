@@ -20,7 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.answer import by_load
-from icsolve.case import Case
+from icsolve.case import Case, refuse_no_case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.jets import BallArray, Cells, Jet
@@ -83,6 +83,7 @@ def find(
     ValueError
         Where several numbers vary, or the load is not an unknown one.
     """
+    refuse_no_case(case)
     columns = columns_of(case, vary, drive)
     along = along_of(columns)
     if query.load not in {"", *(load.name for load in case.loads if is_unknown(load))}:
