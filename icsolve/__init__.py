@@ -3,10 +3,10 @@
 ``load`` a case, ``solve`` it, read the ``Answer``; ``sweep`` solves it for arrays of its numbers,
 ``evaluator`` compiles it to a function of them. Numbers are in the units of the case, angles in degrees,
 angular velocities in rad/s. What is wrong with a case is raised as ``CaseError``, a scene that has no answer
-as ``SceneError`` (both are `icsolve.errors.IcsolveError`), arrays that do not fit as ValueError. Nothing is
-imported before it is asked for, so that ``import icsolve`` costs next to nothing. In a notebook a case shows
-its figure, an answer its worked solution, a sweep its curve: the values know nothing of it, and are given
-these methods from here.
+as ``SceneError`` (both are `icsolve.errors.IcsolveError`), arrays that do not fit as ValueError, arguments
+of another kind as TypeError (`icsolve.errors.ArgumentError`). Nothing is imported before it is asked for,
+so that ``import icsolve`` costs next to nothing. In a notebook a case shows its figure, an answer its worked
+solution, a sweep its curve: the values know nothing of it, and are given these methods from here.
 """
 
 from __future__ import annotations

@@ -12,6 +12,16 @@ class IcsolveError(Exception):
     """Any refusal of icsolve."""
 
 
+class ArgumentError(IcsolveError, TypeError):
+    """What a function was given is of another kind than it takes: the message says what to write."""
+
+
+def refuse_other(given: object, kinds: type | tuple[type, ...], wanted: str) -> None:
+    """Refuse an argument that is of none of these kinds; ``wanted`` is what to write instead."""
+    if not isinstance(given, kinds):
+        raise ArgumentError(f"{wanted}; this is of the type {type(given).__name__}")
+
+
 class Problem(NamedTuple):
     """One thing wrong with a file: line and column from 1."""
 

@@ -113,3 +113,38 @@ loads: {{U: {{torque: unknown, link: 4}}, K: {{force: {load}, link: {on}, at: C}
             icsolve.solve(icsolve.load(text.format(load=load, on=on)))
         said.append(str(caught.value))
     assert said[0] == said[1] and "(A, B and C lie on one line)" in said[0]
+
+
+FOLDED = [
+    "{torque: %s, link: 2}",
+    "{torque: %s, link: 3}",
+    "{torque: %s, link: 4, against: 2}",
+    "{force: %s, link: 3, at: C, angle: 90}",
+    "{force: %s, link: 3, at: G, angle: 90}",
+    "{force: %s, link: 3, at: C, angle: 0}",
+    "{force: %s, link: 2, at: H, angle: 30}",
+    "{force: %s, link: 2, at: B, angle: 0}",
+]
+
+
+@pytest.mark.parametrize("unknown", FOLDED)
+@pytest.mark.parametrize("known", FOLDED)
+def test_a_parallelogram_has_one_verdict_folded_either_way(unknown: str, known: str) -> None:
+    """Whichever two of its motions are found, and of whatever lengths it is."""
+    verdicts = set()
+    for angle, side in ((0, 1), (180, -1)):
+        for crank, base in ((1.5, 1.2), (2, 4)):
+            text = f"""icsolve: 1
+points: {{A: [0, 0], D: [{base}, 0], G: {{centroid: [B, C]}}, H: {{centroid: [A, B]}}}}
+lengths: {{AB: {crank}, BC: {base}, CD: {crank}}}
+angles: {{AB: {angle}}}
+near: {{C: [{base + side * crank}, 0]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
+loads: {{U: {unknown % "unknown"}, K: {known % 5}}}
+"""
+            try:
+                icsolve.solve(icsolve.load(text))
+                verdicts.add("ok")
+            except SceneError as refusal:
+                verdicts.add(str(refusal.status))
+    assert len(verdicts) == 1, verdicts

@@ -37,7 +37,7 @@ from icsolve.scene import solve_scene
 from icsolve.solve import limits as limits_room
 from icsolve.solve import resting
 from icsolve.solve.rest import AT_LIMIT
-from icsolve.solve.stability import holding_values, with_stability
+from icsolve.solve.stability import holding_values, neutral_values, with_stability
 from shell import Shell, exit_status
 from sizes import FULL
 
@@ -1346,6 +1346,29 @@ def test_a_sweep_finds_the_critical_load(tmp_path: Path, capsys: pytest.CaptureF
     (one,) = json.loads(run(tmp_path, capsys, STRUT, *words))["found"]
     assert (one["kind"], one["from"], one["to"]) == ("neutral", "stable", "unstable")
     assert abs(one["at"]["loads.W"] - 20.0) <= one["error"]["loads.W"] < 1e-11
+
+
+@pytest.mark.parametrize(("stiffness", "least"), [("40", 20.0), ("7", 3.5), ("500", 250.0)])
+def test_a_critical_load_at_an_end_of_the_range_belongs_to_it(stiffness: str, least: float) -> None:
+    """An upright strut of length 2 on a torsion spring loses its stability where twice the load is as large
+    as that; a spring gains it."""
+    case = icsolve.load(f"""icsolve: 1
+points: {{A: [0, 0]}}
+lengths: {{AB: 2}}
+angles: {{AB: 90}}
+joints: [{{pin: [1, 2], at: A}}]
+loads:
+  W: {{weight: {least}, link: 2, at: B}}
+  S: {{spring: {stiffness} N*m/rad, corner: AB, free: 90, link: 2}}
+""")
+    for path, place, kinds in (
+        ("loads.W", least, ("stable", "unstable")),
+        ("loads.S", float(stiffness), ("unstable", "stable")),
+    ):
+        for low, high in ((place, place + 5.0), (place - 3.0, place), (place - 1.0, place + 1.0)):
+            (one,) = neutral_values(case, path, low, high)
+            assert (one.before, one.after) == kinds
+            assert one.value == pytest.approx(place, rel=1e-14)
 
 
 def test_a_sweep_finds_the_friction_that_holds(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

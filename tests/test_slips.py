@@ -704,6 +704,37 @@ loads:
     assert not icsolve.load(arm).noticed
 
 
+TIED = {
+    "a length and a corner at the joint of both": ("", "BE: 1.5", "CBE: 20", ""),
+    "the corner the other way round": ("", "BE: 1.5", "EBC: 20", ""),
+    "two lengths": ("", "BE: 1.5, CE: 3", "", "E: [2, 3]"),
+    "a length and the corner at its other end": ("", "CE: 1.5", "CBE: 20", "E: [2, 1]"),
+    "a point in line with both joints": ("", "BE: 1.5", "CBE: 0", ""),
+    "the midpoint": ("E: {centroid: [B, C]}", "", "", ""),
+    "by way of another point": ("", "BE: 1.5, CF: 1, FE: 1", "CBE: 20, BCF: 20", "F: [2, 2]"),
+}
+
+
+@pytest.mark.parametrize("by", TIED)
+def test_a_point_that_the_data_tie_to_one_link_is_loaded_on_that_link(by: str) -> None:
+    """On the coupler, at whose ends cranks are pinned that have two points of their own: to a crank a length
+    alone from their common joint ties nothing."""
+    points, lengths, angles, near = (f", {part}" if part else "" for part in TIED[by])
+    text = PRESS.replace("D: [4, 0]", f"D: [4, 0]{points}").replace(", DE: 1.5", lengths)
+    text = text.replace(", CDE: 0", angles).replace("[3.5, 2.4]", f"[3.5, 2.4]{near}")
+    assert icsolve.solve(icsolve.load(text.replace("link: 4, at: E", "link: 3, at: E"))).answers
+    for link in (1, 2, 4):
+        said = rf"14:25: load P acts on link {link} at E, which is a point of link 3: write 'link: 3'"
+        with pytest.raises(CaseError, match=said):
+            icsolve.load(text.replace("link: 4, at: E", f"link: {link}, at: E"))
+
+
+@pytest.mark.parametrize("angle", ["DAE: 100", "AE: 100", "BAE: 40"])
+def test_an_arm_of_a_crank_is_posed_by_its_angle_to_the_frame(angle: str) -> None:
+    text = PRESS.replace(", DE: 1.5", ", AE: 1.5").replace("CDE: 0", angle)
+    assert not icsolve.load(text.replace("link: 4, at: E", "link: 2, at: E")).noticed
+
+
 # What is changed; the status ('' for an answer) and what message or notes say.
 SCENES = {
     "points for links": (

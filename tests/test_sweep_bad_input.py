@@ -11,13 +11,17 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import icsolve
+from icsolve.errors import ArgumentError
 from icsolve.scene.sensitivity import numbers_of
 from icsolve.sweep import request
+from icsolve.sweep.find_on_record import Query, find
+from icsolve.sweep.request import RequestError
 from shell import exit_status
 from test_sweep_command import PRESS, press
 
@@ -49,6 +53,53 @@ loads: {P: {force: 120, link: 2, at: C, angle: -70}}
 def test_why_a_link_cannot_be_turned(text: str, links: str, said: str) -> None:
     with pytest.raises(icsolve.SceneError, match=said):
         icsolve.sweep(icsolve.load(text), drive={link: [0.0, 1.0] for link in links})
+
+
+OTHERS: dict[str, Callable[[Any], Any]] = {
+    "load": icsolve.load,
+    "settings": lambda given: icsolve.load(PRESS, given),
+    "a path of settings": lambda given: icsolve.load(PRESS, {given: 30}),
+    "solve": icsolve.solve,
+    "sweep": lambda given: icsolve.sweep(given, {"angles.AB": [30.0]}),
+    "vary": lambda given: icsolve.sweep(icsolve.load(PRESS), given),
+    "drive": lambda given: icsolve.sweep(icsolve.load(PRESS), drive=given),
+    "a path": lambda given: icsolve.sweep(icsolve.load(PRESS), {given: [30.0]}),
+    "want": lambda given: icsolve.sweep(icsolve.load(PRESS), {"angles.AB": [30.0]}, given),
+    "evaluator": lambda given: icsolve.evaluator(given, ("angles.AB",)),
+    "inputs": lambda given: icsolve.evaluator(icsolve.load(PRESS), given),
+    "find": lambda given: find(given, {"angles.AB": [30.0, 60.0]}, Query("max")),
+}
+MEANT = {"load": (str, Path), "want": (str, list), "inputs": (str, list)}
+"""What is meant there; whether it is a path or a word that the case has is another question."""
+
+
+@pytest.mark.parametrize("at", OTHERS)
+def test_what_an_argument_should_be_is_told(at: str) -> None:
+    """The path of a case in the place of the case above all."""
+    answer = icsolve.solve(icsolve.load(PRESS))
+    for given in ("press.yaml", Path("press.yaml"), b"press.yaml", 3, 2.5, ["angles.AB"], object(), answer):
+        allowed = (str,) if "path" in at else MEANT.get(at, ())
+        if isinstance(given, allowed) or (isinstance(given, list) and "path" in at):
+            continue
+        with pytest.raises(ArgumentError, match=r"icsolve\.load\(|load\(\"|=\{|=\(|'angles.AB'") as told:
+            OTHERS[at](given)
+        assert isinstance(told.value, TypeError)
+        assert "this is of the type " in str(told.value)
+    with pytest.raises(ArgumentError, match=r"icsolve\.load\('tools/press.yaml'\)"):
+        icsolve.solve("tools/press.yaml")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("value", [None, [30.0], np.array([30.0, 40.0]), {}])
+def test_a_setting_that_is_no_number_is_refused(value: Any) -> None:
+    with pytest.raises(icsolve.CaseError, match=r"cannot set 'angles.AB': a value is a number or a text"):
+        icsolve.load(PRESS, {"angles.AB": value})
+
+
+def test_what_is_no_number_is_no_column() -> None:
+    at = icsolve.evaluator(icsolve.load(PRESS), "angles.AB")
+    for value in ("thirty", ["a"], {}, object()):
+        with pytest.raises(RequestError, match=r"'angles\.AB' should be numbers"):
+            at(value)  # type: ignore[arg-type]
 
 
 def refused(*words: str) -> Callable[[str], bool]:

@@ -171,6 +171,86 @@ def test_what_is_found_does_not_depend_on_the_rows_between(rows: list[float]) ->
     assert spots.notes == ()
 
 
+def arm(load: str, off: str) -> str:
+    """A bent arm, of which the load acts at the end of the far part."""
+    loads = f"{{W: {load}, T: {{torque: unknown, link: 2}}}}"
+    return f"""icsolve: 1
+points: {{A: [0, 0]}}
+lengths: {{AB: 2, AE: 3}}
+angles: {{AB: 20, BAE: {off}}}
+joints: [{{pin: [1, 2], at: A}}]
+loads: {loads}
+"""
+
+
+KITE = """icsolve: 1
+points: {A: [0, 0], D: [4, 0]}
+lengths: {AB: 2, BC: 3, CD: 5}
+angles: {AB: 20}
+near: {C: [4.5, 2.5]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}]
+loads: {P: {torque: 5, link: 4}, T: {torque: unknown, link: 2}}
+"""
+ROCKER = """icsolve: 1
+points: {A: [0, 0], D: [4, 0]}
+lengths: {AB: 2, BC: 3, CD: 3}
+angles: {DC: 110}
+near: {B: [1, 2]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}]
+loads: {P: {torque: 5, link: 2}, T: {torque: unknown, link: 4}}
+"""
+
+
+def at_ends(text: str, path: str, query: Query, place: float) -> list[list[float]]:
+    """What is found in ranges that end at a place, rising and falling, and in one with it inside."""
+    a, b = place - 20.0, place + 20.0
+    spans = [(place, b), (b, place), (a, place), (place, a), (place, place + 7.0, b), (a, b)]
+    return [[at for _, at, _ in found(text, path, np.array(span), query)] for span in spans]
+
+
+IN_LINE = [
+    (text.replace("[unknown, 7]", "[unknown, 0]"), "angles.AB", query, place)
+    for text, query in ((UNKNOWN_FORCE, Query("dead")), (UNKNOWN_TORQUE, Query("value", "T")))
+    for place in (0.0, 180.0, -180.0)
+]
+
+
+def test_an_end_of_the_range_belongs_to_it() -> None:
+    """At angles of whole decimals, whose sines are none: what lies at the very end of a range comes out
+    inside of it, or beyond, by a last digit. By turned arms, an upright triangle 3-4-5 and cranks in line."""
+    rng = Random(11)
+    trials = [
+        (KITE, "angles.AB", Query("dead"), 0.0),
+        (KITE, "angles.AB", Query("dead"), 360.0),
+        (PARALLELOGRAM, "angles.AB", Query("dead"), 180.0),
+        (PARALLELOGRAM, "angles.AB", Query("dead"), -180.0),
+        (ROCKER, "angles.DC", Query("dead"), 90.0),
+        *IN_LINE,
+    ]
+    for _ in range(6):
+        off, load = rng.randint(-900, 900) / 10, rng.randint(0, 1800) / 10
+        text, path = arm(f"{{force: 5, link: 2, at: E, angle: {load}}}", str(off)), "angles.AB"
+        unknown = text.replace("force: 5", "force: unknown").replace("torque: unknown", "torque: 7")
+        trials += [
+            (text, path, Query("value", "T"), round(load - off, 1)),
+            (text, path, Query("max"), round(load - off + 90.0, 1)),
+            (text, path, Query("value", "T", 15.0), round(load - off + 90.0, 1)),
+            (unknown, path, Query("dead"), round(load - off, 1)),
+        ]
+    for text, path, query, place in trials:
+        for places in at_ends(text, path, query, place):
+            assert places == pytest.approx([place], abs=1e-11), (text, query, place)
+
+
+def test_an_end_of_the_range_belongs_to_it_where_groups_are_followed(monkeypatch: pytest.MonkeyPatch) -> None:
+    from icsolve.assembly.driven.order import AssemblyOrder
+
+    monkeypatch.setattr(AssemblyOrder, "_at_intersection", lambda self: iter(()))
+    for text, path, query, place in IN_LINE:
+        for places in at_ends(text, path, query, place):
+            assert places == pytest.approx([place], abs=1e-11), (query, place)
+
+
 @pytest.mark.parametrize("below", [1e-3, 1e-6, 1e-9, 1e-12])
 def test_a_value_just_below_a_peak_is_taken_twice(below: float) -> None:
     """As far from the peak as the root of what is below it; just above, nowhere."""

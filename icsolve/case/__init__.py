@@ -63,6 +63,7 @@ from icsolve.case.loads import (
     Toward,
     Weight,
 )
+from icsolve.errors import refuse_other
 from icsolve.numbers.units import Number
 from icsolve.tuples import cached_property, dataclass, field
 
@@ -121,6 +122,7 @@ __all__ = [
     "is_angle",
     "is_link",
     "is_named",
+    "refuse_no_case",
 ]
 
 
@@ -189,6 +191,12 @@ class Case:
 
 
 # --- names of links and of their centres: ``2-4``, ``crank-rocker`` -------------------------------------
+
+
+def refuse_no_case(given: object) -> None:
+    """Refuse what is no case where one is to be solved."""
+    path = given if isinstance(given, str) and "\n" not in given else getattr(given, "name", "press.yaml")
+    refuse_other(given, Case, f"a case is wanted, as icsolve.load({str(path)!r}) gives it")
 
 
 def link_order(case: Case, link: str) -> tuple[int, int]:

@@ -32,7 +32,7 @@ KINDS = {
 """The kinds of positions as they are written."""
 NONE = {
     "dead": "no dead centre, limit or change point",
-    "max": "no greatest {name}",
+    "max": "{name} peaks nowhere",
     "value": "{name} is nowhere {value}",
     "rest": "the loads balance nowhere",
     "neutral": "the stability does not change",

@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping as Named
 
 from icsolve.case import Case
-from icsolve.errors import CaseError, NotACase
+from icsolve.errors import CaseError, NotACase, refuse_other
 from icsolve.read.build import NO_CASE, build, check_version, is_in_space
 from icsolve.read.document import Mapping, Node, checked, parse, take_in, text_of
 from icsolve.read.keys import SECTIONS
@@ -33,6 +33,10 @@ def load(path_or_text: str | os.PathLike[str], settings: Settings | None = None)
         With all that is wrong, each with its line and column; so for a file that is missing or not UTF-8.
         ``NotACase`` where there is no ``icsolve:``.
     """
+    refuse_other(path_or_text, (str, os.PathLike), 'load takes a path or a text, as load("press.yaml")')
+    refuse_other(settings or {}, Named, 'settings are values by path, as settings={"angles.AB": 30}')
+    for path in settings or {}:
+        refuse_other(path, str, "a path is a text, as 'angles.AB'")
     if isinstance(path_or_text, str) and ("\n" in path_or_text or "icsolve:" in path_or_text):
         return read_text(path_or_text, settings=settings)
     return read_file(path_or_text, settings)

@@ -246,6 +246,7 @@ class _Owners:
             points_of_all = set().union(*(self.own.get(link, ()) for link in together))
             self.own.update(dict.fromkeys(together, points_of_all))
         self.dimensioned = {end for length in figure.lengths for end in (length.a, length.b)}
+        self.dimensioned.update(name for name, at in figure.points.items() if isinstance(at, Centroid))
         self.centres = {joint.at for joint in figure.joints if joint.stands_in}
         self.fixed: dict[str, set[str]] = {}
 
@@ -259,10 +260,18 @@ class _Owners:
         by_joints = [other for other, points in self.own.items() if point in points]
         if by_joints or point not in self.dimensioned:
             return by_joints, False
+        others = [other for other in self.own if point in self._fixed_to(other)]
         arms = (length for length in self.figure.lengths if {length.a, length.b} - own == {point})
-        if link != self.ground and any(arms):
-            return [], True  # an arm's end: its length says whose it is, its angle may be to another link
-        return [other for other in self.own if point in self._fixed_to(other)], True
+        posed = others == [self.ground] or not self._has_ends(own)
+        if link != self.ground and posed and any(arms):
+            return [], True  # an arm's end: its length says whose it is, its angle poses the arm
+        return others, True
+
+    def _has_ends(self, own: set[str]) -> bool:
+        """Whether two points of a link say how it lies, so that none of its arms need do so."""
+        places = (self.figure.points.get(point) for point in own)
+        given = [at for at in places if isinstance(at, Coordinates) and None not in (at.x, at.y)]
+        return len(given) > 1 or any({length.a, length.b} <= own for length in self.figure.lengths)
 
     def _fixed_to(self, link: str) -> set[str]:
         """The points of a link, and those that two dimensions each fix to these."""

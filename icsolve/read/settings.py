@@ -29,7 +29,12 @@ _SECTIONS = ("points", "lengths", "angles", "near", "loads", "joints", "profile"
 def apply(root: Mapping, settings: Named[str, str | float], problems: Problems) -> None:
     """Put each value at its path in the tree; a path that the case does not have is refused."""
     for path, value in settings.items():
-        text = value if isinstance(value, str) else repr(float(value))
+        try:
+            text = value if isinstance(value, str) else repr(float(value))
+        except (TypeError, ValueError):
+            kind = type(value).__name__
+            problems.refuse((1, 1), f"cannot set {shown(path)}: a value is a number or a text, not a {kind}")
+            continue
         if text != "unknown":
             _forget(root, path)
         wrong = _set(root, path, text)

@@ -123,10 +123,11 @@ def refuse_unbalanced(outcome: power.Outcome) -> None:
         return
     case, top = outcome.place.case, outcome.place.top
     active = motions.mobility - len(solution.idle)
+    if motions.redundant and top.freedoms_by_count == unknowns < motions.mobility:
+        # whatever the loads do: in which of its motions they do no work is a choice of these
+        message = sentences.change_point(motions.mobility, top.freedoms_by_count)
+        raise SceneError(Status.CHANGE_POINT, message)
     if solution.verdict in ("too few unknowns", "too many unknowns") or unknowns > max(active, 1):
-        if motions.redundant and top.freedoms_by_count == unknowns:
-            message = sentences.change_point(motions.mobility, top.freedoms_by_count)
-            raise SceneError(Status.CHANGE_POINT, message)
         ends = sentences.free_ends(top, case)
         message = sentences.wrong_count(motions.mobility, unknowns, len(solution.idle), ends)
         raise SceneError(Status.MOBILITY, message)

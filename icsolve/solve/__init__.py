@@ -9,7 +9,7 @@ whether it is stable, `resting` finds the ranges in which friction holds, `two_d
 from __future__ import annotations
 
 from icsolve.answer import Answer
-from icsolve.case import Case, Coordinates
+from icsolve.case import Case, Coordinates, refuse_no_case
 from icsolve.errors import SceneError, Status
 from icsolve.scene import balanced, judged, solve_scene, wanted, without_inertia
 from icsolve.scene.parts import AnswerBuilder, scene_of
@@ -56,10 +56,13 @@ def solve(
 
     Raises
     ------
+    ArgumentError
+        A TypeError, for what is no case, as the path of one.
     SceneError
         Where the scene has no answer: its figure can't be built, or a load has no value in this position. Its
         ``status`` is a member of `icsolve.errors.Status`, its message says what would mend it.
     """
+    refuse_no_case(case)
     if not (case.unknowns or _asks_for_a_position(case)):
         found = solve_scene(
             case,

@@ -130,7 +130,8 @@ class TurningPower(NamedTuple):
 def neutral_values(case: Case, path: str, low: float, high: float) -> list[TurningPower]:
     """The values of a load's number at which the position as written changes its stability.
 
-    The case has to be in equilibrium as written for all of them.
+    The case has to be in equilibrium as written for all of them. One cut beyond each end is looked at too,
+    so that a change at the very end is seen.
     """
     own = find_number(case, path).path
     link = _driven(case)
@@ -147,13 +148,21 @@ def neutral_values(case: Case, path: str, low: float, high: float) -> list[Turni
             )
         return rest.stiffness
 
-    values = [low + (high - low) * k / CUTS for k in range(CUTS + 1)]
-    both = zip(values, map(stiffness, values), strict=True)
+    both: list[tuple[float, Stiffness]] = []
+    for n in range(-1, CUTS + 2):
+        value = low + (high - low) * n / CUTS
+        try:
+            both.append((value, stiffness(value)))
+        except SceneError:
+            if low <= value <= high:
+                raise
     known = [(value, k) for value, k in both if abs(k.value) > (k.error or 0.0)]
     found = []
     for (a, at_a), (b, at_b) in pairwise(known):
         if (at_a.value > 0.0) != (at_b.value > 0.0):
-            found.append(_neutral_between(stiffness, (a, at_a), (b, at_b)))
+            one = _neutral_between(stiffness, (a, at_a), (b, at_b))
+            if low - one.error <= one.value <= high + one.error:
+                found.append(one._replace(value=min(max(one.value, low), high)))
     return found
 
 

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.assembly.steps import PointGroup
-from icsolve.case import Case
+from icsolve.case import Case, refuse_no_case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.arithmetic import turn_of
@@ -30,7 +30,7 @@ from icsolve.sweep.drivers import Drive
 from icsolve.sweep.exact import hides
 from icsolve.sweep.numbers import find_number, numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of
-from icsolve.sweep.request import RequestError, SweepRequest, request_of, told
+from icsolve.sweep.request import RequestError, SweepRequest, array_of, names_in, request_of, told
 from icsolve.sweep.runner import Key, Rows, column, usual_and_terms
 from icsolve.sweep.start import is_hard
 from icsolve.sweep.table import CODE, WORDS, Table, by_kind
@@ -113,6 +113,8 @@ def evaluator(
 
     Raises
     ------
+    ArgumentError
+        A TypeError, for what is no case, as the path of one, and names that are none.
     CaseError
         For a path that the case does not have.
     SceneError
@@ -122,13 +124,14 @@ def evaluator(
         (friction, profiles, ropes, screws, inertia forces, numbers of a motion, groups that Newton's method
         places).
     """
-    paths = tuple(inputs) if not isinstance(inputs, str) else (inputs,)
+    refuse_no_case(case)
+    paths = names_in(inputs, "inputs=('angles.AB', 'lengths.BC')")
     own = tuple(find_number(case, path).path for path in paths)
     if not own:
         raise RequestError("nothing is varied: give inputs=('lengths.BC',)")
     if len(set(own)) < len(own):
         raise RequestError("an input is named twice")
-    wanted = request_of(case, (want,) if isinstance(want, str) else tuple(want))
+    wanted = request_of(case, names_in(want, "want=('answers', 'points.C')"))
     if case.space is not None:
         raise SceneError(Status.UNSUPPORTED, "an evaluator is for the plane, and this case is in space.")
     return Evaluator(case, dict(zip(paths, own, strict=True)), wanted, gradient)
@@ -265,7 +268,7 @@ def _one_by_one(case: Case) -> bool:
 
 def _columns(names: Sequence[str], columns: Sequence[npt.ArrayLike]) -> tuple[list[Array], int]:
     """The columns as arrays, and how many rows they make."""
-    given = [np.asarray(values, dtype=np.float64) for values in columns]
+    given = [array_of(name, values) for name, values in zip(names, columns, strict=True)]
     rows = max(len(c) if c.ndim else 1 for c in given)
     for name, values in zip(names, given, strict=True):
         if values.ndim > 1 or (values.ndim and len(values) not in (1, rows)):
@@ -335,7 +338,7 @@ class _Compiled:
             if not all(one.holds(columns[n]) for n, one in self.bounds):
                 return None
             found = self.one(*map(float, columns))  # type: ignore[arg-type]
-        except (ArithmeticError, ValueError):
+        except (ArithmeticError, TypeError, ValueError):
             return None
         if found is None:
             return None

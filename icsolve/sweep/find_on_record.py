@@ -20,7 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.answer import by_load
-from icsolve.case import Case
+from icsolve.case import Case, refuse_no_case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.jets import BallArray, Cells, Jet
@@ -51,6 +51,8 @@ NARROW = 2.0**-32
 """Cells that are this part of the range wide are at an end of it, or at a change point."""
 PLACES = 2048
 """Places at which groups are searched."""
+NEAR = Decimal("1e-20")
+"""Places nearer to each other than this are one."""
 
 
 def find(
@@ -81,6 +83,7 @@ def find(
     ValueError
         Where several numbers vary, or the load is not an unknown one.
     """
+    refuse_no_case(case)
     columns = columns_of(case, vary, drive)
     along = along_of(columns)
     if query.load not in {"", *(load.name for load in case.loads if is_unknown(load))}:
@@ -112,12 +115,16 @@ class RangeSearch:
         self.exact = self.along.scenes.exact
         self.roots = self.along.scenes.roots
         values = parts.arrays[name][part.rows]
-        self.ends = (float(values.min()), float(values.max()))
+        self.span = (as_written(values.min()), as_written(values.max()))
+        aside = ROUGH * max(1.0, float(np.abs(values).max()))
+        self.ends = (float(values.min()) - aside, float(values.max()) + aside)
+        """searched from here to there: what lies at the very end of the span may come out beyond it"""
         self.paths = {path: as_written(a[part.rows[0]]) for path, a in parts.columns.paths.items()}
         self.notes: dict[str, None] = {}
         self.places: dict[Decimal, Values | None] = {}
         """the inputs at every place that was looked at, groups solved; None where these have no solution"""
-        self.touches = sorted({s for s in self.along.touching(name) if self._inside(s)})
+        low, high = map(as_written, self.ends)
+        self.touches = sorted({s for s in self.along.touching(name) if low <= s <= high})
 
     def found(self) -> list[FoundPosition]:
         """All positions of the kind that is asked, in order."""
@@ -140,8 +147,11 @@ class RangeSearch:
             low, here, high = (self._value(answer, s + k * STEP) for k in (-1, 0, 1))
             return float(here), float((high - low) / (2 * STEP))
 
-    def _inside(self, s: Decimal) -> bool:
-        return as_written(self.ends[0]) <= s <= as_written(self.ends[1])
+    def _inside(self, s: Decimal, off: Decimal = NEAR) -> Iterator[Decimal]:
+        """A place in the span, which is known so well: an end, where it may be that."""
+        low, high = self.span
+        if low - off <= s <= high + off:
+            yield next((end for end in self.span if abs(s - end) <= off), s)
 
     def spots(self) -> Iterator[FoundPosition]:
         """All positions of the kind that is asked."""
@@ -175,8 +185,8 @@ class RangeSearch:
     def _dead(self, answer: Scalar, load: str) -> Iterator[FoundPosition]:
         """Where the unknown does no work, where the links reach their limit, where branches meet. Where the
         known loads do none either, any value balances, or the quotient goes through: no dead centre."""
-        yield from (self._spot(s, "change-point", None) for s in self.touches)
-        seen = list(self.touches)
+        seen = [s for touch in self.touches for s in self._inside(touch)]
+        yield from (self._spot(s, "change-point", None) for s in seen)
         for bottom in self._divisors(answer):
             for s in self._zeros(bottom):
                 if self._is_pole(answer, s) and all(abs(s - other) > NEAR for other in seen):
@@ -210,7 +220,7 @@ class RangeSearch:
                 value, wide = self._value(answer, s), min(gaps) / 1000
                 beside = [self._value(answer, s + k * wide) for k in (-1, 1)]
                 if all(abs(value) > abs(other) for other in beside) and not self._is_nothing(bottom, s):
-                    yield s
+                    yield from self._inside(s)
 
     def _limits(self) -> Iterator[tuple[Decimal, float | None]]:
         """Where the links assemble on one side only; with the error, where it is more than the last digit."""
@@ -291,7 +301,7 @@ class RangeSearch:
             return
         seen: list[Decimal] = []
         for low, high, order in self._isolated(value, None):
-            for s in self._of_cell(value, low, high, order):
+            for s in (s for zero in self._of_cell(value, low, high, order) for s in self._inside(zero)):
                 if all(abs(s - other) > NEAR * NEAR for other in seen):
                     seen.append(s)
                     yield s
@@ -438,11 +448,9 @@ class RangeSearch:
             same = self.along.floats(self.name, middle)[1] == holds[wide]
             low[wide], high[wide] = np.where(same, middle, low[wide]), np.where(same, high[wide], middle)
         for place, error in zip(np.where(holds, low, high).tolist(), (ROUGH * size).tolist(), strict=True):
-            yield as_written(place), error
+            yield from ((s, error) for s in self._inside(as_written(place), Decimal(error)))
 
 
-NEAR = Decimal("1e-20")
-"""Places nearer to each other than this are one."""
 LARGE = Decimal("1e12")
 """So many times larger than elsewhere an answer is so near to its pole."""
 BESIDE = 2.0**-4

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from icsolve.assembly.workspace import names_of
 from icsolve.case import Case, Pair, is_angle, is_named
+from icsolve.errors import refuse_other
 from icsolve.numbers.replay import Array
 from icsolve.numbers.units import BOUNDS
 from icsolve.read.names import pairs, shown, suggestion
@@ -79,6 +80,13 @@ def columns_of(
     CaseError
         For paths that the case does not have.
     """
+    for columns, wanted in (
+        (vary, "vary has values by path, as vary={'angles.AB': values}"),
+        (drive, "drive has degrees by link, as drive={'2': degrees}"),
+    ):
+        refuse_other(columns or {}, Mapping, wanted)
+    for path in vary or {}:
+        refuse_other(path, str, "a path is a text, as 'angles.AB'")
     asked = [(path, _column(path, values), False) for path, values in (vary or {}).items()]
     asked += [(str(link), _column(str(link), values), True) for link, values in (drive or {}).items()]
     if not asked:
@@ -119,13 +127,28 @@ def _path(case: Case, name: str) -> str:
     return find_number(case, name).path
 
 
-def _column(name: str, values: npt.ArrayLike) -> Array:
+def array_of(name: str, values: npt.ArrayLike) -> Array:
+    """Values as an array. Raises RequestError where they are no numbers."""
     try:
-        array = np.asarray(values, dtype=np.float64)
+        return np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):
         raise RequestError(
             f"the values of {shown(name)} should be numbers, in the units of the case"
         ) from None
+
+
+def names_in(names: Iterable[str] | str, example: str) -> tuple[str, ...]:
+    """One name or several. Raises ArgumentError for what is none; ``example`` is what to write."""
+    wanted = f"names are wanted, as {example}"
+    some = (names,) if isinstance(names, str) else names
+    refuse_other(some, Iterable, wanted)
+    for name in (found := tuple(some)):
+        refuse_other(name, str, wanted)
+    return found
+
+
+def _column(name: str, values: npt.ArrayLike) -> Array:
+    array = array_of(name, values)
     if array.ndim > 1:
         raise RequestError(
             f"the values of {shown(name)} should be one row of numbers, not {array.ndim} dimensions"

@@ -8,7 +8,7 @@ from functools import lru_cache, partial
 import numpy as np
 import numpy.typing as npt
 
-from icsolve.case import Case
+from icsolve.case import Case, refuse_no_case
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import NO_SPEED
 from icsolve.numbers.replay import Array
@@ -19,6 +19,7 @@ from icsolve.sweep.request import (
     Columns,
     SweepRequest,
     columns_of,
+    names_in,
     refuse_size,
     request_of,
     shown_points,
@@ -66,6 +67,8 @@ def sweep(
 
     Raises
     ------
+    ArgumentError
+        A TypeError, for what is no case, as the path of one, and columns that have no names.
     CaseError
         For a path that the case does not have.
     SceneError
@@ -74,10 +77,11 @@ def sweep(
         For arrays that can't be columns (of unlike lengths, empty, not finite, of two dimensions), numbers
         that no case may have there, and words that can't be wanted.
     """
+    refuse_no_case(case)
     refuse_space(case)
     columns = columns_of(case, vary, drive)
     dynamic = dynamic or case.dynamic
-    wanted = request_of(case, tuple(want) if not isinstance(want, str) else (want,), dynamic)
+    wanted = request_of(case, names_in(want, "want=('answers', 'points.C')"), dynamic)
     refuse_size(columns, wanted.asked, wanted.error)
     if dynamic and not any(given.speed is not None for given in case.motion):
         raise SceneError(Status.MOBILITY, NO_SPEED)
