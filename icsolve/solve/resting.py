@@ -4,16 +4,16 @@ wherever else friction is enough."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from contextlib import suppress
-from functools import cache, partial
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache, lru_cache, partial
 from itertools import groupby
 
 import numpy as np
 
-from icsolve.case import Case, Load, is_angle
+from icsolve.answer import Answer
+from icsolve.case import Case, Force, ForceVector, Load, Number, Stretch, is_angle
 from icsolve.case.joints import with_friction, without_friction
-from icsolve.errors import SceneError
+from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.roots import last_that_holds, zero_between
 from icsolve.scene import solve_scene
@@ -21,9 +21,11 @@ from icsolve.solve.branches import Branches, nearest
 from icsolve.solve.followed import NOT_ALL, led_mechanisms
 from icsolve.solve.load_function import TogetherError
 from icsolve.solve.positions import functions_of, refuse_unwritten, search_modes, whole_range
-from icsolve.solve.rest import PROBE, probes
+from icsolve.solve.rest import probes
 from icsolve.solve.settled import scene_at
+from icsolve.statics.power import has_friction
 from icsolve.tuples import NamedTuple, replace
+from icsolve.wording.sentences import plural
 
 SAMPLES = 120
 
@@ -122,30 +124,98 @@ def spare_friction(case: Case) -> float:
     return min(high, -low)
 
 
-def moving_loads(case: Case) -> tuple[float, float]:
-    """From what load to what load more on a link a mechanism under known loads holds still as written [case
-    units]: infinite where none would move it, or where any does (turned about)."""
+def moving_loads(case: Case, path: str = "") -> tuple[float, float]:
+    """From what load to what load more a mechanism under known loads holds still as written [case units]:
+    infinite where none would move it, or where any does (turned about).
+
+    It is asked of its own loads, as of one that is to find, so that it holds where `icsolve solve` says so of
+    that one: first of that whose number has this ``path``; where none does work, of one more. What lies
+    outside of a range without end may hold again: there another load is asked.
+
+    Raises SceneError where no load says, as where the mechanism has several freedoms.
+    """
     case = replace(case, motion=(), expect=())
     links = [link for link in joint_order(case) if link != case.ground]
-    for load in (
-        *probes(case, links, 1),
-        *probes(case, [], 1),
-    ):  # where nothing turns a force on a point holds it
-        if not _works(case, load):
+    own = sorted(_known(case), key=lambda one: one[1].path != path)
+    varied = [load.name for load, number in own if number.path == path]
+    asked = [(_with(case, load), load, number.value) for load, number in own]
+    more = (*probes(case, links, 1), *probes(case, [], 1))  # where nothing turns a force on a point holds it
+    asked += [(replace(case, loads=(*case.loads, load)), load, 0.0) for load in more]
+    outside: tuple[float, float] | None = None
+    refusal: SceneError | None = None
+    for one, load, value in asked:
+        if not _works(one):
             continue
-        with suppress(SceneError):
-            found = solve_scene(replace(case, loads=(*case.loads, load))).answers[PROBE]
-            return found.holds or (found.value, found.value)
-    return math.inf, -math.inf
+        try:
+            low, high = _held(one, load.name, load.name not in varied)
+        except SceneError as error:
+            refusal = error
+            continue
+        if low <= value <= high or low > high or math.isfinite(high - low):
+            return low - value, high - value
+        outside = outside or (low - value, high - value)
+    if refusal is not None and outside is None:
+        raise refusal
+    return outside or _of_structure(case)
 
 
-def _works(case: Case, load: Load) -> bool:
+def _with(case: Case, load: Load) -> Case:
+    """The case with another load of this name."""
+    return replace(case, loads=tuple([load if q.name == load.name else q for q in case.loads]))
+
+
+def _known(case: Case) -> Iterator[tuple[Load, Number]]:
+    """The loads that have a number of their own, as unknown ones, with it."""
+    for load in case.loads:
+        linear = isinstance(load, Force) and isinstance(load.over, Stretch) and load.over.end is not None
+        if not isinstance(load, ForceVector) and isinstance(load.value, Number) and not linear:
+            yield load._replace(value=None), load.value
+
+
+@lru_cache(maxsize=256)  # of a load or a coefficient that varies it is one case
+def _works(case: Case) -> bool:
     """Whether an unknown load does work: one that does none holds by the friction alone that it makes."""
     try:
-        solve_scene(smooth(replace(case, loads=(*case.loads, load))))
+        solve_scene(smooth(case))
     except SceneError:
         return False
     return True
+
+
+@lru_cache(maxsize=256)
+def _held(case: Case, load: str, alone: bool) -> tuple[float, float]:
+    """The range of the unknown load in which it holds still; turned about where it has none."""
+    try:
+        answer = solve_scene(case, alone=alone, reactions=not has_friction(case))
+    except SceneError as refusal:
+        if refusal.status in (Status.NO_VALUE, Status.SLACK):
+            return math.inf, -math.inf
+        raise
+    found = answer.answers[load]
+    if found.holds is None and _pulls(answer):
+        return math.inf, -math.inf
+    return found.holds or (found.value, found.value)
+
+
+def _pulls(answer: Answer) -> bool:
+    """Whether a contact would have to pull."""
+    normals = (dict(reaction.parts).get("normal", 0.0) for reaction in (answer.reactions or {}).values())
+    return any(normal < 0.0 for normal in normals)
+
+
+def _of_structure(case: Case) -> tuple[float, float]:
+    """The same of what nothing moves: turned about where it does not assemble, or a contact parts.
+
+    Raises SceneError where it moves in several ways.
+    """
+    try:
+        answer = solve_scene(smooth(case))
+    except SceneError:
+        return math.inf, -math.inf
+    if answer.mobility and answer.mobility > 1:
+        said = f"of {plural(answer.mobility, 'degree')} of freedom no one load says whether it holds still."
+        raise SceneError(Status.MOBILITY, said)
+    return (math.inf, -math.inf) if answer.mobility or _pulls(answer) else (-math.inf, math.inf)
 
 
 def smooth(case: Case) -> Case:
@@ -156,7 +226,11 @@ def smooth(case: Case) -> Case:
 
 def edge_of_rest(spare: Callable[[float], float], inside: float, outside: float) -> tuple[float, float]:
     """The last value at which a mechanism holds still (``spare`` is not negative) and the next, between
-    two of which it holds at the first: near the zero that Brent's method finds, else by halving."""
+    two of which it holds at the first: near the zero that Brent's method finds, or at 0, else by halving, to
+    far below the last digit of the places between which it was sought."""
+    least = FINEST * math.ulp(max(abs(inside), abs(outside)))
+    if inside * outside < 0.0:
+        inside, outside = (0.0, outside) if spare(0.0) >= 0.0 else (inside, 0.0)
     at_inside, at_outside = spare(inside), spare(outside)
     if math.isfinite(at_inside - at_outside):
         zero = zero_between(spare, inside, outside, at_inside, at_outside)
@@ -164,7 +238,11 @@ def edge_of_rest(spare: Callable[[float], float], inside: float, outside: float)
         for value in (zero, zero - reach, zero + reach):
             if min(inside, outside) < value < max(inside, outside):
                 inside, outside = (value, outside) if spare(value) >= 0.0 else (inside, value)
-    return last_that_holds(lambda value: spare(value) >= 0.0, inside, outside)
+    return last_that_holds(lambda value: spare(value) >= 0.0, inside, outside, least)
+
+
+FINEST = 2.0**-20
+"""Toward 0 doubles have no end: nobody asks for more digits of a place beside it."""
 
 
 def _runs(case: Case, mode: RoughMode, turns: bool) -> list[Range]:

@@ -200,7 +200,7 @@ def holding_values(case: Case, path: str, low: float, high: float) -> list[Turni
 
     @cache  # what was sampled is asked again where it is closed in on
     def loads(value: float) -> tuple[float, float]:
-        return moving_loads(with_numbers(case, {own: value}))
+        return moving_loads(with_numbers(case, {own: value}), own)
 
     def spare(value: float) -> float:
         return min(loads(value)[1], -loads(value)[0])

@@ -302,7 +302,7 @@ def _moving(
     return End(equations.load(y)[0] / statics.scale, tuple(senses), equations.friction(y), pushes)
 
 
-ROUNDED = 1e-13
+ROUNDED = 2.0**-48
 """A normal force is zero below this fraction of its terms."""
 
 
