@@ -129,8 +129,8 @@ def moving_loads(case: Case, path: str = "") -> tuple[float, float]:
     infinite where none would move it, or where any does (turned about).
 
     It is asked of its own loads, as of one that is to find, so that it holds where `icsolve solve` says so of
-    that one: first of that whose number has this ``path``; where none does work, of one more. What lies
-    outside of a range without end may hold again: there another load is asked.
+    that one: first of that whose number has this ``path``; where none does work, of one more. Where it may
+    hold again beyond the range of one, another is asked.
 
     Raises SceneError where no load says, as where the mechanism has several freedoms.
     """
@@ -147,11 +147,13 @@ def moving_loads(case: Case, path: str = "") -> tuple[float, float]:
         if not _works(one):
             continue
         try:
-            low, high = _held(one, load.name, load.name not in varied)
+            low, high, again = _held(one, load.name, load.name not in varied)
+            if not low <= value <= high and math.isinf(high - low):
+                again = _held(one, load.name, False).again
         except SceneError as error:
             refusal = error
             continue
-        if low <= value <= high or low > high or math.isfinite(high - low):
+        if low <= value <= high or not again:
             return low - value, high - value
         outside = outside or (low - value, high - value)
     if refusal is not None and outside is None:
@@ -182,19 +184,31 @@ def _works(case: Case) -> bool:
     return True
 
 
+class Held(NamedTuple):
+    """From what to what value of a load it holds still, turned about where nowhere; beyond what values
+    it may hold again."""
+
+    low: float
+    high: float
+    again: tuple[float, ...] = ()
+
+
+NOWHERE = Held(math.inf, -math.inf)
+
+
 @lru_cache(maxsize=256)
-def _held(case: Case, load: str, alone: bool) -> tuple[float, float]:
-    """The range of the unknown load in which it holds still; turned about where it has none."""
+def _held(case: Case, load: str, alone: bool) -> Held:
+    """Where it holds still; with ``alone`` it is not told where it holds again beyond a range without end."""
     try:
         answer = solve_scene(case, alone=alone, reactions=not has_friction(case))
     except SceneError as refusal:
         if refusal.status in (Status.NO_VALUE, Status.SLACK):
-            return math.inf, -math.inf
+            return NOWHERE
         raise
-    found = answer.answers[load]
-    if found.holds is None and _pulls(answer):
-        return math.inf, -math.inf
-    return found.holds or (found.value, found.value)
+    found, friction = answer.answers[load], answer.friction
+    if found.holds is None:
+        return NOWHERE if _pulls(answer) else Held(found.value, found.value)
+    return Held(*found.holds, () if friction is None else friction.again)
 
 
 def _pulls(answer: Answer) -> bool:
