@@ -202,8 +202,8 @@ class FrictionFound(NamedTuple):
     ``error`` bounds the relative error of the friction forces from the iteration (None: nothing bounds it);
     ``unique`` says how
     it is known that there is no other solution, '' where that is not known. At rest ``possible`` has
-    the range of the unknown load in which friction within its limits can hold, and ``unique`` says how
-    it was found.
+    the range of the unknown load in which friction within its limits can hold, ``unique`` says how
+    it was found, and ``again`` has the values beyond the range from which it may hold again.
     """
 
     rubbing: tuple[Rubbing, ...]
@@ -213,6 +213,7 @@ class FrictionFound(NamedTuple):
     losses: float = 0.0
     efficiency: float | None = None
     possible: tuple[float, float] | None = None
+    again: tuple[float, ...] = ()
 
 
 # --- contacts by profiles -------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ from icsolve.tuples import NamedTuple
 
 Form = tuple[float, ...]
 """An affine form: the constant, then the coefficients of the variables."""
-NOTHING = 1e-13
+NOTHING = 2.0**-48
 """What is left of two terms that cancel, as a fraction of them, is rounding."""
 
 

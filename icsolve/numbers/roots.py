@@ -68,11 +68,14 @@ def below_zero(f: Function, a: float, b: float) -> float | None:
     return place if least < 0.0 else None
 
 
-def last_that_holds(holds: Callable[[float], bool], inside: float, outside: float) -> tuple[float, float]:
+def last_that_holds(
+    holds: Callable[[float], bool], inside: float, outside: float, least: float = 0.0
+) -> tuple[float, float]:
     """The last double at which something holds, from ``inside`` where it does, and the next toward
-    ``outside``, where it does not: by halving. Of several such places it finds one.
+    ``outside``, where it does not, or one no farther than ``least`` from it: by halving. Of several such
+    places it finds one.
     """
-    while (middle := 0.5 * (inside + outside)) not in (inside, outside):
+    while abs(outside - inside) > least and (middle := 0.5 * (inside + outside)) not in (inside, outside):
         inside, outside = (middle, outside) if holds(middle) else (inside, middle)
     return inside, outside
 

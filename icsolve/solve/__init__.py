@@ -89,9 +89,9 @@ def _judged(found: Answer, case: Case) -> Answer:
     rests = not case.loads or any(map(is_unknown, case.loads)) or not found.mobility
     if case.space is not None or rests or not has_friction(case):
         return found
-    from icsolve.solve.rest import judged_with_friction
+    from icsolve.solve import known_loads
 
-    return judged_with_friction(found, case)
+    return known_loads.judged(found, case)
 
 
 def _asks_for_a_position(case: Case) -> bool:

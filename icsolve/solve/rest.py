@@ -1,22 +1,17 @@
 """A position in which the loads balance, as the searches find it, and unknown loads that would show how far
-from it another is, or how far friction is from slipping."""
+from it another is."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
 from itertools import combinations
 
-from icsolve.answer import Answer, Found
+from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
-from icsolve.case import Case, Force, Load, Number, Torque
-from icsolve.case.joints import without_friction
+from icsolve.case import Case, Force, Number, Torque
 from icsolve.errors import SceneError
-from icsolve.kinematics.speeds import joint_order
 from icsolve.scene import solve_scene
 from icsolve.tuples import NamedTuple, replace
-from icsolve.wording.senses import sense_of
 
 PROBE = "@equilibrium"
 """The name of the unknown load by which `icsolve.solve` tells how far a position is from equilibrium."""
@@ -115,97 +110,3 @@ def probes(case: Case, links: Sequence[str], freedoms: int) -> Iterator[Torque |
             for degrees in ("0", "90"):
                 along = Number(float(degrees), 0.0, f"loads.{PROBE}.angle", degrees)
                 yield Force(PROBE, link, name, None, along)
-
-
-class OneMore(NamedTuple):
-    """A load more, on a mechanism whose loads are known, and what its value is: with friction at rest the
-    range in which it holds still."""
-
-    load: Torque | Force
-    found: Found
-
-    def __str__(self) -> str:
-        """Its value, where that is one, in words."""
-        return self.said(self.found.value)
-
-    def said(self, value: float) -> str:
-        """A value of it, with its sense."""
-        heading = getattr(self.load, "heading", None)
-        sense = sense_of(self.load, value, 1.0, heading.value if heading else 0.0)
-        return f"{abs(value):.6g} {self.found.unit} {sense} on link {self.load.link}"
-
-
-def one_more(case: Case) -> OneMore | None:
-    """The first load on a link, as the joints name them, that would do work; a torque where one does. None
-    where none does, and where it has no value."""
-    links = [link for link in joint_order(case) if link != case.ground]
-    for load in (
-        *probes(case, links, 1),
-        *probes(case, [], 1),
-    ):  # where nothing turns a force on a point holds it
-        if not _works(case, load):
-            continue
-        with suppress(SceneError):
-            loaded = replace(case, loads=(*case.loads, load), expect=())
-            return OneMore(load, solve_scene(loaded).answers[PROBE])
-    return None
-
-
-def spare_friction(case: Case) -> float:
-    """How far a mechanism under known loads is from slipping as written: the least load in either sense
-    that would move it [case units], negative where it slips; infinite where none or any would."""
-    low, high = moving_loads(case)
-    return min(high, -low)
-
-
-def moving_loads(case: Case) -> tuple[float, float]:
-    """From what load to what load more on a link a mechanism under known loads holds still as written [case
-    units]: infinite where none would move it, or where any does (turned about)."""
-    more = one_more(replace(case, motion=()))
-    if more is None:
-        return math.inf, -math.inf
-    return more.found.holds or (more.found.value, more.found.value)
-
-
-def _works(case: Case, load: Load) -> bool:
-    """Whether an unknown load does work: one that does none holds by the friction alone that it makes."""
-    try:
-        solve_scene(smooth(replace(case, loads=(*case.loads, load), expect=())))
-    except SceneError:
-        return False
-    return True
-
-
-def smooth(case: Case) -> Case:
-    """The case without friction."""
-    ropes = tuple(rope._replace(mu=(None,) * len(rope.mu)) for rope in case.ropes)
-    return replace(case, joints=tuple(map(without_friction, case.joints)), ropes=ropes)
-
-
-def judged_with_friction(answer: Answer, case: Case) -> Answer:
-    """The answer of a case whose loads are all known, with whether these hold it still, or keep up the given
-    motion, friction counted: by the load that it would take besides."""
-    if answer.mobility != 1:
-        return replace(answer, notes=(*answer.notes, OPEN.format(answer.mobility)))
-    more = one_more(case)
-    if more is None:
-        return replace(answer, notes=(*answer.notes, OPEN.format(1)))
-    if case.motion:
-        keeps = abs(more.found.value) <= (more.found.error or 0.0)
-        said = KEEPS if keeps else f"{KEEPS_NOT} {more} besides would."
-        return replace(answer, notes=(*answer.notes, said))
-    low, high = more.found.holds or (more.found.value, more.found.value)
-    holds = low <= 0.0 <= high
-    ends = [more.said(end) for end in (low, high) if math.isfinite(end)]
-    if holds:
-        said = f"{HOLDS} {' or '.join(ends)} besides would move it." if ends else HOLDS
-    else:
-        said = f"{SLIPS} {' to '.join(ends)} besides would hold it." if len(ends) > 1 else SLIPS
-    return replace(answer, notes=(*answer.notes, said), holds_still=holds)
-
-
-OPEN = "whether friction is enough for the known loads is open (mobility {})."
-HOLDS = "friction is enough: under the known loads the mechanism holds still."
-SLIPS = "friction is not enough: under the known loads the mechanism moves."
-KEEPS = "with friction the known loads just keep up this motion."
-KEEPS_NOT = "the known loads do not keep up this motion against friction:"

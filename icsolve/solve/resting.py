@@ -16,9 +16,9 @@ from icsolve.errors import SceneError
 from icsolve.numbers.roots import last_that_holds, zero_between
 from icsolve.solve.branches import Branches, nearest
 from icsolve.solve.followed import NOT_ALL, led_mechanisms
+from icsolve.solve.known_loads import smooth, spare_friction
 from icsolve.solve.load_function import TogetherError
 from icsolve.solve.positions import functions_of, refuse_unwritten, search_modes, whole_range
-from icsolve.solve.rest import smooth, spare_friction
 from icsolve.solve.settled import scene_at
 from icsolve.tuples import NamedTuple, replace
 
@@ -114,7 +114,11 @@ def _rough(case: Case, row: Case) -> Case:
 
 def edge_of_rest(spare: Callable[[float], float], inside: float, outside: float) -> tuple[float, float]:
     """The last value at which a mechanism holds still (``spare`` is not negative) and the next, between
-    two of which it holds at the first: near the zero that Brent's method finds, else by halving."""
+    two of which it holds at the first: near the zero that Brent's method finds, or at 0, else by halving, to
+    far below the last digit of the places between which it was sought."""
+    least = FINEST * math.ulp(max(abs(inside), abs(outside)))
+    if inside * outside < 0.0:
+        inside, outside = (0.0, outside) if spare(0.0) >= 0.0 else (inside, 0.0)
     at_inside, at_outside = spare(inside), spare(outside)
     if math.isfinite(at_inside - at_outside):
         zero = zero_between(spare, inside, outside, at_inside, at_outside)
@@ -122,7 +126,11 @@ def edge_of_rest(spare: Callable[[float], float], inside: float, outside: float)
         for value in (zero, zero - reach, zero + reach):
             if min(inside, outside) < value < max(inside, outside):
                 inside, outside = (value, outside) if spare(value) >= 0.0 else (inside, value)
-    return last_that_holds(lambda value: spare(value) >= 0.0, inside, outside)
+    return last_that_holds(lambda value: spare(value) >= 0.0, inside, outside, least)
+
+
+FINEST = 2.0**-20
+"""Toward 0 doubles have no end: nobody asks for more digits of a place beside it."""
 
 
 def _runs(case: Case, mode: RoughMode, turns: bool) -> list[Range]:

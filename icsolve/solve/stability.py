@@ -203,14 +203,14 @@ def _driven(case: Case) -> str:
 
 def holding_values(case: Case, path: str, low: float, high: float) -> list[TurningPower]:
     """The values of a number at which a mechanism under known loads begins or ceases to hold still."""
-    from icsolve.solve.rest import moving_loads
+    from icsolve.solve.known_loads import moving_loads
     from icsolve.solve.resting import edge_of_rest
 
     own = find_number(case, path).path
 
     @cache  # what was sampled is asked again where it is closed in on
     def loads(value: float) -> tuple[float, float]:
-        return moving_loads(with_numbers(case, {own: value}))
+        return moving_loads(with_numbers(case, {own: value}), own)
 
     def spare(value: float) -> float:
         return min(loads(value)[1], -loads(value)[0])

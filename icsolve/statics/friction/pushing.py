@@ -26,7 +26,7 @@ TURNS = 60
 """A pin's force is turned so often at most."""
 LOADS = (0.0, 1.0, -1.0, 1e3, -1e3)
 """Loads at which the forces of pins are looked at first [scaled]."""
-ROUNDED = 1e-13
+ROUNDED = 2.0**-48
 """What is left of terms that cancel, as a fraction of them, is rounding."""
 PROVEN = "proven: no friction within its limits holds more"
 TURNED = "the forces of pins were turned until no friction was found that holds more"

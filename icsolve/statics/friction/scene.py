@@ -350,7 +350,7 @@ def solved(
     answer = answer_with({root: Value(0.0, bound, why)})
     answers = {name: _held(scene, name, found, shown) for name, shown in answer.answers.items()}
     notes = (*answer.notes, *notes_at_rest(root, found))
-    friction = FrictionFound((), 0.0, 0.0, found.how, possible=found.possible)
+    friction = FrictionFound((), 0.0, 0.0, found.how, possible=found.possible, again=found.again)
     bare = replace(answer, answers=answers, terms=(), advantage=None, sensitivities=Deferred(_no_slopes))
     return replace(bare, notes=notes, friction=friction)
 

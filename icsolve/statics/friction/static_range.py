@@ -127,9 +127,10 @@ def static_range(statics: Statics, senses: Sequence[float], alone: bool) -> Stat
 
 
 def _nothing_presses(statics: Statics, senses: Sequence[float]) -> bool:
-    """Whether the known loads press nowhere without friction: from nothing no friction grows."""
+    """Whether the known loads press nowhere without friction, beside what they are (scaled: near 1): from
+    nothing no friction grows."""
     equations = reduced(statics, senses)
-    return equations is not None and not any(without_friction(equations.equations))
+    return equations is not None and largest_of(without_friction(equations.equations)) <= ROUNDED
 
 
 def _of_limits(
@@ -206,9 +207,10 @@ def _again(statics: Statics, senses: Sequence[float], least: float, most: float)
 
     A load that locks one way can lock the other way as well, from some value on: the range goes on there.
     """
-    found = {end.value for end in _about_to_move(statics, senses)}
-    room = 1e-9 * largest_of([end for end in (least, most) if math.isfinite(end)])
-    return tuple(sorted(value for value in found if value < least - room or value > most + room))
+    found = [end.value for end in _about_to_move(statics, senses)]
+    for own in (end for end in (least, most) if math.isfinite(end) and found):
+        found.remove(min(found, key=lambda value: abs(value - own)))
+    return tuple(sorted({value for value in found if value < least or value > most}))
 
 
 def _possible(
@@ -302,7 +304,7 @@ def _moving(
     return End(equations.load(y)[0] / statics.scale, tuple(senses), equations.friction(y), pushes)
 
 
-ROUNDED = 1e-13
+ROUNDED = 2.0**-48
 """A normal force is zero below this fraction of its terms."""
 
 

@@ -1,0 +1,226 @@
+"""Whether a mechanism whose loads are all known holds still, or keeps up its motion, friction counted: asked
+of one of them as the unknown, so that it is what `icsolve solve` says of that one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import lru_cache
+
+from icsolve.answer import Answer
+from icsolve.case import Case, Force, ForceVector, Load, Number, Stretch, Torque
+from icsolve.case.joints import without_friction
+from icsolve.errors import SceneError, Status
+from icsolve.kinematics.speeds import joint_order
+from icsolve.scene import solve_scene
+from icsolve.solve.rest import PROBE, probes
+from icsolve.statics.power import has_friction
+from icsolve.tuples import NamedTuple, replace
+from icsolve.wording.senses import reach_of, unit_of
+from icsolve.wording.sentences import plural
+
+
+class Held(NamedTuple):
+    """From what to what value of a load it holds still, turned about where nowhere; beyond what values
+    it may hold again."""
+
+    low: float
+    high: float
+    again: tuple[float, ...] = ()
+
+
+NOWHERE = Held(math.inf, -math.inf)
+
+
+class AskedLoad(NamedTuple):
+    """The load that was asked, as an unknown one, its own value (0.0 of one that the case does not have), and
+    where it holds still."""
+
+    load: Load
+    value: float
+    held: Held
+
+
+def asked_of(case: Case, path: str = "") -> AskedLoad | None:
+    """Where a mechanism under known loads holds still as written, by one load; None where none does work.
+
+    First that whose number has this ``path`` is asked, then the others; where none of its own does work, one
+    more. Where it may hold again beyond the range of one, another is asked.
+
+    Raises SceneError where no load says.
+    """
+    case = replace(case, motion=(), expect=())
+    outside: AskedLoad | None = None
+    refusal: SceneError | None = None
+    for one, load, number in _one_unknown(case, path):
+        if not _works(one):
+            continue
+        value, varied = number.value, bool(path) and number.path == path
+        try:
+            held = _held(one, load.name, not varied)
+            if not held.low <= value <= held.high and math.isinf(held.high - held.low):
+                held = _held(one, load.name, False)
+        except SceneError as error:
+            refusal = error
+            continue
+        found = AskedLoad(load, value, held)
+        if held.low <= value <= held.high or not held.again:
+            return found
+        outside = outside or found
+    if refusal is not None and outside is None:
+        raise refusal
+    return outside
+
+
+def moving_loads(case: Case, path: str = "") -> tuple[float, float]:
+    """From what load to what load more a mechanism under known loads holds still as written [case units]:
+    infinite where none would move it, or where any does (turned about).
+
+    Parameters as of `asked_of`. Raises SceneError where no load says, as where it has several freedoms.
+    """
+    found = asked_of(case, path)
+    if found is None:
+        return _of_structure(replace(case, motion=(), expect=()))
+    return found.held.low - found.value, found.held.high - found.value
+
+
+def spare_friction(case: Case) -> float:
+    """How far a mechanism under known loads is from slipping as written: the least load in either sense
+    that would move it [case units], negative where it slips; infinite where none or any would."""
+    low, high = moving_loads(case)
+    return min(high, -low)
+
+
+def _one_unknown(case: Case, path: str = "") -> Iterator[tuple[Case, Load, Number]]:
+    """The case with one load unknown, in turn: with its own, that of the ``path`` first, and with one more,
+    whose number is none."""
+    for load, number in sorted(_known(case), key=lambda one: one[1].path != path):
+        loads = tuple([load if other.name == load.name else other for other in case.loads])
+        yield replace(case, loads=loads), load, number
+    links = [link for link in joint_order(case) if link != case.ground]
+    for more in (*probes(case, links, 1), *probes(case, [], 1)):  # where nothing turns a force holds it
+        yield replace(case, loads=(*case.loads, more)), more, Number(0.0, 0.0, "", "0")
+
+
+def _known(case: Case) -> Iterator[tuple[Load, Number]]:
+    """The loads that have a number of their own, as unknown ones, with it."""
+    for load in case.loads:
+        linear = isinstance(load, Force) and isinstance(load.over, Stretch) and load.over.end is not None
+        if not isinstance(load, ForceVector) and isinstance(load.value, Number) and not linear:
+            yield load._replace(value=None), load.value
+
+
+@lru_cache(maxsize=256)  # of a load or a coefficient that varies it is one case
+def _works(case: Case) -> bool:
+    """Whether an unknown load does work: one that does none holds by the friction alone that it makes."""
+    try:
+        solve_scene(smooth(case))
+    except SceneError:
+        return False
+    return True
+
+
+@lru_cache(maxsize=256)
+def _held(case: Case, load: str, alone: bool) -> Held:
+    """Where it holds still; with ``alone`` it is not told where it holds again beyond a range without end."""
+    try:
+        answer = solve_scene(case, alone=alone, reactions=not has_friction(case))
+    except SceneError as refusal:
+        if refusal.status in (Status.NO_VALUE, Status.SLACK):
+            return NOWHERE
+        raise
+    found, friction = answer.answers[load], answer.friction
+    if found.holds is None:
+        return NOWHERE if _pulls(answer) else Held(found.value, found.value)
+    return Held(*found.holds, () if friction is None else friction.again)
+
+
+def _pulls(answer: Answer) -> bool:
+    """Whether a contact would have to pull."""
+    normals = (dict(reaction.parts).get("normal", 0.0) for reaction in (answer.reactions or {}).values())
+    return any(normal < 0.0 for normal in normals)
+
+
+def _of_structure(case: Case) -> tuple[float, float]:
+    """The same of what nothing moves: turned about where it does not assemble, or a contact parts.
+
+    Raises SceneError where it moves in several ways.
+    """
+    try:
+        answer = solve_scene(smooth(case))
+    except SceneError:
+        return math.inf, -math.inf
+    if answer.mobility and answer.mobility > 1:
+        said = f"of {plural(answer.mobility, 'degree')} of freedom no one load says whether it holds still."
+        raise SceneError(Status.MOBILITY, said)
+    return (math.inf, -math.inf) if answer.mobility or _pulls(answer) else (-math.inf, math.inf)
+
+
+def smooth(case: Case) -> Case:
+    """The case without friction."""
+    ropes = tuple(rope._replace(mu=(None,) * len(rope.mu)) for rope in case.ropes)
+    return replace(case, joints=tuple(map(without_friction, case.joints)), ropes=ropes)
+
+
+# --- what is said of it ---------------------------------------------------------------------------
+
+HOLDS = "friction is enough: under the known loads the mechanism holds still."
+SLIPS = "friction is not enough: under the known loads the mechanism moves."
+OPEN = "whether friction is enough for the known loads is open: {}"
+KEPT_UP = "friction counted, the known loads keep up this motion."
+
+
+def judged(answer: Answer, case: Case) -> Answer:
+    """The answer of a case whose loads are all known, with whether these hold it still, or keep up the given
+    motion, friction counted."""
+    holds = None
+    try:
+        if case.motion:
+            said = _of_motion(case)
+        else:
+            holds, said = _at_rest(case)
+    except SceneError as refusal:
+        said = OPEN.format(refusal.message)
+    return replace(answer, notes=(*answer.notes, said), holds_still=holds)
+
+
+def _at_rest(case: Case) -> tuple[bool | None, str]:
+    """Whether it holds still, None where that is open; and the sentence on it."""
+    found = asked_of(case)
+    if found is None:
+        return None, OPEN.format("no load does work.")
+    low, high, again = found.held
+    reach = reach_of((low, high), unit_of(found.load, case), lambda end: f"{end + 0.0:.6g}", None)
+    what = f"{_named(found.load)} {reach}"
+    if low <= found.value <= high:
+        return True, f"{HOLDS} So it does with {what}."
+    if again:
+        return None, OPEN.format(f"it holds with {what}, and may beyond.")
+    return False, f"{SLIPS} It would hold with {what}." if low <= high else SLIPS
+
+
+def _named(load: Load) -> str:
+    """A load by its name; one that the case does not have by what and where it is."""
+    if load.name != PROBE:
+        return load.name
+    if isinstance(load, Torque):
+        return f"a torque more on link {load.link} (ccw positive)"
+    assert isinstance(load, Force) and isinstance(load.heading, Number)
+    return f"a force more on link {load.link} at {load.at} toward {load.heading.value:g} deg"
+
+
+def _of_motion(case: Case) -> str:
+    """What would keep up the given motion; raises SceneError where no load does."""
+    refusal = SceneError(Status.NO_VALUE, "no load does work.")
+    for one, load, number in _one_unknown(replace(case, expect=())):
+        if _works(replace(one, motion=())):
+            try:
+                found = solve_scene(one).answers[load.name]
+            except SceneError as error:
+                refusal = error
+                continue
+            if abs(found.value - number.value) <= (found.error or 0.0) + number.half:
+                return KEPT_UP
+            takes = f"friction counted, this motion takes {_named(load)} = {found.value:.6g} {found.unit}"
+            return f"{takes}." if load.name == PROBE else f"{takes}, and not {number.value:.6g}."
+    raise refusal
