@@ -425,3 +425,75 @@ def test_a_number_that_no_figure_can_show_is_refused_and_no_fault(number: float)
     with pytest.raises(SceneError, match="larger than the largest double"):
         figure_number(number)
     assert figure_number(-1.7e308) == "−1.7×10³⁰⁸"
+
+
+@pytest.mark.parametrize("order", ["1, 2", "2, 1"])
+@pytest.mark.parametrize("load", ["G", "A", "B"])
+def test_what_stands_on_the_frame_is_drawn_to_where_it_stands(order: str, load: str) -> None:
+    """A straight ladder on the floor and at a wall, whichever of its points bear loads, and whichever way its
+    contacts are written: the bar lies on the line of its ends."""
+    turned = 0 if order == "1, 2" else 180
+    case = icsolve.load(f"""icsolve: 1
+points: {{A: [0, 0], G: {{centroid: [A, B]}}}}
+lengths: {{AB: 5}}
+angles: {{AB: 60}}
+joints:
+  - {{contact: [{order}], at: A, normal: {90 + turned}, mu: 0.3}}
+  - {{contact: [{order}], at: B, normal: {180 + turned}, mu: 0.2}}
+loads:
+  W: {{weight: 200, link: 2, at: G}}
+  H: {{force: unknown, link: 2, at: {load}, angle: 0}}
+""")
+    scene = scene_of(known_of(case))
+    shape = body_of(scene, "2").shape
+    assert shape is not None
+    line = shapely.LineString([scene.at["A"], scene.at["B"]])
+    assert line.within(shape.buffer(1e-6))
+    assert shape.within(line.buffer(12.0))
+
+
+def test_the_point_toward_which_a_load_acts_is_drawn() -> None:
+    case = icsolve.load("""icsolve: 1
+points: {A: [0, 0], F: [-3, 0], D: [5, 1]}
+lengths: {AB: 2}
+angles: {AB: 50}
+joints: [{pin: [1, 2], at: A}]
+loads:
+  P: {force: unknown, link: 2, at: B, toward: F}
+  Q: {force: 5, link: 2, at: B, away: D}
+""")
+    for options in ({}, {"bodies": True}):
+        texts = drawn(case, **options).texts("t-point")
+        assert {"F", "D"} <= {*texts}
+
+
+def test_the_opposite_of_a_force_between_two_links_bears_its_name() -> None:
+    case = icsolve.load("""icsolve: 1
+points: {A: [0, 0], D: [4, 0], P: {centroid: [B, C]}, Q: {centroid: [A, B]}}
+lengths: {AB: 2, BC: 4, CD: 3}
+angles: {AB: 60}
+near: {C: [5, 2.5]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}]
+loads:
+  M: {torque: 5, link: 4}
+  F: {force: unknown, link: 3, at: P, against: 2, toward: Q}
+""")
+    texts = drawn(case).texts("t-unknown")
+    assert any(text.startswith("F = ") for text in texts) and "F" in texts
+
+
+def test_a_reaction_that_is_open_says_so_and_no_number() -> None:
+    """A beam on three supports: upright one force is open, and along the beam only the first acts."""
+    case = icsolve.load("""icsolve: 1
+points: {A: [0, 0], B: [4, 0], C: [8, 0], P: [2, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {slot: [2, 1], at: B, along: 0}
+  - {slot: [2, 1], at: C, along: 0}
+loads:
+  P: {force: [3, -4], link: 2, at: P}
+""")
+    texts = drawn(case, bodies=True).texts("t-reaction")
+    assert not any("= 0" in text for text in texts), texts
+    assert sum(text.endswith("= ?") for text in texts) == len(texts)
+    assert any("= 3 N, " in text for text in texts)

@@ -353,6 +353,22 @@ loads: {T: {torque: unknown, link: 2}}
     assert answer.terms[0].power == pytest.approx(power, rel=1e-7)
 
 
+def test_a_moment_of_inertia_of_nothing_needs_no_unit() -> None:
+    """A mass at a point; 0 is the same in any unit."""
+    values = []
+    for inertia in ("0", "0 kg*m^2", "0.0 lbm*in^2"):
+        links = f"links: {{2: {{mass: 2 kg, centre: B, inertia: {inertia}}}}}"
+        text = f"""
+points: {{A: [0, 0], B: [3, 4]}}
+{links}
+joints: [{{pin: [1, 2], at: A}}]
+loads: {{T: {{torque: unknown, link: 2}}}}
+motion: {{link: 2, speed: 3, acceleration: 2}}
+"""
+        values.append(solved(text).answers["T"].value)
+    assert values == [2.0 * 25.0 * 2.0] * 3
+
+
 def test_slopes_with_inertia_forces_are_the_differences_of_the_answer() -> None:
     """By masses, speed, acceleration and figure; of a link too whose inertia force is zero as it stands."""
     paths = (

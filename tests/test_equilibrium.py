@@ -944,6 +944,21 @@ def test_where_no_position_has_an_answer_the_reason_is_told() -> None:
     assert positions(text.replace("Q: [1, 3]", "Q: [0, 3]"))
 
 
+def test_a_figure_on_contacts_alone_says_that_these_cannot_be_moved() -> None:
+    """A ladder on a floor and at a wall, of which no profile is known."""
+    case = icsolve.load("""icsolve: 1
+points: {A: [0, 0], G: {centroid: [A, B]}}
+lengths: {AB: 5}
+angles: {AB: {unknown: [10, 89], from: 60}}
+joints:
+  - {contact: [1, 2], at: A, normal: 90, mu: 0.3}
+  - {contact: [1, 2], at: B, normal: 180, mu: 0.2}
+loads: {W: {weight: 200, link: 2, at: G}}
+""")
+    with pytest.raises(SceneError, match="the contact of links 1 and 2 at A cannot be moved"):
+        icsolve.solve(case)
+
+
 def test_friction_holds_a_block_that_nothing_turns() -> None:
     (one,) = positions(
         BLOCK.format(free="{unknown: [-2, 2]}", mu=", mu: 0.3", load="W: {weight: 50, link: 2, at: C}")

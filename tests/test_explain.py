@@ -630,3 +630,96 @@ def test_what_gives_the_tension_of_a_rope_comes_to_the_tension(load: str) -> Non
     sides = [line.split(" = ")[1:] for line in told.splitlines() if line.startswith("    T = ")]
     values = {float(eval(side.removesuffix(" N").replace(" x ", "*"), {})) for one in sides for side in one}
     assert values and max(values) == pytest.approx(min(values), rel=1e-5)
+
+
+BAND = """icsolve: 1
+points: {O: [0, 0], D: [-8, -12], B: [8, -12], E: [-28, -12]}
+joints:
+  - {pin: [1, drum], at: O}
+  - {pin: [1, lever], at: D}
+  - {rope: [D, O, B], on: [ENDS], radii: {O: 8}, wraps: {O: cw}, mu: {O: 0.3}}
+motion: {link: drum, turns: TURNS}
+loads:
+  T: {torque: 3000, link: drum, turns: TURNS}
+  F: {force: unknown, link: lever, at: E, angle: 90}
+"""
+HOIST = """icsolve: 1
+points: {O: [0, 0], A: [-1, -6], B: [4, 1]}
+joints:
+  - {slide: [a, 1], at: A, along: 90}
+  - {rope: [A, O, B], on: [a, 1], radii: {O: 1}, wraps: {O: cw}, mu: {O: 0.25}}
+motion: {point: A, link: a, speed: 1, angle: TURNS}
+loads:
+  W: {force: UNKNOWN, link: a, at: A, angle: -90}
+  F: {force: 100, at: B}
+"""
+SLIPPING = {
+    "the lever at the slack end": (BAND, ("ENDS", "1, drum, lever"), ("TURNS", "cw")),
+    "the lever at the tight end": (BAND, ("ENDS", "1, drum, lever"), ("TURNS", "ccw")),
+    "both ends on the lever": (BAND, ("ENDS", "lever, drum, lever"), ("TURNS", "cw")),
+    "a load found from the pull": (HOIST, ("UNKNOWN", "unknown"), ("TURNS", "90")),
+    "let down": (HOIST, ("UNKNOWN", "unknown"), ("TURNS", "-90")),
+}
+
+
+@pytest.mark.parametrize("case", SLIPPING)
+def test_the_pulls_of_a_rope_that_slips_are_worked_out_before_they_are_used(case: str) -> None:
+    text, *changes = SLIPPING[case]
+    for old, new in changes:
+        text = text.replace(old, new)
+    found = icsolve.load(text)
+    (tensions,) = icsolve.solve(found, reactions=True).tensions
+    lines = explain(found).split("The rope\n--------\n", 1)[1].split("\nAnswer\n", 1)[0].splitlines()
+    for n, pull in enumerate(tensions.parts, 1):
+        first = next(
+            line for line in lines if re.search(rf"(?<![\d.]){re.escape(f'{pull:.6g}')}(?![\d.])", line)
+        )
+        assert first.strip().startswith(f"T{n} = "), (first, lines)
+
+
+@pytest.mark.parametrize("name", sample(FILES, 3, "no dust"))
+def test_no_number_is_shown_that_is_nothing_beside_its_neighbours(name: str) -> None:
+    """What rounding leaves of 0 is 0; the bound of rounding itself is told as what it is."""
+    for line in explain(icsolve.load(FILES[name]), bodies=True).splitlines():
+        sizes = [abs(float(one)) for one in re.findall(r"\d+\.?\d*(?:e[-+]?\d+)?", line)]
+        if "Rounding can have moved" not in line:
+            assert not [size for size in sizes if 0.0 < size < 1e-12 * max(*sizes, 1e-12)], line
+
+
+def test_arms_that_stand_still_leave_no_dust_in_the_rate_of_a_spring() -> None:
+    """While one of two unknown angles grows the outer arm keeps its direction, and its rate is 0."""
+    told = explain(
+        icsolve.load("""icsolve: 1
+points: {A: [0, 0], S: [0, 0.1]}
+lengths: {AB: 0.4, BC: 0.35, AK: 0.08}
+angles: {AB: {unknown: [-90, 180]}, BC: {unknown: [-180, 90]}, BAK: 0}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+loads:
+  W: {weight: 3, link: 3, at: C}
+  S1: {spring: 400 N/m, free: 0, link: 2, at: K, to: S}
+  S2: {spring: 15 N*m/rad, corner: ABC, free: 120, link: 3, against: 2}
+""")
+    )
+    assert "k_S2,1 = 0 - 1 = -1" in told
+
+
+def test_a_torque_does_no_work_on_a_link_that_slides() -> None:
+    """A couple on the block of a slider-crank, a load and that of its own inertia."""
+    told = explain(
+        icsolve.load("""icsolve: 1
+dynamic: yes
+points: {A: [0, 0], C: [unknown, 0]}
+lengths: {AB: 2, BC: 6}
+angles: {AB: 60}
+near: {C: [7, 0]}
+links: {4: {mass: 2 kg, centre: C, inertia: 3 kg*m^2}}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {slide: [4, 1], at: C, along: 0}]
+loads: {M: {torque: 20, link: 4}, T: {torque: unknown, link: 2}}
+motion: {link: 2, speed: 3}
+""")
+    )
+    assert "Link 4 does not turn: M does no work on it." in told
+    assert "Link 4 does not turn: T_i4 does no work on it." in told
+    assert "M x v4" not in told and "T_i4 x v4" not in told

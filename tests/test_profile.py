@@ -526,3 +526,22 @@ def test_a_line_that_meets_itself_is_told_exactly(side: int) -> None:
             assert crosses_itself(points) != shapely.LinearRing(points).is_simple, points
     nearly = [(0.0, 0.0), (1.0, 0.1), (2.0, 0.2), (1.0, 0.1 + 2.0**-54)]  # by the last bit of a corner
     assert crosses_itself(nearly) != shapely.LinearRing(nearly).is_simple
+
+
+@pytest.mark.parametrize("rubs", [False, True])
+@pytest.mark.parametrize("reactions", [False, True])
+def test_that_a_contact_is_lost_is_told_once(rubs: bool, reactions: bool) -> None:
+    """By the contact, or by the free bodies of which friction or reactions have need."""
+    mu, radius, motion = (
+        (", mu: 0.15", ", radius: 12", "motion: {link: 2, turns: cw}\n") if rubs else [""] * 3
+    )
+    text = (
+        f"{HEAD}points: {{A: [0, 0], B: [0, unknown]}}\nlengths: {{AC: 10}}\nangles: {{AC: 30}}\n"
+        "near: {B: [0, 45]}\nprofile:\n  2: {circle: C, radius: 30}\n  3: {flat: B, along: 0}\n"
+        f"{motion}joints:\n  - {{pin: [1, 2], at: A{mu}{radius}}}\n  - {{contact: [2, 3]{mu}}}\n"
+        "  - {slide: [3, 1], at: B, along: 90}\n"
+        "loads:\n  P: {force: 300, link: 3, at: B, angle: 90}\n  T12: {torque: unknown, link: 2}\n"
+    )
+    notes = solve(load(text), reactions=reactions).notes
+    assert sum("is lost" in note for note in notes) == 1
+    assert len({*notes}) == len(notes)

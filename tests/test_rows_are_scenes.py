@@ -176,11 +176,17 @@ BAD = (
     "{point: C, link: 4, speed: 1, angle: 5}",
     "{link: 1, turns: cw}",
     "{link: 4, turns: cw}",
-    "[{link: 2, turns: cw}, {link: 3, turns: cw, speed: 3}]",
 )
+TWICE = (
+    "[{link: 2, turns: cw}, {link: 3, turns: cw, speed: 3}]",
+    "[{link: 2, speed: 3 rad/s}, {point: B, link: 2, speed: 6, angle: 150}]",
+    "[{link: 2, speed: 3.000}, {point: C, link: 4, speed: 6.101, angle: 180}]",
+    "[{point: C, link: 4, speed: 6.101, angle: 180}, {link: 2, speed: 3.000}]",
+)
+"""Two of one freedom: they agree nowhere, everywhere, or as written alone."""
 
 
-@pytest.mark.parametrize("motion", [*GOOD, *BAD])
+@pytest.mark.parametrize("motion", [*GOOD, *BAD, *TWICE])
 def test_a_motion_that_a_scene_refuses_is_refused_in_every_row(motion: str) -> None:
     """Whatever the motion is (of the frame, of what does not turn, in a direction that is none of its path,
     against another one), and whatever is varied; link 3 stands still for an instant at 90 degrees."""
@@ -235,6 +241,29 @@ def test_a_motion_of_a_link_beyond_the_loads_is_refused_where_a_scene_refuses_it
         assert set(icsolve.sweep(case, {"angles.AB": [55.0, 60.0, 65.0]}).status.tolist()) == {"ok"}
     for path in ("angles.AB", "lengths.CG", "loads.P"):
         assert list(misses(case, path, amounts(numbers_of(case)[path])[1:4])) == []
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_motions_that_repeat_one_another_agree_to_half_a_unit_of_their_last_decimals(seed: int) -> None:
+    """Of a crank and of its slider: R. L. Norton, Design of Machinery, ch. 6."""
+    rng = random.Random(seed)
+    turn, places, digits = rng.uniform(0.2, 2.9), rng.randint(1, 4), rng.randint(1, 5)
+    rate = round(rng.uniform(5.0, 90.0), places)
+    angle = round(math.degrees(turn), 3)
+    t = math.radians(angle)
+    exact = 2.0 * math.sin(t) + 4.0 * math.sin(t) * math.cos(t) / math.sqrt(36.0 - 4.0 * math.sin(t) ** 2)
+    room = 0.5 * 10.0**-digits + 0.5 * 10.0**-places * abs(exact)
+    text = SLIDER_CRANK.replace("AB: 60", f"AB: {angle}")
+    for off in (0.0, 0.9, -0.9, 1.1, -1.1, 300.0):
+        slide = f"{rate * exact + off * room:.{digits}f}"
+        misses_by = abs(float(slide) - rate * exact) / room
+        crank = f"{{link: 2, speed: {rate:.{places}f}}}"
+        case = icsolve.load(f"{text}motion: [{crank}, {{point: C, link: 4, speed: {slide}, angle: 180}}]\n")
+        if misses_by < 0.99:
+            assert (icsolve.solve(case, rates=True).rates or {})["2"] == pytest.approx(rate, rel=1e-15)
+        elif misses_by > 1.01:
+            with pytest.raises(icsolve.SceneError, match="by the first one the speed of point C of link 4"):
+                icsolve.solve(case, rates=True)
 
 
 @pytest.mark.parametrize("motion", GOOD)

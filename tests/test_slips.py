@@ -792,6 +792,11 @@ SCENES = {
         "",
         "load M acts on link 1, the frame, which never moves: it does no work",
     ),
+    "friction in percent": (
+        [("at: A}", "at: A, mu: 10, radius: 0.1}")],
+        "",
+        "joints.A.mu is 10: few surfaces that rub have more than 1; if percent are meant, write 0.1",
+    ),
     "a pin given twice": (
         [("at: A}", "at: A}\n  - {pin: [2, 1], at: A}")],
         "",

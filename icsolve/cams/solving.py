@@ -34,7 +34,7 @@ def solve_touching(case: Case, solve: Callable[..., Answer], **options: Any) -> 
         case=case,
         sensitivities=Deferred(_no_sensitivities),
         skipped=tuple(name for name in answer.skipped if name not in known.used),
-        notes=(*answer.notes, *_notes(touching, bool(options.get("reactions")))),
+        notes=tuple(dict.fromkeys((*answer.notes, *_notes(touching)))),  # free bodies may have told it
         touching=touching,
         reactions=_with_pressure_angles(answer.reactions, known.case, touching),
     )
@@ -105,11 +105,10 @@ def _with_pressure_angles(
     return found
 
 
-def _notes(touching: tuple[Touching, ...], reactions: bool) -> tuple[str, ...]:
-    """What is said of the contacts; with reactions, a lost one is said with them."""
+def _notes(touching: tuple[Touching, ...]) -> tuple[str, ...]:
+    """What is said of the contacts."""
     said = [contact_said(one) for one in touching] + [one.note for one in touching if one.note]
-    lost = [lost_said(one) for one in touching if one.lost and not reactions]
-    return (*said, *lost)
+    return (*said, *(lost_said(one) for one in touching if one.lost))
 
 
 def _no_sensitivities() -> dict[str, dict[str, float]]:

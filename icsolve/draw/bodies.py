@@ -143,13 +143,14 @@ def _reaction(scene: Scene, name: str, reaction: Reaction) -> DrawnPush:
     runs = force_runs(name, reaction.by, reaction.on, reaction.where)
     words = f"reaction-{name}-on-{reaction.on}"
     if reaction.x is None or reaction.y is None:
-        axis, part = ("y", reaction.y) if reaction.x is None else ("x", reaction.x)
+        axis, part, other = ("y", reaction.y, "x") if reaction.x is None else ("x", reaction.x, "y")
         if part is None:
             return DrawnPush(words, (*runs, TextRun(" = ?")), "reaction", at, (0.0, 0.0), 0.0)
-        low = runs[1]._replace(text=runs[1].text + axis)
-        known = TextRun(f" = {quantity(abs(part), scene.case.units.force)}")
+        low, open_ = (runs[1]._replace(text=runs[1].text + way) for way in (axis, other))
+        left = (runs[0], open_, TextRun(" = ?"))
+        known = TextRun(f" = {quantity(abs(part), scene.case.units.force)}, ")
         force = (0.0, -part) if axis == "y" else (part, 0.0)
-        return DrawnPush(words, (runs[0], low, known), "reaction", at, force, 0.0)
+        return DrawnPush(words, (runs[0], low, known, *left) if part else left, "reaction", at, force, 0.0)
     size, force = math.hypot(reaction.x, reaction.y), (reaction.x, -reaction.y)
     text: tuple[TextRun, ...] = (*runs, TextRun(f" = {quantity(size, scene.case.units.force)}"))
     offset = _off_pin(scene, reaction, size)

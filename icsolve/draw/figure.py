@@ -21,6 +21,7 @@ from icsolve.draw.scene import (
     Geneva,
     Part,
     Scene,
+    aims,
     around,
     geneva_of,
     outlines,
@@ -59,8 +60,8 @@ def genevas(known: Known) -> list[Geneva]:
 
 
 def used_points(case: Case) -> set[str]:
-    """The points that a link, a joint or a rope has."""
-    used = {name for names in case.carries.values() for name in names}
+    """The points that a link, a joint or a rope has, and those that loads act toward."""
+    used = {name for names in case.carries.values() for name in names} | {*aims(case)}
     used |= {at for joint in case.joints if (at := getattr(joint, "at", None))}
     return used | {p for rope in case.ropes for p in rope.points}
 

@@ -22,6 +22,7 @@ from icsolve.draw.scene import (
     Part,
     Scene,
     Wheel,
+    aims,
     around,
     fixed_springs,
     outlines,
@@ -298,10 +299,11 @@ def _friction_circle(scene: Scene, joint: Joint, p: Point) -> list[Mark]:
 
 
 def point_parts(scene: Scene) -> list[Part]:
-    """The letter of every point that a link carries or a joint has, and a dot where no joint shows it."""
+    """The letter of every point that a link carries, a joint has or a load acts toward, and a dot where no
+    joint shows it."""
     jointed = {joint.at for joint in scene.joints() if joint.freedom}
     named = [p for ps in scene.case.carries.values() for p in ps]
-    named += [joint.at for joint in scene.case.joints if joint.at]
+    named += [*(joint.at for joint in scene.case.joints if joint.at), *aims(scene.case)]
     parts = []
     for name in dict.fromkeys(named):
         if name not in scene.at or not is_named(name):

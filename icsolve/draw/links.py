@@ -190,6 +190,7 @@ def _own_points(scene: Scene, link: str) -> list[Point]:
     """Where the link has joints, loads and other points; each place once."""
     names = [p for p in scene.case.carries.get(link, ()) if p in scene.at]
     names += [j.at for j in scene.joints() if j.stands_in and link in j.links and j.at]
+    names += [at for own, at in scene.round.feet if own == link]
     return list(dict.fromkeys(scene.at[p] for p in names))
 
 

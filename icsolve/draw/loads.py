@@ -107,17 +107,20 @@ def _force(scene: Scene, acting: Acting, links: shapely.Geometry) -> Part | None
     marks: list[Mark] = [*(sheaf or arrow(tail, tip, kind)), *hung]
     if spread and not pressed:
         marks.append(Stroke(tuple(line[0] for line, _ in spread), kind))
-    groups = [_following(acting, marks)]
+    groups, opposite = [_following(acting, marks)], tuple[Label, ...]()
     if acting.against != scene.case.ground:
         partner = _partner(scene, acting.load)
         end = along(scene.at[partner], u, -8.0)
         lines.append((end, along(end, u, -ARROW)))
         groups.append(_following(acting, arrow(*lines[-1], kind), ("end", partner)))
+        runs, away = name_runs(acting.load.name), lines[-1][::-1]
+        opposite = (Label(f"label-{acting.load.name}-opposite", runs, f"t-{kind}", 14.0, away, 6.0),)
     soft = tuple(Soft(shapely.LineString(line).buffer(4.0, quad_segs=1), 4.0) for line in lines)
     outer, inner = (tail, tip) if math.dist(tail, at) > math.dist(tip, at) else (tip, tail)
     middle = ((outer[0] + inner[0]) / 2.0, (outer[1] + inner[1]) / 2.0)
     inward = along(outer, unit(at[0] - outer[0], at[1] - outer[1]), 12.0)
-    return _with_label(acting, groups, soft, (outer, inward, middle))
+    part = _with_label(acting, groups, soft, (outer, inward, middle))
+    return part._replace(labels=(*part.labels, *opposite))
 
 
 def _spread(scene: Scene, acting: Acting, tail: Point, tip: Point) -> list[tuple[tuple[Point, Point], float]]:

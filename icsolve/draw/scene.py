@@ -52,12 +52,14 @@ class BeltLoop(NamedTuple):
 
 
 class Round(NamedTuple):
-    """All of them in one mechanism; ``cams`` are contacts whose first link has no circle to draw."""
+    """All of them in one mechanism; ``cams`` are contacts whose first link has no circle to draw, ``feet``
+    the points with which links stand on the frame."""
 
     wheels: tuple[Wheel, ...]
     edges: tuple[Edge, ...]
     loops: tuple[BeltLoop, ...]
     cams: tuple[Sliding, ...]
+    feet: tuple[tuple[str, str], ...] = ()
 
 
 def round_things(case: Case, points: Mapping[str, Point]) -> Round:
@@ -65,6 +67,7 @@ def round_things(case: Case, points: Mapping[str, Point]) -> Round:
     things: list[Wheel | Edge] = []
     loops: list[BeltLoop] = []
     cams: list[Sliding] = []
+    feet: list[tuple[str, str]] = []
     for bond in _meshes(case):
         if set(bond.pivots) <= set(points):
             both = _mesh(bond, points)
@@ -79,12 +82,18 @@ def round_things(case: Case, points: Mapping[str, Point]) -> Round:
                 things += surfaces(case, joint, points)
                 continue
             first, second = _touching(case, joint, points)
+            if case.ground in joint.links and not isinstance(first, Wheel) and not isinstance(second, Wheel):
+                feet += [(link, joint.at) for link in joint.links if link != case.ground]
+                n = normal_of(joint)
+                out = 1.0 if joint.links[0] == case.ground else -1.0
+                things.append(Edge(case.ground, points[joint.at], (out * n[0], out * n[1])))
+                continue
             things += [second] if first is None else [first, second]
             cams += [joint] if first is None else []
     things += _drums(case, points)
     wheels = _once([thing for thing in things if isinstance(thing, Wheel)])
     edges = tuple(thing for thing in things if isinstance(thing, Edge))
-    return Round(tuple(wheels), edges, tuple(loops), tuple(cams))
+    return Round(tuple(wheels), edges, tuple(loops), tuple(cams), tuple(feet))
 
 
 def _drums(case: Case, points: Mapping[str, Point]) -> Iterable[Wheel]:
@@ -340,6 +349,12 @@ class Scene(NamedTuple):
 def fixed_springs(case: Case) -> list[Spring]:
     """The springs whose far end is held by the frame."""
     return [load for load in case.loads if isinstance(load, Spring) and load.against in (None, case.ground)]
+
+
+def aims(case: Case) -> tuple[str, ...]:
+    """The points toward which loads act, or away from which."""
+    found = (getattr(getattr(load, "heading", None), "point", None) for load in case.loads)
+    return tuple(name for name in found if name)
 
 
 class Part(NamedTuple):

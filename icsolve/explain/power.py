@@ -78,6 +78,10 @@ def term_of(work: Worked, ratios: Ratios, acting: Acting) -> tuple[ShownTerm | N
                 words(f"Link {link} stands still: ", load_name(acting.load.name), " does no work on it.")
             )
             continue
+        if acting.at is None and work.known.slides(link):
+            name = load_name(acting.load.name)
+            said.append(words(f"Link {link} does not turn: ", name, " does no work on it."))
+            continue
         end, more = _end(work, ratios, acting, sign, link)
         ends.append(end)
         said += more
@@ -410,7 +414,7 @@ def factor_of(
 def _turned(
     work: Worked, acting: Acting, motion: OneMotion, name: Name, units: float
 ) -> tuple[float, list[Block]]:
-    on, off = motion.twists[acting.link][2], motion.twists[acting.against][2]
+    on, off = plain_vector((motion.twists[acting.link][2], motion.twists[acting.against][2]))
     per = acting.gain * units  # of a torsion spring its turn
     turn = -1 if per < 0.0 else 1
     value = per * (on - off)

@@ -120,7 +120,9 @@ def ropes_section(
     for rope in work.case.ropes:
         blocks += _slipping(work, rope)
         if not (rope.slips and any(a.unknown for a in _at_end(work.known, rope))):
-            blocks += _drawn(work, rope, found)
+            drawn = [*_drawn(work, rope, found)]
+            last = _symbol(work.known, rope, len(rope.points) - 1)
+            blocks += [*drawn, *(_grown(work, rope, last) if drawn and rope.slips else ())]
     shown = {b.sides[0] for s in before for b in s.blocks if isinstance(b, Formula)}
     still = {work.case.ground, *filter(work.known.rests, work.known.twists)}
     found |= {a.load.name for a in acting_loads(work.known) if not a.unknown or {a.link, a.against} - still}
@@ -129,7 +131,6 @@ def ropes_section(
         blocks += _by_itself(work, headings, link, found, shown)
     for rope in work.case.ropes:
         if rope.slips:
-            blocks += _grown(work, rope) if rope.name in found else ()
             blocks += _drawn(work, rope, found)
     missing = [rope.name for rope in work.case.ropes if rope.name not in found]
     if missing:
@@ -170,16 +171,19 @@ def _slipping(work: Worked, rope: Rope) -> Iterable[Block]:
         yield formula(ratio, Exp(product(Name("mu"), wrap)), numbers, *grown)
 
 
-def _grown(work: Worked, rope: Rope) -> Iterable[Block]:
-    """The tensions behind what a rope slips on, from the first."""
+def _grown(work: Worked, rope: Rope, known: Name) -> Iterable[Block]:
+    """The tensions of the other parts of a rope that slips, from that of the part which is known."""
     pulls = _tensions(work.known, rope)
-    for k, (before, after) in enumerate(pairwise(pulls), 1):
-        if rope.mu[k] is not None and before:
-            names = (_symbol(work.known, rope, k), _symbol(work.known, rope, k + 1))
-            ratio = work.number(after / before)
-            tension = work.quantity(after, work.units.force)
-            symbols = product(names[0], Quotient(names[1], names[0]))
-            yield formula(names[1], symbols, product(work.number(before), ratio), tension)
+    names = [_symbol(work.known, rope, k) for k in range(1, len(pulls) + 1)]
+    first = names.index(known)
+    for a, b in (*pairwise(range(first, len(pulls))), *pairwise(range(first, -1, -1))):
+        tension = work.quantity(pulls[b], work.units.force)
+        if rope.mu[max(a, b)] is None:
+            yield formula(names[b], names[a], tension)
+        elif pulls[a]:
+            ratio = work.number(pulls[b] / pulls[a])
+            symbols = product(names[a], Quotient(names[b], names[a]))
+            yield formula(names[b], symbols, product(work.number(pulls[a]), ratio), tension)
 
 
 def _at_end(known: Known, rope: Rope) -> list[Acting]:
@@ -268,6 +272,9 @@ def _by_itself(
     shares = [work.number(float(w.number.number.digits) / first) for w in asked]
     factors = [(w.sign, product(s, *w.factors)) for w, s in zip(asked, shares, strict=True)]
     yield formula(asked[0].name, solved_for(rest, factors), asked[0].number)
+    for rope in work.case.ropes:
+        if rope.slips and rope.name in names - found:
+            yield from _grown(work, rope, asked[0].name)
     found |= names
 
 

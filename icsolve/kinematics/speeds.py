@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from icsolve.assembly.workspace import PlacedCase
@@ -21,6 +22,7 @@ from icsolve.numbers.arithmetic import (
     all_vanish,
     decider,
     largest_of,
+    size_of,
     zero_of,
 )
 from icsolve.screws.plane import Point, Triple, velocity
@@ -34,6 +36,8 @@ else:
 Twists = Mapping[str, Sequence[Triple]]
 SLANT = math.sin(math.radians(1.0))
 """The direction of a given motion may be that far from the path of its point (a sine)."""
+ROUNDED = 1e-12
+"""What rounding leaves of a speed that other data repeat."""
 LOOSE = 5e4
 """In floats a combination of several motions is zero within so many times as much."""
 
@@ -105,7 +109,7 @@ def speed_of(place: PlacedCase, twists: Twists) -> Speed:
         angle at which a point can't move, and where nothing moves.
     """
     case, motions = place.case, len(next(iter(twists.values())))
-    if motions == 1 and len(case.motion) <= 1:
+    if motions == 1:
         return _single(place, twists)
     rows = [_row(given, place, twists) for given in case.motion]
     if not rows:
@@ -116,8 +120,11 @@ def speed_of(place: PlacedCase, twists: Twists) -> Speed:
 def _single(place: PlacedCase, twists: Twists) -> Speed:
     case, a = place.case, place.arithmetic
     if case.motion:
-        given = case.motion[0]
-        values, target = _row(given, place, twists)
+        given, rows = case.motion[0], [_row(one, place, twists) for one in case.motion]
+        for one, off, room in _spare(place, rows):
+            if abs(float(off)) > float(room):
+                raise SceneError(Status.INCONSISTENT, _off(place, one, rows))
+        values, target = rows[0]
         return Speed((target,), (), values[0], (given.link, given.point), a)
     link, values, target = _normal_row(place, twists)
     turns = values[0] is twists[link][0][2]
@@ -126,6 +133,36 @@ def _single(place: PlacedCase, twists: Twists) -> Speed:
 
 Row = tuple[tuple[Scalar, ...], Scalar]
 """What a condition takes from each motion, and what their sum is to be."""
+
+
+def _spare(place: PlacedCase, rows: Sequence[Row]) -> Iterator[tuple[int, Scalar, Scalar]]:
+    """Of one freedom the motions that are given beside the first, by their places: how far each is off what
+    the first one makes of it, and how far it may be, by half a unit of the last decimal of both."""
+    (own,), set_by = rows[0]
+    halves = [_half(given, place) for given in place.case.motion]
+    for n, ((value,), target) in enumerate(rows[1:], 1):
+        ratio = value / own
+        yield n, ratio * set_by - target, halves[n] + size_of(ratio) * halves[0]
+
+
+def _half(given: Given, place: PlacedCase) -> float:
+    """Half a unit of the last decimal of a speed, and its rounding [frame lengths]."""
+    scale = 1.0 if given.point is None else place.frame.scale
+    return scale * (given.speed.half + ROUNDED * abs(given.speed.value) if given.speed else ROUNDED)
+
+
+def _off(place: PlacedCase, n: int, rows: Sequence[Row]) -> str:
+    """That a motion is not that which the first one makes."""
+    one = place.case.motion[n]
+    what = f"link {one.link}" if one.point is None else f"point {one.point} of link {one.link}"
+    ((own,), set_by), ((value,), target) = rows[0], rows[n]
+    per = place.frame.scale if one.point is not None else 1.0
+    found, given = float(value / own * set_by) / per, float(target) / per
+    unit = "rad/s" if one.point is None else f"{place.case.units.length}/s"
+    return (
+        f"the motions given contradict each other: by the first one the speed of {what} is {found:.6g} "
+        f"{unit}, and {given:.6g} {unit} is given. Correct one, or leave it out."
+    )
 
 
 def _combined(rows: list[Row], motions: int, a: Arithmetic) -> Speed:
@@ -236,7 +273,7 @@ def motion_margins(place: PlacedCase, twists: Twists, *, sense: bool) -> Iterato
         link = twists[given.link]
         if given.link == case.ground:
             yield -1.0
-        elif len(link) > 1 or len(case.motion) > 1:
+        elif len(link) > 1:
             continue  # what they are together is no number
         elif given.point is None:
             rate = link[0][2]
@@ -253,6 +290,10 @@ def motion_margins(place: PlacedCase, twists: Twists, *, sense: bool) -> Iterato
             yield SLANT * SLANT - off * off
             if sense:
                 yield along if float(along) > 0.0 else -along
+    if len(case.motion) > 1 and len(twists[case.motion[0].link]) == 1:
+        with suppress(SceneError):  # of one that a row above refuses
+            for _, off, room in _spare(place, [_row(given, place, twists) for given in case.motion]):
+                yield room * room - off * off
 
 
 def fastest(twists: Twists) -> float:

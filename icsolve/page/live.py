@@ -544,7 +544,8 @@ class _ProgramWriter:
         found = {key: self.paths.index(number.path) for key, number in numbers.items() if number is not None}
         point = {} if given.point is None else {"point": place[given.point]}
         back = given.speed is not None and given.speed.value < 0.0
-        return {"link": given.link, "cw": given.turns == "cw", "back": back, **point, **found}
+        half = given.speed.half if given.speed is not None else 0.0
+        return {"link": given.link, "half": half, "cw": given.turns == "cw", "back": back, **point, **found}
 
     def _load(self, w: load_wrenches.Wrench) -> dict[str, Any]:
         load = w.load

@@ -165,6 +165,9 @@ class Entry:
             if found is not None and not limit.holds(found.value):
                 self.refuse(node.mark, f"the {key} {found.digits} of {self.what} {limit.says}")
                 return None
+        if found is not None and key == "mu" and found.value > ROUGHEST:
+            said = f"{path} is {found.digits}: few surfaces that rub have more than 1"
+            self.reading.noticed.append(f"{said}; if percent are meant, write {found.value / 100:g}.")
         return found._replace(bound=bound) if found is not None and bound else found
 
     def numbers(
@@ -393,6 +396,8 @@ def _no_mapping(kind: str, node: Mapping) -> str:
     return f"a number stands here without braces, '{kind}: {text}', or the name of another load, {{like: M2}}"
 
 
+ROUGHEST = 2.0
+"""A coefficient of friction above this is told: soft rubber on a dry road has less."""
 MOST_TEETH = 1e9
 PAIR_BOUNDS: dict[str, tuple[Callable[[list[float]], bool], str]] = {
     "positive": (lambda both: min(both) > 0.0, "the {key} of {what} should be greater than zero"),
@@ -428,6 +433,7 @@ FORMS: dict[str, Form] = {
     "quantity": lambda entry, key, node: entry.number(key),
     "number": lambda entry, key, node: entry.number(key),
     "with unit": lambda entry, key, node: entry.number(key),
+    "with unit or 0": lambda entry, key, node: entry.number(key),
     "pair": Entry.pair,
     "counts": Entry.teeth,
     "count or counts": Entry.teeth,

@@ -112,8 +112,14 @@ def _centroid(reading: Reading, name: str, node: Mapping) -> Centroid | None:
     of = tuple(item.text for item in items)
     for item in items:
         reading.used.setdefault(item.text, item.mark)
-    if len(of) < 2 or len(set(of)) < len(of) or name in of:
+    slips = [item for k, item in enumerate(items) if item.text in (name, *of[:k])]
+    for item in slips:
+        why = "not of itself" if item.text == name else "each of which counts once"
+        said = f"the centroid of {name} is that of other points, {why}: take {item.text} out"
+        reading.refuse(item.mark, said)
+    if len(of) < 2:
         reading.refuse(value.mark, f"the centroid of {name} is that of two or more other points")
+    if slips or len(of) < 2:
         return None
     reading.centroids[name] = of
     return Centroid(of)

@@ -401,7 +401,7 @@ MASSES = {
     "centre": Key("its centre of mass, a point of the link, as in {mass: 2 kg, centre: G}"),
     "inertia": Key(
         "its moment of inertia about the centre of mass, with the unit",
-        "with unit",
+        "with unit or 0",
         False,
         "moment of inertia",
         "not negative",

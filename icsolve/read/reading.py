@@ -265,7 +265,7 @@ def _valued(
     if not rest:
         if dimension == "mass":
             raise UnitError("a mass carries its unit: kg, g, t, lbm or slug")
-        if dimension == "moment of inertia":
+        if dimension == "moment of inertia" and float(numeral.digits):  # 0 is 0 in any unit
             raise UnitError("a moment of inertia carries its unit, such as kg*m^2 or lbm*in^2")
         value = float(numeral.digits)
         if dimension == "angle" and _is_of_radians(value, numeral):

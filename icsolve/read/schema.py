@@ -132,6 +132,7 @@ FORMS: dict[str, Schema] = {
     "quantity": _ref("quantity"),
     "number": _ref("number"),
     "with unit": _ref("with unit"),
+    "with unit or 0": _any({"const": 0}, _ref("with unit")),
     "power": _ref("with unit"),
     "percent": _pattern(r"^\s*[0-9.]+ ?(%|per ?cent)\s*$"),
     "width": _any({"type": "number", "minimum": 0}, _pattern(_QUANTITY)),

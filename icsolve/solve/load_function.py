@@ -49,6 +49,7 @@ from icsolve.sweep.program import (
 )
 from icsolve.sweep.recorded_scene import RecordedScene, motions_of
 from icsolve.tuples import NamedTuple, replace
+from icsolve.wording.joints import why_not_moved
 
 Steps = tuple[Step, ...]
 
@@ -304,7 +305,9 @@ def moving_function(
     """
     setting = setting_of(case, (path,) if path else (), (link,) if link else (), posing=posing)
     if path and not setting.moves:
-        raise SceneError(Status.UNSUPPORTED, f"{path} does not pose the figure: it moves nothing.")
+        held = next((joint for joint in case.joints if not joint.stays_known), None)
+        moves_nothing = f"{path} does not pose the figure: it moves nothing."
+        raise SceneError(Status.UNSUPPORTED, why_not_moved(held) if held is not None else moves_nothing)
     return _on_record(moved(setting), path or link, span)
 
 

@@ -392,7 +392,7 @@ def motion_fits(scene: RecordedScene, found: RecordedStatics, *, sense: bool) ->
     given, motions = scene.case.motion, found.motions
     margins = list(speeds.motion_margins(scene.place, motions.twists, sense=sense))
     still = any(not varies(m) and float(m) <= 0.0 for m in margins)
-    if given and (still or len(given) > 1 or motions.mobility > 1):
+    if given and (still or motions.mobility > 1):
         speeds.speed_of(scene.place, motions.twists)
     return tuple(m.index for m in margins if varies(m))
 
@@ -438,8 +438,9 @@ def _scale(scene: RecordedScene, twists: Mapping[str, tuple[Triple, ...]]) -> tu
 
 
 def _plain(case: Case) -> Case:
-    """A point's given direction holds as written only; in a sweep its sense goes on."""
-    return replace(case, motion=tuple(m._replace(angle=None) if m.point else m for m in case.motion))
+    """A point's given direction holds as written only; in a sweep its sense goes on. Of motions that repeat
+    one another the first counts."""
+    return replace(case, motion=tuple(m._replace(angle=None) if m.point else m for m in case.motion[:1]))
 
 
 def _signed(scene: RecordedScene, v: Point, forward: bool) -> Scalar:

@@ -567,8 +567,8 @@ function refuseUnbalanced(told, motions, found) {
   const count = found.unknown.length;
   if (found.verdict === "balanced" || !count) return;
   const active = motions.mobility - found.idle;
-  if (found.verdict.startsWith("too") || count > max(active, 1))
-    refuse(motions.redundant && told.freedoms === count ? "change-point" : "mobility");
+  if (motions.redundant && told.freedoms === count && count < motions.mobility) refuse("change-point");
+  if (found.verdict.startsWith("too") || count > max(active, 1)) refuse("mobility");
   const load = told.loads[found.unknown[found.culprit]];
   const others = found.verdict === "no value";
   const fast = largest(motions.twists.flat(2));
@@ -605,7 +605,16 @@ function speedOf(told, x, motions, points) {
     return [dot(v, along) > 0 ? size : -size, target];
   });
   if (!rows.length) rows.push(normal(told, twists, still));
-  if (motions.mobility === 1 && rows.length === 1) return { meant: [-rows[0][1] / rows[0][0]], open: [] };
+  if (motions.mobility === 1) {
+    const meant = -rows[0][1] / rows[0][0];
+    const room = told.motion.map(({ half, point }) => half * (point === undefined ? 1 : told.frame[2]));
+    rows.slice(1).forEach(([value, target], n) => {
+      const allowed = room[n + 1] + abs(value / rows[0][0]) * room[0] + 1e-12 * abs(target);
+      if (abs(value * meant + target) > allowed)
+        refuse("inconsistent", "the motions given contradict each other");
+    });
+    return { meant: [meant], open: [] };
+  }
   const scaled = rows.map((row) => row.map((v) => v / powerOfTwo(largest(row))));
   const found = nullSpace(scaled, motions.mobility + 1, 1e-12).basis;
   const first = found.find((v) => abs(v[motions.mobility]) > 1e-9);

@@ -96,6 +96,10 @@ class Known(NamedTuple):
         """Whether a link is known not to move."""
         return self.twists.get(link) == (0.0, 0.0, 0.0)
 
+    def slides(self, link: str) -> bool:
+        """Whether a link is known not to turn."""
+        return link in self.twists and self.twists[link][2] == 0.0
+
     def turns(self, link: str) -> bool:
         """Whether a link is known to turn."""
         return link in self.twists and self.twists[link][2] != 0.0
