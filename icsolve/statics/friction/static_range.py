@@ -111,7 +111,8 @@ def static_range(statics: Statics, senses: Sequence[float], alone: bool) -> Stat
         Self-locking: it holds with the unknown at zero (against loads), or no value moves it one way.
     """
     ends = [end for d in (1.0, -1.0) if (end := _end(statics, [d * s for s in senses])) is not None]
-    parts = limited.may_part(statics) and not all(end.pushes for end in ends)
+    locks = all(math.isinf(end.value) for end in ends)  # where contacts push, one way at most
+    parts = limited.may_part(statics) and (locks or not all(end.pushes for end in ends))
     if parts or _nothing_presses(statics, senses):
         starts = [(end.value * statics.scale, *end.friction) for end in ends if end.friction]
         within = limited.held(statics, starts)
