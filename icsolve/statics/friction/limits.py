@@ -177,9 +177,9 @@ def _tips(statics: Statics, found: Solutions, contact: int) -> str:
     tie = statics.ties[statics.rubs[contact].tie]
     return (
         f"no value of {listed(statics.roots)} keeps up the given motion: as friction is brought in, the "
-        f"contact of links {tie.by} and {tie.on}{place_of(tie)} ceases to push at {100.0 * found.share:.4g} % "
-        "of the given coefficients. The links part there, and tip or lift off before they slide. Reduce `mu`, "
-        "or put the unknown elsewhere."
+        f"contact of links {tie.by} and {tie.on}{place_of(tie)} ceases to push at {100.0 * found.share:.4g} "
+        "% of the given coefficients. The links part there, and tip or lift off before they slide. Reduce "
+        "`mu`, or put the unknown elsewhere."
     )
 
 
