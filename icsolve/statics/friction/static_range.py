@@ -139,7 +139,7 @@ def _of_limits(
 
     Raises SceneError where there is none.
     """
-    smooth = _smooth_load(statics)
+    smooth = smooth_load(statics) or 0.0
     if not within:
         raise SceneError(Status.NO_VALUE, _lost(statics, smooth))
     least, most = min(within, key=lambda pair: max(pair[0] - smooth, smooth - pair[1]))
@@ -157,10 +157,10 @@ SAME = 1e-9
 """Ends of two ways that differ by less of their size are one."""
 
 
-def _smooth_load(statics: Statics) -> float:
-    """The unknown load that balances without friction [case units]; 0.0 where it does no work."""
+def smooth_load(statics: Statics) -> float | None:
+    """The unknown load that balances without friction [case units]; None where it does no work."""
     loads = loads_from_power(statics)
-    return 0.0 if loads is None else loads[0].get(statics.known, 0.0) / statics.scale
+    return None if loads is None else loads[0].get(statics.known, 0.0) / statics.scale
 
 
 def _lost(statics: Statics, smooth: float) -> str:
