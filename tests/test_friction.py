@@ -315,6 +315,28 @@ def test_short_shoe_brake_by_its_actuating_force_which_does_no_work() -> None:
     assert value(brake(0.5, "cw", "T"), "T") == exactly(-0.35 * 2 * 50 * 8 / (3 + 0.35 * 0.5))
 
 
+def test_a_crate_pushed_above_the_middle_slides_or_tips_and_never_jams() -> None:
+    """Pushed at the height h it slides at mu W while mu h is less than half of its width, else it tips."""
+    dice = Random(8)
+    for _ in range(20):
+        mu, wide, high = dice.randint(10, 90) / 100, dice.randint(3, 15) / 10, dice.randint(3, 20) / 10
+        text = f"""points: {{A: [0, 0], B: [{wide}, 0], G: [{wide / 2}, 0.5], H: [0, {high}]}}
+joints:
+  - {{contact: [1, 2], at: A, normal: 90, mu: {mu}}}
+  - {{contact: [1, 2], at: B, normal: 90, mu: {mu}}}
+motion: {{point: G, link: 2, speed: 1, angle: 0}}
+loads: {{W: {{weight: 500, link: 2, at: G}}, P: {{force: unknown, link: 2, at: H, angle: 0}}}}
+"""
+        if mu * high < 0.499 * wide:
+            assert solved(text).answers["P"].value == pytest.approx(500 * mu, rel=EXACT)
+        elif mu * high > 0.501 * wide:
+            with pytest.raises(
+                icsolve.SceneError, match="contact of links 1 and 2 at A ceases to push"
+            ) as error:
+                solved(text)
+            assert error.value.status == "jam" and "jams" not in error.value.message
+
+
 def test_self_locking_brake_jams() -> None:
     """Where mu c > b the shoe draws itself in: no torque turns the drum that way."""
     assert refused(brake(9.0, "ccw", "T")).status == "jam"

@@ -1,11 +1,25 @@
-"""`sweep --find hold`: where a mechanism begins or ceases to hold still is where `solve` says so."""
+"""Where a mechanism under known loads begins or ceases to hold still is where `solve` says so of one of them
+as the unknown: where friction within its limits, and contacts that only push, can balance the loads."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from random import Random
+
+import numpy as np
 import pytest
 
+import equilibrium
 import icsolve
-from icsolve.sweep.numbers import with_numbers
+import rubbing
+from icsolve import case as c
+from icsolve.solve.stability import holding_values
+from icsolve.sweep.numbers import find_number, with_numbers
+from reference import frame_of, points_of
+from rough_scenes import KINDS, TOUCHING, Rough
+from sizes import FULL
 
 LEVER = """icsolve: 1
 points: {A: [0, 0], B: [2, 0], C: [-1, 0]}
@@ -26,3 +40,162 @@ def test_loads_that_have_lost_their_digits_are_refused(load: float) -> None:
     """A search that closes in on zero meets them: a refusal, not an overflow."""
     with pytest.raises(icsolve.SceneError, match="close"):
         icsolve.solve(with_numbers(icsolve.load(LEVER), {"loads.P": load}))
+
+
+Range = tuple[float, float]
+NOWHERE = (math.inf, -math.inf)
+
+
+def range_of(case: icsolve.Case) -> Range:
+    """That in which F holds; turned about where `solve` says that no value does."""
+    try:
+        found = icsolve.solve(case).answers["F"]
+    except icsolve.SceneError as refusal:
+        if refusal.status in ("no-value", "slack"):
+            return NOWHERE
+        raise
+    return found.holds or (found.value, found.value)
+
+
+def possible(case: icsolve.Case) -> Range | None:
+    """That in which friction within its limits can hold; None where no value does."""
+    if range_of(case) == NOWHERE:
+        return None
+    friction = icsolve.solve(case).friction
+    return None if friction is None else friction.possible
+
+
+def finite(ends: Sequence[float]) -> list[float]:
+    return list(dict.fromkeys(end for end in ends if math.isfinite(end)))
+
+
+# --- the range itself -----------------------------------------------------------------------------------
+
+
+def balances(case: icsolve.Case) -> bool:
+    """Whether some friction within its limits balances the loads of a scene in which contacts alone rub, and
+    no contact pulls: of dense equations of all links, which leave at most one number open."""
+    points = points_of(case)
+    places = rubbing.places_of(case, points)
+    a, b, _ = equilibrium.equations(case, points)
+    row = {link: 3 * k for k, link in enumerate(link for link in case.links if link != case.ground)}
+    columns = np.zeros((len(b), len(places)))
+    for k, place in enumerate(places):
+        for link, sign in ((place.on, 1.0), (place.by, -1.0)):
+            if link in row:
+                columns[row[link] : row[link] + 3, k] += sign * place.wrench
+    whole = np.hstack([a, columns])
+    first = np.linalg.lstsq(whole, b, rcond=1e-12)[0]
+    size = np.abs(whole).max() * np.abs(first).max()
+    if np.abs(whole @ first - b).max() > 1e-9 * size:
+        return False
+    _, sizes, turns = np.linalg.svd(whole)
+    open_ = turns[(sizes > 1e-12 * sizes[0]).sum() :]
+    assert len(open_) <= 1
+    pushes = np.zeros((0, whole.shape[1]))
+    column = 0
+    for joint in case.joints:
+        if isinstance(joint, c.Contact):
+            pushes = np.vstack([pushes, np.eye(whole.shape[1])[column]])
+        column += len(equilibrium.transmitted(case, joint, points, frame_of(case, points)))
+    for k, place in enumerate(places):
+        own = np.zeros(whole.shape[1])
+        own[: a.shape[1]] = place.limit * place.force[0]
+        for side in (1.0, -1.0):
+            own[a.shape[1] + k] = side
+            pushes = np.vstack([pushes, own])
+    at, slope = pushes @ first, pushes @ open_[0] if len(open_) else np.zeros(len(pushes))
+    sloping, least = np.abs(slope) > 1e-12, -1e-9 * np.abs(first).max()
+    bounds = -at[sloping] / slope[sloping]
+    low, high = bounds[slope[sloping] > 0.0], bounds[slope[sloping] < 0.0]
+    room = 1e-9 * np.abs(first).max()
+    return bool(
+        (at[~sloping] >= least).all() and max(low, default=-math.inf) <= min(high, default=math.inf) + room
+    )
+
+
+@pytest.mark.parametrize("kind", TOUCHING)
+@pytest.mark.parametrize("seed", range(60 if FULL else 12))
+def test_a_range_is_where_friction_balances_and_contacts_push(
+    kind: Callable[[Random], Rough], seed: int
+) -> None:
+    """In the middle, far from it, and 1e-5 of its size to both sides of each end; where no value holds, none
+    of many balances. Between the end of impending motion and that of possible friction either may be. The
+    equations are told apart from those of the program, to 1e-9."""
+    rough = kind(Random(f"{kind.__name__} {seed}"))
+    low, high = range_of(rough.case("unknown"))
+    least, most = possible(rough.case("unknown")) or (low, high)
+    ends = finite((low, high, least, most))
+    size = max(map(abs, ends), default=100.0) or 100.0
+    beside = [end + side * 1e-5 * size for end in ends for side in (-1.0, 1.0)]
+    far = [scale * side * size for scale in (1e-3, 0.1, 0.97, 30.0, 1e3) for side in (-1.0, 1.0)]
+    for value in (*beside, *far, *([0.5 * (low + high)] if math.isfinite(high - low) else [])):
+        if low <= value <= high or not least <= value <= most:
+            assert balances(rough.case(repr(value))) == (low <= value <= high), (rough.text, value, low, high)
+
+
+# --- the values at which it begins or ceases to hold ------------------------------------------------------
+
+
+def held_on(rough: Rough, path: str, value: float, load: str) -> bool:
+    """What `solve` says of one value: whether F of this size lies in its range."""
+    case = rough.case("unknown")
+    low, high = range_of(with_numbers(case, {find_number(case, path).path: value}))
+    return low <= float(load) <= high
+
+
+def drawn(kind: Callable[[Random], Rough], seed: int) -> tuple[Random, Rough, Range, Range]:
+    """A scene, the range of F, and one of F that goes beyond its ends."""
+    dice = Random(f"{kind.__name__} {seed}")
+    rough = kind(dice)
+    held = range_of(rough.case("unknown"))
+    ends = finite(held)
+    size = max(map(abs, ends), default=100.0) or 100.0
+    low, high = (
+        f(ends, default=0.0) + side * dice.uniform(0.3, 1.5) * size for f, side in ((min, -1), (max, 1))
+    )
+    return dice, rough, held, (low, high)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("seed", range(12 if FULL else 2))
+def test_a_load_begins_and_ceases_to_hold_at_the_ends_of_its_range(
+    kind: Callable[[Random], Rough], seed: int
+) -> None:
+    """Each end within the span, both ways, to the bound of its rounding; a range that is one value has none.
+    Where contacts part it is an end of linear inequalities, to 1e-12."""
+    dice, rough, held, (low, high) = drawn(kind, seed)
+    found = holding_values(rough.case(f"{dice.uniform(low, high):.3f}"), "loads.F", low, high)
+    ends = finite(held) if held[0] < held[1] else []
+    assert [one.value for one in found] == pytest.approx(ends, rel=1e-12, abs=1e-13)
+    words = {held[0]: ("slips", "holds"), held[1]: ("holds", "slips")}
+    assert [(one.before, one.after) for one in found] == [words[end] for end in ends]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("of", ["mu", "other"])
+@pytest.mark.parametrize("seed", range(8 if FULL else 1))
+def test_between_two_values_that_are_found_it_holds_or_slips_as_solve_says(
+    kind: Callable[[Random], Rough], of: str, seed: int
+) -> None:
+    """Of a coefficient of friction, an angle, a load: in the middle of each stretch, and a millionth of the
+    span within its ends."""
+    dice, rough, _, span = drawn(kind, seed)
+    path, load = getattr(rough, of), f"{dice.uniform(*span):.3f}"
+    case = rough.case(load)
+    written = find_number(case, path).value
+    low, high = (
+        (0.02, 1.2) if path.endswith("mu") else (written - dice.uniform(3, 30), written + dice.uniform(3, 30))
+    )
+    found = holding_values(case, path, low, high)
+    words = [one.before for one in found] + [one.after for one in found[-1:]]
+    for n, (a, b) in enumerate(pairwise([low, *(one.value for one in found), high])):
+        near = 1e-6 * (high - low)
+        said = {held_on(rough, path, value, load) for value in (0.5 * (a + b), a + near, b - near)}
+        assert said == ({words[n] == "holds"} if words else said) and len(said) == 1, (
+            rough.text,
+            path,
+            load,
+            a,
+            b,
+        )

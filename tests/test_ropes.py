@@ -311,6 +311,18 @@ def test_a_band_brake_at_rest_holds_from_a_pull_upward() -> None:
     assert answer.answers["P"].holds == (exactly(100 * ratio / (ratio - 1) / 2), math.inf)
 
 
+@pytest.mark.parametrize("pull", [1, 100])
+def test_a_band_brake_whose_lever_is_let_go_holds_no_torque(pull: int) -> None:
+    """Its band would have to push, whichever way the drum is about to turn; pulled it holds both ways."""
+    let_go = BAND.replace("torque: 20", "torque: unknown").replace("force: unknown", f"force: {-pull}")
+    assert refused(let_go.removeprefix("icsolve: 1\n")).status == "slack"
+    held = let_go.replace(f"force: {-pull}", f"force: {pull}").removeprefix("icsolve: 1\n")
+    ratio = math.exp(0.3 * math.pi)
+    low, high = icsolve.solve(icsolve.load("icsolve: 1\n" + held)).answers["M"].holds or (0.0, 0.0)
+    tight, loose = (2 * pull * (1 - r) * 0.2 for r in (ratio, 1 / ratio))
+    assert (low, high) == (exactly(tight), exactly(loose))
+
+
 def test_a_rope_ties_its_own_links_and_no_others() -> None:
     """A weight that hangs on a rope is held; two links joined to one another alone are not."""
     text = """

@@ -20,7 +20,9 @@ from icsolve.statics.friction.equations import (
     error_of,
     reduced,
     reduced_workless,
+    without_friction,
 )
+from icsolve.statics.friction.interface import place_of
 from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording.sentences import listed
 
@@ -110,7 +112,22 @@ def slid(statics: Statics, senses: Sequence[float], workless: bool, alone: bool 
         return _of(statics, by, others[0], (), unique)
     if others:
         raise SceneError(Status.AMBIGUOUS, _several(statics, sorted(by.load(y)[0] for y in others)))
-    raise SceneError(Status.JAM, _jam(statics, found, unique))
+    parts = None if found.grows else parting(equations.equations, found.share)
+    raise SceneError(
+        Status.JAM, _jam(statics, found, unique) if parts is None else _tips(statics, found, parts)
+    )
+
+
+def parting(equations: Lengths, share: float) -> int | None:
+    """The contact that ceases to push, with which the equilibrium ends at a share of the friction: next to
+    nothing is left of what it pushes with without friction."""
+    last = every.followed(equations.scaled(SHORT * share))[0] or without_friction(equations)
+    threes = zip(last, without_friction(equations), equations.touching, strict=True)
+    return next((k for k, (left, smooth, only) in enumerate(threes) if only and left < 0.01 * smooth), None)
+
+
+SHORT = 0.999
+"""So far before its end an equilibrium is looked at."""
 
 
 def counted(statics: Statics, senses: Sequence[float], equations: Reduced) -> tuple[Reduced, list[Y] | None]:
@@ -153,6 +170,16 @@ def _jam(statics: Statics, found: Solutions, unique: str) -> str:
         f"the mechanism jams: no value of {listed(statics.roots)} keeps up the given motion. As friction is "
         f"brought in, {way} at {100.0 * found.share:.4g} % of the given coefficients{sure}. Reduce `mu`, or "
         "drive another link."
+    )
+
+
+def _tips(statics: Statics, found: Solutions, contact: int) -> str:
+    tie = statics.ties[statics.rubs[contact].tie]
+    return (
+        f"no value of {listed(statics.roots)} keeps up the given motion: as friction is brought in, the "
+        f"contact of links {tie.by} and {tie.on}{place_of(tie)} ceases to push at {100.0 * found.share:.4g} "
+        "% of the given coefficients. The links part there, and tip or lift off before they slide. Reduce "
+        "`mu`, or put the unknown elsewhere."
     )
 
 

@@ -37,7 +37,15 @@ from icsolve.statics.friction.interface import (
     unknowns_by_power,
 )
 from icsolve.statics.friction.limits import Slid, nothing_rubs, slid
-from icsolve.statics.friction.static_range import End, StaticRange, end_of, pressed, range_of, static_range
+from icsolve.statics.friction.static_range import (
+    End,
+    StaticRange,
+    end_of,
+    pressed,
+    range_of,
+    smooth_load,
+    static_range,
+)
 from icsolve.statics.power import Balance, Bounded, Solution, Value, is_unknown
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import names_by_tie, reactions_of, tensions_of
@@ -205,7 +213,19 @@ def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[Static
         ends.append(_pulling(statics, end))
         if math.isfinite(ends[-1].value):
             proven.append(_proven_end(one, statics, ends[-1]))
+    if not proven:
+        _refuse_slack(_slipping(scene, rates, 0.0))
     return range_of(ends), proven
+
+
+def _refuse_slack(scene: FrictionScene) -> None:
+    """Refuse a scene whose ropes would have to push without friction, which then has nothing to grow from."""
+    ties = ties_of(scene.position)
+    statics = _statics(scene, ties, _flanks(scene, ties, False))
+    smooth = smooth_load(statics)
+    if smooth is not None:
+        parameters = statics.parameters({statics.roots[0]: smooth}, (0.0,) * len(statics.rubs))
+        tensions_of(statics, parameters, FLOATS, scene.position.case.units.force)
 
 
 def _pulling(statics: Statics, end: End) -> End:

@@ -23,9 +23,7 @@ from icsolve.numbers.roots import zero_between
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.friction import pushing as limited
 from icsolve.statics.friction.equations import (
-    Lengths,
     Reduced,
-    Y,
     at,
     contracted,
     contraction,
@@ -38,7 +36,7 @@ from icsolve.statics.friction.equations import (
     without_friction,
 )
 from icsolve.statics.friction.interface import place_of
-from icsolve.statics.friction.limits import counted, too_many
+from icsolve.statics.friction.limits import SHORT, counted, parting, too_many
 from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording.sentences import listed
 
@@ -111,7 +109,8 @@ def static_range(statics: Statics, senses: Sequence[float], alone: bool) -> Stat
         Self-locking: it holds with the unknown at zero (against loads), or no value moves it one way.
     """
     ends = [end for d in (1.0, -1.0) if (end := _end(statics, [d * s for s in senses])) is not None]
-    parts = limited.may_part(statics) and not all(end.pushes for end in ends)
+    locks = all(math.isinf(end.value) for end in ends)  # where contacts push, one way at most
+    parts = limited.may_part(statics) and (locks or not all(end.pushes for end in ends))
     if parts or _nothing_presses(statics, senses):
         starts = [(end.value * statics.scale, *end.friction) for end in ends if end.friction]
         within = limited.held(statics, starts)
@@ -141,7 +140,7 @@ def _of_limits(
 
     Raises SceneError where there is none.
     """
-    smooth = _smooth_load(statics)
+    smooth = smooth_load(statics) or 0.0
     if not within:
         raise SceneError(Status.NO_VALUE, _lost(statics, smooth))
     least, most = min(within, key=lambda pair: max(pair[0] - smooth, smooth - pair[1]))
@@ -159,10 +158,10 @@ SAME = 1e-9
 """Ends of two ways that differ by less of their size are one."""
 
 
-def _smooth_load(statics: Statics) -> float:
-    """The unknown load that balances without friction [case units]; 0.0 where it does no work."""
+def smooth_load(statics: Statics) -> float | None:
+    """The unknown load that balances without friction [case units]; None where it does no work."""
     loads = loads_from_power(statics)
-    return 0.0 if loads is None else loads[0].get(statics.known, 0.0) / statics.scale
+    return None if loads is None else loads[0].get(statics.known, 0.0) / statics.scale
 
 
 def _lost(statics: Statics, smooth: float) -> str:
@@ -244,7 +243,7 @@ def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> En
     y, share, grows = every.followed(equations.equations)
     if y is not None:
         return _moving(statics, equations, senses, y, pushing)
-    far = 0.999 * share
+    far = SHORT * share
     short = equations.equations.scaled(far)
     last = every.followed(short)[0] or without_friction(equations.equations)
     change = sum(a * x for a, x in zip(equations.loads[0][1:], last, strict=True))
@@ -253,9 +252,9 @@ def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> En
         return None
     if not pushes and (part := _where_one_parts(equations, last, far)) is not None:
         return End(part / statics.scale, tuple(senses), pushes=False)
-    parting = None if grows else _parting(short, last)
-    if parting is not None:
-        return End(_where_it_parts(equations, parting, share) / statics.scale, tuple(senses), pushes=False)
+    contact = None if grows else parting(equations.equations, share)
+    if contact is not None:
+        return End(_where_it_parts(equations, contact, share) / statics.scale, tuple(senses), pushes=False)
     if grows or _locks(equations):
         return End(math.copysign(math.inf, change), tuple(senses), pushes=pushes)
     raise SceneError(
@@ -264,13 +263,6 @@ def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> En
         "grow there nor does a contact part: where the load ends is not known. Give a `motion`, or a smaller "
         "`mu`.",
     )
-
-
-def _parting(equations: Lengths, last: Y) -> int | None:
-    """The contact that ceases to push, with which the equilibrium ends: next to nothing is left of what it
-    pushes with without friction."""
-    threes = zip(last, without_friction(equations), equations.touching, strict=True)
-    return next((k for k, (left, smooth, only) in enumerate(threes) if only and left < 0.01 * smooth), None)
 
 
 def _where_it_parts(equations: Reduced, contact: int, share: float) -> float:
