@@ -427,3 +427,16 @@ def test_a_folder_of_ones_own_is_gone_with_all_that_was_made_in_it(
         write_whole(os.path.join(folder, "cases", "deep", "1.yaml"), "x")
         assert os.listdir(own)
     assert not os.listdir(own)
+
+
+def test_a_signal_while_the_package_of_processes_loads_ends_as_any_other() -> None:
+    """A package that has begun to load is there, with nothing in it: then no process has been split off."""
+    begun = (
+        "import signal, sys, types, icsolve.cli as c\n"
+        "sys.modules['multiprocessing'] = types.ModuleType('multiprocessing')\n"
+        "c._leave(signal.SIGTERM, None)\n"
+    )
+    found = subprocess.run(
+        [sys.executable, "-c", begun], env={**os.environ, "PYTHONPATH": ROOT}, capture_output=True, check=False
+    )
+    assert (found.returncode, found.stderr) == (-signal.SIGTERM, b"")

@@ -73,8 +73,8 @@ def _leave(number: int, frame: FrameType | None) -> NoReturn:
     No exception is raised for it: one that comes while a package of C loads, or in a callback, is lost or
     becomes another. Processes split off are ended first; each clears away its own.
     """
-    processes = sys.modules.get("multiprocessing")
-    for child in processes.active_children() if processes else ():
+    processes = sys.modules.get("multiprocessing")  # perhaps while it loads: then there are none
+    for child in getattr(processes, "active_children", tuple)():
         child.terminate()
         child.join(2.0)
     clear_away()
