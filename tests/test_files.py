@@ -437,6 +437,9 @@ def test_a_signal_while_the_package_of_processes_loads_ends_as_any_other() -> No
         "c._leave(signal.SIGTERM, None)\n"
     )
     found = subprocess.run(
-        [sys.executable, "-c", begun], env={**os.environ, "PYTHONPATH": ROOT}, capture_output=True, check=False
+        [sys.executable, "-c", begun],
+        env={**os.environ, "PYTHONPATH": ROOT},
+        capture_output=True,
+        check=False,
     )
     assert (found.returncode, found.stderr) == (-signal.SIGTERM, b"")
