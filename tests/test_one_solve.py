@@ -104,7 +104,8 @@ def test_what_is_not_asked_of_a_row_with_inertia_forces_is_not_worked_out() -> N
     """A slider moves along its guide alone, and that its speed across is 0 no few digits tell: of a row whose
     answer is asked neither speeds nor accelerations are. Its inertia force across is 0, too, which is told
     once, by the most digits, after the fewest."""
-    case = icsolve.load("""icsolve: 1
+    case = icsolve.load(
+        """icsolve: 1
 dynamic: yes
 points: {A: [0, 0], C: [unknown, 0]}
 lengths: {AB: 75, BC: 250}
@@ -114,6 +115,7 @@ links: {3: {points: [G], mass: 1.6 kg, centre: G, inertia: 0.012 kg*m^2}, 4: {ma
 joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {slide: [4, 1], at: C, along: 0}]
 motion: {link: 2, speed: 2000 rpm}
 loads: {P: {force: 3000, link: 4, at: C, angle: 180}, T: {torque: unknown, link: 2}}
-""".replace("points: {A", "points: {G: {centroid: [B, C]}, A"))
+""".replace("points: {A", "points: {G: {centroid: [B, C]}, A")
+    )
     done = counted(case, lambda one: icsolve.solve(one).answers["T"])
     assert sum(count for what, count in done.items() if what.startswith("evaluate")) == 3
