@@ -280,6 +280,20 @@ def test_the_limit_of_a_group_is_told_to_the_last_digit(x: int, y: int, bars: An
         assert abs(limit.at - 90.0) <= limit.error <= 2e-14, (span, limit)
 
 
+@pytest.mark.parametrize("side", [2.0, -0.5])
+def test_a_change_point_of_a_group_is_told_as_the_rows_tell_it(side: float) -> None:
+    """A plate whose bars let it go on through the position in which they are parallel."""
+    points = {"b": (12, -16), "d": (0, 4), "e": (6, -4), "low": -21}
+    text = PLATE.format(**points, bars=[20, 5, 10], turned=90.0 + side)
+    case = icsolve.load(text)
+    rows = icsolve.sweep(case, {"angles.AB": [85.0, 90.0, 95.0]})
+    assert rows.status.tolist() == ["ok", "change-point", "ok"]
+    for span in ((85.0, 95.0), (90.0, 95.0), (85.0, 90.0)):
+        (spot,) = find(case, {"angles.AB": np.array(span)}, Query("dead"))
+        assert spot.kind == "change-point"
+        assert abs(spot.at - 90.0) <= spot.error <= 1e-5
+
+
 @pytest.mark.parametrize("below", [1e-3, 1e-6, 1e-9, 1e-12])
 def test_a_value_just_below_a_peak_is_taken_twice(below: float) -> None:
     """As far from the peak as the root of what is below it; just above, nowhere."""

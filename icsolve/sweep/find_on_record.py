@@ -31,6 +31,7 @@ from icsolve.numbers.tape import UNIT
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
+from icsolve.sweep.continuation import SAME
 from icsolve.sweep.exact import APART, CONTEXT, Unreached, Values, as_written
 from icsolve.sweep.find_by_scenes import FoundPosition, FoundPositions, Mask, Query, Scenes
 from icsolve.sweep.parts import SweepPart, SweepParts
@@ -185,15 +186,26 @@ class RangeSearch:
     def _dead(self, answer: Scalar, load: str) -> Iterator[FoundPosition]:
         """Where the unknown does no work, where the links reach their limit, where branches meet. Where the
         known loads do none either, any value balances, or the quotient goes through: no dead centre."""
-        seen = [s for touch in self.touches for s in self._inside(touch)]
+        seen = {s: NEAR for touch in self.touches for s in self._inside(touch)}
         yield from (self._spot(s, "change-point", None) for s in seen)
+        for s, near in self._passages():
+            if all(abs(s - other) > near for other in seen):
+                seen[s] = Decimal(near)
+                yield self._spot(s, "change-point", None, near)
         for bottom in self._divisors(answer):
             for s in self._zeros(bottom):
-                if self._is_pole(answer, s) and all(abs(s - other) > NEAR for other in seen):
-                    seen.append(s)
+                if self._is_pole(answer, s) and all(abs(s - other) > off for other, off in seen.items()):
+                    seen[s] = NEAR
                     yield self._spot(s, "dead", None)
         for s, error in self._limits():
             yield self._spot(s, "limit", load, error)
+
+    def _passages(self) -> Iterator[tuple[Decimal, float]]:
+        """Singular positions of groups through which these go on, as doubles tell them, and their error."""
+        if self._follows_groups:
+            error = SAME * self.along.widest
+            for place in self.along.tracker.passages() if self.along.tracker else ():
+                yield from ((s, error) for s in self._inside(as_written(place), Decimal(error)))
 
     def _divisors(self, answer: Scalar) -> Iterator[Traced]:
         """What is divided by on the way to the answer: without its zeros that is bounded."""
