@@ -98,3 +98,24 @@ def test_a_figure_is_searched_for_once_whatever_its_loads_are() -> None:
     answers = [icsolve.solve(icsolve.load(text, {"loads.K": size})) for size in (3.0, 5.0, 5.0)]
     assert _searched.cache_info().misses == 1
     assert len({tuple(one.value for one in answer.answers.values()) for answer in answers}) == 2
+
+
+def test_what_is_not_asked_of_a_row_with_inertia_forces_is_not_worked_out() -> None:
+    """A slider moves along its guide alone, and that its speed across is 0 no few digits tell: of a row whose
+    answer is asked neither speeds nor accelerations are. Its inertia force across is 0, too, which is told
+    once, by the most digits, after the fewest."""
+    case = icsolve.load(
+        """icsolve: 1
+dynamic: yes
+points: {A: [0, 0], C: [unknown, 0]}
+lengths: {AB: 75, BC: 250}
+angles: {AB: 50}
+near: {C: [300, 0]}
+links: {3: {points: [G], mass: 1.6 kg, centre: G, inertia: 0.012 kg*m^2}, 4: {mass: 1.2 kg, centre: C}}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {slide: [4, 1], at: C, along: 0}]
+motion: {link: 2, speed: 2000 rpm}
+loads: {P: {force: 3000, link: 4, at: C, angle: 180}, T: {torque: unknown, link: 2}}
+""".replace("points: {A", "points: {G: {centroid: [B, C]}, A")
+    )
+    done = counted(case, lambda one: icsolve.solve(one).answers["T"])
+    assert sum(count for what, count in done.items() if what.startswith("evaluate")) == 3

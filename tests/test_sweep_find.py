@@ -251,6 +251,49 @@ def test_an_end_of_the_range_belongs_to_it_where_groups_are_followed(monkeypatch
             assert places == pytest.approx([place], abs=1e-11), (query, place)
 
 
+PLATE = """icsolve: 1
+points: {{A: [{b[0]}, {low}], D: [{d[0]}, {d[1]}], E: [{e[0]}, {e[1]}]}}
+lengths: {{AB: 5, BC: {bars[0]}, FD: {bars[1]}, GE: {bars[2]}, CF: 3, CG: 4, FG: 5}}
+angles: {{AB: {turned}}}
+near: {{C: [0, 0], F: [3, 0], G: [0, 4]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 4], at: B}}, {{pin: [4, 3], at: C}}, {{pin: [3, 5], at: F}},
+         {{pin: [5, 1], at: D}}, {{pin: [3, 6], at: G}}, {{pin: [6, 1], at: E}}]
+loads: {{W: {{weight: 20, link: 3, at: C}}, T: {{torque: unknown, link: 2}}}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "bars", "side"),
+    [(-3, -4, (-3, 5, -1), -2.0), (4, 3, (-3, 5, -1), -0.5)],
+)
+def test_the_limit_of_a_group_is_told_to_the_last_digit(x: int, y: int, bars: Any, side: float) -> None:
+    """A plate on three bars that are parallel with the crank at 90 degrees: its two ways of assembling become
+    one there. The limit is found inside of a range and at either end."""
+    b, d, e = ((px + n * x, py + n * y) for (px, py), n in zip(((0, 0), (3, 0), (0, 4)), bars, strict=True))
+    sizes = [5 * abs(n) for n in bars]
+    text = PLATE.format(b=b, low=b[1] - 5, d=d, e=e, bars=sizes, turned=90.0 + side)
+    rows = icsolve.sweep(icsolve.load(text), {"angles.AB": [90.0 + 1e-6 * side, 90.0 - 1e-6 * side]})
+    assert rows.status.tolist() == ["ok", "cannot-assemble"]
+    for span in ((85.0, 95.0), (90.0, 90.0 + 2.5 * side), (90.0 - 2.5 * side, 90.0)):
+        spots = find(icsolve.load(text), {"angles.AB": np.array(span)}, Query("dead"))
+        (limit,) = (spot for spot in spots if spot.kind == "limit")
+        assert abs(limit.at - 90.0) <= limit.error <= 2e-14, (span, limit)
+
+
+@pytest.mark.parametrize("side", [2.0, -0.5])
+def test_a_change_point_of_a_group_is_told_as_the_rows_tell_it(side: float) -> None:
+    """A plate whose bars let it go on through the position in which they are parallel."""
+    points = {"b": (12, -16), "d": (0, 4), "e": (6, -4), "low": -21}
+    text = PLATE.format(**points, bars=[20, 5, 10], turned=90.0 + side)
+    case = icsolve.load(text)
+    rows = icsolve.sweep(case, {"angles.AB": [85.0, 90.0, 95.0]})
+    assert rows.status.tolist() == ["ok", "change-point", "ok"]
+    for span in ((85.0, 95.0), (90.0, 95.0), (85.0, 90.0)):
+        (spot,) = find(case, {"angles.AB": np.array(span)}, Query("dead"))
+        assert spot.kind == "change-point"
+        assert abs(spot.at - 90.0) <= spot.error <= 1e-5
+
+
 @pytest.mark.parametrize("below", [1e-3, 1e-6, 1e-9, 1e-12])
 def test_a_value_just_below_a_peak_is_taken_twice(below: float) -> None:
     """As far from the peak as the root of what is below it; just above, nowhere."""

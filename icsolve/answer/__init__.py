@@ -184,10 +184,10 @@ class Answer:
     answers: Mapping[str, Found] = field(default_factory=dict)
     centres: Mapping[Pair, Centre] = field(default_factory=dict)
     rates: dict[str, float | str] | None = None
-    velocities: dict[tuple[str, str], tuple[float, float] | str] | None = None
-    accelerations: dict[tuple[str, str], tuple[float, float] | str] | None = None
+    velocities: Mapping[tuple[str, str], tuple[float, float] | str] | None = None
+    accelerations: Mapping[tuple[str, str], tuple[float, float] | str] | None = None
     """of points on links, case length/s^2, where inertia forces are among the loads; None else"""
-    angular_accelerations: dict[str, float | str] | None = None
+    angular_accelerations: Mapping[str, float | str] | None = None
     """of links, rad/s^2"""
     points: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     terms: Sequence[Term] = ()

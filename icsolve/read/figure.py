@@ -116,7 +116,7 @@ def _centroid(reading: Reading, name: str, node: Mapping) -> Centroid | None:
     for item in slips:
         why = "not of itself" if item.text == name else "each of which counts once"
         said = f"the centroid of {name} is that of other points, {why}: take {item.text} out"
-        reading.refuse(item.mark, said)
+        reading.refuse(item.mark, said + f", or give {name} by a length and an angle")
     if len(of) < 2:
         reading.refuse(value.mark, f"the centroid of {name} is that of two or more other points")
     if slips or len(of) < 2:

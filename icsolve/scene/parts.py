@@ -132,7 +132,7 @@ class AnswerBuilder:
     def answer(self) -> Answer:
         """The answer as frozen values; a given motion that can't be is refused."""
         balance, motions = self.first.outcome.balance, self.first.outcome.motions
-        rates, errors, velocities = self.scene.ask(_moving) if self.program.want.rates else (None, {}, None)
+        rates, errors = self.scene.ask(_rates) if self.program.want.rates else (None, {})
         if self.case.motion and rates is None:
             self.scene.ask(speed_of)
         answers = _directed(self.case, _found(self.case, balance, self.unknowns))
@@ -141,7 +141,7 @@ class AnswerBuilder:
             answers=answers,
             centres=Deferred(self.plain_centres),
             rates=rates,
-            velocities=velocities,
+            velocities=None if rates is None else Deferred(lambda: self.scene.ask(_velocities)),
             points=Deferred(lambda: self.scene.ask(points_shown)),
             terms=Later(lambda: self.scene.ask(self._terms)),
             advantage=self.scene.ask(self._advantage),
@@ -160,7 +160,7 @@ class AnswerBuilder:
         Where the given motion can't be, those of the motion that a case without one has.
         """
         try:
-            rates, _, velocities = self.scene.ask(_moving)
+            rates, _ = self.scene.ask(_rates)
         except SceneError:
             if not self.case.motion:
                 raise
@@ -170,7 +170,7 @@ class AnswerBuilder:
             case=self.case,
             centres=Deferred(self.plain_centres),
             rates=rates,
-            velocities=velocities,
+            velocities=Deferred(lambda: self.scene.ask(_velocities)),
             points=Deferred(lambda: self.scene.ask(points_shown)),
             mobility=self.first.outcome.motions.mobility,
             scene=self,
@@ -322,8 +322,8 @@ def speed_of(found: Evaluation) -> speeds.Speed:
     return speeds.speed_of(found.outcome.place, found.outcome.motions.twists)
 
 
-def _moving(found: Evaluation) -> tuple[dict[str, float | str], dict[str, float], Velocities]:
-    """Link rates, bounds of their errors, and point velocities."""
+def _rates(found: Evaluation) -> tuple[dict[str, float | str], dict[str, float]]:
+    """Link rates, and bounds of their errors."""
     place, twists = found.outcome.place, found.outcome.motions.twists
     speed, a = speed_of(found), found.arithmetic
     rates: dict[str, float | str] = {}
@@ -334,10 +334,16 @@ def _moving(found: Evaluation) -> tuple[dict[str, float | str], dict[str, float]
         else:
             rates[link], error = a.rounded(rate)
             errors |= {link: error} if error < math.inf else {}
+    return rates, errors
+
+
+def _velocities(found: Evaluation) -> Velocities:
+    """Point velocities."""
+    place, twists, a = found.outcome.place, found.outcome.motions.twists, found.arithmetic
     velocities: Velocities = {}
-    for key, both in speeds.point_velocities(place, twists, speed).items():
+    for key, both in speeds.point_velocities(place, twists, speed_of(found)).items():
         velocities[key] = both if isinstance(both, str) else (a.rounded(both[0])[0], a.rounded(both[1])[0])
-    return rates, errors, velocities
+    return velocities
 
 
 def _centres(found: Evaluation) -> dict[Pair, Centre]:

@@ -253,7 +253,8 @@ def _arithmetics(program: Program) -> list[Callable[[], Showing]]:
     if extra > MOST:
         return [unbounded]
     last, dear = PRECISIONS[-1], round(0.4 * len(program.top.members)) - 12
-    rungs: list[Callable[[], Showing]] = [partial(_balls, p + extra, p == last) for p in PRECISIONS]
+    few = PRECISIONS[0]  # what they leave open is mostly a zero, which only the most digits tell
+    rungs: list[Callable[[], Showing]] = [partial(_balls, p + extra, p == last) for p in (few, last)]
     if dear > extra:
         rungs.append(partial(_balls, last + min(dear, MOST), True))
     if dear > MOST:

@@ -26,11 +26,12 @@ from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.jets import BallArray, Cells, Jet
 from icsolve.numbers.record import Op, Record, Traced, live, terms_of
 from icsolve.numbers.replay import Array
-from icsolve.numbers.roots import MOST_ORDER, NOTHING, STEP, slope, zeros_between
+from icsolve.numbers.roots import MOST_ORDER, NOTHING, STEP, last_that_holds, slope, zeros_between
 from icsolve.numbers.tape import UNIT
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
+from icsolve.sweep.continuation import SAME
 from icsolve.sweep.exact import APART, CONTEXT, Unreached, Values, as_written
 from icsolve.sweep.find_by_scenes import FoundPosition, FoundPositions, Mask, Query, Scenes
 from icsolve.sweep.parts import SweepPart, SweepParts
@@ -185,15 +186,26 @@ class RangeSearch:
     def _dead(self, answer: Scalar, load: str) -> Iterator[FoundPosition]:
         """Where the unknown does no work, where the links reach their limit, where branches meet. Where the
         known loads do none either, any value balances, or the quotient goes through: no dead centre."""
-        seen = [s for touch in self.touches for s in self._inside(touch)]
+        seen = {s: NEAR for touch in self.touches for s in self._inside(touch)}
         yield from (self._spot(s, "change-point", None) for s in seen)
+        for s, near in self._passages():
+            if all(abs(s - other) > near for other in seen):
+                seen[s] = Decimal(near)
+                yield self._spot(s, "change-point", None, near)
         for bottom in self._divisors(answer):
             for s in self._zeros(bottom):
-                if self._is_pole(answer, s) and all(abs(s - other) > NEAR for other in seen):
-                    seen.append(s)
+                if self._is_pole(answer, s) and all(abs(s - other) > off for other, off in seen.items()):
+                    seen[s] = NEAR
                     yield self._spot(s, "dead", None)
         for s, error in self._limits():
             yield self._spot(s, "limit", load, error)
+
+    def _passages(self) -> Iterator[tuple[Decimal, float]]:
+        """Singular positions of groups through which these go on, as doubles tell them, and their error."""
+        if self._follows_groups:
+            error = SAME * self.along.widest
+            for place in self.along.tracker.passages() if self.along.tracker else ():
+                yield from ((s, error) for s in self._inside(as_written(place), Decimal(error)))
 
     def _divisors(self, answer: Scalar) -> Iterator[Traced]:
         """What is divided by on the way to the answer: without its zeros that is bounded."""
@@ -437,8 +449,12 @@ class RangeSearch:
         return found, slope
 
     def _ends_of_groups(self) -> Iterator[tuple[Decimal, float]]:
-        """Where groups are followed no further, halved in to the nearest double."""
-        at = np.linspace(*self.ends, PLACES + 1)
+        """Where groups are followed no further: about where by doubles, which stop short of it and are let on
+        a little beyond, and the nearest double by decimals, which tell whether the links reach a place."""
+        tracker = self.along.tracker
+        assert tracker is not None
+        beside = 4.0 * tracker.slack
+        at = np.r_[self.ends[0] - beside, np.linspace(*self.ends, PLACES + 1), self.ends[1] + beside]
         good = self.along.floats(self.name, at)[1]
         k = np.flatnonzero(good[:-1] != good[1:])
         low, high, holds = at[k], at[k + 1], good[k]
@@ -447,8 +463,32 @@ class RangeSearch:
             middle = 0.5 * (low[wide] + high[wide])
             same = self.along.floats(self.name, middle)[1] == holds[wide]
             low[wide], high[wide] = np.where(same, middle, low[wide]), np.where(same, high[wide], middle)
-        for place, error in zip(np.where(holds, low, high).tolist(), (ROUGH * size).tolist(), strict=True):
-            yield from ((s, error) for s in self._inside(as_written(place), Decimal(error)))
+        for one, two, first in zip(low.tolist(), high.tolist(), holds.tolist(), strict=True):
+            aside = 2.0 * tracker.slack * (1.0 if first else -1.0)
+            inside, outside = (one - aside, two + aside) if first else (two - aside, one + aside)
+            last, beyond = self._limit(inside, outside)
+            error = abs(beyond - last)
+            yield from ((s, error) for s in self._inside(as_written(last), Decimal(error)))
+
+    def _limit(self, inside: float, outside: float) -> tuple[float, float]:
+        """The last double at which the links reach one another, and the next; another way of assembling that
+        lies beyond is none."""
+        if not self._reaches(inside) or self._reaches(outside):
+            return inside, outside
+        while True:
+            last, beyond = last_that_holds(self._reaches, inside, outside)
+            between = np.linspace(inside, last, BETWEEN)[1:-1].tolist()
+            gap = next((s for s in between if not self._reaches(s)), None)
+            if gap is None:
+                return last, beyond
+            outside = gap
+
+    def _reaches(self, s: float) -> bool:
+        """Whether the links reach one another at a value."""
+        with suppress(Unreached):
+            self.exact.solved(self.along.at(self.name, as_written(s)))
+            return True
+        return False
 
 
 LARGE = Decimal("1e12")
@@ -459,7 +499,9 @@ RINGS = 24
 """rings, each half as far from it."""
 PROBES = ("0.2137", "0.4311", "0.7919")
 ROUGH = 1e-12
-"""Relative error of the place at which a group reaches its limit."""
+"""So much farther than the span is searched, of its values: more than doubles round."""
+BETWEEN = 18
+"""Places up to a limit at which it is looked whether the links reach one another all the way."""
 PUSHED = "positions in which a rope would have to push are left out."
 UNSHOWN = (
     "{count} parts of the range are left undecided: there the bounds are too wide to show what is there."

@@ -147,7 +147,7 @@ class PathTracker:
         """Which places, (places,), lie so near to where the following ended that doubles leave open whether
         the groups reach there."""
         low, high = self.ends
-        return (np.abs(s - low) <= self._slack) | (np.abs(s - high) <= self._slack)
+        return (np.abs(s - low) <= self.slack) | (np.abs(s - high) <= self.slack)
 
     def unbroken(self, low: float, high: float) -> bool:
         """Whether the groups were followed from one place to another without a break."""
@@ -367,7 +367,7 @@ class PathTracker:
     # --- between steps ----------------------------------------------------------------------------
 
     @property
-    def _slack(self) -> float:
+    def slack(self) -> float:
         """How far beyond a last step the links may reach."""
         return self.line.widest * SHORTEST * 16.0
 
@@ -377,7 +377,7 @@ class PathTracker:
         turns = np.zeros((len(s), self.start.turns.size))
         good = np.zeros(len(s), dtype=bool)
         for segment in self.segments:
-            here = (s >= segment.s[0] - self._slack) & (s <= segment.s[-1] + self._slack)
+            here = (s >= segment.s[0] - self.slack) & (s <= segment.s[-1] + self.slack)
             if here.any():
                 at = np.clip(s[here], segment.s[0], segment.s[-1])
                 q[here], turns[here] = segment.at(at)
