@@ -23,6 +23,7 @@ from icsolve.numbers.roots import zero_between
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.friction import pushing as limited
 from icsolve.statics.friction.equations import (
+    NOTHING,
     Reduced,
     at,
     contracted,
@@ -126,9 +127,12 @@ def static_range(statics: Statics, senses: Sequence[float], alone: bool) -> Stat
 
 
 def _nothing_presses(statics: Statics, senses: Sequence[float]) -> bool:
-    """Whether the known loads press nowhere without friction: from nothing no friction grows."""
+    """Whether the loads press nowhere without friction, but for rounding of what the known ones alone would:
+    from nothing no friction grows."""
     equations = reduced(statics, senses)
-    return equations is not None and not any(without_friction(equations.equations))
+    known = [row.get(statics.known, 0.0) for row in statics.general.solved.values()]
+    least = NOTHING * largest_of(known)
+    return equations is not None and all(a <= least for a in without_friction(equations.equations))
 
 
 def _of_limits(
