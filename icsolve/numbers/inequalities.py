@@ -16,7 +16,8 @@ from icsolve.tuples import NamedTuple
 Form = tuple[float, ...]
 """An affine form: the constant, then the coefficients of the variables."""
 NOTHING = 2.0**-48
-"""What is left of two terms that cancel, as a fraction of them, is rounding."""
+"""What is left of two terms that cancel, as a fraction of them, is rounding; so is what is so small beside
+the largest number of an inequality."""
 
 
 class Inequality(NamedTuple):
@@ -59,11 +60,11 @@ def region(forms: Sequence[Form]) -> Region:
 
 
 def _normed(given: Iterator[Inequality]) -> Iterator[Inequality]:
-    """Each over its largest number, without those that say nothing."""
+    """Each over its largest number, beside which others may be rounding, without those that say nothing."""
     for form, of in given:
         size = largest_of(form)
         if size:
-            yield Inequality(tuple([a / size for a in form]), of)
+            yield Inequality(tuple([a / size if abs(a) > NOTHING * size else 0.0 for a in form]), of)
 
 
 def _without(given: Sequence[Inequality], column: int, gone: int) -> Iterator[Inequality]:
