@@ -39,14 +39,16 @@ class Region(NamedTuple):
     @property
     def first(self) -> tuple[float, float] | None:
         """From where to where the first variable goes, perhaps to infinity; None of an empty region."""
-        return _between(self.stages[-1], ())
+        low, high = _between(self.stages[-1], ())
+        room = NOTHING * largest_of([end for end in (low, high) if math.isfinite(end)])
+        return None if low > high + room else (min(low, high), max(low, high))
 
     def point(self, first: float) -> tuple[float, ...]:
-        """Its other variables at a value of the first: each in the middle of what the ones before leave."""
+        """Its other variables at a value of the first: each in the middle of what the ones before leave, ends
+        that for rounding may be turned about."""
         found = [first]
         for stage in self.stages[-2::-1]:
-            low, high = _between(stage, found) or (0.0, 0.0)
-            ends = [end for end in (low, high) if math.isfinite(end)]
+            ends = [end for end in _between(stage, found) if math.isfinite(end)]
             found.append(sum(ends) / len(ends) if ends else 0.0)
         return tuple(found[1:])
 
@@ -87,21 +89,16 @@ def _sum(a: float, b: float) -> float:
     return total if abs(total) > NOTHING * max(abs(a), abs(b)) else 0.0
 
 
-def _between(given: Sequence[Inequality], known: Sequence[float]) -> tuple[float, float] | None:
-    """From where to where a variable goes, the ones before it known; None where that is nowhere, but for
-    rounding, which leaves a point."""
+def _between(given: Sequence[Inequality], known: Sequence[float]) -> tuple[float, float]:
+    """From where to where a variable goes, the ones before it known; turned about where nowhere."""
     low, high = -math.inf, math.inf
     for form, _ in given:
         terms = [form[0], *(a * x for a, x in zip(form[1:], known, strict=False))]
         rest, slope = sum(terms), form[1 + len(known)]
-        if abs(rest) <= NOTHING * largest_of(terms):
-            rest = 0.0
         if slope > 0.0:
             low = max(low, -rest / slope)
         elif slope < 0.0:
             high = min(high, -rest / slope)
         elif rest < 0.0 and not known:
-            return None
-    if low > high + NOTHING * largest_of([end for end in (low, high) if math.isfinite(end)]):
-        return None
-    return (low, high) if low <= high else (high, low)
+            return math.inf, -math.inf
+    return low, high
