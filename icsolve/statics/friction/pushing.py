@@ -69,11 +69,6 @@ class Limits(NamedTuple):
         return found
 
 
-def may_part(statics: Statics) -> bool:
-    """Whether there is a contact, which only pushes."""
-    return any(tie.joint.only_pushes for tie in statics.ties)
-
-
 def held(statics: Statics, starts: Sequence[Sequence[float]] = ()) -> list[Interval] | None:
     """The ranges of the one unknown load in which friction within its limits holds, by rising value [case
     units]; None where no friction does work, and where guides rub in too many places.
