@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Mapping
 from decimal import Decimal
 from fractions import Fraction
+from itertools import combinations
 from random import Random
 from typing import Any
 
@@ -18,6 +19,7 @@ import pytest
 from icsolve.assembly.exclusion import _Link, _narrow_length
 from icsolve.numbers.arithmetic import ZERO
 from icsolve.numbers.balls import INEXACT, Ball, Balls, MoreDigits
+from icsolve.numbers.inequalities import region
 from icsolve.numbers.linear import (
     SINGULAR,
     SPENT,
@@ -430,3 +432,41 @@ def test_a_box_whose_points_are_too_near_or_too_far_apart_is_empty() -> None:
             high = low + 1e-3
             _narrow_length(_Link(0, 2, (0.0, 0.0), (0.0, 0.0), 4.0), low, high)
             assert bool((low > high).any()) is gone
+
+
+# --- inequalities ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_the_range_that_inequalities_leave_is_that_of_their_corners(seed: int) -> None:
+    """Planes of whole numbers cut a cube, or leave nothing of it: its corners, by solving for where any three
+    meet. The point at each end keeps to all of them, to 1e-12."""
+    dice = Random(f"inequalities {seed}")
+    cube = [(9.0, *(side * float(n == k) for n in range(3))) for k in range(3) for side in (1.0, -1.0)]
+    cuts = [(dice.randint(-8, 12), *(dice.randint(-5, 5) for _ in range(3))) for _ in range(5)]
+    forms = [*cube, *(tuple(map(float, cut)) for cut in cuts)]
+    corners = []
+    for three in combinations(forms, 3):
+        matrix = np.array([form[1:] for form in three])
+        if abs(np.linalg.det(matrix)) > 1e-9:
+            corner = np.linalg.solve(matrix, [-form[0] for form in three])
+            if all(form[0] + np.dot(form[1:], corner) >= -1e-9 for form in forms):
+                corners.append(corner)
+    found = region(forms)
+    if not corners:
+        assert found.first is None
+        return
+    ends = min(corner[0] for corner in corners), max(corner[0] for corner in corners)
+    assert found.first == pytest.approx(ends, rel=1e-12, abs=1e-12)
+    for end in found.first or ():
+        point = (end, *found.point(end))
+        assert all(form[0] + np.dot(form[1:], point) >= -1e-12 for form in forms)
+
+
+def test_a_region_without_a_wall_goes_to_infinity() -> None:
+    """y >= |x| - 1 and y <= 3 leaves x in [-4, 4]; without the ceiling any x."""
+    roof, walls = (3.0, 0.0, -1.0), [(1.0, 1.0, 1.0), (1.0, -1.0, 1.0)]
+    assert region([*walls, roof]).first == (-4.0, 4.0)
+    assert region(walls).first == (-math.inf, math.inf)
+    assert region([*walls, (-2.0, 1.0, 0.0)]).first == (2.0, math.inf)
+    assert region([*walls, (-2.0, 0.0, -1.0)]).first is None

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
+from pathlib import Path
 from random import Random
 
 import numpy as np
@@ -19,6 +20,7 @@ from icsolve.solve.stability import holding_values
 from icsolve.sweep.numbers import find_number, with_numbers
 from reference import frame_of, points_of
 from rough_scenes import KINDS, TOUCHING, Rough
+from shell import Shell
 from sizes import FULL
 
 LEVER = """icsolve: 1
@@ -199,3 +201,37 @@ def test_between_two_values_that_are_found_it_holds_or_slips_as_solve_says(
             a,
             b,
         )
+
+
+def test_where_nothing_changes_it_is_told_whether_it_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A block on a slope of 30 degrees: by friction from mu = tan 30 on."""
+    text = "joints: [{slide: [2, 1], at: C, along: 30, mu: 0.3}]\nloads: {Q: {weight: 9, link: 2, at: C}}\n"
+    case = tmp_path / "case.yaml"
+    case.write_text("icsolve: 1\npoints: {C: [0, 0]}\n" + text)
+    shell = Shell(capsys)
+    for span, said in (("0:0.5:0.1", "slips"), ("0.6:0.9:0.1", "holds still")):
+        (found,) = shell("sweep", case, "--vary", f"joints.C.mu={span}", "--find", "hold", "--json").objects()
+        assert (found["found"], found["notes"]) == ([], [f"it {said} throughout."])
+        told = shell("sweep", case, "--vary", f"joints.C.mu={span}", "--find", "hold")
+        assert told.code == 0 and f"it {said} throughout." in told.err
+
+
+def test_positions_of_rest_say_that_friction_has_no_part_in_them(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A pendulum rests below its rough pin; what friction holds is asked of otherwise."""
+    case = tmp_path / "case.yaml"
+    case.write_text(
+        "icsolve: 1\npoints: {A: [0, 0]}\nlengths: {AB: 1}\nangles: {AB: -60}\n"
+        "joints: [{pin: [1, 2], at: A, mu: 0.2, radius: 0.3}]\nloads: {W: {weight: 9, link: 2, at: B}}\n"
+    )
+    shell = Shell(capsys)
+    words = ("sweep", case, "--vary", "angles.AB=-120:-60:5", "--json", "--find")
+    (rests,), (holds,) = (shell(*words, word).objects() for word in ("rest", "hold"))
+    assert [one["at"]["angles.AB"] for one in rests["found"]] == pytest.approx([-90.0])
+    assert any("--find hold" in note for note in rests["notes"])
+    circle = math.degrees(math.asin(0.3 * math.sin(math.atan(0.2))))
+    ends = [one["at"]["angles.AB"] for one in holds["found"]]
+    assert ends == pytest.approx([-90.0 - circle, -90.0 + circle], rel=1e-14) and "notes" not in holds

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from icsolve.cli.run import json_text
@@ -229,7 +229,24 @@ def _equilibrium(case: Case, word: str, along: str, low: float, high: float) -> 
         {"kind": word, "at": {along: one.value + 0.0}, "error": {along: one.error}, **told}
         for one, told in _found(case, word, along, low, high)
     ]
-    return Finding(word, along, found)
+    return Finding(word, along, found, notes=tuple(_notes(case, word, along, low, bool(found))))
+
+
+FRICTIONLESS = (
+    "friction is left out here: with it the mechanism rests over ranges, whose ends `--find hold` gives."
+)
+
+
+def _notes(case: Case, word: str, along: str, low: float, found: bool) -> Iterator[str]:
+    """What the entries do not say: that friction has no part in them, or what is so where there are none."""
+    from icsolve.statics.power import has_friction
+
+    if word == "rest" and has_friction(case):
+        yield FRICTIONLESS
+    if word == "hold" and not found:
+        from icsolve.solve.stability import is_still
+
+        yield f"it {'holds still' if is_still(case, along, low) else 'slips'} throughout."
 
 
 def _found(

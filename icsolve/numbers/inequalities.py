@@ -16,7 +16,8 @@ from icsolve.tuples import NamedTuple
 Form = tuple[float, ...]
 """An affine form: the constant, then the coefficients of the variables."""
 NOTHING = 2.0**-48
-"""What is left of two terms that cancel, as a fraction of them, is rounding."""
+"""What is left of two terms that cancel, as a fraction of them, is rounding; so is what is so small beside
+the largest number of an inequality."""
 
 
 class Inequality(NamedTuple):
@@ -38,14 +39,16 @@ class Region(NamedTuple):
     @property
     def first(self) -> tuple[float, float] | None:
         """From where to where the first variable goes, perhaps to infinity; None of an empty region."""
-        return _between(self.stages[-1], ())
+        low, high = _between(self.stages[-1], ())
+        room = NOTHING * largest_of([end for end in (low, high) if math.isfinite(end)])
+        return None if low > high + room else (min(low, high), max(low, high))
 
     def point(self, first: float) -> tuple[float, ...]:
-        """Its other variables at a value of the first: each in the middle of what the ones before leave."""
+        """Its other variables at a value of the first: each in the middle of what the ones before leave, ends
+        that for rounding may be turned about."""
         found = [first]
         for stage in self.stages[-2::-1]:
-            low, high = _between(stage, found) or (0.0, 0.0)
-            ends = [end for end in (low, high) if math.isfinite(end)]
+            ends = [end for end in _between(stage, found) if math.isfinite(end)]
             found.append(sum(ends) / len(ends) if ends else 0.0)
         return tuple(found[1:])
 
@@ -59,11 +62,11 @@ def region(forms: Sequence[Form]) -> Region:
 
 
 def _normed(given: Iterator[Inequality]) -> Iterator[Inequality]:
-    """Each over its largest number, without those that say nothing."""
+    """Each over its largest number, beside which others may be rounding, without those that say nothing."""
     for form, of in given:
         size = largest_of(form)
         if size:
-            yield Inequality(tuple([a / size for a in form]), of)
+            yield Inequality(tuple([a / size if abs(a) > NOTHING * size else 0.0 for a in form]), of)
 
 
 def _without(given: Sequence[Inequality], column: int, gone: int) -> Iterator[Inequality]:
@@ -86,21 +89,16 @@ def _sum(a: float, b: float) -> float:
     return total if abs(total) > NOTHING * max(abs(a), abs(b)) else 0.0
 
 
-def _between(given: Sequence[Inequality], known: Sequence[float]) -> tuple[float, float] | None:
-    """From where to where a variable goes, the ones before it known; None where that is nowhere, but for
-    rounding, which leaves a point."""
+def _between(given: Sequence[Inequality], known: Sequence[float]) -> tuple[float, float]:
+    """From where to where a variable goes, the ones before it known; turned about where nowhere."""
     low, high = -math.inf, math.inf
     for form, _ in given:
         terms = [form[0], *(a * x for a, x in zip(form[1:], known, strict=False))]
         rest, slope = sum(terms), form[1 + len(known)]
-        if abs(rest) <= NOTHING * largest_of(terms):
-            rest = 0.0
         if slope > 0.0:
             low = max(low, -rest / slope)
         elif slope < 0.0:
             high = min(high, -rest / slope)
         elif rest < 0.0 and not known:
-            return None
-    if low > high + NOTHING * largest_of([end for end in (low, high) if math.isfinite(end)]):
-        return None
-    return (low, high) if low <= high else (high, low)
+            return math.inf, -math.inf
+    return low, high

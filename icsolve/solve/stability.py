@@ -233,4 +233,20 @@ def holding_values(case: Case, path: str, low: float, high: float) -> list[Turni
     return found
 
 
-__all__ = ["TurningPower", "holding_values", "neutral_values", "rest_as_written", "with_stability"]
+def is_still(case: Case, path: str, value: float) -> bool:
+    """Whether a mechanism under known loads holds still at a value of a number."""
+    from icsolve.solve.known_loads import moving_loads
+
+    own = find_number(case, path).path
+    low, high = moving_loads(with_numbers(case, {own: value}), own)
+    return low <= 0.0 <= high
+
+
+__all__ = [
+    "TurningPower",
+    "holding_values",
+    "is_still",
+    "neutral_values",
+    "rest_as_written",
+    "with_stability",
+]

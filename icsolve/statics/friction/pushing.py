@@ -25,7 +25,7 @@ MOST_GUIDES = 6
 TURNS = 60
 """A pin's force is turned so often at most."""
 LOADS = (0.0, 1.0, -1.0, 1e3, -1e3)
-"""Loads at which the forces of pins are looked at first [scaled]."""
+"""Loads at which the forces of pins are looked at first, in their unit."""
 ROUNDED = 2.0**-48
 """What is left of terms that cancel, as a fraction of them, is rounding."""
 PROVEN = "proven: no friction within its limits holds more"
@@ -42,12 +42,14 @@ class Limits(NamedTuple):
 
     Attributes
     ----------
+    load : the unit of the unknown load, which makes its largest coefficient 1 [scaled]
     presses : of each rub the components of the force that presses
     frictions : of each rub
     smooth : the normal forces of contacts without friction, and the pulls of ropes
     kept : the places of the rubs whose frictions are variables
     """
 
+    load: float
     presses: tuple[tuple[Form, ...], ...]
     frictions: tuple[Form, ...]
     smooth: tuple[Form, ...]
@@ -55,7 +57,7 @@ class Limits(NamedTuple):
 
     def inside(self, statics: Statics, start: Sequence[float]) -> list[float]:
         """The variables at a load with its frictions."""
-        return [start[0], *(start[1 + k] / statics.rubs[k].limit for k in self.kept)]
+        return [start[0] / self.load, *(start[1 + k] / statics.rubs[k].limit for k in self.kept)]
 
     def forms(self, toward: Sequence[Sequence[float]]) -> list[Form]:
         """What is not less than zero in an equilibrium where each force that presses has, toward its unit
@@ -65,11 +67,6 @@ class Limits(NamedTuple):
             force = _summed(forces, unit)
             found += [_summed((force, friction), (1.0, side)) for side in (1.0, -1.0)]
         return found
-
-
-def may_part(statics: Statics) -> bool:
-    """Whether there is a contact, which only pushes."""
-    return any(tie.joint.only_pushes for tie in statics.ties)
 
 
 def held(statics: Statics, starts: Sequence[Sequence[float]] = ()) -> list[Interval] | None:
@@ -92,7 +89,8 @@ def held(statics: Statics, starts: Sequence[Sequence[float]] = ()) -> list[Inter
         by_guide = dict(zip(guides, senses, strict=True))
         own = [by_guide.get(k, 1.0) for k in range(len(statics.rubs))]
         found += _with_senses(limits, own, [limits.inside(statics, start) for start in starts])
-    return _joined([(low / statics.scale, high / statics.scale) for low, high in found])
+    unit = limits.load / statics.scale
+    return _joined([(low * unit, high * unit) for low, high in found])
 
 
 def how(statics: Statics) -> str:
@@ -108,7 +106,8 @@ def _limits(statics: Statics) -> Limits | None:
 
     columns = (statics.known, statics.root(0), *map(statics.rub, range(count)))
     sizes = [largest_of([row.get(c, 0.0) for row in statics.general.solved.values()]) for c in columns]
-    units = (1.0, 1.0, *(rub.limit for rub in statics.rubs))
+    load = 1.0 / (sizes[1] or 1.0)
+    units = (1.0, load, *(rub.limit for rub in statics.rubs))
 
     def whole(row: Row) -> Form:
         three = zip(columns, sizes, units, strict=True)
@@ -130,7 +129,7 @@ def _limits(statics: Statics) -> Limits | None:
     frictions = tuple(form({statics.rub(k): 1.0 / rub.limit}) for k, rub in enumerate(statics.rubs))
     pulls = [statics.general.of(statics.tension(n)) for n in range(len(statics.ropes))]
     kept = tuple([k for k in range(count) if k != gone - 2])
-    return Limits(presses, frictions, tuple(map(form, (*smooth_normals(statics), *pulls))), kept)
+    return Limits(load, presses, frictions, tuple(map(form, (*smooth_normals(statics), *pulls))), kept)
 
 
 def _summed(forms: Sequence[Form], shares: Sequence[float]) -> Form:

@@ -21,8 +21,8 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import largest_of
 from icsolve.numbers.roots import zero_between
 from icsolve.statics.equilibrium import Statics
-from icsolve.statics.friction import pushing as limited
 from icsolve.statics.friction.equations import (
+    NOTHING,
     Reduced,
     at,
     contracted,
@@ -41,8 +41,10 @@ from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:
+    from icsolve.statics.friction import pushing as limited
     from icsolve.statics.friction import solutions as every
-else:  # where one is not proven to be the only one
+else:  # where a contact parts, where one is not proven to be the only one
+    limited = LateModule("icsolve.statics.friction.pushing")
     every = LateModule("icsolve.statics.friction.solutions")
 
 PROVEN = "proven: no friction within its limits holds more"
@@ -110,7 +112,7 @@ def static_range(statics: Statics, senses: Sequence[float], alone: bool) -> Stat
     """
     ends = [end for d in (1.0, -1.0) if (end := _end(statics, [d * s for s in senses])) is not None]
     locks = all(math.isinf(end.value) for end in ends)  # where contacts push, one way at most
-    parts = limited.may_part(statics) and (locks or not all(end.pushes for end in ends))
+    parts = _may_part(statics) and (locks or not all(end.pushes for end in ends))
     if parts or _nothing_presses(statics, senses):
         starts = [(end.value * statics.scale, *end.friction) for end in ends if end.friction]
         within = limited.held(statics, starts)
@@ -125,11 +127,18 @@ def static_range(statics: Statics, senses: Sequence[float], alone: bool) -> Stat
     return found._replace(possible=possible, how=how, again=again)
 
 
+def _may_part(statics: Statics) -> bool:
+    """Whether there is a contact, which only pushes."""
+    return any(tie.joint.only_pushes for tie in statics.ties)
+
+
 def _nothing_presses(statics: Statics, senses: Sequence[float]) -> bool:
-    """Whether the known loads press nowhere without friction, beside what they are (scaled: near 1): from
-    nothing no friction grows."""
+    """Whether the loads press nowhere without friction, but for rounding of what the known ones alone would:
+    from nothing no friction grows."""
     equations = reduced(statics, senses)
-    return equations is not None and largest_of(without_friction(equations.equations)) <= ROUNDED
+    known = [row.get(statics.known, 0.0) for row in statics.general.solved.values()]
+    least = NOTHING * largest_of(known)
+    return equations is not None and all(a <= least for a in without_friction(equations.equations))
 
 
 def _of_limits(
@@ -371,7 +380,7 @@ def pressed(statics: Statics, senses: Sequence[float], driven: bool) -> StaticRa
     Raises SceneError where nothing drives the mechanism (any value holds) and where none holds it.
     """
     name = statics.roots[0]
-    if limited.may_part(statics):
+    if _may_part(statics):
         within = limited.held(statics)
         if within is not None and (driven or not any(math.isinf(end) for pair in within for end in pair)):
             return _of_limits(statics, senses, within, False)
