@@ -723,3 +723,11 @@ motion: {link: 2, speed: 3}
     assert "Link 4 does not turn: M does no work on it." in told
     assert "Link 4 does not turn: T_i4 does no work on it." in told
     assert "M x v4" not in told and "T_i4 x v4" not in told
+
+
+@pytest.mark.parametrize("folder", ["cams", "dynamics", "equilibrium"])
+def test_no_numeral_is_longer_than_its_file_has_it(folder: str) -> None:
+    """Contacts and positions are found in more digits than a double has: they are told in those of all."""
+    for path in sorted((ROOT / "cases" / folder).glob("*.yaml")):
+        text, told = path.read_text(), explain(icsolve.load(path))
+        assert not [one for one in re.findall(r"\d[\d.]{14,}", told) if one not in text], path

@@ -35,6 +35,7 @@ from icsolve.cams.enclosed_contact import (
     ball_places,
     enclosed_contact,
     exact_number,
+    kept_digits,
 )
 from icsolve.cams.enclosed_contact import direction as direction_in_balls
 from icsolve.cams.pieces import Point, Straight, unit
@@ -150,7 +151,7 @@ class ContactSearch:
         """
         curve, guide = self.curve(), guided(self.case, self.guided)
         found = self._enclosed(curve, self._meeting(curve), sense, guide) if guide is not None else None
-        return found and Decimal(exact_number(found[0].change, curve.size, "").digits)
+        return found and kept_digits(found[0].change, curve.size)
 
     def curve(self) -> Curve:
         """The profile where its link is."""

@@ -25,6 +25,7 @@ from icsolve.case.profiles import Arc, Arcs, Circle, Follower, Line, Polygon, Ra
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.balls import INEXACT, UP, WIDE, Ball, Balls, MoreDigits
 from icsolve.numbers.krawczyk import enclosed_root
+from icsolve.numbers.units import found_number
 from icsolve.tuples import NamedTuple
 
 DIGITS = 160
@@ -401,6 +402,12 @@ def exact_number(value: Scalar, size: float, path: str) -> Number:
     """A number that the profile gives [case length, or degrees]: a ball to `KEPT` digits of a size."""
     if type(value) is not Ball:
         return Number(float(value), 0.0, path, repr(float(value)))
+    return found_number(kept_digits(value, size), path)
+
+
+def kept_digits(value: Scalar, size: float) -> Decimal:
+    """A ball to `KEPT` digits of a size; a double as a file would name it."""
+    if type(value) is not Ball:
+        return Decimal(repr(float(value)))
     last = Decimal(1).scaleb(math.frexp(size)[1] * 3 // 10 - KEPT)
-    kept = value.value.quantize(last, context=WIDE).normalize(WIDE)
-    return Number(float(kept) + 0.0, 0.0, path, str(kept))
+    return value.value.quantize(last, context=WIDE).normalize(WIDE)

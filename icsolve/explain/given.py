@@ -27,7 +27,7 @@ def given_section(work: Worked) -> Section:
     s, verb = ("", "s") if len(others) == 1 else ("s", "")
     verb = f" {'is' if verb else 'are'} held" if work.known.structure else f" move{verb}"
     blocks: list[Block] = [words(f"The frame is link {case.ground}; link{s} {listed(others)}{verb}.")]
-    rows = [told.joint(joint) for joint in case.joints]
+    rows = [told.joint(joint) for joint in told.case.joints]
     rows += [told.rope(rope) for rope in case.ropes]
     rows += [(f"link {link}", told.mass(inertia)) for link, inertia in case.inertia.items()]
     rows += told.profiles()
@@ -95,7 +95,7 @@ def _points(work: Worked, told: Statement) -> list[Block]:
     places the figure."""
     rows = []
     asked = {one.path for one in work.known.posed}
-    given = {name: data for name, data in work.case.points.items() if _is_given(data, asked)}
+    given = {name: data for name, data in told.case.points.items() if _is_given(data, asked)}
     for name in dict.fromkeys((*work.case.points, *work.known.points)):
         if not is_named(name) or name not in work.known.points:
             continue

@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer import Answer, Found
+from icsolve.cams.words import contact_said
 from icsolve.case import ForceVector, Like, Load, Spring, Torque, is_named
 from icsolve.explain.bodies import bodies_sections, friction_section, sections_in_space
 from icsolve.explain.centres import centre_sections, ratio_section, worked_speeds
@@ -159,11 +160,19 @@ def left_out(work: Worked, steps: Sequence[Step], *, bodies: bool) -> Iterable[S
         yield Section("Left out", (Items(entries),))
 
 
+def contacts_section(work: Worked) -> Iterable[Section]:
+    """Where profiles touch, and their normal there, which the centres are found by."""
+    if work.answer is not None and work.answer.touching:
+        told = tuple((sentence(contact_said(one)),) for one in work.answer.touching)
+        yield Section("Contacts", (words("Profiles touch where they have one normal:"), Items(told)))
+
+
 def remarks_section(work: Worked) -> Iterable[Section]:
     """Notes, and what rounding leaves."""
     if work.answer is None:
         return
-    entries: list[tuple[Inline, ...]] = [(sentence(note),) for note in work.answer.notes]
+    told = [contact_said(one) for one in work.answer.touching]
+    entries: list[tuple[Inline, ...]] = [(sentence(note),) for note in work.answer.notes if note not in told]
     entries += _rounding(work.answer)
     if entries:
         yield Section("Remarks", (Items(tuple(entries)),))
@@ -227,6 +236,7 @@ def _sections(work: Worked, bodies: bool) -> Iterable[Section]:
     known, in_space, is_open = work.known, work.case.space is not None, False
     yield given_section(work)
     yield asked_section(work)
+    yield from contacts_section(work)
     asked = any(is_unknown(load) for load in work.case.loads)
     steps = needed_steps(known) if asked else all_steps(known)
     yield from centre_sections(work, steps)

@@ -91,9 +91,9 @@ class Worked(NamedTuple):
         """The words of the case, its numbers as they are written, or with these digits."""
 
         def show(number: Number) -> str:
-            return number.digits if number.factor == 1.0 else self.show(number.value)
+            return number.written(self.show)
 
-        return Statement(self.case, show, self.known.posed)
+        return Statement(self.known.given or self.case, show, self.known.posed)
 
     def centre_name(self, pair: Pair) -> Name:
         """I with the links of the pair low: ``I24``, ``I_2-14``."""

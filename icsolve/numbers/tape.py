@@ -325,10 +325,18 @@ SHORT = 15
 """A decimal of no more characters that rounds to a whole number is that number."""
 
 
+def _is_exact(number: Number) -> bool:
+    """Whether a whole double is the number itself, in case units."""
+    if number.exact is not None:
+        num, den, power = number.exact
+        return not power and num == int(number.value) * den
+    return len(number.digits) <= SHORT or Decimal(number.digits) == number.value
+
+
 def decimal_noise(number: Number) -> float:
     """Bound on the rounding of a written decimal to a double (and of its unit's factor) [case units]."""
     value = number.value
     whole = number.factor == 1.0 and value.is_integer() and abs(value) < 2.0**53
-    if whole and (len(number.digits) <= SHORT or Decimal(number.digits) == value):
+    if whole and _is_exact(number):
         return 0.0
     return (UNIT if number.factor == 1.0 else 3.0 * UNIT) * abs(value)

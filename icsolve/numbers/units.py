@@ -10,9 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from operator import ge, gt, lt
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from icsolve.tuples import NamedTuple
+
+if TYPE_CHECKING:
+    from decimal import Decimal
 
 Dimension = tuple[int, int, int, int]
 """Powers of length, mass, time and angle."""
@@ -382,6 +385,16 @@ class Number(NamedTuple):
     exact: ExactRatio | None = None
     bound: str = ""
     dimension: str = ""
+
+    def written(self, show: Callable[[float], str]) -> str:
+        """The digits of the file, where they are of its value in case units; else as ``show`` has it."""
+        return self.digits if self.factor == 1.0 and self.exact is None else show(self.value)
+
+
+def found_number(exact: Decimal, path: str) -> Number:
+    """A number of more digits than anyone writes, which was found."""
+    near, (num, den) = float(exact) + 0.0, exact.as_integer_ratio()
+    return Number(near, 0.0, path, repr(near), exact=(num, den, 0))
 
 
 class NumberLimit(NamedTuple):

@@ -59,7 +59,7 @@ def lines_of(case: Case, asked: Collection[str]) -> list[tuple[str, list[FieldLi
 
 
 def _field(case: Case, number: Number, before: str, said: str) -> Field:
-    text = number.digits if number.factor == 1.0 and number.exact is None else f"{number.value:.12g}"
+    text = number.written("{:.12g}".format)
     unit = unit_names(case.units).get(number.dimension, "").replace("deg", "°").replace("^2", "²")
     return Field(number.path, text, before, unit_word(unit), said, number.bound)
 

@@ -166,7 +166,7 @@ def _published(expected: Expected) -> str:
 
 def _written(number: Number) -> str:
     """A published number as its file writes it; in case units where it has a unit of its own."""
-    return number.digits if number.factor == 1.0 else _digits(number.value)
+    return number.written(_digits)
 
 
 def _shown(values: tuple[float, ...], expected: Expected) -> str:

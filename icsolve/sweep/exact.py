@@ -21,7 +21,7 @@ from icsolve.numbers.linear import solve_square
 from icsolve.numbers.record import Implicit, Op, Root, Traced, live, terms_of
 from icsolve.numbers.replay import BINARY
 from icsolve.numbers.roots import STEP
-from icsolve.numbers.units import ExactRatio
+from icsolve.numbers.units import ExactRatio, found_number
 from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep, live_roots
 from icsolve.tuples import replace
@@ -487,8 +487,7 @@ def _without_dust(value: Decimal) -> Decimal:
 
 
 def _exact(value: Decimal, path: str) -> Number:
-    short = SHORT.plus(value)
-    return Number(float(short), 0.0, path, str(short))
+    return found_number(SHORT.plus(value), path)
 
 
 # --- functions ------------------------------------------------------------------------------------

@@ -43,7 +43,7 @@ Row = tuple[str, str]
 
 def as_written(number: Number) -> str:
     """In case units, with the digits of the file where it stands there in them."""
-    return number.digits if number.factor == 1.0 else f"{number.value:.10g}"
+    return number.written("{:.10g}".format)
 
 
 class Statement(NamedTuple):
@@ -61,7 +61,7 @@ class Statement(NamedTuple):
         rows = [self.point(name) for name in case.points if is_named(name)]
         rows += self.figure()
         rows += [row for joint in case.joints if (row := self.joint(joint))[1]]
-        rows += self.profiles()
+        rows += [row for row in self.profiles() if row[1]]
         rows += [self.rope(rope) for rope in case.ropes]
         rows += [(f"link {link}", self.mass(inertia)) for link, inertia in case.inertia.items()]
         rows += self.loads()
@@ -131,8 +131,8 @@ class Statement(NamedTuple):
         for link, shape in self.case.profiles.shapes.items():
             yield f"profile of link {link}", self.profile(shape)
         for touch in self.case.profiles.touches:
-            if touch.friction is not None:
-                yield f"friction {'-'.join(touch.links)}", f"mu = {self.show(touch.friction.mu)}"
+            rubs = "" if touch.friction is None else f"mu = {self.show(touch.friction.mu)}"
+            yield f"links {listed(touch.links)} touch by their profiles", rubs
 
     def profile(self, shape: Shape | Follower) -> str:
         """The profile of a link."""

@@ -57,6 +57,8 @@ class Known(NamedTuple):
     """the data of the figure that are asked for"""
     written: Case | None = None
     """the case as it is written, where its figure is moved from there"""
+    given: Case | None = None
+    """the case as it is asked, where its profiles place contacts in ``case``, and points with them"""
 
     @property
     def scene(self) -> AnswerBuilder | None:
@@ -160,7 +162,8 @@ def _told(case: Case, found: Attempt, centres: bool) -> Known:
         pass
     if whole is not None and centres:
         len(whole.centres)
-    return Known(own, found.answer, found.refusal, whole, points, twists, _size(points))
+    asked = None if own.joints == case.joints else case
+    return Known(own, found.answer, found.refusal, whole, points, twists, _size(points), given=asked)
 
 
 def _at_rest(case: Case, answer: Answer | None, refusal: SceneError | None) -> Known:
