@@ -29,7 +29,7 @@ from icsolve.assembly.workspace import (
     data_of,
 )
 from icsolve.case import Case, Number
-from icsolve.case.joints import Mesh
+from icsolve.case.joints import Belt, Mesh
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
 from icsolve.screws.joints import Points
@@ -293,19 +293,40 @@ def _pitched(case: Case, points: Points) -> Iterator[tuple[Bond, Mesh, float]]:
             yield bond, joint, joint.pitch
 
 
+def _belts(case: Case, points: Points) -> Iterator[tuple[Belt, tuple[str, str]]]:
+    """The belts whose pivots are among the points, and these."""
+    for bond in topology(case).bonds:
+        if isinstance(bond.joint, Belt) and bond.pivots and {*bond.pivots} <= points.keys():
+            yield bond.joint, bond.pivots
+
+
 def refuse_misfit(case: Case, points: Points, scale: float) -> None:
-    """Refuse teeth whose pitch circles do not touch on their pivots, as far as these are among the points."""
+    """Refuse teeth whose pitch circles do not touch on their pivots, and belts that no line of their strands
+    touches both pulleys of, as far as these pivots are among the points."""
     for bond, joint, module in _pitched(case, points):
         (a, b), apart = bond.links, math.dist(*(points[p] for p in bond.pivots)) / scale
         line, _ = case.marks.get(f"joints.{a}-{b}", (0, 0))
         what = f"gears {a} and {b}" + (f" (line {line})" if line else "")
         ends = (*bond.pivots, "pivots")
         refuse_unfit(what, joint.sizes, module, apart, ends, f" {case.units.length}")
+    for belt, (p, q) in _belts(case, points):
+        (a, b) = belt.links
+        apart = math.dist(points[p], points[q]) / scale
+        first, second = (radius.value for radius in belt.radii)
+        least, kind = (first + second, "crossed") if belt.crossed else (abs(first - second), "open")
+        if apart < least:
+            raise SceneError(
+                Status.INCONSISTENT,
+                f"no {kind} belt runs over pulleys {a} and {b}: {p} and {q} are {apart:.6g} "
+                f"{case.units.length} apart, and have to be more than {least:.6g} {case.units.length} apart "
+                f"for radii of {first:.6g} and {second:.6g}. Correct the radii or the pivots.",
+            )
 
 
 def teeth_margins(case: Case, points: Points, scale: float, a: Arithmetic) -> Iterator[Scalar]:
-    """In any arithmetic, numbers of which none is negative but where `refuse_misfit` may refuse: with r the
-    distance of the pivots over that of the pitch circles, (2 m (1 - m))^2 - (r^2 - 1)^2 of the misfit m."""
+    """In any arithmetic, numbers of which none is negative but where `refuse_misfit` may refuse: of teeth, with
+    r the distance of the pivots over that of the pitch circles, (2 m (1 - m))^2 - (r^2 - 1)^2 of the misfit
+    m; of a belt how far its pivots' distance squared is above the least."""
     for bond, joint, _ in _pitched(case, points):
         (ax, ay), (bx, by) = (points[p] for p in bond.pivots)
         module, inverse = joint.module, joint.diametral_pitch
@@ -317,6 +338,11 @@ def teeth_margins(case: Case, points: Points, scale: float, a: Arithmetic) -> It
             fit = fit / a.given(inverse)
         off = ((bx - ax) * (bx - ax) + (by - ay) * (by - ay)) / (fit * fit) - 1.0
         yield (2.0 * MISFIT * (1.0 - MISFIT)) ** 2 - off * off
+    for belt, pivots in _belts(case, points):
+        (ax, ay), (bx, by) = (points[p] for p in pivots)
+        first, second = map(a.given, belt.radii)
+        least = (first + second if belt.crossed else first - second) * scale
+        yield (bx - ax) * (bx - ax) + (by - ay) * (by - ay) - least * least
 
 
 def refuse_unfit(
