@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 from mpmath import mpf
 
@@ -162,3 +164,25 @@ loads: {M4: {torque: 1, link: 4}, M2: {torque: unknown, link: 2}}
     slopes = icsolve.solve(icsolve.load(text)).sensitivities["M2"]
     assert slopes["points.B.x"] == pytest.approx(0.5e34, rel=1e-9)
     assert slopes["loads.M4"] == pytest.approx(-0.5e17, rel=1e-9)
+
+
+def test_the_size_of_a_force_of_unknown_direction_has_the_slopes_of_a_root_of_squares() -> None:
+    """It balances W = 200 and H = 70: sqrt(W^2 + H^2) changes by W / P a newton of W. The band of its foot,
+    on which it does not hang, is none."""
+    text = """icsolve: 1
+points: {A: [0, 0], B: [3, 0], C: [3, 2]}
+joints:
+  - {slide: [2, 1], at: A, along: 0}
+  - {slide: [3, 2], at: B, along: 90}
+loads:
+  W: {weight: 200, link: 3, at: B}
+  H: {force: 70, link: 3, at: B, angle: 0}
+  P: {force: [unknown, unknown], link: 3, at: C}
+"""
+    answer = icsolve.solve(icsolve.load(text))
+    size = math.hypot(200.0, 70.0)
+    slopes = {one.path: one.per_unit for one in influences(answer, "P")}
+    assert slopes["loads.W"] == pytest.approx(200 / size, rel=1e-12)
+    assert slopes["loads.H"] == pytest.approx(70 / size, rel=1e-12)
+    assert not any(path.startswith("loads.P") for path in slopes)
+    assert band(answer, "P", 0.01) == 0.0

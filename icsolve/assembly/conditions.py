@@ -29,7 +29,7 @@ from icsolve.assembly.workspace import (
     data_of,
 )
 from icsolve.case import Case, Number
-from icsolve.case.joints import Belt, Mesh
+from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
 from icsolve.screws.joints import Points
@@ -293,11 +293,12 @@ def _pitched(case: Case, points: Points) -> Iterator[tuple[Bond, Mesh, float]]:
             yield bond, joint, joint.pitch
 
 
-def _belts(case: Case, points: Points) -> Iterator[tuple[Belt, tuple[str, str]]]:
+def _belts(case: Case, points: Points) -> Iterator[tuple[Mesh, tuple[str, str]]]:
     """The belts whose pivots are among the points, and these."""
     for bond in topology(case).bonds:
-        if isinstance(bond.joint, Belt) and bond.pivots and {*bond.pivots} <= points.keys():
-            yield bond.joint, bond.pivots
+        joint = bond.joint
+        if isinstance(joint, Mesh) and joint.pulls and bond.pivots and {*bond.pivots} <= points.keys():
+            yield joint, bond.pivots
 
 
 def refuse_misfit(case: Case, points: Points, scale: float) -> None:
@@ -312,8 +313,8 @@ def refuse_misfit(case: Case, points: Points, scale: float) -> None:
     for belt, (p, q) in _belts(case, points):
         (a, b) = belt.links
         apart = math.dist(points[p], points[q]) / scale
-        first, second = (radius.value for radius in belt.radii)
-        least, kind = (first + second, "crossed") if belt.crossed else (abs(first - second), "open")
+        first, second = (radius.value for radius in belt.sizes)
+        least, kind = (abs(first - second), "open") if belt.turns_alike else (first + second, "crossed")
         if apart < least:
             raise SceneError(
                 Status.INCONSISTENT,
@@ -324,9 +325,9 @@ def refuse_misfit(case: Case, points: Points, scale: float) -> None:
 
 
 def teeth_margins(case: Case, points: Points, scale: float, a: Arithmetic) -> Iterator[Scalar]:
-    """In any arithmetic, numbers of which none is negative but where `refuse_misfit` may refuse: of teeth, with
-    r the distance of the pivots over that of the pitch circles, (2 m (1 - m))^2 - (r^2 - 1)^2 of the misfit
-    m; of a belt how far its pivots' distance squared is above the least."""
+    """In any arithmetic, numbers of which none is negative but where `refuse_misfit` may refuse: of teeth,
+    with r the distance of the pivots over that of the pitch circles, (2 m (1 - m))^2 - (r^2 - 1)^2 of the
+    misfit m; of a belt how far its pivots' distance squared is above the least."""
     for bond, joint, _ in _pitched(case, points):
         (ax, ay), (bx, by) = (points[p] for p in bond.pivots)
         module, inverse = joint.module, joint.diametral_pitch
@@ -340,8 +341,8 @@ def teeth_margins(case: Case, points: Points, scale: float, a: Arithmetic) -> It
         yield (2.0 * MISFIT * (1.0 - MISFIT)) ** 2 - off * off
     for belt, pivots in _belts(case, points):
         (ax, ay), (bx, by) = (points[p] for p in pivots)
-        first, second = map(a.given, belt.radii)
-        least = (first + second if belt.crossed else first - second) * scale
+        first, second = map(a.given, belt.sizes)
+        least = (first - second if belt.turns_alike else first + second) * scale
         yield (bx - ax) * (bx - ax) + (by - ay) * (by - ay) - least * least
 
 

@@ -181,6 +181,8 @@ def _value(case: Case, name: str, text: str) -> float:
     target = _unit(case, name)
     if target is None:
         names = [load.name for load in case.loads]
+        if name in case.directed:
+            raise RequestError(f"{name} has a size and a direction: find a value of {name}.x or of {name}.y")
         likely = suggestion(name, names) or (f"; the loads are {listed(names)}" if names else "")
         raise RequestError(f"there is no load {shown(name)}{likely}")
     try:

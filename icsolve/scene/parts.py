@@ -222,7 +222,7 @@ class AnswerBuilder:
             found = {load: {p: s for p, s in by.items() if p in numbers} for load, by in by_all.items()}
             told = found and all(any(by.values()) for by in found.values())  # nothing of an answer that is 0
             if not self.scene.certain:
-                return found
+                return self._with_sizes(found)
             if told and self._tape_tells():
                 by_load, doubtful = found, _near_nothing(found, numbers)
         for number in (numbers[path] for path in numbers if path in doubtful):
@@ -233,6 +233,21 @@ class AnswerBuilder:
                     change = float(more[load] - less[load]) / (2.0 * float(step))
                     tiny = NOTHING * abs(float(more[load])) / abs(float(step))
                     slope[number.path] = change if abs(change) > tiny else 0.0
+        return self._with_sizes(by_load)
+
+    def _with_sizes(self, by_load: dict[str, dict[str, float]]) -> dict[str, dict[str, float]]:
+        """With those of the size of each force of unknown direction, beside those of its components."""
+        for name in self.case.directed:
+            both = [f"{name}.{axis}" for axis in "xy"]
+            values, slopes_of_both = (
+                [self.unknowns[one].value for one in both],
+                [by_load[one] for one in both],
+            )
+            if size := math.hypot(*values):
+                own = f"loads.{name}."  # where its components point
+                paths = {p: None for of in slopes_of_both for p in of if not p.startswith(own)}
+                parts = [(value / size, of_one) for value, of_one in zip(values, slopes_of_both, strict=True)]
+                by_load[name] = {p: sum(share * of.get(p, 0.0) for share, of in parts) for p in paths}
         return by_load
 
     def _with(self, number: Number, step: Decimal, digits: int) -> dict[str, Scalar]:

@@ -36,7 +36,8 @@ def _slopes(answer: Answer, load: str) -> Mapping[str, float]:
         raise SceneError(
             Status.NEAR_SINGULAR,
             f"how {load} depends on the numbers of the case can't be told: the position is too close to a "
-            "singular one.",
+            "singular one"
+            + (", or the force is zero, and has no direction." if load in answer.case.directed else "."),
         )
     return answer.sensitivities[load]
 
@@ -87,7 +88,7 @@ def entries(answer: Answer, influence: bool, tolerance: float | None) -> dict[st
 
 def text(answer: Answer, influence: bool, tolerance: float | None, digits: int) -> str:
     """The same as lines."""
-    lines = []
+    lines = [] if answer.answers else [NONE_ASKED]
     for load, found in answer.answers.items():
         if tolerance is not None:
             reach = format(band(answer, load, tolerance), ".2g")
@@ -98,6 +99,9 @@ def text(answer: Answer, influence: bool, tolerance: float | None, digits: int) 
             lines += [f"Sensitivity of {load}, in % a % and in {found.unit} a unit of the number"]
             lines += [f"  {row}" for row in _rows(influences(answer, load), digits)]
     return "\n".join(lines)
+
+
+NONE_ASKED = "Sensitivities and tolerance bands are those of unknown loads, of which this case has none."
 
 
 def _rows(found: list[Influence], digits: int) -> list[str]:
