@@ -221,7 +221,7 @@ class Scenes:
                 spots += self._together(searches[first : first + TOGETHER])
         except _EnoughError:
             self.notes[MANY] = None
-        spots.sort(key=lambda spot: spot.at)
+        spots = FoundPositions(_once(spots))
         spots.notes = tuple(self.notes)
         return spots
 
@@ -537,6 +537,18 @@ class Scenes:
             low, high = float(at[j]), float(at[j + 1])
             ends = np.array([ends[0], *np.abs(seen.answers), ends[1]])[j : j + 2]
         return low, high
+
+
+def _once(spots: list[FoundPosition]) -> Iterator[FoundPosition]:
+    """In order. Where the mechanism begins and ceases to lock within the errors, it locks in one place; a
+    limit says more."""
+    said = [spot for spot in spots if spot.kind == "limit"]
+    for spot in sorted(spots, key=lambda spot: spot.at):
+        if spot.kind == "dead":
+            if any(abs(spot.at - other.at) <= spot.error + other.error for other in said):
+                continue
+            said.append(spot)
+        yield spot
 
 
 def _bends(drops: list[float], halved: int = 4) -> bool:
