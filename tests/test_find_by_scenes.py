@@ -299,3 +299,26 @@ def test_where_it_locks_in_one_place_is_told_once(text: str, path: str, place: f
     (spot,) = find(load(text), {path: [place - 20.0, place + 20.0]}, Query("dead"))
     assert spot.kind == kind
     assert abs(spot.at - place) <= spot.error <= 1e-9
+
+
+@pytest.mark.parametrize("place", [0.0, 360.0])
+def test_a_level_peak_at_an_end_of_the_range_belongs_to_it(place: float) -> None:
+    """A weight on an arm in a pin that rubs with a moment of its own: P r cos and what the pin takes."""
+    case = load("""icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 2}
+angles: {AB: 20}
+joints: [{pin: [1, 2], at: A, mu: 0.2, radius: 0.1}]
+loads: {W: {weight: 5, link: 2, at: B}, T: {torque: unknown, link: 2}}
+motion: {link: 2, turns: ccw}
+""")
+    rubs = 5.0 * 0.1 * math.sin(math.atan(0.2))
+    for span in (
+        (place, place + 20.0),
+        (place - 20.0, place),
+        (place + 20.0, place),
+        (place - 7.0, place + 9.0),
+    ):
+        (spot,) = find(case, {"angles.AB": [*span]}, Query("max"))
+        assert abs(spot.at - place) <= spot.error <= 1e-4
+        assert spot.answer == pytest.approx(10.0 + rubs, rel=1e-12)
