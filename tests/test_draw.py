@@ -465,6 +465,14 @@ loads:
     for options in ({}, {"bodies": True}):
         texts = drawn(case, **options).texts("t-point")
         assert {"F", "D"} <= {*texts}
+    door = icsolve.load("""icsolve: 1
+points: {A: [0, 0.2, 0], B: [0, 1, 0], G: [0.5, 0.6, 0], C: [1, 0, 0], D: [0, 0, 1.2]}
+joints: [{radial: [1, 2], at: A, axis: y}, {thrust: [1, 2], at: B, axis: y}]
+loads:
+  W: {mass: 30 kg, link: 2, at: G}
+  T: {force: unknown, link: 2, at: C, toward: D}
+""")
+    assert {"A", "C", "D"} <= {*drawn(door).texts("t-point")}
 
 
 def test_the_opposite_of_a_force_between_two_links_bears_its_name() -> None:

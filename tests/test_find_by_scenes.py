@@ -261,3 +261,64 @@ def test_where_a_load_on_a_screw_changes_its_sense_the_torque_is_zero(
     beyond = -1e-9 if way == 0 else 1e-9
     found = find(case, {"points.B.x": [0.35, 0.45]}, Query("value", "T", beyond))
     assert len(found) == (0 if touches else 1)
+
+
+STUCK = """icsolve: 1
+points: {A: [0, 0], C: [unknown, 0]}
+lengths: {AB: 2, BC: 5}
+angles: {AB: 20}
+near: {C: [7, 0]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C},
+         {slide: [4, 1], at: C, along: 0, mu: 0.01}]
+loads: {T: {torque: 5, link: 2}, P: {force: unknown, link: 4, at: C, angle: 180}}
+motion: {link: 2, turns: ccw}
+"""
+HELD = """icsolve: 1
+points: {A: [0, 0], D: [4, 0]}
+lengths: {AB: 2, BC: 3, CD: 3}
+angles: {DC: 110}
+near: {B: [1, 2]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C},
+         {pin: [4, 1], at: D, mu: 0.1, radius: 0.01}]
+loads: {P: {torque: 5, link: 2}, T: {torque: unknown, link: 4}}
+motion: {link: 2, turns: ccw}
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "path", "place", "kind"),
+    [
+        (STUCK, "angles.AB", 0.0, "dead"),
+        (STUCK, "angles.AB", 180.0, "dead"),
+        (HELD, "angles.DC", 90.0, "limit"),
+    ],
+)
+def test_where_it_locks_in_one_place_is_told_once(text: str, path: str, place: float, kind: str) -> None:
+    """Cranks in line begin to lock and cease to within less than the errors; at a limit, of an upright
+    triangle 3-4-5, that it is one is told."""
+    (spot,) = find(load(text), {path: [place - 20.0, place + 20.0]}, Query("dead"))
+    assert spot.kind == kind
+    assert abs(spot.at - place) <= spot.error <= 1e-9
+
+
+@pytest.mark.parametrize("place", [0.0, 360.0])
+def test_a_level_peak_at_an_end_of_the_range_belongs_to_it(place: float) -> None:
+    """A weight on an arm in a pin that rubs with a moment of its own: P r cos and what the pin takes."""
+    case = load("""icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 2}
+angles: {AB: 20}
+joints: [{pin: [1, 2], at: A, mu: 0.2, radius: 0.1}]
+loads: {W: {weight: 5, link: 2, at: B}, T: {torque: unknown, link: 2}}
+motion: {link: 2, turns: ccw}
+""")
+    rubs = 5.0 * 0.1 * math.sin(math.atan(0.2))
+    for span in (
+        (place, place + 20.0),
+        (place - 20.0, place),
+        (place + 20.0, place),
+        (place - 7.0, place + 9.0),
+    ):
+        (spot,) = find(case, {"angles.AB": [*span]}, Query("max"))
+        assert abs(spot.at - place) <= spot.error <= 1e-4
+        assert spot.answer == pytest.approx(10.0 + rubs, rel=1e-12)

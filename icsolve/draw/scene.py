@@ -353,7 +353,8 @@ def fixed_springs(case: Case) -> list[Spring]:
 
 def aims(case: Case) -> tuple[str, ...]:
     """The points toward which loads act, or away from which."""
-    found = (getattr(getattr(load, "heading", None), "point", None) for load in case.loads)
+    loads = case.loads if case.space is None else case.space.loads
+    found = (getattr(getattr(load, "heading", None), "point", None) for load in loads)
     return tuple(name for name in found if name)
 
 

@@ -33,7 +33,7 @@ from icsolve.draw.marks import (
     view_of,
 )
 from icsolve.draw.place import Label, Soft, area, bar, hatched, joined, plate, tilted
-from icsolve.draw.scene import HALF, PIN, Part, around, together, with_labels
+from icsolve.draw.scene import HALF, PIN, Part, aims, around, together, with_labels
 from icsolve.draw.words import force_runs, name_runs, quantity
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.spatial import InSpace, Push, in_space
@@ -71,7 +71,7 @@ class Sketch(NamedTuple):
 def space_marks(known: Known) -> tuple[Sketch, list[Mark]]:
     """The figure of a case in space."""
     scene = in_space(known)
-    used = [p for link in scene.case.links for p in scene.carried(link)]
+    used = _used(scene)
     points = [flat(p) for p in (*used, *(q for ring in _rings(scene).values() for q in ring))]
     extent = max((math.dist(p, q) for p in points for q in points), default=0.0)
     sketch = Sketch(scene, view_of([(*p, *p) for p in points], (), extent))
@@ -248,10 +248,16 @@ def vector(
     return marks, max((tail, tip), key=lambda p: math.dist(p, at))
 
 
+def _used(scene: InSpace) -> list[Vec]:
+    """Where points are that links carry, or toward which loads act."""
+    carried = [p for link in scene.case.links for p in scene.carried(link)]
+    return [*carried, *(scene.places[p] for p in aims(scene.case) if p in scene.places)]
+
+
 def _letters(sketch: Sketch) -> list[Part]:
-    """The names of the points that links carry."""
+    """The names of these points."""
     scene = sketch.scene
-    used = {p for link in scene.case.links for p in scene.carried(link)}
+    used = _used(scene)
     jointed = {tie.where for tie in scene.ties if not tie.mesh}
     parts = []
     for name, place in scene.places.items():

@@ -22,7 +22,7 @@ from icsolve.numbers.tape import UNIT
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.program import wanted_points
-from icsolve.sweep.request import Columns
+from icsolve.sweep.request import Columns, RequestError
 from icsolve.sweep.sweeping import sweep
 from icsolve.sweep.table import CODE, Codes
 from icsolve.tuples import NamedTuple
@@ -194,6 +194,7 @@ class Scenes:
         self.case, self.columns, self.name, self.query = case, columns, name, query
         self.load = query.load or next(load.name for load in case.loads if is_unknown(load))
         values = columns.arrays[name]
+        self.span = float(values.min()), float(values.max())
         self.searched = _is_searched(case)
         self.places = np.linspace(values.min(), values.max(), (SEARCHED if self.searched else PLACES) + 1)
         self.each = FOUND if self.searched else RUBBING if rubs(case) else 1.0
@@ -221,13 +222,14 @@ class Scenes:
                 spots += self._together(searches[first : first + TOGETHER])
         except _EnoughError:
             self.notes[MANY] = None
-        spots.sort(key=lambda spot: spot.at)
+        spots = FoundPositions(_once(spots))
         spots.notes = tuple(self.notes)
         return spots
 
     def _first(self) -> tuple[Array, Codes]:
         """What is seen at the places, which are all, or those that are worth a search, and at rings toward
-        the ends, so that what turns in the first or the last stretch is seen to."""
+        the ends, so that what turns in the first or the last stretch is seen to; where the answer is largest
+        at an end, a step beyond it."""
         kept = np.arange(len(self.places)) % (APART if self.searched else 1) == 0
         found, codes = np.full(len(kept), np.nan), np.zeros(len(kept), dtype=np.int8)
         found[kept], codes[kept] = self._swept(self.places[kept])[:2]
@@ -239,15 +241,28 @@ class Scenes:
             kept |= between
         self.places, found, codes = self.places[kept], found[kept], codes[kept]
         step = (self.places[1] - self.places[0]) * CLOSER ** np.arange(1.0, RINGS + 1.0)
-        ends = [end for end, k in ((self.places[0] + step, 0), (self.places[-1] - step, -1)) if not codes[k]]
-        if not ends:
-            return found, codes
-        rings = np.setdiff1d(np.concatenate(ends), self.places)
-        seen = self._swept(rings)
-        places = np.concatenate([self.places, rings])
+        more: list[tuple[Array, SeenRows]] = []
+        for k, near, inward in ((0, 1, step), (-1, -2, -step)):
+            if codes[k]:
+                continue
+            beyond = self._beyond(k, near, found) if self.query.kind == "max" else None
+            rings = np.setdiff1d(self.places[k] + inward, self.places)
+            more.append((rings, self._swept(rings)) if beyond is None else beyond)
+        places = np.concatenate([self.places, *(at for at, _ in more)])
         order = np.argsort(places)
         self.places = places[order]
-        return np.concatenate([found, seen.answers])[order], np.concatenate([codes, seen.codes])[order]
+        found = np.concatenate([found, *(seen.answers for _, seen in more)])
+        return found[order], np.concatenate([codes, *(seen.codes for _, seen in more)])[order]
+
+    def _beyond(self, k: int, near: int, found: Array) -> tuple[Array, SeenRows] | None:
+        """What is seen a step beyond an end, where the answer is larger at that than there and inside."""
+        at = np.array([2.0 * self.places[k] - self.places[near]])
+        try:
+            seen = self._swept(at)
+        except RequestError:  # no case may have such a number
+            return None
+        beside, here, inside = np.abs([seen.answers[0], found[k], found[near]])
+        return (at, seen) if beside < here >= inside else None
 
     def _swept(self, at: Array, proven: bool = False) -> SeenRows:
         self.scenes += len(at) * self.each
@@ -470,10 +485,13 @@ class Scenes:
         if top.grows:
             return []
         error = yield from self._above((float(self.places[k - 1]), float(self.places[k + 1])), top)
+        (low, high), off = self.span, error or 0.0
+        off = -off if top.corner else off  # a jump at an end has a peak on one of its sides, if it has
+        inside = low - off <= top.at <= high + off
         if error is None:
-            self.notes[UNSHOWN] = None
+            self.notes |= {UNSHOWN: None} if inside else {}
             return []
-        return [FoundPosition(top.at, "max", top.answer, error)]
+        return [FoundPosition(min(max(top.at, low), high), "max", top.answer, error)] if inside else []
 
     def _topmost(self, k: int, measure: Measure, found: Array) -> Generator[Asked, SeenRows, Top]:
         """Where a measure of the answer is largest between the places beside place ``k``, which have less of
@@ -537,6 +555,18 @@ class Scenes:
             low, high = float(at[j]), float(at[j + 1])
             ends = np.array([ends[0], *np.abs(seen.answers), ends[1]])[j : j + 2]
         return low, high
+
+
+def _once(spots: list[FoundPosition]) -> Iterator[FoundPosition]:
+    """In order. Where the mechanism begins and ceases to lock within the errors, it locks in one place; a
+    limit says more."""
+    said = [spot for spot in spots if spot.kind == "limit"]
+    for spot in sorted(spots, key=lambda spot: spot.at):
+        if spot.kind == "dead":
+            if any(abs(spot.at - other.at) <= spot.error + other.error for other in said):
+                continue
+            said.append(spot)
+        yield spot
 
 
 def _bends(drops: list[float], halved: int = 4) -> bool:
