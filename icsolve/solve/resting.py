@@ -117,15 +117,20 @@ def edge_of_rest(spare: Callable[[float], float], inside: float, outside: float)
     two of which it holds at the first: near the zero that Brent's method finds, or at 0, else by halving, to
     far below the last digit of the places between which it was sought."""
     least = FINEST * math.ulp(max(abs(inside), abs(outside)))
-    if inside * outside < 0.0:
-        inside, outside = (0.0, outside) if spare(0.0) >= 0.0 else (inside, 0.0)
+
+    def narrowed(*values: float) -> tuple[float, float]:
+        a, b = inside, outside
+        for value in values:
+            if min(a, b) < value < max(a, b):
+                a, b = (value, b) if spare(value) >= 0.0 else (a, value)
+        return a, b
+
+    inside, outside = narrowed(0.0, least, -least)
     at_inside, at_outside = spare(inside), spare(outside)
     if math.isfinite(at_inside - at_outside):
         zero = zero_between(spare, inside, outside, at_inside, at_outside)
         reach = 2.0 * math.ulp(zero)
-        for value in (zero, zero - reach, zero + reach):
-            if min(inside, outside) < value < max(inside, outside):
-                inside, outside = (value, outside) if spare(value) >= 0.0 else (inside, value)
+        inside, outside = narrowed(zero, zero - reach, zero + reach)
     return last_that_holds(lambda value: spare(value) >= 0.0, inside, outside, least)
 
 
