@@ -122,8 +122,11 @@ def attempt(case: Case, *, reactions: bool = False) -> Attempt:
     ----------
     reactions : whether the forces in the joints are asked for; given up where the loads are not in balance
     """
-    if case.space is not None or case.dynamic or case.unknowns:
+    if case.space is not None or case.unknowns:
         return _tried(case, reactions)
+    if case.dynamic:
+        whole = _tried(case, reactions, all_centres=True, rates=True)
+        return whole if whole.refusal is None else _tried(case, reactions)
     if case.profiles is not None and case.profiles.touches:
         return _touching(case, reactions)
     want = wanted(case, Want(True, True, False, reactions))
@@ -143,10 +146,10 @@ def attempt(case: Case, *, reactions: bool = False) -> Attempt:
         return Attempt(None, refusal, parts)
 
 
-def _tried(case: Case, reactions: bool) -> Attempt:
-    """What the answer needs, and no more."""
+def _tried(case: Case, reactions: bool, **more: bool) -> Attempt:
+    """What the answer needs, and what ``more`` is asked for."""
     try:
-        answer = solve(case, reactions=reactions)
+        answer = solve(case, reactions=reactions, **more)
     except SceneError as refusal:
         return Attempt(None, refusal, None)
     return Attempt(answer, None, scene_of(answer))
