@@ -731,3 +731,24 @@ def test_no_numeral_is_longer_than_its_file_has_it(folder: str) -> None:
     for path in sorted((ROOT / "cases" / folder).glob("*.yaml")):
         text, told = path.read_text(), explain(icsolve.load(path))
         assert not [one for one in re.findall(r"\d[\d.]{14,}", told) if one not in text], path
+
+
+@pytest.mark.parametrize("pivots", [("[5, 0]", "[10.625, 0]"), ("[5, 0]", "[5, 5.625]")])
+def test_wheels_in_series_are_told_mesh_by_mesh_wherever_their_pivots_lie(pivots: tuple[str, str]) -> None:
+    """20 : 60 and 60 : 30: on one line no two lines of centres meet; each ratio is that of its pitch point."""
+    told = explain(
+        icsolve.load(f"""icsolve: 1
+points: {{A: [0, 0], B: {pivots[0]}, C: {pivots[1]}}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [1, 3], at: B}}
+  - {{pin: [1, 4], at: C}}
+  - {{gears: [2, 3], teeth: [20, 60]}}
+  - {{gears: [3, 4], teeth: [60, 30]}}
+loads:
+  M: {{torque: 12, link: 2}}
+  U: {{torque: unknown, link: 4}}
+""")
+    )
+    assert "loop equations" not in told
+    assert "U = -18 N*m" in told

@@ -193,7 +193,7 @@ def _chained(start: str, targets: Iterable[str], by: dict[str, Ratio]) -> tuple[
 def _cost(known: Known, ratio: Ratio) -> float:
     """One for each ratio, more for centres that must be constructed and for short distances."""
     centres = [centre for pair in ratio.pairs if (centre := known.centre(*pair)) is not None]
-    made = sum(4.0 if centre.by == "loop equations" else bool(centre.lines) for centre in centres)
+    made = sum(40.0 if centre.by == "loop equations" else bool(centre.lines) for centre in centres)
     small = min(abs(ratio.value), 1.0 / abs(ratio.value)) if ratio.kind == "turns" else 1.0
     return 1.0 + 0.25 * made - 0.05 * math.log10(max(small, 1e-12))
 
