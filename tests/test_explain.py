@@ -735,7 +735,7 @@ def test_no_numeral_is_longer_than_its_file_has_it(folder: str) -> None:
 
 @pytest.mark.parametrize("pivots", [("[5, 0]", "[10.625, 0]"), ("[5, 0]", "[5, 5.625]")])
 def test_wheels_in_series_are_told_mesh_by_mesh_wherever_their_pivots_lie(pivots: tuple[str, str]) -> None:
-    """20 : 60 and 60 : 30: on one line no two lines of centres meet; each ratio is that of its pitch point."""
+    """20 : 60 and 60 : 30: on one line no two lines of centres meet; each ratio is that of a pitch point."""
     told = explain(
         icsolve.load(f"""icsolve: 1
 points: {{A: [0, 0], B: {pivots[0]}, C: {pivots[1]}}}
