@@ -262,7 +262,7 @@ def test_a_table_holds_as_long_as_its_weight_is_between_its_legs(legs: str) -> N
 
 @pytest.mark.parametrize(("lead", "locks"), [(10, True), (60, False)])
 def test_a_load_alone_is_held_by_a_thread_that_locks_or_by_none(lead: int, locks: bool) -> None:
-    """With no torque at all: whichever way it pulls, and however hard, where the lead is less than 2 pi r mu."""
+    """With no torque at all: however hard it pulls, either way, where the lead is less than 2 pi r mu."""
     case = icsolve.load(
         "icsolve: 1\nunits: {length: mm, force: N, torque: N*m}\npoints: {A: [0, 0]}\n"
         f"joints: [{{screw: [1, 2], at: A, along: 90, lead: {lead}, radius: 15, mu: 0.2}}]\n"
