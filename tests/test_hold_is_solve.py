@@ -235,3 +235,38 @@ def test_positions_of_rest_say_that_friction_has_no_part_in_them(
     circle = math.degrees(math.asin(0.3 * math.sin(math.atan(0.2))))
     ends = [one["at"]["angles.AB"] for one in holds["found"]]
     assert ends == pytest.approx([-90.0 - circle, -90.0 + circle], rel=1e-14) and "notes" not in holds
+
+
+TABLE = "points: {A: [0, 0], B: [2, 0], G: [1, 1]}\n"
+
+
+@pytest.mark.parametrize(
+    "legs",
+    [
+        "[{contact: [1, 2], at: A, normal: 90}, {contact: [1, 2], at: B, normal: 90}]",
+        "[{contact: [1, 2], at: A, normal: 90, mu: 0.3}, {contact: [1, 2], at: B, normal: 90, mu: 0.3}]",
+        "[{pin: [1, 2], at: A}, {contact: [1, 2], at: B, normal: 90}]",
+    ],
+    ids=["smooth", "rough", "a structure"],
+)
+def test_a_table_holds_as_long_as_its_weight_is_between_its_legs(legs: str) -> None:
+    """Also where nothing rubs, and where nothing moves: a leg lifts off all the same, if it is not pinned. To
+    1e-12, as forces below 1e-13 of the largest count as none."""
+    loads = "loads: {W: {weight: 50, link: 2, at: G}}\n"
+    case = icsolve.load(f"icsolve: 1\n{TABLE}joints: {legs}\n{loads}")
+    found = holding_values(case, "points.G.x", -1.3, 3.4)
+    ends = [0.0, 2.0] if "pin" not in legs else [0.0]
+    assert [one.value for one in found] == pytest.approx(ends, abs=1e-12)
+    assert [one.after for one in found] == ["holds", "slips"][: len(ends)]
+
+
+@pytest.mark.parametrize(("lead", "locks"), [(10, True), (60, False)])
+def test_a_load_alone_is_held_by_a_thread_that_locks_or_by_none(lead: int, locks: bool) -> None:
+    """With no torque at all: however hard it pulls, either way, where the lead is less than 2 pi r mu."""
+    case = icsolve.load(
+        "icsolve: 1\nunits: {length: mm, force: N, torque: N*m}\npoints: {A: [0, 0]}\n"
+        f"joints: [{{screw: [1, 2], at: A, along: 90, lead: {lead}, radius: 15, mu: 0.2}}]\n"
+        "loads: {F: {weight: unknown, link: 2, at: A}, T: {torque: 0, screw: 1-2}}\n"
+    )
+    assert locks == (lead < 2.0 * math.pi * 15 * 0.2)
+    assert range_of(case) == ((-math.inf, math.inf) if locks else (0.0, 0.0))

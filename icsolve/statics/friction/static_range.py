@@ -178,14 +178,14 @@ def _lost(statics: Statics, smooth: float) -> str:
     (root,) = statics.roots
     parameters = statics.parameters({root: smooth})
     pulling = [
-        f"links {tie.by} and {tie.on}{place_of(tie)}"
+        f"of links {tie.by} and {tie.on}{place_of(tie)}"
         for tie, column in zip(statics.ties, statics.first, strict=True)
         if tie.joint.only_pushes and statics.value(column, parameters) < 0.0
     ]
-    what = f"of {listed(pulling)} " if pulling else ""
+    what = f"the contact {listed(pulling)}" if pulling else "a contact"
     return (
-        f"no value of {root} holds: the contact {what}is lost, its normal force would have to pull. The "
-        "links part there, and tip or lift off."
+        f"no value of {root} holds: {what} is lost, its normal force would have to pull. The links "
+        "part there, and tip or lift off."
     )
 
 
