@@ -404,11 +404,12 @@ def scalar_key(
 def range_key(question: str, target: LoadIs, answer: Answer, policy: Policy) -> RangeKey | None:
     """The key of a load that holds over a range; None of one that has one value.
 
-    Raises NoKeyError where every value holds.
+    Raises NoKeyError where every value holds, or a drawing alone is to give the tolerance.
     """
     found = answer.answers.get(target.load)
     if found is None or found.holds is None:
         return None
+    _not_drawn(policy, "the ends of a range over which friction holds")
     width = own_width(policy.tolerance, target, answer, drawn=False)
     low, high = (
         _number(question, end, target, answer, policy, width) if math.isfinite(end) else None
@@ -429,11 +430,11 @@ def position_key(
     """The key of a datum of the figure that is to find: its value, or its range with friction, in any of the
     positions of equilibrium; ``wrongs`` makes the wrong answers to a value.
 
-    Raises NoKeyError where a drawing is to give the tolerance.
+    Raises NoKeyError where a drawing alone is to give the tolerance.
     """
-    if policy.tolerance.drawing:
-        raise NoKeyError("a drawing says nothing of a position of rest; give it a tolerance such as 2%")
-    width, others = own_width(policy.tolerance, target, answer), len(answer.positions or ()) - 1
+    _not_drawn(policy, "a position of rest")
+    width = own_width(policy.tolerance, target, answer, drawn=False)
+    others = len(answer.positions or ()) - 1
 
     period = 360.0 if is_angle(target.path) else 0.0
 
@@ -458,6 +459,13 @@ def position_key(
             low, high = (end(value, position.answer) for value in held)
             keys.append(RangeKey(question, low, high, low.unit_name, policy))
     return keys[0] if len(keys) == 1 else ChoiceKey(question, tuple(keys), keys[0].unit_name, policy)
+
+
+def _not_drawn(policy: Policy, what: str) -> None:
+    """Raises NoKeyError where a drawing alone is to give the tolerance, and says nothing of the answer."""
+    tolerance = policy.tolerance
+    if tolerance.drawing and not (tolerance.relative or tolerance.absolute or tolerance.figures):
+        raise NoKeyError(f"a drawing says nothing of {what}; give it a tolerance such as 2%")
 
 
 def _number(
