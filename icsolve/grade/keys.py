@@ -187,8 +187,14 @@ def _of_load(load: Load, answer: Answer) -> ExpectedDirection:
     return ExpectedDirection(0.0, heading, axial, lambda: (place_of(load.at, answer), answer.points))
 
 
+def _nothing_else(name: str) -> bool:
+    """Of no quantity is known that a name could be another's."""
+    return False
+
+
 class _Key:
-    """What all keys have: the unit, and how wide the accepted band is, in words."""
+    """What all keys have: the unit, how wide the accepted band is, in words, and (``another``) whether a name
+    that stands before an answer is that of another quantity."""
 
     unit_name: str
     policy: Policy
@@ -241,6 +247,7 @@ class NumberKey(_Key):
     wrongs: Wrongs
     kind: str = "load"
     period: float = 0.0
+    another: Callable[[str], bool] = _nothing_else
 
     @cached_property
     def accepted(self) -> str:
@@ -295,6 +302,7 @@ class PlaceKey(_Key):
     wrongs: tuple[tuple[float, float, Wrong], ...]
     policy: Policy
     kind = "place"
+    another: Callable[[str], bool] = _nothing_else
 
     @property
     def accepted(self) -> str:
@@ -311,6 +319,7 @@ class RangeKey(_Key):
     high: NumberKey | None
     unit_name: str
     policy: Policy
+    another: Callable[[str], bool] = _nothing_else
 
     @cached_property
     def end(self) -> NumberKey:
@@ -346,6 +355,7 @@ class ChoiceKey(_Key):
     unit_name: str
     policy: Policy
     kind = "position"
+    another: Callable[[str], bool] = _nothing_else
 
     @property
     def accepted(self) -> str:
