@@ -52,8 +52,7 @@ def asked_of(case: Case, what: str) -> Target:
 
     Raises NoKeyError, with a sentence, where it names nothing, or the case has not one unknown.
     """
-    if case.space is not None:
-        raise NoKeyError(f"the case {case.name} is in space, and answers are judged of plane cases")
+    check_plane(case)
     if not what:
         names = unknowns(case)
         if not names:
@@ -71,6 +70,12 @@ def asked_of(case: Case, what: str) -> Target:
     if isinstance(target, LoadIs) and target.load not in unknowns(case):
         raise NoKeyError(f"{case.name}: {what} is given in the case, not asked")
     return target
+
+
+def check_plane(case: Case) -> None:
+    """Raises NoKeyError of a case in space: no answers to it are judged."""
+    if case.space is not None:
+        raise NoKeyError(f"the case {case.name} is in space, and answers are judged of plane cases")
 
 
 def canonical(case: Case, name: str, what: str) -> str:
