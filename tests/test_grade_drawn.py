@@ -15,6 +15,7 @@ from icsolve.grade import tolerance as drawn
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.keys import NumberKey
+from icsolve.grade.one import Task
 
 
 @pytest.fixture
@@ -76,3 +77,44 @@ def test_a_drawing_that_leaves_the_answer_open_is_refused_by_name(a_class: Class
     press_with(a_class, DRAWN.replace("0.01 in", "0 in"))
     (row,) = a_class.judge("33.76", case="press")
     assert "leaves no room for this answer" in row["feedback"]
+
+
+CRANK_THAT_RUBS = """\
+icsolve: 1
+points: {A: [0, 0], B: [-80, 0], C: [0, 60]}
+joints: [{pin: [1, 2], at: A, mu: 0.2, radius: 15}]
+loads:
+  W: {force: 500, link: 2, at: B, angle: 90}
+  P: {force: unknown, link: 2, at: C, angle: 0}
+"""
+BLOCK_THAT_RUBS = """\
+icsolve: 1
+points: {A: [0, 0], B: [4, 3], C: [2, 1.5]}
+joints: [{slide: [2, 1], at: C, along: [A, B], mu: 0.3}]
+loads:
+  W: {force: 100, link: 2, at: C, angle: -90}
+  P: {force: unknown, link: 2, at: C, angle: 0}
+"""
+BAR_THAT_RUBS = """\
+icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 1}
+angles: {AB: unknown}
+joints: [{pin: [1, 2], at: A, mu: 0.3, radius: 0.2}]
+loads: {P: {force: 10, link: 2, at: B, angle: 0}, M: {torque: 0, link: 2}}
+"""
+
+
+@pytest.mark.parametrize("text", [CRANK_THAT_RUBS, BLOCK_THAT_RUBS, BAR_THAT_RUBS])
+def test_no_answer_to_a_range_is_wrong_by_a_drawing_that_says_nothing_of_it(
+    a_class: Class, text: str
+) -> None:
+    """A person judges what is right and what is wrong; with a part of the value beside it that counts."""
+    a_class.case("rubs", text)
+    right = Task(a_class.path("cases/rubs.yaml")).right().partition(" or ")[0]
+    a_class.case("rubs", text + DRAWN)
+    rows = a_class.judge(right, "1 to 2", case="rubs")
+    assert [(row["verdict"], row["code"]) for row in rows] == [("review", "not-graded")] * 2
+    assert all("a drawing says nothing of" in row["feedback"] for row in rows)
+    a_class.case("rubs", text + "tolerance: {drawing: 0.01 in, relative: 1%}\n")
+    assert a_class.verdicts(right, "1 to 2", case="rubs") == ["right", "wrong"]

@@ -13,7 +13,13 @@ import pytest
 
 import icsolve
 from grade_shell import CASES, Class
+from icsolve.grade.case_store import CaseStore
+from icsolve.grade.course import Course
+from icsolve.grade.judge import judge_answer
 from icsolve.grade.one import Task
+from icsolve.grade.platforms.export import ExportOrder, questions
+from icsolve.grade.platforms.questions import rights
+from icsolve.grade.written.answer import Reader
 from icsolve.wording.statement import Statement
 
 BAR = """\
@@ -325,3 +331,53 @@ def test_the_pull_of_a_rope_is_a_question(a_class: Class) -> None:
     a_class.case("hoist", (CASES / "ropes" / "differential_hoist.yaml").read_text())
     rows = a_class.judge("500 N", "500", "1000 N", case="hoist:T O-P-N")
     assert [row["verdict"] for row in rows] == ["right", "right", "wrong"]
+
+
+HELD = STUCK.replace("{unknown: [-179, 179], from: 0}", "30").replace("torque: 0", "torque: unknown")
+LOCKS = """\
+icsolve: 1
+points: {A: [0, 0]}
+joints: [{slide: [2, 1], at: A, along: 0, mu: 0.7}]
+loads:
+  N: {force: 100, link: 2, at: A, angle: -90}
+  P: {force: unknown, link: 2, at: A, angle: -60}
+"""
+_TEXTS = {"size and direction": ARM, "ranges of rest": STUCK, "range": HELD, "open range": LOCKS}
+_FILES = {
+    "positions": ("equilibrium/two_springs_on_a_crank", ""), "place at infinity": ("sliders/wedge", "I23"),
+    "place": ("sliders/quick_return", "I24"), "torque": ("ch13/13_08_four_bar", ""),
+    "ratio": ("ch13/13_08_four_bar", "w4/w2"), "reaction": ("ch13/13_08_four_bar", "F34"),
+    "pull of a rope": ("ropes/capstan", ""), "length": ("equilibrium/collar_on_level_rod", ""),
+}  # fmt: skip
+
+
+def case_of(a_class: Class, kind: str) -> str:
+    """Puts the case of a kind into the folder; what is asked of it."""
+    name, what = _FILES.get(kind, ("", ""))
+    a_class.case("own", _TEXTS[kind] if kind in _TEXTS else (CASES / f"{name}.yaml").read_text())
+    return what
+
+
+@pytest.mark.parametrize("kind", [*_TEXTS, *_FILES])
+def test_the_right_answer_as_a_program_is_told_it_is_right(a_class: Class, kind: str) -> None:
+    """Of every kind of question; so PrairieLearn shows it, and a text that it takes for wrong is none."""
+    what = case_of(a_class, kind)
+    task = Task(a_class.path("cases/own.yaml"))
+    judged = task.grade(what, task.right(what))
+    assert judged["verdict"] == "right", (task.right(what), judged)
+
+
+@pytest.mark.parametrize("kind", [*_TEXTS, *_FILES])
+def test_the_right_answers_of_an_exported_question_are_right(a_class: Class, kind: str) -> None:
+    """Each number that Moodle and Canvas hold as right, in the unit of the question, as a student would write
+    it; what is no single number is not asked there."""
+    case_of(a_class, kind)
+    store = CaseStore(a_class.path("cases/own.yaml"), Course())
+    key = store.solved("own").key("own")
+    order = ExportOrder(store, "", False, False, 1)
+    told: list[str] = []
+    for question in questions(order, told.append):
+        for own, right in rights(question):
+            judged, _ = judge_answer(key, Reader(), f"{right:.12g} {own.unit_name}")
+            assert judged.verdict == "right"
+    assert bool(told) == (kind in _TEXTS)

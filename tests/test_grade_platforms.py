@@ -284,6 +284,23 @@ def test_one_bad_hand_in_is_one_students(a_class: Class) -> None:
     assert "what 2 handed in can't be used: there is nothing in it" in ran.err
 
 
+def test_what_a_group_handed_in_is_each_ones(a_class: Class) -> None:
+    """Groups of one to four, of whom some have no SID; of one group no answer came in."""
+    groups = (["1"], ["2", "0003"], ["4", "e@x.test", "6"], ["7", "8", "9", "10"])
+    folder, about = a_class.path("export"), ""
+    for n, people in enumerate(groups):
+        (folder / f"submission_{n}").mkdir(parents=True)
+        if n != 2:
+            (folder / f"submission_{n}" / "answers.txt").write_text("lever: 200\n")
+        about += f"submission_{n}:\n  :submitters:\n"
+        for who in people:
+            about += f"  - :name: N\n    :{'email' if '@' in who else 'sid'}: '{who}'\n"
+    (folder / "submission_metadata.yml").write_text(about)
+    ran = a_class.run("grade", folder, "--cases", a_class.path("cases"), "-o", "-", "-q")
+    found = [[ran.row(who, "lever")["verdict"] for who in people] for people in groups]
+    assert found == [["right"], ["right"] * 2, ["missing"] * 3, ["right"] * 4]
+
+
 def test_a_title_beside_the_name_of_a_case_names_the_case(a_class: Class) -> None:
     """In Blackboard's cells, in Canvas' headers; a quantity that the case does not have is no title."""
     table = "Username,Question 1,Answer 1\njdoe,lever: find the torque,200\n"

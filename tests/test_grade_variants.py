@@ -228,3 +228,35 @@ def test_a_folder_without_variables_says_what_they_look_like(a_class: Class) -> 
     )
     assert ran.code == 2
     assert "variables: {P: {range: [100, 500], step: 10}}" in ran.err
+
+
+SPACE = """\
+icsolve: 1
+variables: {W: {range: [10, 50], step: 5}}
+units: {length: mm, force: N, torque: N*m}
+points: {A: [0, 0, 0], B: [0, 0, 400], C: [100, 0, 150]}
+joints:
+  - {thrust: [1, 2], at: A, axis: z}
+  - {radial: [1, 2], at: B, axis: z}
+loads:
+  W: {weight: $W, link: 2, at: C}
+  F: {force: [100, 200, -50], link: 2, at: C}
+"""
+
+
+@pytest.mark.parametrize("unknown", ["", "  T: {torque: unknown, link: 2, along: z}\n"])
+def test_a_case_in_space_with_variables_is_refused_by_name_and_spoils_no_other(
+    a_class: Class, unknown: str
+) -> None:
+    """No answers to it are judged, so it gives no key, no question and no verdict; the others go on."""
+    a_class.case("shaft", SPACE + unknown)
+    case, roster = a_class.path("cases/shaft.yaml"), a_class.file("roster.csv", "student_id\n1\n2\n")
+    told = "the case shaft is in space, and answers are judged of plane cases"
+    handed = a_class.run("variants", case, "--roster", roster, "-o", a_class.path("out"))
+    assert handed.code == 2 and handed.err.strip() == told and not a_class.path("out").exists()
+    for kind in ("gift", "moodle-xml", "qti", "prairielearn"):
+        made = a_class.run("export", kind, case, "-o", a_class.path(f"out.{kind}"))
+        assert made.code == 1 and "space" in made.err and "fault" not in made.err
+    ran = a_class.grade("student_id,case,answer\n1,lever,200\n1,shaft,3\n2,shaft:F12,3\n")
+    assert [ran.row("1", "lever")["verdict"], ran.row("1", "shaft")["verdict"]] == ["right", "review"]
+    assert told in ran.row("1", "shaft")["feedback"]

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from grade_shell import CASES, Class
+from icsolve.grade.one import Task
 
 ZERO = """\
 icsolve: 1
@@ -318,3 +319,59 @@ def test_a_pressure_on_next_to_nothing_is_next_to_no_force(a_class: Class, area:
         "zero", ZERO.replace("icsolve: 1", "icsolve: 1\nunits: {length: m, force: N}").replace("loads:", load)
     )
     assert a_class.verdicts("0", "0.19", "0.21", case="zero") == ["right", "right", "wrong"]
+
+
+FOUR_BAR = """\
+icsolve: 1
+units: {length: in, force: lbf, torque: lbf*in}
+points: {A: [0, 0], D: [4, 0]}
+lengths: {AB: 1, BC: 3.5, CD: 2.5, DE: 1.5}
+angles: {AB: 60, CDE: 0}
+near: {C: [3.5, 2.4]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}]
+loads:
+  P: {force: 100, link: 4, at: E, angle: 180}
+  T4: {torque: 20, link: 4}
+  T12: {torque: unknown, link: 2}
+"""
+_NO_QUANTITY = ("x", "F", "answer", "ans", "Value", "T_in", "R")
+_OWN_NAMES = {
+    "T12": ("T12", "T_12", "$T_{12}$", "T₁₂", "t12"), "w4/w2": ("w4/w2", "ω4/ω2", "ω_4/ω_2"),
+    "I24": ("I24", "I42", "IC24"), "F34": ("F34", "F_34"), "F34x": ("F34x", "F_{34x}"), "F43x": ("F43x",),
+    "I24-A": ("I24-A", "A-I24"),
+}  # fmt: skip
+_FURTHER_NAMES = {"P", "T4", "M12", "I13", "F23", "F34y", "w3"}
+_OF_ITS_KIND = {"T12": {"T14", "T_21"}, "w4/w2": {"w7/w2"}, "F34x": {"F84x"}}
+
+
+@pytest.mark.parametrize("what", _OWN_NAMES)
+def test_an_answer_under_the_name_of_another_quantity_is_for_a_person(a_class: Class, what: str) -> None:
+    """The right value under each name: the own one and one of no quantity leave it right, that of any other
+    quantity of the case, or of one of its kind, may say another thing."""
+    a_class.case("press", FOUR_BAR)
+    task = Task(a_class.path("cases/press.yaml"))
+    right, own = task.right(what), _OWN_NAMES[what]
+    others = {name for names in _OWN_NAMES.values() for name in names} | _FURTHER_NAMES
+    others |= _OF_ITS_KIND.get(what, set())
+    for form in ("{} = {}", "{}: {}", "the answer is {} = {}"):
+        for name in own + _NO_QUANTITY:
+            judged = task.grade(what, form.format(name, right))
+            unread = what == "I24" and judged["verdict"] == "review" and judged["code"] != "other-quantity"
+            assert judged["verdict"] == "right" or unread, (form, name)
+        for name in others - set(own):
+            judged = task.grade(what, form.format(name, right))
+            assert judged["verdict"] == "review", (form, name)
+
+
+@pytest.mark.parametrize(
+    "form", ["{} = {} N to {} N", "{}min = {}, {}max = {}", "{1} N < {0} < {2} N", "{} >= {}"]
+)
+def test_a_range_under_the_name_of_another_load_is_for_a_person(a_class: Class, form: str) -> None:
+    a_class.case("block", BLOCK)
+    low, high = ("-20", "20")
+    found = []
+    for name in ("P", "F", "N"):
+        ends = (name, low, name, high) if form.count("{") == 4 and "{}max" in form else (name, low, high)
+        found += a_class.judge(form.format(*ends), case="block")
+    known = "wrong" if form == "{} >= {}" else "right"
+    assert [row["verdict"] for row in found] == [known, known, "review"]

@@ -88,11 +88,11 @@ def _all(
             except NoKeyError as error:
                 complain(str(error))
                 code = max(code, UNREADABLE)
-    if not some:
+    if not some and code == DONE:
         complain(
             "icsolve variants: no case has variables, as in `variables: {P: {range: [100, 500], step: 10}}`"
         )
-        return max(code, UNREADABLE)
+        return UNREADABLE
     return code
 
 

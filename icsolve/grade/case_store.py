@@ -10,7 +10,7 @@ from icsolve.errors import CaseError, SceneError
 from icsolve.files import files_of, reading, reading_text
 from icsolve.grade.course import Course
 from icsolve.grade.keys import AnyKey
-from icsolve.grade.solved import SolvedCase, asked_of, canonical, unknowns
+from icsolve.grade.solved import SolvedCase, asked_of, canonical, check_plane, unknowns
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import VariantRecord, Varied
 from icsolve.read import case_name, read_file
@@ -134,6 +134,7 @@ class CaseStore:
             case = self.read(name)
             if not case.variables:
                 return SolvedCase(case, self.course)
+            check_plane(case)  # before any of its variants is looked at
             self.varied = True
             return Varied(name, self.text(name), self.paths[name], self.course)
         except SceneError as error:

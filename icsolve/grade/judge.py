@@ -11,7 +11,15 @@ from typing import Any
 from icsolve.grade.keys import AGAINST, NEITHER, AnyKey, ChoiceKey, NumberKey, PlaceKey, RangeKey, numbers_of
 from icsolve.grade.mistakes.lookup import Wrong, message, near_miss, together
 from icsolve.grade.tolerance import SLACK
-from icsolve.grade.written.answer import MISSING, NO_NUMBER, TWO_VALUES, Reader, WrittenAnswer, flagged
+from icsolve.grade.written.answer import (
+    MISSING,
+    NO_NUMBER,
+    TWO_VALUES,
+    Reader,
+    WrittenAnswer,
+    flagged,
+    names_in,
+)
 from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, figures, plain
 from icsolve.grade.written.two_numbers import WrittenPlace, WrittenRange, read_place, read_range
 from icsolve.grade.written.words import CASE, ENERGY, WrittenDirection, unit_word
@@ -23,6 +31,7 @@ OPEN = (IN_REVIEW, INVALID)
 """Verdicts that leave an answer ungraded."""
 VERDICTS = (RIGHT, WRONG, INVALID, IN_REVIEW, MISSING)
 SQUARE = "square-direction"
+OTHER_NAME = "other-quantity"
 BY_ANGLE = "direction-in-words"
 
 
@@ -63,7 +72,7 @@ _GROUPED = re.compile(r"[-+]?[1-9]\d{0,2}\.\d{3}(?![\d.])")
 def judge_answer(
     key: AnyKey, reader: Reader, answer: str, unit: str = "", direction: str = ""
 ) -> tuple[Judgement, Read]:
-    """The verdict on an answer as it was written.
+    """The verdict on an answer as it was written; what is named as another quantity is for a person.
 
     Parameters
     ----------
@@ -76,6 +85,14 @@ def judge_answer(
     tuple[Judgement, Read]
         The verdict, and how the answer was read. Nothing that a student writes raises.
     """
+    judged, read = _judged(key, reader, answer, unit, direction)
+    if judged.verdict in (RIGHT, WRONG) and any(map(key.another, names_in(answer))):
+        return _unjudged(OTHER_NAME), flagged(OTHER_NAME)
+    return judged, read
+
+
+def _judged(key: AnyKey, reader: Reader, answer: str, unit: str, direction: str) -> tuple[Judgement, Read]:
+    """By what stands behind its name."""
     if isinstance(key, PlaceKey):
         place = read_place(f"{answer} {unit}".strip())
         judged = judge_place(key, place)
@@ -347,6 +364,7 @@ UNJUDGED = {
     "ambiguous-direction": "Sign and words, or words alone, say two directions; a person will look at it.",
     "ambiguous-unit": "This unit has several meanings; a person will look at it.",
     "two-values": "There are two values in this; a person will look at it.",
+    OTHER_NAME: "This is named as another quantity than the one that is asked for; a person will look at it.",
     SQUARE: "These words are square to the answer's direction; a person will look at it.",
     BY_ANGLE: "A direction in words is for a person to judge here; an angle, as 'at 30 deg', is not.",
     "no-direction": "In which direction it lies at infinity is not said; a person will look at it.",

@@ -187,8 +187,14 @@ def _of_load(load: Load, answer: Answer) -> ExpectedDirection:
     return ExpectedDirection(0.0, heading, axial, lambda: (place_of(load.at, answer), answer.points))
 
 
+def _nothing_else(name: str) -> bool:
+    """Of no quantity is known that a name could be another's."""
+    return False
+
+
 class _Key:
-    """What all keys have: the unit, and how wide the accepted band is, in words."""
+    """What all keys have: the unit, how wide the accepted band is, in words, and (``another``) whether a name
+    that stands before an answer is that of another quantity."""
 
     unit_name: str
     policy: Policy
@@ -241,6 +247,7 @@ class NumberKey(_Key):
     wrongs: Wrongs
     kind: str = "load"
     period: float = 0.0
+    another: Callable[[str], bool] = _nothing_else
 
     @cached_property
     def accepted(self) -> str:
@@ -295,6 +302,7 @@ class PlaceKey(_Key):
     wrongs: tuple[tuple[float, float, Wrong], ...]
     policy: Policy
     kind = "place"
+    another: Callable[[str], bool] = _nothing_else
 
     @property
     def accepted(self) -> str:
@@ -311,6 +319,7 @@ class RangeKey(_Key):
     high: NumberKey | None
     unit_name: str
     policy: Policy
+    another: Callable[[str], bool] = _nothing_else
 
     @cached_property
     def end(self) -> NumberKey:
@@ -346,6 +355,7 @@ class ChoiceKey(_Key):
     unit_name: str
     policy: Policy
     kind = "position"
+    another: Callable[[str], bool] = _nothing_else
 
     @property
     def accepted(self) -> str:
@@ -404,11 +414,12 @@ def scalar_key(
 def range_key(question: str, target: LoadIs, answer: Answer, policy: Policy) -> RangeKey | None:
     """The key of a load that holds over a range; None of one that has one value.
 
-    Raises NoKeyError where every value holds.
+    Raises NoKeyError where every value holds, or a drawing alone is to give the tolerance.
     """
     found = answer.answers.get(target.load)
     if found is None or found.holds is None:
         return None
+    _not_drawn(policy, "the ends of a range over which friction holds")
     width = own_width(policy.tolerance, target, answer, drawn=False)
     low, high = (
         _number(question, end, target, answer, policy, width) if math.isfinite(end) else None
@@ -429,11 +440,11 @@ def position_key(
     """The key of a datum of the figure that is to find: its value, or its range with friction, in any of the
     positions of equilibrium; ``wrongs`` makes the wrong answers to a value.
 
-    Raises NoKeyError where a drawing is to give the tolerance.
+    Raises NoKeyError where a drawing alone is to give the tolerance.
     """
-    if policy.tolerance.drawing:
-        raise NoKeyError("a drawing says nothing of a position of rest; give it a tolerance such as 2%")
-    width, others = own_width(policy.tolerance, target, answer), len(answer.positions or ()) - 1
+    _not_drawn(policy, "a position of rest")
+    width = own_width(policy.tolerance, target, answer, drawn=False)
+    others = len(answer.positions or ()) - 1
 
     period = 360.0 if is_angle(target.path) else 0.0
 
@@ -458,6 +469,13 @@ def position_key(
             low, high = (end(value, position.answer) for value in held)
             keys.append(RangeKey(question, low, high, low.unit_name, policy))
     return keys[0] if len(keys) == 1 else ChoiceKey(question, tuple(keys), keys[0].unit_name, policy)
+
+
+def _not_drawn(policy: Policy, what: str) -> None:
+    """Raises NoKeyError where a drawing alone is to give the tolerance, and says nothing of the answer."""
+    tolerance = policy.tolerance
+    if tolerance.drawing and not (tolerance.relative or tolerance.absolute or tolerance.figures):
+        raise NoKeyError(f"a drawing says nothing of {what}; give it a tolerance such as 2%")
 
 
 def _number(

@@ -8,8 +8,8 @@ from typing import Any
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.judge import feedback, judge_answer
-from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey
-from icsolve.grade.platforms.questions import asked, figure, sensible
+from icsolve.grade.keys import AnyKey
+from icsolve.grade.platforms.questions import asked, figure, right_in_words
 from icsolve.grade.written.answer import Reader
 from icsolve.read import case_name
 from icsolve.wording.statement import Statement
@@ -53,11 +53,8 @@ class Task:
         return asked(key, self._solved.target(key.question))
 
     def right(self, what: str = "") -> str:
-        """The right answer as text."""
-        key = self._key(what)
-        if isinstance(key, PlaceKey):
-            return f"({key.place[0]:.6g}, {key.place[1]:.6g}) {key.unit_name}"
-        return f"{sensible(key)} {key.unit_name}".strip() if isinstance(key, NumberKey) else key.accepted
+        """The right answer as text, which is right when it is handed in."""
+        return right_in_words(self._key(what))
 
     def grade(self, what: str, answer: str) -> dict[str, Any]:
         """The marks for an answer.

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from copy import copy
-from functools import lru_cache
+from functools import lru_cache, partial
 
 from icsolve.answer import Answer
-from icsolve.case import Case, is_named
+from icsolve.case import Case
 from icsolve.case.expected import CentreIs, LoadIs, OfBodies, PositionIs, ReactionIs, Target, TensionIs
 from icsolve.errors import SceneError
 from icsolve.grade.course import Course
@@ -20,12 +20,11 @@ from icsolve.grade.keys import (
     scalar_key,
 )
 from icsolve.grade.mistakes.engine import WrongAnswers, solved_for
+from icsolve.grade.names import is_another, points_of, reading_of
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.read.expect import target_of
-from icsolve.read.names import Problems
-from icsolve.read.reading import Reading
 from icsolve.statics.power import is_unknown
-from icsolve.tuples import cached_property
+from icsolve.tuples import cached_property, replace
 
 
 @lru_cache(maxsize=256)
@@ -53,8 +52,7 @@ def asked_of(case: Case, what: str) -> Target:
 
     Raises NoKeyError, with a sentence, where it names nothing, or the case has not one unknown.
     """
-    if case.space is not None:
-        raise NoKeyError(f"the case {case.name} is in space, and answers are judged of plane cases")
+    check_plane(case)
     if not what:
         names = unknowns(case)
         if not names:
@@ -66,7 +64,7 @@ def asked_of(case: Case, what: str) -> Target:
             kind = "unknown data of the figure" if "." in names[0] else "unknown loads"
             raise NoKeyError(f"the case {case.name} has {len(names)} {kind}; write {asked}")
         (what,) = names
-    target = target_of(_reading(case), what, _points(case))
+    target = target_of(reading_of(case), what, points_of(case))
     if isinstance(target, str):
         raise NoKeyError(f"{case.name}: {target}")
     if isinstance(target, LoadIs) and target.load not in unknowns(case):
@@ -74,28 +72,18 @@ def asked_of(case: Case, what: str) -> Target:
     return target
 
 
+def check_plane(case: Case) -> None:
+    """Raises NoKeyError of a case in space: no answers to it are judged."""
+    if case.space is not None:
+        raise NoKeyError(f"the case {case.name} is in space, and answers are judged of plane cases")
+
+
 def canonical(case: Case, name: str, what: str) -> str:
     """The one name of a question."""
     if what.partition(".")[0] in ("angles", "lengths", "points"):
-        found = target_of(_reading(case), what, _points(case))
+        found = target_of(reading_of(case), what, points_of(case))
         what = found.path if isinstance(found, PositionIs) else what
     return name if not what or unknowns(case) == (what,) else f"{name}:{what}"
-
-
-def _reading(case: Case) -> Reading:
-    """What the reader of keys needs to know of a case."""
-    reading = Reading(Problems(case.path), case.units)
-    reading.kinds = dict.fromkeys((*case.directed, *(load.name for load in case.loads)), "force")
-    reading.unknowns = list(case.unknowns)
-    reading.given = set(case.points)
-    reading.ropes = {rope.name for rope in case.ropes}
-    reading.links = dict.fromkeys(case.links, (1, 1))
-    return reading
-
-
-def _points(case: Case) -> set[str]:
-    named = set(case.points) | {p for carried in case.carries.values() for p in carried}
-    return {name for name in named if is_named(name)}
 
 
 class SolvedCase:
@@ -136,7 +124,9 @@ class SolvedCase:
         """
         if question not in self._keys:
             try:
-                self._keys[question] = self._made(question)
+                what = question.partition(":")[2] or "".join(unknowns(self.case)[:1])
+                another = partial(is_another, self.case, self.target(question), what)
+                self._keys[question] = replace(self._made(question), another=lru_cache(another))
             except SceneError as error:
                 raise NoKeyError(f"{question} has no answer ({error.status}): {error.message}") from None
         return self._keys[question]

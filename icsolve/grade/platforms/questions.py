@@ -20,7 +20,7 @@ from html import escape
 
 from icsolve.case import Case
 from icsolve.case.expected import LoadIs, PositionIs, Target
-from icsolve.grade.keys import AnyKey, ChoiceKey, NumberKey, PlaceKey, RangeKey
+from icsolve.grade.keys import AnyKey, ChoiceKey, NumberKey, PlaceKey, RangeKey, numbers_of
 from icsolve.grade.mistakes.lookup import ORDER, Wrong, message
 from icsolve.grade.written.words import factors_between
 from icsolve.numbers.units import parse_unit
@@ -267,6 +267,24 @@ def sensible(key: NumberKey) -> str:
     ratio = key.half / abs(key.value) if key.value else 1.0
     digits = 6 if ratio >= 1e-3 else min(17, 4 - math.floor(math.log10(ratio))) if ratio > 0.0 else 17
     return f"{key.value:.{digits}g}"
+
+
+def right_in_words(key: AnyKey) -> str:
+    """The right answer as a student may write it: with its direction where that is asked; of several that are
+    right all."""
+    if isinstance(key, ChoiceKey):
+        return "; ".join(map(right_in_words, key.keys))
+    if isinstance(key, PlaceKey):
+        if key.toward is not None:
+            return f"at infinity at {key.toward:.6g} deg"
+        return f"({key.place[0]:.6g}, {key.place[1]:.6g}) {key.unit_name}"
+    unit = f" {key.unit_name}".rstrip()
+    if isinstance(key, RangeKey):
+        ends = [f"{sensible(end)}{unit}" for end in numbers_of(key)]
+        return " to ".join(ends) if len(ends) > 1 else f"{ends[0]} or {'more' if key.low else 'less'}"
+    expected = key.expected
+    way = f" at {expected.heading:.6g} deg" if expected.asked and expected.heading is not None else ""
+    return f"{sensible(key)}{unit}{way}"
 
 
 def _text(text: str) -> str:

@@ -394,7 +394,8 @@ _ANSWERS = (".csv", ".tsv", ".txt")
 
 
 def exported(folder: str) -> Iterator[tuple[str, str]]:
-    """The files of answers in an export, each with its student (the SID, else the email).
+    """The files of answers in an export, each with its student (the SID, else the email), of a group once for
+    each of its students.
 
     Of a student without such a file the folder is given.
 
@@ -416,21 +417,18 @@ def exported(folder: str) -> Iterator[tuple[str, str]]:
         names = sorted(os.listdir(path)) if os.path.isdir(path) else []
         inside = (os.path.join(path, n) for n in names if n.lower().endswith(_ANSWERS))
         files = [at for at in inside if is_plain(at)]
-        for at in files:
-            yield at, _student(about) or name
-        if not files:
-            yield path, _student(about) or name
+        for student in _students(about) or [name]:
+            for at in files or [path]:
+                yield at, student
 
 
-def _student(about: Node) -> str:
-    """Of ``:submitters: [{:name, :sid, :email}]``; Ruby's symbols start with a colon."""
+def _students(about: Node) -> list[str]:
+    """Of ``:submitters: [{:name, :sid, :email}]``, of a group several; Ruby's symbols start with a colon."""
     submitters = _item(about, "submitters")
-    first = submitters.items[0] if type(submitters) is Items and submitters.items else None
-    for key in ("sid", "email", "name"):
-        value = _item(first, key)
-        if type(value) is Scalar and value.text:
-            return value.text
-    return ""
+    people = submitters.items if type(submitters) is Items else ()
+    found = ([_item(person, key) for key in ("sid", "email", "name")] for person in people)
+    ids = ([value.text for value in values if type(value) is Scalar and value.text] for values in found)
+    return [known[0] for known in ids if known]
 
 
 def _item(node: Node | None, key: str) -> Node | None:

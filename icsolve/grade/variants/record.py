@@ -71,6 +71,7 @@ def _read(path: str, store: CaseStore, roster: Roster | None) -> tuple[str, Vari
     name = _case_of(path, columns, store)
     varied = store.variation(name)
     if varied is None:
+        store.solved(name)  # says why, where it can't be read or is in space
         raise ValueError(f"the case {name} has no variables, so these numbers can't be put into it")
     places: dict[str, int] = {}
     for variable in varied.case.variables:

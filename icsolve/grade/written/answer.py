@@ -241,6 +241,23 @@ def unwrapped(text: str) -> str:
     return text
 
 
+_CALLED = r"\|?(?P<name>[^\W\d_][\w'\-/{}^.]*?)(?:_?(?:min|max))?(?: ?\([\w' ]*\))?\|? ?"
+_NAMED = re.compile(
+    rf"(?<![\w.*·/^])(?<!\d )(?<!\d){_CALLED}(?=[<>=~:∈])"
+    rf"|^{_CALLED.replace('name', 'first')}(?=\(|(?:is|at|in|lies|must|can)\b)",
+    re.IGNORECASE,
+)
+
+
+def names_in(text: str) -> list[str]:
+    """The names to which an answer gives what it says: ``T12`` of ``T12 = 41 N*m``, ``P >= 3`` has ``P``."""
+    if text[:1].isdigit() and "<" not in text and ">" not in text:
+        return []
+    return [
+        found.group("name") or found.group("first") for found in _NAMED.finditer(plain(text[: LONGEST * 20]))
+    ]
+
+
 def _unquoted(text: str) -> str:
     if len(text) > 1 and text[:1] in "\"'" and text[-1:] == text[:1]:
         return text[1:-1].strip()

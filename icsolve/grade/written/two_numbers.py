@@ -15,7 +15,7 @@ _POINT, _EITHER = (
 )
 _PLACE_WORDS = re.compile(
     r"\b(?:the|instant|instantaneous|cent(?:re|er)|pole|point|ic|is|are|at|in|located|lies|coordinates|of|about"
-    r"|approximately|(?:approx|ca)\b\.?|x)(?!\w)|\b[A-Z]_?\d+(?:-\d+)?\b|\( ?x ?, ?y ?\)|[=:~\[({]",
+    r"|approximately|(?:approx|ca)\b\.?|x)(?!\w)|\b(?:[A-Z]|IC)_?\d+(?:-\d+)?\b|\( ?x ?, ?y ?\)|[=:~\[({]",
     re.IGNORECASE,
 )
 _BETWEEN = (
