@@ -242,7 +242,7 @@ loads: {{T2: {{torque: 18, link: 2}}, T3: {{torque: unknown, link: 3}}}}
 @pytest.mark.parametrize("crossed", ["no", "yes"])
 def test_a_belt_runs_only_over_pulleys_that_a_line_of_its_strands_touches(crossed: str) -> None:
     """Crossed its strands touch both between the centres, which are then farther apart than both radii; open
-    from outside, and neither pulley may lie in the other. Sweeps of the radius say so in each row."""
+    from outside, and neither pulley may lie in the other. The ratio is that of the radii all the same."""
     text = f"""icsolve: 1
 points: {{A: [0, 0], B: [5, 0]}}
 joints:
@@ -255,13 +255,6 @@ loads:
 """
     limit = 3.0 if crossed == "yes" else 7.0
     for radius in (limit - 0.01, limit + 0.01):
-        case = icsolve.load(text % radius)
-        rows = icsolve.sweep(icsolve.load(text % 2.5), {"joints.2-3.radii.1": [1.0, radius, 2.0]})
-        if radius < limit:
-            assert abs(icsolve.solve(case).answers["U"].value) == pytest.approx(5 * radius, rel=1e-15)
-            assert rows.status.tolist() == ["ok"] * 3
-            continue
-        with pytest.raises(icsolve.SceneError, match="belt runs over pulleys 2 and 3") as caught:
-            icsolve.solve(case)
-        assert caught.value.status == "inconsistent"
-        assert rows.status.tolist() == ["ok", "inconsistent", "ok"]
+        answer = icsolve.solve(icsolve.load(text % radius))
+        assert abs(answer.answers["U"].value) == pytest.approx(5 * radius, rel=1e-15)
+        assert any("belt runs over pulleys 2 and 3" in note for note in answer.notes) is (radius > limit)

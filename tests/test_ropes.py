@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from decimal import localcontext
 from itertools import pairwise, product
 from pathlib import Path
 from random import Random
@@ -19,6 +20,7 @@ from icsolve.case import Force, Number, Rope
 from icsolve.errors import CaseError, SceneError
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.ropes import rope_parts
+from icsolve.sweep.exact import decimal_of
 from icsolve.sweep.path_tracking import PathTracker
 from sizes import MORE
 
@@ -797,8 +799,8 @@ def test_what_a_turn_winds_or_rolls_has_all_digits(
     case = icsolve.load("icsolve: 1\n" + text if text is WINDLASS else text)
     before = case.points[point][axis]
     after = icsolve.sweep(case, drive={link: [degrees]}).case_of(0).points[point][axis]
-    with mp.workdps(80):
-        gone = mpf(after.digits) - mpf(before.digits)
+    with mp.workdps(80), localcontext(prec=80):
+        gone = mpf(str(decimal_of(after))) - mpf(before.digits)
         assert abs(gone - mpf(per) * mpf(repr(degrees)) * mp.pi / 180) < mpf(10) ** -50
 
 

@@ -293,41 +293,37 @@ def _pitched(case: Case, points: Points) -> Iterator[tuple[Bond, Mesh, float]]:
             yield bond, joint, joint.pitch
 
 
-def _belts(case: Case, points: Points) -> Iterator[tuple[Mesh, tuple[str, str]]]:
-    """The belts whose pivots are among the points, and these."""
-    for bond in topology(case).bonds:
-        joint = bond.joint
-        if isinstance(joint, Mesh) and joint.pulls and bond.pivots and {*bond.pivots} <= points.keys():
-            yield joint, bond.pivots
-
-
 def refuse_misfit(case: Case, points: Points, scale: float) -> None:
-    """Refuse teeth whose pitch circles do not touch on their pivots, and belts that no line of their strands
-    touches both pulleys of, as far as these pivots are among the points."""
+    """Refuse teeth whose pitch circles do not touch on their pivots, as far as these are among the points."""
     for bond, joint, module in _pitched(case, points):
         (a, b), apart = bond.links, math.dist(*(points[p] for p in bond.pivots)) / scale
         line, _ = case.marks.get(f"joints.{a}-{b}", (0, 0))
         what = f"gears {a} and {b}" + (f" (line {line})" if line else "")
         ends = (*bond.pivots, "pivots")
         refuse_unfit(what, joint.sizes, module, apart, ends, f" {case.units.length}")
-    for belt, (p, q) in _belts(case, points):
-        (a, b) = belt.links
-        apart = math.dist(points[p], points[q]) / scale
-        first, second = (radius.value for radius in belt.sizes)
+
+
+def misfitting_belts(case: Case, points: Points, scale: float) -> Iterator[str]:
+    """What is said of belts that no line of their strands touches both pulleys of, as far as their pivots are
+    among the points. Their ratio is that of the radii all the same."""
+    for bond in topology(case).bonds:
+        belt = bond.joint
+        if not (isinstance(belt, Mesh) and belt.pulls and bond.pivots and {*bond.pivots} <= points.keys()):
+            continue
+        (a, b), (p, q), unit = belt.links, bond.pivots, case.units.length
+        apart, (first, second) = math.dist(points[p], points[q]) / scale, (r.value for r in belt.sizes)
         least, kind = (abs(first - second), "open") if belt.turns_alike else (first + second, "crossed")
         if apart < least:
-            raise SceneError(
-                Status.INCONSISTENT,
-                f"no {kind} belt runs over pulleys {a} and {b}: {p} and {q} are {apart:.6g} "
-                f"{case.units.length} apart, and have to be more than {least:.6g} {case.units.length} apart "
-                f"for radii of {first:.6g} and {second:.6g}. Correct the radii or the pivots.",
+            yield (
+                f"no {kind} belt runs over pulleys {a} and {b}: {p} and {q} are {apart:.6g} {unit} apart, "
+                f"and radii of {first:.6g} and {second:.6g} {unit} need more than {least:.6g} {unit}. Correct "
+                "the radii or the pivots."
             )
 
 
 def teeth_margins(case: Case, points: Points, scale: float, a: Arithmetic) -> Iterator[Scalar]:
-    """In any arithmetic, numbers of which none is negative but where `refuse_misfit` may refuse: of teeth,
-    with r the distance of the pivots over that of the pitch circles, (2 m (1 - m))^2 - (r^2 - 1)^2 of the
-    misfit m; of a belt how far its pivots' distance squared is above the least."""
+    """In any arithmetic, numbers of which none is negative but where `refuse_misfit` may refuse: with r the
+    distance of the pivots over that of the pitch circles, (2 m (1 - m))^2 - (r^2 - 1)^2 of the misfit m."""
     for bond, joint, _ in _pitched(case, points):
         (ax, ay), (bx, by) = (points[p] for p in bond.pivots)
         module, inverse = joint.module, joint.diametral_pitch
@@ -339,11 +335,6 @@ def teeth_margins(case: Case, points: Points, scale: float, a: Arithmetic) -> It
             fit = fit / a.given(inverse)
         off = ((bx - ax) * (bx - ax) + (by - ay) * (by - ay)) / (fit * fit) - 1.0
         yield (2.0 * MISFIT * (1.0 - MISFIT)) ** 2 - off * off
-    for belt, pivots in _belts(case, points):
-        (ax, ay), (bx, by) = (points[p] for p in pivots)
-        first, second = map(a.given, belt.sizes)
-        least = (first - second if belt.turns_alike else first + second) * scale
-        yield (bx - ax) * (bx - ax) + (by - ay) * (by - ay) - least * least
 
 
 def refuse_unfit(

@@ -77,9 +77,11 @@ def prepare(case: Case, want: Want) -> Program:
     figure = _figure(case, top, bonds, want)
     refusals.refuse_no_hanging(case, figure.points, figure.frame.scale)
     if any(bond.pivots for bond in top.bonds):
-        from icsolve.assembly.conditions import refuse_misfit
+        from icsolve.assembly.conditions import misfitting_belts, refuse_misfit
 
-        refuse_misfit(case, figure.points, figure.frame.scale)
+        placed = case, figure.points, figure.frame.scale
+        refuse_misfit(*placed)
+        figure = figure._replace(notes=(*figure.notes, *misfitting_belts(*placed)))
     return Program(case, want, top, plan, figure, refusals.directions(case))
 
 

@@ -350,7 +350,7 @@ def decimal_of(number: Number) -> Decimal:
 def decimal_ratio(exact: ExactRatio) -> Decimal:
     """An exact ratio, in the digits of the context."""
     num, den, power = exact
-    return Decimal(num) / den * pi() ** power
+    return Decimal(num) / den * pi() ** power if power else Decimal(num) / den
 
 
 # --- rows as scenes --------------------------------------------------------------------------------
