@@ -316,8 +316,8 @@ def misfitting_belts(case: Case, points: Points, scale: float) -> Iterator[str]:
         if apart < least:
             yield (
                 f"no {kind} belt runs over pulleys {a} and {b}: {p} and {q} are {apart:.6g} {unit} apart, "
-                f"and radii of {first:.6g} and {second:.6g} {unit} need more than {least:.6g} {unit}. Correct "
-                "the radii or the pivots."
+                f"and radii of {first:.6g} and {second:.6g} {unit} need more than {least:.6g} {unit}. "
+                "Correct the radii or the pivots."
             )
 
 
