@@ -66,6 +66,8 @@ _ALL_PARTS = (True, True, True)
 
 Read = WrittenAnswer | WrittenPlace | WrittenRange
 _LISTED = re.compile(r" ?; ?|, | (?:and|or|und|oder|et|ou|y|o|e|&) ")
+_SPACED = re.compile(r"(?<=[\d°.g]) (?=[-+]?\d)")
+"""Two numbers with nothing but a space between, the first perhaps in degrees."""
 _GROUPED = re.compile(r"[-+]?[1-9]\d{0,2}\.\d{3}(?![\d.])")
 
 
@@ -105,6 +107,8 @@ def _judged(key: AnyKey, reader: Reader, answer: str, unit: str, direction: str)
         found = read_range(text, reader.decimal)
         return judge_range(key, found), found
     written = reader.read(answer, unit, direction)
+    if key.period and written.direction is not None and written.direction.measured:
+        return _unjudged(TWO_VALUES), flagged(TWO_VALUES)  # an angle has no angle as its direction
     if key.period and written.flag == UNREAD:
         written = _as_heading(answer) or written
     judged = judge(key, written)
@@ -128,12 +132,14 @@ def _judge_choice(
 ) -> tuple[Judgement, Read]:
     """By the nearest of several right values, whose mistakes alone are looked up where it is right; else by
     the first of which it shows a known mistake. Several values are right where each of them is."""
-    number, word, _, _, flag, _ = reader.read(answer, unit, direction)
-    parts = _LISTED.split(answer) if flag == TWO_VALUES else []
+    number, word, way, _, flag, _ = reader.read(answer, unit, direction)
+    several = flag in (TWO_VALUES, UNREAD) or (way is not None and way.measured)
+    words = plain(answer) if several else ""
+    parts = (_LISTED if _LISTED.search(words) else _SPACED).split(words)
     if len(parts) > 1:
-        several = [_judge_choice(key, reader, part, unit, direction) for part in parts]
-        if all(judged.verdict == RIGHT for judged, _ in several):
-            return several[0]
+        each = [_judge_choice(key, reader, part, unit, direction) for part in parts]
+        if all(judged.verdict == RIGHT for judged, _ in each):
+            return each[0]
 
     def off(one: NumberKey | RangeKey) -> float:
         if isinstance(one, RangeKey):

@@ -64,7 +64,7 @@ _KINDS: dict[type, str] = {
     LoadIs: "load", RatioIs: "ratio", RateIs: "rate", SpeedIs: "rate", ReactionIs: "reaction",
     TensionIs: "reaction", CentreIs: "place", PositionIs: "position",
 }  # fmt: skip
-"""What is asked for, for messages; anything else is a ``length``."""
+"""What is asked for, for messages; a force of unknown direction is a ``vector``, what else a ``length``."""
 
 Places = tuple[Place | None, Mapping[str, Place]]
 
@@ -486,7 +486,8 @@ def _number(
     if abs(value) <= TRUE_ZERO / OF_LOADS * zero and not isinstance(target, PositionIs):
         value = 0.0
     half, expected = half_width(policy.tolerance, value, width, zero), expected_of(target, answer)
-    unit, kind = unit_of_target(target, answer), _KINDS.get(type(target), "length")
+    unit = unit_of_target(target, answer)
+    kind = "vector" if expected.asked else _KINDS.get(type(target), "length")
     return NumberKey(question, value, unit, half, width, expected, policy, Wrongs(tuple, value, half), kind)
 
 
