@@ -8,7 +8,17 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from icsolve.grade.keys import AGAINST, NEITHER, AnyKey, ChoiceKey, NumberKey, PlaceKey, RangeKey, numbers_of
+from icsolve.grade.keys import (
+    AGAINST,
+    DEGREE,
+    NEITHER,
+    AnyKey,
+    ChoiceKey,
+    NumberKey,
+    PlaceKey,
+    RangeKey,
+    numbers_of,
+)
 from icsolve.grade.mistakes.lookup import Wrong, message, near_miss, together
 from icsolve.grade.tolerance import SLACK
 from icsolve.grade.written.answer import (
@@ -378,10 +388,6 @@ UNJUDGED = {
 """What is told where nothing was judged, by the flag."""
 
 
-_WITHIN = 1.0
-"""Degrees within which the direction of a centre at infinity is right."""
-
-
 def judge_place(key: PlaceKey, written: WrittenPlace) -> Judgement:
     """The verdict on an answer to the question where a centre is."""
     if written.flag:
@@ -415,7 +421,7 @@ def _far(key: PlaceKey, written: WrittenPlace) -> Judgement:
         return Judgement(WRONG, 0.0, (False, True, False))
     if math.isnan(written.toward):
         return Judgement(IN_REVIEW, 0.0, (True, True, False), code="no-direction")
-    right = abs(math.remainder(written.toward - key.toward, 180.0)) <= _WITHIN
+    right = abs(math.remainder(written.toward - key.toward, 180.0)) <= DEGREE
     return Judgement(RIGHT if right else WRONG, float(right), (right, True, right))
 
 
