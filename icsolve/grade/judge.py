@@ -445,9 +445,21 @@ def judge_range(key: RangeKey, written: WrittenRange) -> Judgement:
     if not all(fits) and factor != 1.0 and all(_fits(key, _times(written, sign or 1))):
         fits, unit = (True, True), key.policy.unit == "ignored"
     parts = (all(fits), unit, sign != NEITHER)
+    off = _off_range(key, ends)
     if all(parts):
-        return Judgement(RIGHT, 1.0, _ALL_PARTS)
-    return _wrong(key, parts, _of_range(key, parts, fits, ends, written))
+        return Judgement(RIGHT, 1.0, _ALL_PARTS, None, off)
+    return _wrong(key, parts, _of_range(key, parts, fits, ends, written), None, off)
+
+
+def _off_range(key: RangeKey, ends: Ends) -> float | None:
+    """The error of the worse end, in whichever order they are written, as a part of the larger; None where
+    one is open, or should be."""
+    right = [end for end in (key.low, key.high) if end is not None]
+    orders = [[end for end in order if end is not None] for order in (ends, ends[::-1])]
+    if any(len(order) != len(right) for order in orders):
+        return None
+    offs = (max(abs(k.nearest(v) - k.value) for k, v in zip(right, order, strict=True)) for order in orders)
+    return relative(min(offs), max(abs(end.value) for end in right))
 
 
 def _times(written: WrittenRange, factor: float) -> Ends:

@@ -122,11 +122,12 @@ class Draw(NamedTuple):
 
 
 class VariantRecord(NamedTuple):
-    """The numbers of one case by student, and the keys of that time by question and student."""
+    """The numbers of one case by student, and the keys of that time by question and student: of each right
+    number its value, its unit and its sense."""
 
     path: str
     handed: dict[str, Draw]
-    keys: dict[tuple[str, str], tuple[float, str]]
+    keys: dict[tuple[str, str], list[tuple[float, str, str]]]
 
 
 K = TypeVar("K")
