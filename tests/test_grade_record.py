@@ -200,3 +200,16 @@ def test_a_corrected_key_of_any_kind_is_told(a_class: Class, text: str, was: str
     a_class.case("own", text.replace(was, now))
     ran = a_class.grade(table, "--variants", str(record))
     assert f"the key of own has changed for {len(STUDENTS)} of {len(STUDENTS)} students" in ran.err
+
+
+def test_the_numbers_of_a_case_that_is_not_there_are_told_as_such(a_class: Class) -> None:
+    """A folder of records, of which one is of a case that was taken out, or that can't be read any more."""
+    a_class.case("own", BLOCK)
+    record = handed_out(a_class)
+    a_class.case("own", BLOCK.replace("joints:", "jonts:"))
+    table = "student_id,case,answer\n0001,lever,200\n"
+    ran = a_class.grade(table, "--variants", str(record))
+    assert ran.code == 2 and "own can't be read" in ran.err and "jonts" in ran.err
+    a_class.path("cases/own.yaml").unlink()
+    ran = a_class.grade(table, "--variants", str(record))
+    assert ran.code == 2 and "none is named own, and none has their variables" in ran.err

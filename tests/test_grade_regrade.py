@@ -210,6 +210,12 @@ def test_a_column_is_filled_by_its_own_points(a_class: Class) -> None:
     assert [row[5:] for row in found[1:]] == [["20", "5"], ["20", "5"], ["", "5"], ["0", "0"]]
 
 
+def test_questions_without_a_column_of_their_name_are_told(a_class: Class) -> None:
+    template = a_class.file("t.csv", CANVAS.replace("Homework 7", "lever"))
+    ran = graded(a_class, "--write", f"canvas={a_class.path('o.csv')}", "--template", template)
+    assert "none of its columns is named pusher, so there are new ones at its end" in ran.out + ran.err
+
+
 def test_gradebooks_with_semicolons_commas_and_names_alone(a_class: Class) -> None:
     a_class.file("roster.csv", "student_id,first_name,last_name\na,Ann,Ah\nf,Fay,Eff\n")
     template = "LastName;FirstName;ID;Section;lever (7)\n    Points Possible;;;;2,50\n"

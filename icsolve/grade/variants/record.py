@@ -100,7 +100,10 @@ def _case_of(path: str, columns: TableColumns, store: CaseStore) -> str:
             fitting.append(name)
     if len(fitting) == 1:
         return fitting[0]
-    said = " and ".join(fitting) if fitting else "no case"
+    if not fitting:
+        why = f"none is named {folder}, and none has their variables"
+        raise ValueError(f"these are the numbers of no case of --cases: {why}")
+    said = " and ".join(fitting)
     raise ValueError(f"{said} could have these numbers; put the file into a folder with the name of its case")
 
 
