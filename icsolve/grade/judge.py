@@ -28,6 +28,7 @@ from icsolve.grade.written.answer import (
     Reader,
     WrittenAnswer,
     flagged,
+    may_name,
     names_in,
 )
 from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, figures, plain
@@ -97,10 +98,10 @@ def judge_answer(
     tuple[Judgement, Read]
         The verdict, and how the answer was read. Nothing that a student writes raises.
     """
-    judged, read = _judged(key, reader, answer, unit, direction)
-    if judged.verdict in (RIGHT, WRONG) and any(map(key.another, names_in(answer))):
+    found = _judged(key, reader, answer, unit, direction)
+    if may_name(answer) and found[0].verdict in (RIGHT, WRONG) and any(map(key.another, names_in(answer))):
         return _unjudged(OTHER_NAME), flagged(OTHER_NAME)
-    return judged, read
+    return found
 
 
 def _judged(key: AnyKey, reader: Reader, answer: str, unit: str, direction: str) -> tuple[Judgement, Read]:

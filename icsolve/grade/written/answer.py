@@ -249,10 +249,12 @@ _NAMED = re.compile(
 )
 
 
+may_name = re.compile(r"\W*(?:[^\W\d_]|\d[^<>&≤≥]*[<>&≤≥])").match
+"""Whether a text begins with a letter, or has a number before a sign of order: few do, and are looked at."""
+
+
 def names_in(text: str) -> list[str]:
     """The names to which an answer gives what it says: ``T12`` of ``T12 = 41 N*m``, ``P >= 3`` has ``P``."""
-    if text[:1].isdigit() and "<" not in text and ">" not in text:
-        return []
     return [
         found.group("name") or found.group("first") for found in _NAMED.finditer(plain(text[: LONGEST * 20]))
     ]
