@@ -100,6 +100,22 @@ def test_several_positions_are_right_where_each_is_and_never_one_with_a_directio
     assert set(a_class.verdicts(*open_, case="crank")) == {"review"}
 
 
+@pytest.mark.parametrize("join", [", ", "; ", " ", " and ", " & "])
+@pytest.mark.parametrize("unit", [" deg", "°"])
+def test_a_list_of_positions_is_read_as_a_list_where_the_last_has_the_unit(
+    a_class: Class, join: str, unit: str
+) -> None:
+    """The second of two angles is no direction of the first."""
+    a_class.case("two", TWO.read_text())
+    a_class.case("bar", BAR)
+    both = {
+        f"50.04{join}233.1{unit}": "right", f"50.04{unit}{join}233.1{unit}": "right",
+        f"50.04{join}200{unit}": "review", f"200{join}50.04{unit}": "review",
+    }  # fmt: skip
+    assert dict(zip(both, a_class.verdicts(*both, case="two"), strict=True)) == both
+    assert a_class.verdicts(f"{rest(0.2 * 180.0 / math.pi):.4g}{join}20{unit}", case="bar") == ["review"]
+
+
 def test_mistakes_with_a_position_are_named(a_class: Class) -> None:
     a_class.case("bar", BAR)
     assert a_class.verdicts(f"{rest(0.2):.5g}", case="bar") == ["right"]
@@ -140,6 +156,31 @@ def test_a_force_of_unknown_direction_is_its_size_and_an_angle(a_class: Class) -
     rows = a_class.judge(*answers, case="arm")
     assert [row["verdict"] for row in rows] == list(answers.values())
     assert [row["code"] for row in rows[2:]] == ["direction", "no-direction", "sign", "double"]
+    assert "the angle of its direction is wrong" in rows[2]["feedback"]
+    assert "say its direction as well, as an angle" in rows[3]["feedback"]
+
+
+@pytest.mark.parametrize(
+    "form", ["{} N at {} deg", "{} N, {}°", "{} N ({}°)", "{} N bei {} Grad", "{} N @ {}°"]
+)
+def test_a_size_and_an_angle_with_decimal_commas_are_read_as_with_points(a_class: Class, form: str) -> None:
+    a_class.case("arm", ARM)
+    size, angle = math.hypot(3.0, 6.0), math.degrees(math.atan2(6.0, 3.0))
+    for mark in (".", ","):
+        near = form.format(f"{size:.2f}", f"{angle:.2f}").replace(".", mark)
+        off = form.format(f"{size:.2f}", f"{angle + 3.0:.2f}").replace(".", mark)
+        assert a_class.verdicts(near, off, case="arm") == ["right", "wrong"], near
+
+
+@pytest.mark.parametrize("axis", ["-x", "the -x axis", "negative x", "+y", "the positive y axis", "-y"])
+def test_an_angle_from_an_axis_that_goes_no_side_is_never_guessed(a_class: Class, axis: str) -> None:
+    """Of +x it is counterclockwise everywhere; of the others it is taken either way, so right and wrong wait,
+    unless the side is said. The force is at 63.43 degrees, 26.57 right of +y."""
+    a_class.case("arm", ARM)
+    rows = a_class.judge(f"6.708 N at 26.57 deg from {axis}", f"6.708 N at 300 deg from {axis}", case="arm")
+    assert [(row["verdict"], row["code"]) for row in rows] == [("review", "ambiguous-direction")] * 2
+    said = ("63.43 deg from +x", "26.57 deg right of +y", "26.57 deg cw from +y", "116.57 deg cw from -x")
+    assert set(a_class.verdicts(*(f"6.708 N at {one}" for one in said), case="arm")) == {"right"}
 
 
 LINE = "{distributed: 50, link: 2, from: A, to: B, angle: 90}"

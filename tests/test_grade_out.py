@@ -555,3 +555,35 @@ def test_a_class_of_one_is_counted_in_the_singular(a_class: Class) -> None:
     assert "1 student" in told and "1 sheet" in told
     nouns = "students|answers|wrong answers|figures|sheets|questions|marks"
     assert re.findall(rf"(?<![\d.])1 (?:{nouns})\b[^\n]*", told) == []
+
+
+FEW = """\
+icsolve: 1
+variables: {P: {choices: [CHOICES]}}
+points: {A: [0, 0], B: [2, 0]}
+joints: [{pin: [1, 2], at: A}]
+loads:
+  P: {force: $P, link: 2, at: B, angle: -90}
+  T: {torque: unknown, link: 2}
+"""
+
+
+@pytest.mark.parametrize(
+    ("choices", "made"), [("10, 20, 30", 3), ("10, 20, 30, 40", 4), ("10, 20, 30, 40, 50, 60", 4)]
+)
+def test_no_two_exported_variants_are_alike(a_class: Class, choices: str, made: int) -> None:
+    a_class.case("few", FEW.replace("CHOICES", choices))
+    out = a_class.path("few.gift")
+    a_class.run("export", "gift", a_class.path("cases/few.yaml"), "-o", out, "--count", "4")
+    forces = re.findall(r"force of (\d+) N", out.read_text())
+    assert len(forces) == len(set(forces)) == made
+
+
+@pytest.mark.parametrize("folder", ["ropes", "sliders"])
+def test_what_is_given_reads_as_sentences_in_gift(a_class: Class, folder: str) -> None:
+    """No name stands before an equals sign with nothing after, and no sentence is made equal to something."""
+    out = a_class.path("q.gift")
+    a_class.run("export", "gift", CASES / folder, "-o", out)
+    given = re.findall(r"Given\\: (.*?)\. (?:Find|In which|Over)", out.read_text())
+    parts = [part for text in given for part in text.split("; ")]
+    assert parts and not [part for part in parts if re.search(r"\\= *$|^\S+ \S[^:]* \\= ", part)]

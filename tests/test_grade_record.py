@@ -154,3 +154,62 @@ def test_a_neighbours_answer_is_recognised(a_class: Class) -> None:
     pairs = zip(ran.rows(), keys, swapped, strict=True)
     codes = [row["code"] for row, own, other in pairs if abs(own / other - 1.0) > 0.2]
     assert codes.count("neighbour") >= 0.6 * len(codes) > 2
+
+
+BLOCK = """\
+icsolve: 1
+variables: {W: {choices: [100, 120, 140]}}
+points: {A: [0, 0]}
+joints: [{slide: [2, 1], at: A, along: 20, mu: 0.3}]
+loads:
+  W: {force: $W, link: 2, at: A, angle: -90}
+  P: {force: unknown, link: 2, at: A, angle: 20}
+"""
+PINNED = """\
+icsolve: 1
+variables: {W: {choices: [100, 120, 140]}}
+points: {A: [0, 0], B: [1, 0]}
+joints: [{slide: [2, 1], at: A, along: 0}, {slide: [3, 2], at: B, along: 90}]
+loads:
+  W: {force: $W, link: 3, at: B, angle: -60}
+  P: {force: [unknown, unknown], link: 3, at: B}
+"""
+BAR = """\
+icsolve: 1
+variables: {W: {choices: [8, 9, 10]}}
+points: {A: [0, 0]}
+lengths: {AB: 2}
+angles: {AB: unknown}
+joints: [{pin: [1, 2], at: A}]
+loads:
+  M: {torque: 4, link: 2}
+  W: {force: $W, link: 2, at: B, angle: -90}
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "was", "now"),
+    [(BLOCK, "mu: 0.3", "mu: 0.25"), (PINNED, "angle: -60", "angle: -70"), (BAR, "torque: 4", "torque: 5")],
+    ids=["the ends of a range", "a direction alone", "each of several positions"],
+)
+def test_a_corrected_key_of_any_kind_is_told(a_class: Class, text: str, was: str, now: str) -> None:
+    a_class.case("own", text)
+    record = handed_out(a_class)
+    table = "student_id,case,answer\n" + "".join(f"{student},own,1\n" for student in STUDENTS)
+    assert "has changed" not in a_class.grade(table, "--variants", str(record)).err
+    a_class.case("own", text.replace(was, now))
+    ran = a_class.grade(table, "--variants", str(record))
+    assert f"the key of own has changed for {len(STUDENTS)} of {len(STUDENTS)} students" in ran.err
+
+
+def test_the_numbers_of_a_case_that_is_not_there_are_told_as_such(a_class: Class) -> None:
+    """A folder of records, of which one is of a case that was taken out, or that can't be read any more."""
+    a_class.case("own", BLOCK)
+    record = handed_out(a_class)
+    a_class.case("own", BLOCK.replace("joints:", "jonts:"))
+    table = "student_id,case,answer\n0001,lever,200\n"
+    ran = a_class.grade(table, "--variants", str(record))
+    assert ran.code == 2 and "own can't be read" in ran.err and "jonts" in ran.err
+    a_class.path("cases/own.yaml").unlink()
+    ran = a_class.grade(table, "--variants", str(record))
+    assert ran.code == 2 and "none is named own, and none has their variables" in ran.err

@@ -127,6 +127,46 @@ def test_what_changes_is_told_with_its_reason(a_class: Class) -> None:
     assert "3 times" in ran.out or "2 times" in ran.out
 
 
+BLOCK = """\
+icsolve: 1
+points: {A: [0, 0]}
+joints: [{slide: [2, 1], at: A, along: 0, mu: 0.3}]
+loads:
+  N: {force: 100, link: 2, at: A, angle: -90}
+  P: {force: unknown, link: 2, at: A, angle: 0}
+"""
+PINNED = """\
+icsolve: 1
+points: {A: [0, 0], B: [1, 0]}
+joints: [{slide: [2, 1], at: A, along: 0}, {slide: [3, 2], at: B, along: 90}]
+loads:
+  W: {force: 100, link: 3, at: B, angle: -60}
+  P: {force: [unknown, unknown], link: 3, at: B}
+"""
+TURNED = "the direction of the right answer, or how directions count"
+
+
+@pytest.mark.parametrize(
+    ("text", "was", "now", "answer", "why"),
+    [
+        (BLOCK, "mu: 0.3", "mu: 0.25", "-30 to 30 N", "the key has changed"),
+        (BLOCK, "icsolve: 1", "icsolve: 1\ntolerance: 5%", "-31 to 29 N", "the tolerance, or what is asked"),
+        (PINNED, "-60", "-70", "100 N at 120 deg", TURNED),
+        (PINNED, "100", "110", "100 N at 120 deg", "the key has changed"),
+        (LEVER, "angle: -90", "angle: 90", "200", TURNED),
+    ],
+)
+def test_a_changed_key_of_a_range_or_in_its_direction_is_told_as_one(
+    a_class: Class, text: str, was: str, now: str, answer: str, why: str
+) -> None:
+    a_class.case("own", text)
+    answers = f"student_id,case,answer\n1,own,{answer}\n"
+    graded(a_class, answers=answers)
+    a_class.case("own", text.replace(was, now))
+    ran = graded(a_class, "--against", str(a_class.path("results.csv")), name="new.csv", answers=answers)
+    assert f"1 times: {why}" in ran.out
+
+
 def test_results_to_compare_with_have_to_be_results(a_class: Class) -> None:
     ran = graded(a_class, "--against", a_class.file("old.csv", "a,b\n1,2\n"))
     assert (ran.code, "old.csv is no file of results" in ran.err) == (2, True)
@@ -168,6 +208,12 @@ def test_points_with_divided_thousands_are_thousands(points: str, a_class: Class
 def test_a_column_is_filled_by_its_own_points(a_class: Class) -> None:
     found = written(a_class, CANVAS.replace("Homework 7", "lever").replace(",Other (1)", ",pusher (2)"))
     assert [row[5:] for row in found[1:]] == [["20", "5"], ["20", "5"], ["", "5"], ["0", "0"]]
+
+
+def test_questions_without_a_column_of_their_name_are_told(a_class: Class) -> None:
+    template = a_class.file("t.csv", CANVAS.replace("Homework 7", "lever"))
+    ran = graded(a_class, "--write", f"canvas={a_class.path('o.csv')}", "--template", template)
+    assert "none of its columns is named pusher, so there are new ones at its end" in ran.out + ran.err
 
 
 def test_gradebooks_with_semicolons_commas_and_names_alone(a_class: Class) -> None:

@@ -324,3 +324,11 @@ def test_damaged_files_never_break_the_command(a_class: Class) -> None:
         ran = a_class.grade(bytes(data))
         assert ran.code in (0, 1, 2), ran.err
         assert ran.code != 2 or ran.err
+
+
+def test_of_two_columns_of_one_question_the_last_counts_and_is_told_as_a_column(a_class: Class) -> None:
+    ran = a_class.grade("student_id,lever,lever:T\n1,100,200\n2,200,100\n")
+    assert [row["verdict"] for row in ran.rows()] == ["right", "wrong"]
+    assert "the last column counts" in ran.err
+    ran = a_class.grade("student_id,case,answer\n1,lever,100\n1,lever,200\n")
+    assert "the last row counts" in ran.err

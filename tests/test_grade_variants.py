@@ -260,3 +260,41 @@ def test_a_case_in_space_with_variables_is_refused_by_name_and_spoils_no_other(
     ran = a_class.grade("student_id,case,answer\n1,lever,200\n1,shaft,3\n2,shaft:F12,3\n")
     assert [ran.row("1", "lever")["verdict"], ran.row("1", "shaft")["verdict"]] == ["right", "review"]
     assert told in ran.row("1", "shaft")["feedback"]
+
+
+SHORT = """\
+icsolve: 1
+variables: {a: {choices: [1, 2, 3]}}
+points: {A: [0, 0], C: [unknown, 0]}
+lengths: {AB: LENGTH, BC: $a}
+angles: {AB: DIRECTION}
+near: {C: [20, 0]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {slide: [4, 1], at: C, along: 0}]
+loads:
+  P: {force: 10, link: 4, at: C, angle: 180}
+  T: {torque: unknown, link: 2}
+"""
+
+
+@pytest.mark.parametrize(
+    ("length", "degrees", "why"),
+    [("10", "90", "60 do not assemble or have no answer"), ("0.5", "0.01", "60 are near a dead centre")],
+)
+def test_why_no_variant_suits_is_told_with_counts(
+    a_class: Class, length: str, degrees: str, why: str
+) -> None:
+    a_class.case("short", SHORT.replace("LENGTH", length).replace("DIRECTION", degrees))
+    roster = a_class.file("roster.csv", "student_id\n1\n")
+    ran = a_class.run(
+        "variants", a_class.path("cases/short.yaml"), "--roster", roster, "-o", a_class.path("o")
+    )
+    assert ran.code == 1 and f"1: none of 60 variants of short suits ({why}): narrow" in ran.err
+
+
+def test_a_case_that_can_not_be_read_is_told_and_nothing_else_of_it(a_class: Class) -> None:
+    a_class.case("short", SHORT.replace("$a", "$a + $b").replace("LENGTH", "1").replace("DIRECTION", "90"))
+    roster = a_class.file("roster.csv", "student_id\n1\n")
+    ran = a_class.run(
+        "variants", a_class.path("cases/short.yaml"), "--roster", roster, "-o", a_class.path("o")
+    )
+    assert ran.code == 2 and "can't be read" in ran.err and "no case has variables" not in ran.err

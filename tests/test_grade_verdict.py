@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import random
+import re
 from pathlib import Path
 
 import pytest
 
 from grade_shell import CASES, Class
+from icsolve.grade.case_store import CaseStore
+from icsolve.grade.course import Course
+from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey
 from icsolve.grade.one import Task
+from icsolve.grade.tolerance import SLACK, range_in_words
 
 ZERO = """\
 icsolve: 1
@@ -268,7 +274,8 @@ def test_a_load_that_holds_over_a_range_asks_for_both_ends(a_class: Class) -> No
     assert [(row["verdict"], row["code"]) for row in rows] == [
         ("right", ""), ("right", ""), ("wrong", "unit"), ("wrong", "one-end"), ("wrong", "one-end"),
     ]  # fmt: skip
-    assert "from -20 to 20 N" in rows[0]["feedback"]
+    told = "its lower end from -20.20 to -19.80 N and its upper end from 19.80 to 20.20 N"
+    assert told in rows[0]["feedback"]
 
 
 def test_a_range_with_an_open_end_is_answered_by_the_other(a_class: Class) -> None:
@@ -321,6 +328,16 @@ def test_a_pressure_on_next_to_nothing_is_next_to_no_force(a_class: Class, area:
     assert a_class.verdicts("0", "0.19", "0.21", case="zero") == ["right", "right", "wrong"]
 
 
+BAR = """\
+icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 2}
+angles: {AB: {unknown: [-110, 80]}}
+joints: [{pin: [1, 2], at: A}]
+loads:
+  S: {spring: 0.1, corner: AB, free: -90, link: 2}
+  W: {force: 1, link: 2, at: B, angle: 0}
+"""
 FOUR_BAR = """\
 icsolve: 1
 units: {length: in, force: lbf, torque: lbf*in}
@@ -375,3 +392,59 @@ def test_a_range_under_the_name_of_another_load_is_for_a_person(a_class: Class, 
         found += a_class.judge(form.format(*ends), case="block")
     known = "wrong" if form == "{} >= {}" else "right"
     assert [row["verdict"] for row in found] == [known, known, "review"]
+
+
+def _told(key: AnyKey) -> list[float]:
+    """The numbers of the accepted band as it is told."""
+    return [float(text) for text in re.findall(r"(?<![\w.])-?\d[\d.]*(?:[eE][-+]?\d+)?", key.accepted)]
+
+
+def test_both_ends_of_a_band_that_is_told_are_accepted() -> None:
+    """Of numbers of every size, with bands from a millionth of them to all of them; and they tell nine tenths
+    of the band at least."""
+    rng = random.Random(20261126)
+    for _ in range(400):
+        value = rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-20.0, 20.0)
+        half = abs(value) * 10.0 ** rng.uniform(-6.0, 0.0) * (1.0 + SLACK)
+        low, high = map(float, re.findall(r"\d[\d.]*(?:[eE][-+]?\d+)?", range_in_words(value, half, "")))
+        assert abs(low - abs(value)) <= half and abs(high - abs(value)) <= half, (value, half, low, high)
+        assert high - low >= 1.8 * half
+
+
+@pytest.mark.parametrize("tolerance", ["1%", "3 sf", "0.3 lbf*in", "{drawing: 0.02 in}"])
+def test_what_is_told_to_be_accepted_is_right_and_what_lies_beyond_is_not(
+    a_class: Class, tolerance: str
+) -> None:
+    a_class.case("press", FOUR_BAR + f"tolerance: {tolerance}\n")
+    store = CaseStore(a_class.path("cases/press.yaml"), Course())
+    key, task = store.key("press"), Task(a_class.path("cases/press.yaml"))
+    assert isinstance(key, NumberKey)
+    low, high = _told(key)
+    way = "cw" if key.value < 0.0 else "ccw"
+    beyond = 0.11 * key.half
+    found = [
+        task.grade("", f"{end:.8g} {way}")["verdict"] for end in (low, high, low - beyond, high + beyond)
+    ]
+    assert found == ["right", "right", "wrong", "wrong"]
+
+
+def test_of_a_range_an_angle_and_a_place_the_accepted_numbers_are_told(a_class: Class) -> None:
+    a_class.case("block", BLOCK)
+    a_class.case("bar", BAR)
+    a_class.case("press", FOUR_BAR)
+    a_class.case("wedge", (CASES / "sliders" / "wedge.yaml").read_text())
+    store = CaseStore(a_class.path("cases"), Course())
+    low, low_high, high, high_high = _told(store.key("block"))
+    ends = [(low, high), (low, high_high), (low_high, high), (low_high, high_high)]
+    assert set(a_class.verdicts(*(f"{a} to {b}" for a, b in ends), case="block")) == {"right"}
+    bar = store.key("bar")
+    assert isinstance(bar, NumberKey) and bar.value < 0.0
+    assert set(a_class.verdicts(*map(str, _told(bar)), case="bar")) == {"right"}
+    place = store.key("press:I24")
+    assert isinstance(place, PlaceKey)
+    (width,), (x, y) = _told(place), place.place
+    assert (
+        a_class.verdicts(f"({x + width!r}, {y!r})", f"({x!r}, {y - width!r})", case="press:I24")
+        == ["right"] * 2
+    )
+    assert store.key("wedge:I23").accepted == "at infinity within 1 deg of its direction"

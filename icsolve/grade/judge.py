@@ -8,7 +8,17 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from icsolve.grade.keys import AGAINST, NEITHER, AnyKey, ChoiceKey, NumberKey, PlaceKey, RangeKey, numbers_of
+from icsolve.grade.keys import (
+    AGAINST,
+    DEGREE,
+    NEITHER,
+    AnyKey,
+    ChoiceKey,
+    NumberKey,
+    PlaceKey,
+    RangeKey,
+    numbers_of,
+)
 from icsolve.grade.mistakes.lookup import Wrong, message, near_miss, together
 from icsolve.grade.tolerance import SLACK
 from icsolve.grade.written.answer import (
@@ -18,6 +28,7 @@ from icsolve.grade.written.answer import (
     Reader,
     WrittenAnswer,
     flagged,
+    may_name,
     names_in,
 )
 from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, figures, plain
@@ -66,6 +77,8 @@ _ALL_PARTS = (True, True, True)
 
 Read = WrittenAnswer | WrittenPlace | WrittenRange
 _LISTED = re.compile(r" ?; ?|, | (?:and|or|und|oder|et|ou|y|o|e|&) ")
+_SPACED = re.compile(r"(?<=[\d°.g]) (?=[-+]?\d)")
+"""Two numbers with nothing but a space between, the first perhaps in degrees."""
 _GROUPED = re.compile(r"[-+]?[1-9]\d{0,2}\.\d{3}(?![\d.])")
 
 
@@ -85,10 +98,10 @@ def judge_answer(
     tuple[Judgement, Read]
         The verdict, and how the answer was read. Nothing that a student writes raises.
     """
-    judged, read = _judged(key, reader, answer, unit, direction)
-    if judged.verdict in (RIGHT, WRONG) and any(map(key.another, names_in(answer))):
+    found = _judged(key, reader, answer, unit, direction)
+    if may_name(answer) and found[0].verdict in (RIGHT, WRONG) and any(map(key.another, names_in(answer))):
         return _unjudged(OTHER_NAME), flagged(OTHER_NAME)
-    return judged, read
+    return found
 
 
 def _judged(key: AnyKey, reader: Reader, answer: str, unit: str, direction: str) -> tuple[Judgement, Read]:
@@ -105,6 +118,8 @@ def _judged(key: AnyKey, reader: Reader, answer: str, unit: str, direction: str)
         found = read_range(text, reader.decimal)
         return judge_range(key, found), found
     written = reader.read(answer, unit, direction)
+    if key.period and written.direction is not None and written.direction.measured:
+        return _unjudged(TWO_VALUES), flagged(TWO_VALUES)  # an angle has no angle as its direction
     if key.period and written.flag == UNREAD:
         written = _as_heading(answer) or written
     judged = judge(key, written)
@@ -128,12 +143,14 @@ def _judge_choice(
 ) -> tuple[Judgement, Read]:
     """By the nearest of several right values, whose mistakes alone are looked up where it is right; else by
     the first of which it shows a known mistake. Several values are right where each of them is."""
-    number, word, _, _, flag, _ = reader.read(answer, unit, direction)
-    parts = _LISTED.split(answer) if flag == TWO_VALUES else []
+    number, word, way, _, flag, _ = reader.read(answer, unit, direction)
+    several = flag in (TWO_VALUES, UNREAD) or (way is not None and way.measured)
+    words = plain(answer) if several else ""
+    parts = (_LISTED if _LISTED.search(words) else _SPACED).split(words)
     if len(parts) > 1:
-        several = [_judge_choice(key, reader, part, unit, direction) for part in parts]
-        if all(judged.verdict == RIGHT for judged, _ in several):
-            return several[0]
+        each = [_judge_choice(key, reader, part, unit, direction) for part in parts]
+        if all(judged.verdict == RIGHT for judged, _ in each):
+            return each[0]
 
     def off(one: NumberKey | RangeKey) -> float:
         if isinstance(one, RangeKey):
@@ -372,10 +389,6 @@ UNJUDGED = {
 """What is told where nothing was judged, by the flag."""
 
 
-_WITHIN = 1.0
-"""Degrees within which the direction of a centre at infinity is right."""
-
-
 def judge_place(key: PlaceKey, written: WrittenPlace) -> Judgement:
     """The verdict on an answer to the question where a centre is."""
     if written.flag:
@@ -409,7 +422,7 @@ def _far(key: PlaceKey, written: WrittenPlace) -> Judgement:
         return Judgement(WRONG, 0.0, (False, True, False))
     if math.isnan(written.toward):
         return Judgement(IN_REVIEW, 0.0, (True, True, False), code="no-direction")
-    right = abs(math.remainder(written.toward - key.toward, 180.0)) <= _WITHIN
+    right = abs(math.remainder(written.toward - key.toward, 180.0)) <= DEGREE
     return Judgement(RIGHT if right else WRONG, float(right), (right, True, right))
 
 
@@ -433,9 +446,21 @@ def judge_range(key: RangeKey, written: WrittenRange) -> Judgement:
     if not all(fits) and factor != 1.0 and all(_fits(key, _times(written, sign or 1))):
         fits, unit = (True, True), key.policy.unit == "ignored"
     parts = (all(fits), unit, sign != NEITHER)
+    off = _off_range(key, ends)
     if all(parts):
-        return Judgement(RIGHT, 1.0, _ALL_PARTS)
-    return _wrong(key, parts, _of_range(key, parts, fits, ends, written))
+        return Judgement(RIGHT, 1.0, _ALL_PARTS, None, off)
+    return _wrong(key, parts, _of_range(key, parts, fits, ends, written), None, off)
+
+
+def _off_range(key: RangeKey, ends: Ends) -> float | None:
+    """The error of the worse end, in whichever order they are written, as a part of the larger; None where
+    one is open, or should be."""
+    right = [end for end in (key.low, key.high) if end is not None]
+    orders = [[end for end in order if end is not None] for order in (ends, ends[::-1])]
+    if any(len(order) != len(right) for order in orders):
+        return None
+    offs = (max(abs(k.nearest(v) - k.value) for k, v in zip(right, order, strict=True)) for order in orders)
+    return relative(min(offs), max(abs(end.value) for end in right))
 
 
 def _times(written: WrittenRange, factor: float) -> Ends:

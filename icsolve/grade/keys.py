@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from decimal import ROUND_FLOOR
 
 from icsolve.answer import Answer
 from icsolve.case import (
@@ -42,6 +43,7 @@ from icsolve.grade.tolerance import (
     own_width,
     parsed_unit,
     range_in_words,
+    rounded,
     size_of,
     unit_of_target,
     zero_width,
@@ -57,14 +59,14 @@ _ROUNDING = 1e-6
 """Degrees: 45 is within 45."""
 _PLAIN = ("assumed", "signed", False, 0)
 """Unit, direction, capitals and figures where nothing of them is asked."""
-_DEGREE = 1.0
+DEGREE = 1.0
 """Degrees within which a direction that is asked for is right."""
 
 _KINDS: dict[type, str] = {
     LoadIs: "load", RatioIs: "ratio", RateIs: "rate", SpeedIs: "rate", ReactionIs: "reaction",
     TensionIs: "reaction", CentreIs: "place", PositionIs: "position",
 }  # fmt: skip
-"""What is asked for, for messages; anything else is a ``length``."""
+"""What is asked for, for messages; a force of unknown direction is a ``vector``, what else a ``length``."""
 
 Places = tuple[Place | None, Mapping[str, Place]]
 
@@ -108,7 +110,7 @@ class ExpectedDirection(NamedTuple):
             return NEITHER
         if degrees is None:
             return None
-        found = _compared(degrees - self.heading, _DEGREE if self.asked else within)
+        found = _compared(degrees - self.heading, DEGREE if self.asked else within)
         return NEITHER if self.asked and found is None else found
 
     def _degrees(self, words: WrittenDirection) -> float | None:
@@ -252,7 +254,7 @@ class NumberKey(_Key):
     @cached_property
     def accepted(self) -> str:
         """The accepted band, in words."""
-        return range_in_words(self.value, self.half, self.unit_name)
+        return range_in_words(self.value, self.half, self.unit_name, signed=self.kind == "position")
 
     @cached_property
     def plain(self) -> bool:
@@ -306,8 +308,10 @@ class PlaceKey(_Key):
 
     @property
     def accepted(self) -> str:
-        """The accepted disc, in words."""
-        return f"within {self.half:.3g} {self.unit_name} of the place"
+        """The accepted disc, in words; of a centre at infinity its direction."""
+        if self.toward is not None:
+            return f"at infinity within {DEGREE:g} deg of its direction"
+        return f"within {rounded(self.half, self.half, ROUND_FLOOR)} {self.unit_name} of the place"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -328,12 +332,14 @@ class RangeKey(_Key):
 
     @property
     def accepted(self) -> str:
-        """The right range, one end of which may be open."""
-        low, high = self.low, self.high
-        said = f"{self.end.value:.6g} or {'more' if low else 'less'}"
-        if low and high:
-            said = f"from {low.value:.6g} to {high.value:.6g}"
-        return f"{said} {self.unit_name}".strip()
+        """The accepted band of each end, one of which may be open."""
+        told = [
+            f"no {which}"
+            if end is None
+            else f"its {which} {range_in_words(end.value, end.half, self.unit_name, signed=True)}"
+            for which, end in (("lower end", self.low), ("upper end", self.high))
+        ]
+        return " and ".join(told)
 
     @property
     def rule(self) -> str:
@@ -486,7 +492,8 @@ def _number(
     if abs(value) <= TRUE_ZERO / OF_LOADS * zero and not isinstance(target, PositionIs):
         value = 0.0
     half, expected = half_width(policy.tolerance, value, width, zero), expected_of(target, answer)
-    unit, kind = unit_of_target(target, answer), _KINDS.get(type(target), "length")
+    unit = unit_of_target(target, answer)
+    kind = "vector" if expected.asked else _KINDS.get(type(target), "length")
     return NumberKey(question, value, unit, half, width, expected, policy, Wrongs(tuple, value, half), kind)
 
 

@@ -258,7 +258,8 @@ class Marker:
         for before, entry in pairwise(ranked):
             if self._rank(before) == self._rank(entry):
                 line, which = (entry if self.course.attempt == "first" else before).line, self.course.attempt
-                said = f"the same student answers the same question again; the {which} row counts"
+                what = "column" if before.line == entry.line else "row"
+                said = f"the same student answers the same question again; the {which} {what} counts"
                 self.issues.note(self.path, line, said)
         if self.course.attempt == "first":
             return ranked[0]

@@ -406,9 +406,15 @@ def _why(was: ResultRow, row: ResultRow) -> str:
         return "the answer is read otherwise"
     if was.rel_error != row.rel_error:
         return "the key has changed"
+    if was.verdict != row.verdict and _OF_DIRECTION & {*was.code.split(), *row.code.split()}:
+        return "the direction of the right answer, or how directions count, has changed"
     if was.verdict != row.verdict:
         return "the tolerance, or what is asked for, has changed"
     return "the points or the credit have changed"
+
+
+_OF_DIRECTION = {"sign", "direction", "no-direction"}
+"""Codes of answers whose number is right."""
 
 
 def _said(row: ResultRow | None) -> str:

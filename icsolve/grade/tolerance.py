@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 
 from icsolve.answer import Answer
 from icsolve.case import (
@@ -77,19 +78,22 @@ def in_words(tolerance: Tolerance) -> str:
     return " or ".join(parts)
 
 
-def range_in_words(value: float, half: float, unit: str) -> str:
-    """The accepted band: ``from 408.6 to 416.8 N``; of magnitudes, as signs are judged apart."""
-    low, high = max(abs(value) - half, 0.0), abs(value) + half
-    return f"from {_rounded(low, half)} to {_rounded(high, half)} {unit}".rstrip()
+def range_in_words(value: float, half: float, unit: str, signed: bool = False) -> str:
+    """The accepted band: ``from 408.6 to 416.8 N``; of magnitudes, where signs are judged apart. Both ends
+    that are told are accepted."""
+    middle = value if signed else abs(value)
+    low, high = middle - half if signed else max(middle - half, 0.0), middle + half
+    ends = rounded(low, half, ROUND_CEILING), rounded(high, half, ROUND_FLOOR)
+    return f"from {ends[0]} to {ends[1]} {unit}".rstrip()
 
 
-def _rounded(number: float, half: float) -> str:
-    """Three figures of the band's own width, no more."""
+def rounded(number: float, half: float, way: str) -> str:
+    """Three figures of the band's own width, no more, rounded ``way``: into the band."""
     if half <= 0.0 or not math.isfinite(half):
         return f"{number:.10g}"
     places = 1 - math.floor(math.log10(half))
-    rounded = round(number, places)
-    return f"{rounded:.{min(places, 12)}f}" if 0 < places <= 12 and abs(rounded) < 1e12 else f"{rounded:.10g}"
+    found = Decimal(number).quantize(Decimal(1).scaleb(-places), way)
+    return f"{found:f}" if places <= 12 and abs(number) < 1e12 else f"{found:e}"
 
 
 TRUE_ZERO = 1e-9

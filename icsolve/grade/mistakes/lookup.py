@@ -72,6 +72,8 @@ class Wrong(NamedTuple):
 
 
 _OTHERWISE = {
+    ("direction", "vector"): "Right size; the angle of its direction is wrong by more than a degree.",
+    ("no-direction", "vector"): "Right size; say its direction as well, as an angle.",
     ("sign", "ratio"): "Right size, wrong sense. Do the two links turn the same way?",
     ("sign", "rate"): "Right size, wrong sense. Which way does the link turn?",
     ("sign", "place"): "The sizes are right; a coordinate has the wrong sign.",

@@ -27,6 +27,7 @@ from icsolve.grade.platforms.questions import (
 from icsolve.grade.solved import SolvedCase, final_questions
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import KEYS, VALUES, read_records
+from icsolve.grade.variants.varied import Draw, Varied
 from icsolve.tuples import NamedTuple
 from icsolve.wording.statement import Statement
 
@@ -157,11 +158,26 @@ def questions(order: ExportOrder, complain: Complain) -> Iterator[Question]:
                 solved = order.case_store.solved(name)
                 yield from _of_case(solved, solved.case, name, order, solved.case.title)
                 continue
-            for n in range(1, order.variants + 1):
-                case = varied.read(varied.draw(str(n)).values)
-                yield from _of_case(varied.solved(str(n)), case, f"{name} v{n}", order, varied.title)
+            for n, draw in enumerate(_different(varied, order.variants), 1):
+                case = varied.read(draw.values)
+                yield from _of_case(varied.task(draw), case, f"{name} v{n}", order, varied.title)
         except NoKeyError as error:
             complain(f"{order.case_store.paths.get(name, name)}: {error}")
+
+
+_TRIED = 20
+"""Draws for each variant that is wanted, until there are enough different ones."""
+
+
+def _different(varied: Varied, most: int) -> list[Draw]:
+    """So many variants of a case, no two alike; fewer where it has no more."""
+    found: dict[str, Draw] = {}
+    for n in range(1, _TRIED * most + 1):
+        draw = varied.draw(str(n))
+        found.setdefault(draw.label, draw)
+        if len(found) == most:
+            break
+    return list(found.values())
 
 
 def _of_case(solved: SolvedCase, case: Case, name: str, order: ExportOrder, title: str) -> Iterator[Question]:

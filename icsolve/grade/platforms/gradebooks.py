@@ -21,10 +21,12 @@ Students = Iterable[tuple[str, list[ResultRow]]]
 
 
 class Filled(NamedTuple):
-    """The file's new text, and the students who have a row in it."""
+    """The file's new text, the students who have a row in it, and the questions that got a column of their
+    own, as none of its columns had their name."""
 
     text: str
     placed: frozenset[str]
+    added: tuple[str, ...] = ()
 
 
 _LAST = plain_name("End-of-Line Indicator")
@@ -164,7 +166,9 @@ def gradebook_filled(template: str, students: Students, people: dict[str, Person
         )
     marks = {student: rows for student, rows in students if student}
     points = _points([*marks.values()], total)
+    own = tuple(book.header)
     places = {name: _place(book, name, new=not total) for name in points}
+    added = tuple(name for name, at in places.items() if book.header[at] not in own)
     possible = _possible(book, places, points)
 
     def put(row: list[str], own: list[ResultRow]) -> None:
@@ -172,7 +176,7 @@ def gradebook_filled(template: str, students: Students, people: dict[str, Person
             scaled = score * possible[name] / most if score is not None and most else score
             row[places[name]] = book.number(scaled)
 
-    return _filled(book, marks, people, ids, pairs, put)
+    return _filled(book, marks, people, ids, pairs, put)._replace(added=added)
 
 
 def _filled(

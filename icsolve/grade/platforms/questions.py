@@ -223,7 +223,9 @@ def gift(questions: Iterable[Question], category: str) -> str:
 
 def _gift_question(question: Question) -> str:
     key = question.key
-    values = "; ".join(f"{name} = {value}" for name, value in question.given)
+    values = "; ".join(
+        name + (": " if " " in name else " = ") + value if value else name for name, value in question.given
+    )
     title = f"{question.title.rstrip('. ')}. " if question.title else ""
     text = _gift(f"{title}Given: {values}. {question.asked}")
     told = _gift(f"Right: {question.accepted} is accepted.")

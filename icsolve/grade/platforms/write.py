@@ -89,6 +89,10 @@ def _filled(order: PlatformFile, made: Filled) -> str:
     left = [student for student, _ in by_student(order.results) if student and student not in made.placed]
     names = ", ".join(left[:_NAMED]) + (f" and {len(left) - _NAMED} more" if len(left) > _NAMED else "")
     missing = f"; it has no row for {names}" if left else ""
+    if made.added:
+        missing += (
+            f"; none of its columns is named {' or '.join(made.added)}, so there are new ones at its end"
+        )
     return f"{order.path}: marks of {plural(len(made.placed), 'student')} of {order.template}{missing}"
 
 

@@ -85,7 +85,7 @@ def _read(path: str, store: CaseStore, roster: Roster | None) -> tuple[str, Vari
         if student in handed and handed[student].values != values:
             raise ValueError(f"the student {student} stands in it twice, with other numbers")
         handed[student] = Draw(without_apostrophe(cells[label]) if label is not None else "", values)
-    return name, VariantRecord(path, handed, dict(_keys(os.path.join(os.path.dirname(path), KEYS), roster)))
+    return name, VariantRecord(path, handed, _keys(os.path.join(os.path.dirname(path), KEYS), roster))
 
 
 def _case_of(path: str, columns: TableColumns, store: CaseStore) -> str:
@@ -100,24 +100,31 @@ def _case_of(path: str, columns: TableColumns, store: CaseStore) -> str:
             fitting.append(name)
     if len(fitting) == 1:
         return fitting[0]
-    said = " and ".join(fitting) if fitting else "no case"
+    if not fitting:
+        why = f"none is named {folder}, and none has their variables"
+        raise ValueError(f"these are the numbers of no case of --cases: {why}")
+    said = " and ".join(fitting)
     raise ValueError(f"{said} could have these numbers; put the file into a folder with the name of its case")
 
 
-def _keys(path: str, roster: Roster | None) -> Iterator[tuple[tuple[str, str], tuple[float, str]]]:
+def _keys(path: str, roster: Roster | None) -> dict[tuple[str, str], list[tuple[float, str, str]]]:
     """The keys of that time, where they stand beside the values."""
+    found: dict[tuple[str, str], list[tuple[float, str, str]]] = {}
     if not os.path.isfile(path):
-        return
+        return found
     columns, rows = read_whole_table(path)
     if not columns.has("student_id", "case", "value", "unit"):
         raise ValueError(f"{KEYS} beside it is no key of `icsolve variants`")
     student, case, value, unit = (columns.names.index(n) for n in ("student_id", "case", "value", "unit"))
+    way = columns.names.index("sense") if columns.has("sense") else None
     for cells in rows:
         try:
-            key = (float(without_apostrophe(cells[value])), cells[unit])
-            yield (cells[case], student_named(cells[student], roster)), key
+            number = float(without_apostrophe(cells[value]))
         except ValueError:
             raise ValueError(f"{KEYS} beside it has a value that is no number: {cells[value]!r}") from None
+        key = (number, cells[unit], without_apostrophe(cells[way]) if way is not None else "")
+        found.setdefault((cells[case], student_named(cells[student], roster)), []).append(key)
+    return found
 
 
 # --- what has changed since -------------------------------------------------------------------------
@@ -149,22 +156,35 @@ def _changed_keys(varied: Varied, record: VariantRecord) -> Iterator[str]:
     """The keys that are others now, by question."""
     moved: dict[str, list[str]] = {}
     counts: dict[str, int] = {}
-    for (question, student), (before, unit) in record.keys.items():
+    for (question, student), before in record.keys.items():
         if student not in record.handed:
             continue
         counts[question] = counts.get(question, 0) + 1
         try:
-            now = getattr(varied.solved(student).key(question), "value", None)
+            key = varied.solved(student).key(question)
+            now = [
+                (one.value, one.unit_name, sense(varied, varied.draw(student), one))
+                for one in numbers_of(key)
+            ]
         except NoKeyError:
-            moved.setdefault(question, []).append(f"{student}: {before:.6g} {unit}, now none")
-            continue
-        if now is not None and abs(now - before) > _SAME * max(abs(now), abs(before)):
-            moved.setdefault(question, []).append(f"{student}: {before:.6g}, now {now:.6g} {unit}")
+            now = []
+        if len(now) != len(before) or not all(map(_is_same, before, now)):
+            told = [
+                " and ".join(f"{v:.6g} {unit} {way}".rstrip() for v, unit, way in one)
+                for one in (before, now)
+            ]
+            moved.setdefault(question, []).append(f"{student}: {told[0]}, now {told[1] or 'none'}")
     for question, told in moved.items():
         yield (
             f"the key of {question} has changed for {len(told)} of {counts[question]} students since the "
             f"numbers were handed out ({_some(told)}); the one of now counts"
         )
+
+
+def _is_same(before: tuple[float, str, str], now: tuple[float, str, str]) -> bool:
+    """Whether a right number is as it was; a sense is in the file of late only."""
+    number = abs(now[0] - before[0]) <= _SAME * max(abs(now[0]), abs(before[0]))
+    return number and (not before[2] or before[2] == now[2])
 
 
 def _some(texts: list[str]) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from typing import TypeVar
@@ -59,10 +60,12 @@ Mistake = tuple[str, str, str]
 
 
 class Seen(NamedTuple):
-    """A variant looked at: whether it is far from dead centres, and the mistakes that it would not show."""
+    """A variant looked at: whether it is far from dead centres, the mistakes that it would not show, and
+    whether it has an answer at all."""
 
     far: bool
     swallowed: frozenset[Mistake]
+    solved: bool = True
 
 
 def swing(answer: Answer) -> float:
@@ -111,7 +114,8 @@ _WORTH = 8
 """Variants from which a record pays."""
 _KNOWN = 100_000
 """Students whose draw is kept, and variants of which it is known whether they suit."""
-_UNFIT = Seen(False, frozenset())
+_NEAR = Seen(False, frozenset())
+_UNSOLVED = Seen(False, frozenset(), False)
 
 
 class Draw(NamedTuple):
@@ -122,11 +126,12 @@ class Draw(NamedTuple):
 
 
 class VariantRecord(NamedTuple):
-    """The numbers of one case by student, and the keys of that time by question and student."""
+    """The numbers of one case by student, and the keys of that time by question and student: of each right
+    number its value, its unit and its sense."""
 
     path: str
     handed: dict[str, Draw]
-    keys: dict[tuple[str, str], tuple[float, str]]
+    keys: dict[tuple[str, str], list[tuple[float, str, str]]]
 
 
 K = TypeVar("K")
@@ -173,10 +178,8 @@ class Varied:
         if student not in self._draws:
             self._draw((student,))
         if student not in self._draws:
-            raise NoKeyError(
-                f"none of {TRIALS} variants of {self.name} suits (assembles, no dead centre near, mistakes "
-                "apart): narrow the ranges of its variables"
-            )
+            why = f"none of {TRIALS} variants of {self.name} suits ({self._why_none(student)})"
+            raise NoKeyError(f"{why}: narrow the ranges of its variables")
         return self._draws[student]
 
     def ready(self, students: Iterable[str]) -> None:
@@ -351,6 +354,20 @@ class Varied:
             return False
         return self._scales(base, values) or self._looked_at(values).far
 
+    def _why_none(self, student: str) -> str:
+        """How many of a student's draws do not suit, by what is wrong with them."""
+        found: Counter[str] = Counter()
+        for values in self.draws(student):
+            base = self._figure(values)
+            seen = [self._looked_at(base)] + ([] if self._scales(base, values) else [self._looked_at(values)])
+            if not all(one.solved for one in seen):
+                found["{} do not assemble or have no answer"] += 1
+            elif not all(one.far for one in seen):
+                found["{} are near a dead centre"] += 1
+            else:
+                found["{} do not show a mistake that others show"] += 1
+        return ", ".join(why.format(n) for why, n in found.most_common())
+
     def _scales(self, base: Texts, values: Texts) -> bool:
         factor = self.numbers.factor(base, values)
         return factor is not None and factor > 0.0
@@ -360,11 +377,11 @@ class Varied:
         key = tuple(values.values())
         if key not in self._seen:
             solved = self._exactly(values, full=True)
-            self._seen[key] = self._judged(solved.answer) if solved is not None else _UNFIT
+            self._seen[key] = self._judged(solved.answer) if solved is not None else _UNSOLVED
         return self._seen[key]
 
     def _judged(self, answer: Answer, known: Known | None = None) -> Seen:
-        return Seen(True, swallowed(answer, known)) if swing(answer) <= self._limit else _UNFIT
+        return Seen(True, swallowed(answer, known)) if swing(answer) <= self._limit else _NEAR
 
     @cached_property
     def _always_swallowed(self) -> frozenset[Mistake]:

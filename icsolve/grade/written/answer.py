@@ -96,7 +96,7 @@ _ASIDE = re.compile(
 """Words that say nothing about the value, and a unit in brackets that is none."""
 _BRACKETED_MINUS = re.compile(r"\( ?- ?\)")
 """Alone the unit of a ratio; beside a unit or a direction perhaps the number's sign."""
-_VECTOR_FIRST = re.compile(r"([ij]|[ijk]-hat) (.+)")
+_VECTOR_FIRST = re.compile(r"(?<!\w)([ij]|[ijk]-hat) (.+)")
 _BODY = (
     r"link|crank|bar|member|body|input|output|frame|rod|coupler|rocker"
     r"|slider|block|piston|gear|wheel|arm|lever|pin"
@@ -249,10 +249,12 @@ _NAMED = re.compile(
 )
 
 
+may_name = re.compile(r"\W*(?:[^\W\d_]|\d[^<>&≤≥]*[<>&≤≥])").match
+"""Whether a text begins with a letter, or has a number before a sign of order: few do, and are looked at."""
+
+
 def names_in(text: str) -> list[str]:
     """The names to which an answer gives what it says: ``T12`` of ``T12 = 41 N*m``, ``P >= 3`` has ``P``."""
-    if text[:1].isdigit() and "<" not in text and ">" not in text:
-        return []
     return [
         found.group("name") or found.group("first") for found in _NAMED.finditer(plain(text[: LONGEST * 20]))
     ]
@@ -369,7 +371,11 @@ def _agrees(read: WrittenAnswer) -> bool:
 
 def _pieces(text: str) -> list[str]:
     """Words, with signs and brackets that touch them set apart from the unit before."""
-    spaced = re.sub(r"(?<=[A-Za-z°%])(?=[(\[{@])|(?<=[,;])(?=\S)|(?<=[)\]}])(?=\S)|(?=@)", " ", text)
+    spaced = re.sub(
+        r"(?<=[A-Za-z°%])(?=[(\[{@])|(?<=;)(?=\S)|(?<=,)(?=\D)|(?<=\D,)(?=\d)|(?<=[)\]}])(?=\S)|(?=@)",
+        " ",
+        text,
+    )
     return spaced.split()
 
 

@@ -117,7 +117,7 @@ _LETTERS = {"T": PULL, "C": PUSH, "cw": CW, "ccw": CCW} | {
 }
 _NUMBER = r"([-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+))"
 _UNIT = r" ?(deg|degs|degrees?|°|rad|radians?|grad)?"
-_LEAD = r"(?:(?:at|@|angle|angle of|at angle|at an angle of|unter|theta ?=|direction|dir)[ :=]*)"
+_LEAD = r"(?:(?:at|@|angle|angle of|at angle|at an angle of|unter|bei|à|theta ?=|direction|dir)[ :=]*)"
 _ANGLE = re.compile(rf"({_LEAD}?) ?{_NUMBER}{_UNIT}(?: (.+))?$")
 _AXES = {
     "x": 0.0, "+x": 0.0, "positive x": 0.0, "-x": 180.0, "negative x": 180.0,
@@ -143,9 +143,13 @@ _TOWARD = re.compile(
 )
 
 
+_STOPS = re.compile(r"[()\[\]{};:!]|(?<!\d),|,(?!\d)|\.(?=$|\s)")
+"""No comma between digits, which is a decimal mark."""
+
+
 def direction(text: str) -> WrittenDirection | None:
     """The direction that a text in plain characters says; None where it says none, or more than that."""
-    bare = " ".join(re.sub(r"[()\[\]{},;:!]|\.(?=$|\s)", " ", text).split())
+    bare = " ".join(_STOPS.sub(" ", text).split())
     if not bare:
         return None
     if bare in _LETTERS:
@@ -246,7 +250,11 @@ def _from_axis(degrees: float, rest: str) -> WrittenDirection | None:
         side = re.sub(r"\b(?:horizontal|vertical|horizontally|vertically|to)\b", " ", axis)
         named = _WORDS.get(" ".join(side.split()))
         base = named.value if named is not None and named.kind == "line" else None
-    return _line(base + _sign(way, base) * degrees) if base is not None else None
+    if base is None:
+        return None
+    if way == "from" and axis not in ("+x", "positive x") and degrees % 180.0:
+        return DOUBTFUL  # to either side of it
+    return _line(base + _sign(way, base) * degrees)
 
 
 def _sign(way: str, base: float) -> float:
