@@ -105,3 +105,17 @@ def test_every_number_of_a_plane_case_is_told(path: Path) -> None:
             forms = {number.digits, number.digits.lstrip("-+"), work.number(number.value).digits}
             forms |= {f"{number.value:.10g}", f"{abs(number.value):.10g}"}
             assert forms & words, (place, number)
+
+
+@pytest.mark.parametrize(
+    ("speed", "told"),
+    [
+        ("290 rpm", "at 290 rpm, counterclockwise"),
+        ("-290 rpm", "at 290 rpm, clockwise"),
+        ("30 rad/s", "at 30 rad/s, "),
+    ],
+)
+def test_a_speed_is_told_in_the_unit_in_which_it_is_given(speed: str, told: str) -> None:
+    text = (CASES / "dynamics" / "slider_crank_piston.yaml").read_text()
+    case = icsolve.load(re.sub(r"speed: [^,}\n]+", f"speed: {speed}", text))
+    assert told in " ".join(value for _, value in Statement(case).rows())

@@ -32,6 +32,7 @@ from icsolve.case import (
 )
 from icsolve.case.figure import Corner, Unknown
 from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Knife, Polygon, Radii, Roller, Shape
+from icsolve.numbers.units import nearest, parse_unit
 from icsolve.tuples import NamedTuple
 from icsolve.wording.joints import joint_data, joint_words
 from icsolve.wording.senses import SPELT, unit_of
@@ -39,6 +40,10 @@ from icsolve.wording.sentences import RECONSTRUCTED, link_words, listed
 
 Row = tuple[str, str]
 """What something is called, and what is given of it."""
+
+
+_RPM = nearest(parse_unit("rpm")[:3])
+"""Radians a second of a revolution a minute."""
 
 
 def as_written(number: Number) -> str:
@@ -287,7 +292,7 @@ class Statement(NamedTuple):
         unit = "rad" if motion.point is None else self.case.units.length
         if motion.point is None:
             back = (motion.turns == "cw") != (speed is not None and speed.value < 0.0)
-            parts = [f"at {self._size(speed)} {unit}/s"] if speed is not None else []
+            parts = [f"at {self._turning(speed)}"] if speed is not None else []
             parts.append(SPELT["cw" if back else "ccw"])
         else:
             parts = [f"at {self.show(speed)} {unit}/s"] if speed is not None else []
@@ -296,6 +301,12 @@ class Statement(NamedTuple):
             change = "speeding up" if gain.value > 0.0 else "slowing down"
             parts.append(f"{change} at {self._size(gain)} {unit}/s^2")
         return ", ".join(parts)
+
+    def _turning(self, speed: Number) -> str:
+        """A speed of turning, in revolutions a minute where it is written so and shown as written."""
+        if self.show is as_written and speed.factor == _RPM:
+            return f"{speed.digits.lstrip('+-')} rpm"
+        return f"{self._size(speed)} rad/s"
 
     def _size(self, number: Number) -> str:
         return self.show(number).lstrip("+-")
