@@ -8,7 +8,7 @@ from typing import Any
 from icsolve.answer import Answer, Deferred
 from icsolve.answer.bodies import Reactions, Touching, names_of
 from icsolve.cams.contact_search import found
-from icsolve.cams.words import contact_said, lost_said
+from icsolve.cams.words import contact_said
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.tuples import replace
@@ -34,7 +34,7 @@ def solve_touching(case: Case, solve: Callable[..., Answer], **options: Any) -> 
         case=case,
         sensitivities=Deferred(_no_sensitivities),
         skipped=tuple(name for name in answer.skipped if name not in known.used),
-        notes=tuple(dict.fromkeys((*answer.notes, *_notes(touching)))),  # free bodies may have told it
+        notes=(*answer.notes, *_notes(touching)),
         touching=touching,
         reactions=_with_pressure_angles(answer.reactions, known.case, touching),
     )
@@ -107,8 +107,7 @@ def _with_pressure_angles(
 
 def _notes(touching: tuple[Touching, ...]) -> tuple[str, ...]:
     """What is said of the contacts."""
-    said = [contact_said(one) for one in touching] + [one.note for one in touching if one.note]
-    return (*said, *(lost_said(one) for one in touching if one.lost))
+    return (*map(contact_said, touching), *(one.note for one in touching if one.note))
 
 
 def _no_sensitivities() -> dict[str, dict[str, float]]:

@@ -146,13 +146,5 @@ def lost_rows(links: Sequence[str], count: int, where: str) -> str:
     )
 
 
-def lost_said(one: Touching) -> str:
-    """A contact that would have to pull."""
-    return (
-        f"the contact of links {listed(one.links)} is lost: its normal force would have to pull "
-        f"({one.force:.6g}). The links part there."
-    )
-
-
 def _article(on: str) -> str:
     return f"on {'an' if on[0] in 'aeiou' else 'the' if on in ('circle', 'spline') else 'a'} {on}"

@@ -239,15 +239,11 @@ class AnswerBuilder:
         """With those of the size of each force of unknown direction, beside those of its components."""
         for name in self.case.directed:
             both = [f"{name}.{axis}" for axis in "xy"]
-            values, slopes_of_both = (
-                [self.unknowns[one].value for one in both],
-                [by_load[one] for one in both],
-            )
-            if size := math.hypot(*values):
+            if size := math.hypot(*(self.unknowns[one].value for one in both)):
                 own = f"loads.{name}."  # where its components point
-                paths = {p: None for of in slopes_of_both for p in of if not p.startswith(own)}
-                parts = [(value / size, of_one) for value, of_one in zip(values, slopes_of_both, strict=True)]
-                by_load[name] = {p: sum(share * of.get(p, 0.0) for share, of in parts) for p in paths}
+                parts = [(self.unknowns[one].value / size, by_load[one]) for one in both]
+                paths = {p: None for _, slope in parts for p in slope if not p.startswith(own)}
+                by_load[name] = {p: sum(share * slope.get(p, 0.0) for share, slope in parts) for p in paths}
         return by_load
 
     def _with(self, number: Number, step: Decimal, digits: int) -> dict[str, Scalar]:

@@ -84,10 +84,13 @@ def moving_loads(case: Case, path: str = "") -> tuple[float, float]:
     return found.held.low - found.value, found.held.high - found.value
 
 
-def spare_friction(case: Case) -> float:
+def spare_friction(case: Case, path: str = "") -> float:
     """How far a mechanism under known loads is from slipping as written: the least load in either sense
-    that would move it [case units], negative where it slips; infinite where none or any would."""
-    low, high = moving_loads(case)
+    that would move it [case units], negative where it slips; infinite where none or any would.
+
+    Parameters as of `asked_of`.
+    """
+    low, high = moving_loads(case, path)
     return min(high, -low)
 
 

@@ -235,11 +235,10 @@ def holding_values(case: Case, path: str, low: float, high: float) -> list[Turni
 
 def is_still(case: Case, path: str, value: float) -> bool:
     """Whether a mechanism under known loads holds still at a value of a number."""
-    from icsolve.solve.known_loads import moving_loads
+    from icsolve.solve.known_loads import spare_friction
 
     own = find_number(case, path).path
-    low, high = moving_loads(with_numbers(case, {own: value}), own)
-    return low <= 0.0 <= high
+    return spare_friction(with_numbers(case, {own: value}), own) >= 0.0
 
 
 __all__ = [
