@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.answer import Answer, Deferred, Found
 from icsolve.answer.bodies import FrictionFound, Rubbing, Tension
@@ -50,8 +50,13 @@ from icsolve.statics.power import Balance, Bounded, Solution, Value, is_unknown
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import names_by_tie, reactions_of, tensions_of
 from icsolve.statics.witness import refuse_doubt, residual, terms_of
-from icsolve.tuples import NamedTuple, Protocol, replace
+from icsolve.tuples import LateModule, NamedTuple, Protocol, replace
 from icsolve.wording.sentences import listed, plural
+
+if TYPE_CHECKING:
+    from icsolve.statics.friction import pushing as limited
+else:  # where a contact parts
+    limited = LateModule("icsolve.statics.friction.pushing")
 
 
 class Slipping(NamedTuple):
@@ -158,10 +163,16 @@ def at_rest(scene: FrictionScene) -> tuple[StaticRange, float | None, str]:
         found, proven = _range_with_ropes(scene, rates)
     else:
         ties, workless, senses = ties_of(scene.position), _is_workless(scene), rates.senses.rubs
-        statics = _statics(scene, ties, _flanks(scene, ties, workless))
+        flanks = _flanks(scene, ties, workless)
+        statics = _statics(scene, ties, flanks)
         driven = scene.solution.verdict == "no value"
         found = pressed(statics, senses, driven) if workless else static_range(statics, senses, scene.alone)
-        proven = [_proven_end(scene, statics, end) for end in found.ends]
+        proven = [
+            _proven_end(scene, statics, end)
+            if end.vertex is None
+            else _proven_vertex(scene, statics, flanks, end.vertex)
+            for end in found.ends
+        ]
     bounds = [bound for each in proven for bound in each.bounds.values()]
     why = next((each.why for each in proven if each.why), "" if bounds else UNENDING)
     both = zip(found.ends, proven, strict=True)
@@ -249,6 +260,26 @@ def _proven_end(scene: FrictionScene, statics: Statics, end: End) -> Proven:
     """What is proven of an end, at which the mechanism is about to move."""
     (root,) = statics.roots
     return _proven(scene, Solved(statics, {root: end.value}, end.friction), end.senses)
+
+
+def _proven_vertex(
+    scene: FrictionScene, own: Statics, flanks: Mapping[int, float], vertex: limited.Vertex
+) -> Proven:
+    """What is proven of an end where a contact parts, or of others that linear inequalities set."""
+    (root,) = own.roots
+    if scene.enclose is None or not vertex.of:
+        return Proven(limited.how(own) if scene.enclose else UNBOUND)
+
+    def rounded(placed: SceneOnBalls) -> Value | None:
+        statics = placed.statics(flanks, [tie.senses for tie in scene.position.ropes])
+        found = limited.exactly(statics, vertex)
+        return None if found is None else Value(*placed.arithmetic.rounded(found / statics.scale))
+
+    with suppress(SceneError):
+        value = scene.enclose(rounded)
+        if value is not None:
+            return Proven("", {root: value.error or 0.0}, {root: value.value})
+    return Proven(TOO_CLOSE)
 
 
 def _flanks(scene: FrictionScene, ties: Sequence[Tie], workless: bool) -> Mapping[int, float]:
