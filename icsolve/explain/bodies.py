@@ -257,12 +257,15 @@ def friction_section(work: Worked) -> Iterable[Section]:
     rules = [block for joint in work.case.joints for block in _rule(work, joint)]
     if not rules:
         return
-    blocks: list[Block] = [words(RULE), *rules]
+    yield Section("Friction", (words(RULE), *rules, *rubbing_blocks(work)))
+
+
+def rubbing_blocks(work: Worked) -> Iterable[Block]:
+    """What the friction at each joint comes to."""
     friction = None if work.answer is None else work.answer.friction
     if friction is not None and friction.rubbing:
-        blocks += [words("With the equations of equilibrium of all links (below) these give:")]
-        blocks += [Items(tuple((_rubs(work, one),) for one in friction.rubbing))]
-    yield Section("Friction", tuple(blocks))
+        yield words("With the equations of equilibrium of all links (below) these give:")
+        yield Items(tuple((_rubs(work, one),) for one in friction.rubbing))
 
 
 RULE = (
@@ -295,7 +298,8 @@ def _rubs(work: Worked, one: Rubbing) -> str:
     """What friction does at one place."""
     units = work.units
     unit = units.torque if one.kind == "pin" else units.force
-    what = "moment about the pin" if one.kind == "pin" else "friction along the guide"
+    along = {"pin": "moment about the pin", "contact": "friction along the tangent", "rope": "friction"}
+    what = along.get(one.kind, "friction along the guide")
     size = work.show(abs(one.value))
     force = work.answer.reactions.get(one.joint) if work.answer and work.answer.reactions else None
     of = "" if force is None or force.magnitude is None else f" = {work.show(force.magnitude)} {units.force}"
