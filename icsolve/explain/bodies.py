@@ -255,9 +255,9 @@ def friction_section(work: Worked) -> Iterable[Section]:
     """The rule at each joint that rubs: friction circles of pins, friction angles of guides; then what they
     come to in this position."""
     rules = [block for joint in work.case.joints for block in _rule(work, joint)]
-    if not rules:
-        return
-    yield Section("Friction", (words(RULE), *rules, *rubbing_blocks(work)))
+    blocks = [*([words(RULE)] if rules else []), *rules, *rubbing_blocks(work)]
+    if blocks:
+        yield Section("Friction", tuple(blocks))
 
 
 def rubbing_blocks(work: Worked) -> Iterable[Block]:
@@ -298,8 +298,8 @@ def _rubs(work: Worked, one: Rubbing) -> str:
     """What friction does at one place."""
     units = work.units
     unit = units.torque if one.kind == "pin" else units.force
-    along = {"pin": "moment about the pin", "contact": "friction along the tangent", "rope": "friction"}
-    what = along.get(one.kind, "friction along the guide")
+    along = {"contact": "tangent", "screw": "thread", "rope": "rope"}.get(one.kind, "guide")
+    what = "moment about the pin" if one.kind == "pin" else f"friction along the {along}"
     size = work.show(abs(one.value))
     force = work.answer.reactions.get(one.joint) if work.answer and work.answer.reactions else None
     of = "" if force is None or force.magnitude is None else f" = {work.show(force.magnitude)} {units.force}"

@@ -255,7 +255,9 @@ def _numbers(
     for term in terms:
         yield from _term(work, reference, term, unit)
     for r in friction:
-        yield words(f"{r.words}, {work.show(r.value)} {r.unit}:")
+        rubs = "rate" if r.unit == units.torque else "speed"
+        said = f"{r.words}, {work.show(r.value)} {r.unit}, times its {rubs} of rubbing over "
+        yield words(said, work.motion_name(reference), ":")
         ratio = r.power / (r.value * r.rate) if r.value * r.rate else 1.0
         numbers = product(work.number(r.value), work.number(r.rate), work.number(ratio))
         yield formula(r.name, numbers, work.quantity(r.power, unit))
