@@ -29,12 +29,12 @@ from icsolve.explain.document import Document, Formula, formula
 from icsolve.explain.formula import MATHML, OMEGA, Expr, Name, Num, Quotient, Sum, product
 from icsolve.explain.typeset import AsHtml
 from icsolve.explain.worked import gain_names, load_name
-from icsolve.page.columns import Array, exact, script_json
 from icsolve.page.fields import section
 from icsolve.page.live import Live, why_presolved
 from icsolve.page.model import forces_in_joints, gain_rows
 from icsolve.page.motion import PageMotion
 from icsolve.page.pictures import track_svg
+from icsolve.page.poses import Array, exact, script_json
 from icsolve.report.derivation.known import Acting, Known, acting_loads, resting
 from icsolve.report.derivation.ratios import Step
 from icsolve.tuples import NamedTuple

@@ -33,11 +33,10 @@ from icsolve.draw.scene import Scene
 from icsolve.draw.svg import identifier
 from icsolve.draw.words import centre_runs, datum_name, datum_unit, figure_number, name_runs, unit_word
 from icsolve.errors import Status
-from icsolve.page.columns import FINE, Array, compact, exact, moves
-from icsolve.page.figure import PageFigure
 from icsolve.page.live import Live
 from icsolve.page.motion import PageMotion
-from icsolve.page.poses import moved
+from icsolve.page.pictures import PageFigure
+from icsolve.page.poses import FINE, Array, compact, exact, moved, moves
 from icsolve.report.derivation.known import Acting, Known, acting_loads, resting
 from icsolve.report.derivation.ratios import Step
 from icsolve.wording.senses import holding, sense_of, spelt, unit_of
