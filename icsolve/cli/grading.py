@@ -191,9 +191,9 @@ def _graded(job: Job, options: dict[str, Any]) -> int:
         if csv is not None:
             csv.flush()
             changed = _regraded(results, options)
-            _further(job, results, options)
+            _further(graded, results, options)
             if options["html"] or options["students"]:
-                _pages(graded, job, results, options)
+                _pages(graded, job.course.title, results, options)
     if not quiet:
         from icsolve.grade.summary import summary
 
@@ -240,18 +240,15 @@ def _progress(quiet: bool) -> Iterator[Any]:
         click.echo("\r\033[K", nl=False, err=True)
 
 
-def _further(job: Job, results: str, options: dict[str, Any]) -> None:
+def _further(graded: Graded, results: str, options: dict[str, Any]) -> None:
     """The files for platforms, made from the results."""
     if not options["writes"]:
         return
-    from icsolve.grade.course import read_roster
     from icsolve.grade.platforms.write import PlatformFile, write
 
-    wanted = _pairs(options["writes"])
-    people = read_roster(job.roster, lambda line, why: None).people if job.roster and wanted else {}
-    template = options["template"] or ""
-    for kind, path in wanted.items():
-        file = PlatformFile(results, path, people, template, options["force"], options["total"] or "")
+    template, total = options["template"] or "", options["total"] or ""
+    for kind, path in _pairs(options["writes"]).items():
+        file = PlatformFile(results, path, graded.people, template, options["force"], total)
         told = write(kind, file)
         if told and not options["quiet"]:
             complain(told)
@@ -271,19 +268,17 @@ def _regraded(results: str, options: dict[str, Any]) -> str:
     return changes_text(changes, options["against"])
 
 
-def _pages(graded: Graded, job: Job, results: str, options: dict[str, Any]) -> None:
+def _pages(graded: Graded, title: str, results: str, options: dict[str, Any]) -> None:
     """The page for the teacher, and one for each student."""
-    from icsolve.grade.course import read_roster
     from icsolve.grade.results import by_student
     from icsolve.grade.summary import page, statistics, student_page
     from icsolve.grade.variants.record import file_name
 
     if options["html"]:
-        people = read_roster(job.roster, lambda line, why: None).people if job.roster else {}
-        found = statistics(results, people)
-        write_whole(options["html"], page(graded, job.course.title, found), options["force"])
+        found = statistics(results, graded.people)
+        write_whole(options["html"], page(graded, title, found), options["force"])
     if options["students"]:
         for student, rows in by_student(results):
             if student:
                 path = os.path.join(options["students"], f"{file_name(student)}.html")
-                write_whole(path, student_page(student, rows, job.course.title), options["force"])
+                write_whole(path, student_page(student, rows, title), options["force"])

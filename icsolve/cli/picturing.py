@@ -156,7 +156,7 @@ def sheet_command(
     except (OSError, ValueError) as error:
         complain(f"icsolve sheet: {variants or '--student'}: {error}")
         return UNREADABLE
-    from icsolve.explain.typeset import Exercise, exercise, sheet_tex
+    from icsolve.explain.given import Exercise, exercise, sheet_tex
 
     sheets: list[tuple[str, list[Exercise]]] = []
     worst = DONE

@@ -39,7 +39,7 @@ from icsolve.report.derivation.ratios import loaded_links
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.screws.plane import Point, Triple
-from icsolve.statics.inertia import as_given
+from icsolve.statics.load_wrenches import as_given
 from icsolve.statics.power import is_unknown
 from icsolve.sweep import Sweep, sweep
 from icsolve.sweep.request import RequestError
@@ -207,6 +207,16 @@ class PageMotion(NamedTuple):
     def driver(self) -> str:
         """The link of the input."""
         return self.by.link
+
+    @property
+    def rows(self) -> slice:
+        """The rows in which the links assemble."""
+        return slice(self.first, self.last + 1)
+
+    @property
+    def positions(self) -> int:
+        """How many they are."""
+        return self.last + 1 - self.first
 
     @property
     def status(self) -> list[str]:
@@ -457,7 +467,7 @@ def forces_data(scene: Scene, motion: PageMotion | None) -> dict[str, Any]:
     known = scene.known
     if known.answer is None or not known.answer.reactions or known.case.space is not None:
         return {}
-    rows = 1 if motion is None else motion.last + 1 - motion.first
+    rows = 1 if motion is None else motion.positions
     if rows > MOST:
         return {}
     poses = [known] if motion is None else [_in_row(known, motion, motion.first + n) for n in range(rows)]

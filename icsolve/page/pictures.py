@@ -75,25 +75,20 @@ def _scene(known: Known, steps: Sequence[Step], motion: PageMotion | None) -> Sc
     """The scene in a view that holds all positions."""
     if motion is None:
         return scene_over(known, steps, room=ROOM)
-    ways = [_box(*_way(motion, p)) for p in used_points(known.case) & motion.found.points.keys()]
+    used = used_points(known.case) & motion.found.points.keys()
+    ways = [_box(*motion.found.points[p][motion.rows].T) for p in used]
     ways += [around(wheel.centre, wheel.radius) for wheel in genevas(known)]
 
     def swept(link: str, p: Point, reach: float) -> Box:
         pose = motion.poses.get(link)
         if pose is None:
             return around(p, reach)
-        rows = slice(motion.first, motion.last + 1)
         xs, ys = moved(pose, known.points[pose.point], p)
-        left, low, right, high = _box(xs[rows], ys[rows])
+        left, low, right, high = _box(xs[motion.rows], ys[motion.rows])
         return left - reach, low - reach, right + reach, high + reach
 
     scene = scene_over(known, steps, swept, ways, ROOM)
     return scene._replace(travel=travel_of(scene, motion))
-
-
-def _way(motion: PageMotion, point: str) -> tuple[Array, Array]:
-    places = motion.found.points[point][motion.first : motion.last + 1]
-    return places[:, 0], places[:, 1]
 
 
 def _box(x: Array, y: Array) -> Box:
@@ -119,7 +114,7 @@ def travel_of(scene: Scene, motion: PageMotion) -> dict[tuple[str, Point], tuple
 
 def _along(scene: Scene, motion: PageMotion, link: str, point: str, u: Point) -> tuple[float, float]:
     """The least and largest way of a point along a direction of a link, from its place as written."""
-    rows = slice(motion.first, motion.last + 1)
+    rows = motion.rows
     x, y = motion.found.points[point][rows].T
     pose = motion.poses.get(link)
     x0, y0 = scene.known.points[point]
@@ -155,7 +150,7 @@ class Plot(NamedTuple):
 
 def plots_of(known: Known, motion: PageMotion) -> list[Plot]:
     """The answer and the mechanical advantage; without an unknown load the ratios of the rates."""
-    x = motion.degrees[motion.first : motion.last + 1].tolist()
+    x = motion.degrees[motion.rows].tolist()
     dead = motion.dead
     found = [
         ("The answer" if len(some) == 1 else "The answers", some) for some in _answers(known, motion, dead)
@@ -170,7 +165,8 @@ def plots_of(known: Known, motion: PageMotion) -> list[Plot]:
 
 
 def _rows(motion: PageMotion, column: Array) -> list[float]:
-    return [float(v) for v in column[motion.first : motion.last + 1]]
+    found: list[float] = column[motion.rows].tolist()
+    return found
 
 
 def _answers(known: Known, motion: PageMotion, dead: Sequence[float]) -> list[list[PlottedCurve]]:
