@@ -12,6 +12,7 @@ from typing import IO, TYPE_CHECKING, Any
 import click
 
 from icsolve.cli.commands import FORCE, Verb
+from icsolve.cli.output import progress
 from icsolve.cli.run import DONE, NO_ANSWER, complain, refusing
 from icsolve.files import check_free, files_of, folder_of, note, scratch, whole_file, write_whole
 
@@ -184,8 +185,8 @@ def _graded(job: Job, options: dict[str, Any]) -> int:
         if options["jsonl"]:
             stack.enter_context(folder_of(options["jsonl"]))
             jsonl = stack.enter_context(whole_file(options["jsonl"], force))
-        with _progress(quiet) as progress:
-            graded = grade(job, csv, jsonl, progress)
+        with progress(quiet) as told:
+            graded = grade(job, csv, jsonl, told)
         for note in graded.notes:
             complain(str(note))
         if csv is not None:
@@ -220,24 +221,6 @@ def _results(options: dict[str, Any], force: bool) -> Iterator[tuple[IO[str] | N
         if target is not None:
             with open(path, encoding="utf-8", newline="") as file:
                 copyfileobj(file, target)
-
-
-@contextmanager
-def _progress(quiet: bool) -> Iterator[Any]:
-    """A bar for work that takes more than a second, on a terminal only."""
-    import time
-
-    shown = not quiet and sys.stderr.isatty()
-    start = time.monotonic()
-
-    def show(what: str, share: float) -> None:
-        if shown and time.monotonic() - start > 1.0:
-            bar = "#" * round(30 * min(share, 1.0))
-            click.echo(f"\r\033[K{what[:40]:40} [{bar:30}] {min(share, 1.0):4.0%}", nl=False, err=True)
-
-    yield show
-    if shown:
-        click.echo("\r\033[K", nl=False, err=True)
 
 
 def _further(graded: Graded, results: str, options: dict[str, Any]) -> None:
