@@ -26,7 +26,7 @@ from icsolve.case import Case, Motion, Number, is_link
 from icsolve.draw import draw
 from icsolve.explain import explain
 from icsolve.explain.document import ShownTable
-from icsolve.explain.typeset import exercise
+from icsolve.explain.given import exercise
 from icsolve.manual import template
 from icsolve.report.derivation.known import known_of
 from icsolve.screws.plane import velocity

@@ -14,9 +14,8 @@ from icsolve.explain.formula import Expr, Name, Num, Sum, Trig, product
 from icsolve.explain.worked import Worked, load_name
 from icsolve.report.derivation.known import Known, acting_loads, rope_pulls
 from icsolve.report.derivation.spatial import InSpace, in_space
-from icsolve.report.published import spatial
 from icsolve.screws.plane import subtract
-from icsolve.screws.space import ZERO, Vec, size, times
+from icsolve.screws.space import ZERO, Vec, size, spatial, times
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
