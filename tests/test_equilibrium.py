@@ -976,6 +976,22 @@ def test_friction_holds_over_a_range_counted_from_the_position_as_written() -> N
 
 ROUGH = ", mu: 0.3, radius: 0.1"
 
+
+@pytest.mark.parametrize(
+    ("span", "ends"), [("60, 120", ()), ("90, 120", (90,)), ("60, 90", (90,)), ("89.5, 90.5", (89.5, 90.5))]
+)
+def test_where_the_search_ends_within_a_range_it_is_said(span: str, ends: tuple[float, ...]) -> None:
+    """The weight hangs inside of the friction circle from 89.2 to 90.8 deg."""
+    free = f"{{unknown: [{span}], from: 90}}"
+    text = pendulum("P: {weight: 5, link: 2, at: [0, 2]}", free, friction=ROUGH)
+    (one,), notes = positions(text), icsolve.solve(icsolve.load(text)).notes
+    said = [note for note in notes if "the search ends" in note]
+    assert [float(note.split(" = ")[1].split()[0]) for note in said] == [*ends]
+    held = one.at["angles.AB"]
+    assert isinstance(held, tuple)
+    assert {*ends} <= {*held}
+
+
 # --- random mechanisms against forty digits -------------------------------------------------------
 
 Potential = Callable[[mpmath.mpf], mpmath.mpf]

@@ -33,7 +33,7 @@ SEARCHED = (
 )
 HOLDS = (
     "Where the loads nearly balance friction holds the mechanism still: from one value, at which it is about "
-    "to move one way, to another, at which it is about to move the other way."
+    "to move one way, to another, at which it is about to move the other way, or to where the search ends."
 )
 
 

@@ -67,6 +67,8 @@ def find_ranges(case: Case, path: str, span: tuple[float, float] | None, start: 
         notes += [] if complete else [NOT_ALL]
     turns = span is None and is_angle(path)
     found = [one for mode in modes for one in _runs(case, mode, turns)]
+    ends = [] if turns else [end for end in (low, high) if any(end in one.held for one in found)]
+    notes += [f"at {path} = {end:g} the search ends: it holds still there, and may beyond." for end in ends]
     return Ranges(tuple(_joined(sorted(found, key=lambda one: one.held))), tuple(notes))
 
 
