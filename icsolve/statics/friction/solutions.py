@@ -29,8 +29,9 @@ from icsolve.structure.plan import strongly_connected
 
 LONGEST = 0.125
 FINE = 1e-6
-"""How closely the share of friction is found at which forces grow without bound."""
-SHORTEST = 1e-7
+"""How closely, of it, the share of friction is found at which forces grow without bound."""
+SHORTEST, LEAST = 1e-7, 1e-14
+"""The shortest step, of the share that friction has; beside a dead centre the least share decides."""
 STEPS = 8
 """A good prediction needs fewer of Newton's steps."""
 NEAR = 0.05
@@ -70,12 +71,12 @@ def _followed(equations: Lengths) -> tuple[Y | None, float, bool]:
         ahead = min(1.0, share + step)
         moved = _moved(equations, first, z, share, ahead)
         if moved is not None and moved[-1] <= 0.0:
-            if step < FINE:
+            if step < FINE * max(share, LEAST):
                 return None, share, True
             moved = None
         if moved is None:
             step /= 2.0
-            if step < SHORTEST:
+            if step < SHORTEST * max(share, LEAST):
                 return None, share, False
             continue
         z, share, step = moved, ahead, min(LONGEST, 2.0 * step)
