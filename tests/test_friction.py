@@ -847,19 +847,22 @@ def test_newton_ends_where_no_further_step_is_better() -> None:
 
 
 def test_the_change_with_friction_is_the_tangent_of_its_solutions() -> None:
+    """Where u = share y, with u = share |v(u)|, is followed in homogeneous coordinates (z, w)."""
     for equations in rubs_at_random(6, 10):
         first, share, h = max(without_friction(equations)), 0.1, 1e-5
-        z = (*(size / first for size in without_friction(equations)), 1.0)
+        whole = homotopy._homogeneous(equations, first)
+        z: tuple[float, ...] = (*[0.0] * len(equations.lengths), 1.0)
         for k in range(1, 5):
-            found = newton(homotopy._homogeneous(equations, first, k * share / 4), z)
+            found = newton(homotopy._with(whole, z, k * share / 4), z)
             assert found is not None
-            z = found
-        both = [newton(homotopy._homogeneous(equations, first, s), z) for s in (share - h, share + h)]
-        change = homotopy._tangent(equations, first, z, share)
-        assert change is not None and None not in both
+            z = homotopy._normed(found)
+        both = [newton(homotopy._with(whole, z, s), z) for s in (share - h, share + h)]
+        change = homotopy._tangent(whole, z, share)
+        assert change is not None
+        assert None not in both
         slopes = [(b - a) / (2 * h) for a, b in zip(*both, strict=True)]
         assert change == pytest.approx(slopes, rel=1e-6, abs=1e-6 * max(map(abs, slopes)))
-        y = [part * first / z[-1] for part in z[:-1]]
+        y = [part * first / z[-1] / share for part in z[:-1]]
         scaled = equations.scaled(share)
         assert max(map(abs, misfits(scaled, y))) <= 1e-11 * scale_at(scaled, y)
 

@@ -7,9 +7,9 @@ to its distance from the origin.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import accumulate
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
 from icsolve.numbers.linear import General, Row, eliminate
@@ -113,6 +113,8 @@ class Equilibrium(NamedTuple, Generic[T]):
     equations : of every link, by column
     general : each unit as a combination of parameters, and what the joints leave open
     arithmetic : of all coefficients
+    asks : asks a question of the same on balls, by the fewest digits that settle it; None where no bounds are
+        asked for
     """
 
     ties: tuple[T, ...]
@@ -125,6 +127,7 @@ class Equilibrium(NamedTuple, Generic[T]):
     equations: Equations
     general: General
     arithmetic: Arithmetic
+    asks: Callable[[Callable[[Any], Any]], Any] | None = None
 
     def tension(self, n: int) -> int:
         """Column of the tension of a rope."""

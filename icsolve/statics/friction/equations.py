@@ -312,7 +312,7 @@ def reduced(statics: Statics, senses: Sequence[float]) -> Reduced | None:
     least = NOTHING * largest_of([form(row)[0] for row in statics.general.solved.values()])
     vectors = [tuple(form(row, least) for row in rows) for rows in forces_of(statics)]
     smooth = tuple(form(row, least) for row in smooth_normals(statics))
-    return Reduced(fixed_point(vectors, _touching(statics)), tuple(map(form, loads)), tuple(gains), smooth)
+    return Reduced(fixed_point(vectors, touching_of(statics)), tuple(map(form, loads)), tuple(gains), smooth)
 
 
 def _without(row: Mapping[int, float], roots: Mapping[int, Row]) -> Row:
@@ -328,8 +328,9 @@ def _alone(k: int, n: int, gain: float) -> Form:
     return tuple(gain if j == k + 1 else 0.0 for j in range(n + 1))
 
 
-def _touching(statics: Statics) -> list[bool]:
-    return [statics.ties[rub.tie].joint.only_pushes for rub in statics.rubs]
+def touching_of(statics: Statics) -> tuple[bool, ...]:
+    """Of each rub whether it is a contact, which only pushes."""
+    return tuple([statics.ties[rub.tie].joint.only_pushes for rub in statics.rubs])
 
 
 def smooth_normals(statics: Statics) -> Iterator[Row]:
@@ -370,7 +371,7 @@ def reduced_workless(statics: Statics, senses: Sequence[float]) -> Reduced | Non
 
     vectors = tuple(tuple(form(row) for row in rows) for rows in forces_of(statics))
     return Reduced(
-        Lengths(lengths, vectors, tuple(_touching(statics))), (_alone(most, n, 1.0),), tuple(gains)
+        Lengths(lengths, vectors, touching_of(statics)), (_alone(most, n, 1.0),), tuple(gains)
     )
 
 

@@ -7,6 +7,7 @@ may give power.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from icsolve.errors import SceneError, Status
@@ -27,8 +28,10 @@ from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:
+    from icsolve.statics.friction import conditioning as apart
     from icsolve.statics.friction import solutions as every
 else:  # where one is not proven to be the only one
+    apart = LateModule("icsolve.statics.friction.conditioning")
     every = LateModule("icsolve.statics.friction.solutions")
 
 CONTRACTS = "the friction equations contract: Banach's theorem gives one solution and no other"
@@ -99,15 +102,17 @@ def slid(statics: Statics, senses: Sequence[float], workless: bool, alone: bool 
         if not statics.rubs:  # what could draw a rope that slips does not
             raise SceneError(Status.NO_VALUE, _draws_nothing(statics))
         return _workless(statics, senses)
-    found = solutions(equations.equations)
+    by = well_told(statics, senses, equations)
+    found = solutions(by.equations)
     if found.main is not None and (found.unique or alone):
-        return _of(statics, equations, found.main, (), found.unique)
-    by, roots = counted(statics, senses, equations)
+        return _of(statics, by, found.main, (), found.unique)
+    roots = every.all_roots(by.equations)
     unique = "" if roots is None else COUNTED
-    others = [y for y in roots or () if found.main is None or not every.near(by.sizes(y), found.main)]
-    if found.main is not None:
+    main = found.main
+    others = [y for y in roots or () if main is None or not every.near(y, main)]
+    if main is not None:
         loads = tuple(by.load(other)[0] / statics.scale for other in others if by.loads)
-        return _of(statics, equations, found.main, loads, unique)
+        return _of(statics, by, main, loads, unique)
     if len(others) == 1:
         return _of(statics, by, others[0], (), unique)
     if others:
@@ -130,20 +135,17 @@ SHORT = 0.999
 """So far before its end an equilibrium is looked at."""
 
 
-def counted(statics: Statics, senses: Sequence[float], equations: Reduced) -> tuple[Reduced, list[Y] | None]:
-    """All solutions, and the equations of which they are some; None where they are too many.
-
-    Where the load does next to no work beside some friction, that is eliminated in its place: rounding over a
-    share of next to nothing makes solutions that are none.
-    """
+def well_told(statics: Statics, senses: Sequence[float], equations: Reduced) -> Reduced:
+    """The equations; beside a singular position in other coordinates, with the digits that it takes: rounding
+    beside large coefficients loses solutions, and makes some that are none."""
+    if not apart.is_large(equations):
+        return equations
+    if statics.asks is not None:
+        with suppress(SceneError):  # no digits settle it
+            other: Reduced | None = statics.asks(lambda exact: apart.conditioned(exact, senses))
+            return other or equations
     alone = len(statics.roots) == len(statics.general.left) == 1
-    if alone and any(abs(a) > LITTLE for a in equations.loads[0][1:]):
-        equations = reduced_workless(statics, senses) or equations
-    return equations, every.all_roots(equations.equations)
-
-
-LITTLE = 1e4
-"""So many times the work of the load that of a friction is far more."""
+    return (reduced_workless(statics, senses) if alone else None) or equations
 
 
 def _of(

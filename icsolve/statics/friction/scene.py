@@ -8,13 +8,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from typing import TYPE_CHECKING, TypeVar
+from functools import partial
+from typing import TYPE_CHECKING, TypeVar, cast
 
 from icsolve.answer import AboutToMove, Answer, Deferred, Found, Later
 from icsolve.answer.bodies import FrictionFound, Rubbing, Tension
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import Speed, fastest
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers.arithmetic import FLOATS, Showing
 from icsolve.numbers.linear import General, Row
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import Statics, equilibrium
@@ -25,6 +26,7 @@ from icsolve.statics.friction.enclosure import (
     UNBOUND,
     Proven,
     SceneOnBalls,
+    Senses,
     enclosed,
     slopes,
 )
@@ -199,19 +201,13 @@ def at_rest(scene: FrictionScene) -> AtRest:
         found, ends = _range_with_ropes(scene, rates)
     else:
         ties, workless, senses = ties_of(scene.position), _is_workless(scene), rates.senses.rubs
-        flanks = _flanks(scene, ties, workless)
-        statics = _statics(scene, ties, flanks)
+        statics = _statics(scene, ties, _flanks(scene, ties, workless))
         driven = scene.solution.verdict == "no value"
         found = pressed(statics, senses, driven) if workless else static_range(statics, senses, scene.alone)
+        ways = [1.0 if end.senses == senses else -1.0 for end in found.ends]
         ends = [
-            EndOfRange(
-                1.0 if end.senses == senses else -1.0,
-                scene,
-                statics,
-                end,
-                _proven_end(scene, statics, flanks, end),
-            )
-            for end in found.ends
+            EndOfRange(way, scene, statics, end, _proven_end(scene, statics, end))
+            for way, end in zip(ways, found.ends, strict=True)
         ]
     proven = [one.proven for one in ends]
     bounds = [bound for each in proven for bound in each.bounds.values()]
@@ -257,14 +253,13 @@ def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[Static
     for direction in (1.0, -1.0):
         one = _slipping(scene, rates, direction)
         ties = ties_of(one.position)
-        flanks = _flanks(one, ties, False)
-        statics = _statics(one, ties, flanks)
+        statics = _statics(one, ties, _flanks(one, ties, False))
         end = end_of(statics, [direction * sense for sense in rates.senses.rubs])
         if end is None:
             raise SceneError(Status.NO_VALUE, nothing_rubs(statics))
         ends.append(_pulling(statics, end))
         if math.isfinite(ends[-1].value):
-            proven = _proven_end(one, statics, flanks, ends[-1])
+            proven = _proven_end(one, statics, ends[-1])
             finite.append(EndOfRange(direction, one, statics, ends[-1], proven))
     if not finite:
         _refuse_slack(_slipping(scene, rates, 0.0))
@@ -298,21 +293,21 @@ def _pulling(statics: Statics, end: End) -> End:
 UNENDING = "the range has no ends"
 
 
-def _proven_end(scene: FrictionScene, own: Statics, flanks: Mapping[int, float], end: End) -> Proven:
+def _proven_end(scene: FrictionScene, own: Statics, end: End) -> Proven:
     """What is proven of an end: at which the mechanism is about to move, or that inequalities set."""
     (root,), vertex = own.roots, end.vertex
     if vertex is None:
         return _proven(scene, Solved(own, {root: end.value}, end.friction), end.senses)
-    if scene.enclose is None or not vertex.of:
-        return Proven(limited.how(own) if scene.enclose else UNBOUND)
+    if own.asks is None or not vertex.of:
+        return Proven(limited.how(own) if own.asks else UNBOUND)
 
-    def rounded(placed: SceneOnBalls) -> Value | None:
-        statics = placed.statics(flanks, [tie.senses for tie in scene.position.ropes])
-        found = limited.exactly(statics, vertex)
-        return None if found is None else Value(*placed.arithmetic.rounded(found / statics.scale))
+    def rounded(exact: Statics) -> Value | None:
+        found = limited.exactly(exact, vertex)
+        a = cast("Showing", exact.arithmetic)
+        return None if found is None else Value(*a.rounded(found / exact.scale))
 
     with suppress(SceneError):
-        value = scene.enclose(rounded)
+        value = own.asks(rounded)
         if value is not None:
             return Proven("", {root: value.error or 0.0}, {root: value.value})
     return Proven(TOO_CLOSE)
@@ -346,14 +341,15 @@ def _statics(scene: FrictionScene, ties: Sequence[Tie], flanks: Mapping[int, flo
     Raises SceneError where the joints leave a rubbing force open.
     """
     ties = reaction_basis.with_flanks(scene.position, ties, flanks)
-    senses, general = [tie.senses for tie in scene.position.ropes], None
+    general, asks = None, None
     if scene.enclose is not None:
+        asks = partial(_asked, scene.enclose, flanks, [tie.senses for tie in scene.position.ropes])
         with suppress(SceneError):  # what no digits decide is left to rounding
-            exact = scene.enclose(lambda placed: placed.statics(flanks, senses))
-            solved, free, left, pivots = exact.general
+            solved, free, left, pivots = asks(lambda exact: exact.general)
             rows = {c: _floats(row) for c, row in solved.items()}
             general = General(rows, free, tuple(map(_floats, left)), pivots=tuple(map(float, pivots)))
     statics = equilibrium(scene.position, ties, scene.balance, rubs_of(scene.position, ties), general)
+    statics = statics._replace(asks=asks)
     refuse_doubt(len(statics.general.left), scene.position.mobility)
     try:
         forces_of(statics)
@@ -361,6 +357,13 @@ def _statics(scene: FrictionScene, ties: Sequence[Tie], flanks: Mapping[int, flo
         tie = ties[error.args[0]]
         raise SceneError(Status.UNSUPPORTED, _shared(tie, ties)) from None
     return statics
+
+
+def _asked(
+    enclose: Enclose, flanks: Mapping[int, float], senses: Senses, question: Callable[[Statics], T]
+) -> T:
+    """The answer to a question of the statics on balls."""
+    return enclose(lambda placed: question(placed.statics(flanks, senses)))
 
 
 def _floats(row: Row) -> Row:

@@ -17,13 +17,13 @@ from icsolve.statics.friction.equations import (
     Form,
     Lengths,
     Y,
+    at,
     is_sound,
     newton,
     own_length,
     scale_at,
     slopes,
     vector,
-    without_friction,
 )
 from icsolve.structure.plan import strongly_connected
 
@@ -35,7 +35,9 @@ SHORTEST, LEAST = 1e-7, 1e-14
 STEPS = 8
 """A good prediction needs fewer of Newton's steps."""
 NEAR = 0.05
-"""A prediction that is corrected by more was too far, of the sum of the sizes."""
+"""A prediction that is corrected by more was too far, of all forces;"""
+FARTHEST = 0.2
+"""and so was a step by which they change by more: it may lead to another solution."""
 
 
 def near(y: Sequence[float], other: Sequence[float]) -> bool:
@@ -45,7 +47,7 @@ def near(y: Sequence[float], other: Sequence[float]) -> bool:
 
 
 def followed(equations: Lengths) -> tuple[Y | None, float, bool]:
-    """The frictionless solution followed to full friction, by predictor and corrector.
+    """The frictionless solution followed to full friction, by predictor and corrector: l(y) = share |v(y)|.
 
     In homogeneous coordinates (z, w) with y = z / w, so that forces without bound are a point like others:
     there w passes through zero.
@@ -62,14 +64,18 @@ def followed(equations: Lengths) -> tuple[Y | None, float, bool]:
 
 
 def _followed(equations: Lengths) -> tuple[Y | None, float, bool]:
-    first = max(without_friction(equations), default=0.0)
+    lengths = equations.lengths
+    begin = solve_square([[*form[1:]] for form in lengths], [-form[0] for form in lengths])
+    assert begin is not None  # lengths are coordinates, or tell these
+    first = largest_of([*begin, *(part for forms in equations.vectors for part in vector(forms, begin))])
     if not first:
-        return without_friction(equations), 1.0, False
-    z: Y = (*(size / first for size in without_friction(equations)), 1.0)
+        return tuple(begin), 1.0, False
+    whole = _homogeneous(equations, first)
+    z = _normed((*(part / first for part in begin), 1.0))
     share, step = 0.0, LONGEST
     while share < 1.0:
         ahead = min(1.0, share + step)
-        moved = _moved(equations, first, z, share, ahead)
+        moved = _moved(whole, z, share, ahead)
         if moved is not None and moved[-1] <= 0.0:
             if step < FINE * max(share, LEAST):
                 return None, share, True
@@ -80,42 +86,55 @@ def _followed(equations: Lengths) -> tuple[Y | None, float, bool]:
                 return None, share, False
             continue
         z, share, step = moved, ahead, min(LONGEST, 2.0 * step)
+        less = math.hypot(*(part for forms in whole.vectors for part in vector(forms, z))) / z[-1]
+        if 0.0 < less < 1.0:  # forces that fall far below the first would be lost beside w
+            first, z = less * first, _normed((*z[:-1], less * z[-1]))
+            whole = _homogeneous(equations, first)
     return tuple(part * first / z[-1] for part in z[:-1]), 1.0, False
 
 
-def _moved(equations: Lengths, first: float, z: Y, share: float, ahead: float) -> Y | None:
+def _moved(whole: Lengths, z: Y, share: float, ahead: float) -> Y | None:
     """The solution a step on: predicted along the tangent, corrected; None where the step was too long."""
-    change = _tangent(equations, first, z, share)
+    change = _tangent(whole, z, share)
     start = z if change is None else tuple(a + (ahead - share) * b for a, b in zip(z, change, strict=True))
-    found = newton(_homogeneous(equations, first, ahead), start, STEPS)
-    if found is None or min(found[:-1], default=0.0) < -1e-10:
+    found = newton(_with(whole, z, ahead), start, STEPS)
+    if found is None or min((at(form, found) for form in whole.lengths), default=0.0) < -1e-10:
         return None
-    off = max(abs(a - b) for a, b in zip(found, start, strict=True))
-    return found if off <= NEAR else None
+    here, far, before = (_pressing(whole, one) for one in (found, start, z))
+    near_enough = math.dist(here, far) <= NEAR and math.dist(here, before) <= FARTHEST
+    return _normed(found) if near_enough else None
 
 
-def _homogeneous(equations: Lengths, first: float, share: float) -> Lengths:
-    """z_k = |w a_k / first + share B_k z| and, to fix the scale, sum of z + w = sum of the first ones + 1."""
-    n = len(equations.vectors)
-    vectors = tuple(
-        tuple((0.0, *(share * a for a in form[1:]), form[0] / first) for form in forms)
-        for forms in equations.vectors
-    )
-    lengths = tuple(tuple(float(j == k + 1) for j in range(n + 2)) for k in range(n))
-    whole = 1.0 + sum(without_friction(equations)) / first
-    return Lengths((*lengths, (-whole, *[1.0] * (n + 1))), (*vectors, ()), (*equations.touching, False))
+def _pressing(whole: Lengths, z: Y) -> Y:
+    """The forces at (z, w), and w, as parts of all of them."""
+    return _normed([*(part for forms in whole.vectors for part in vector(forms, z)), z[-1]])
 
 
-def _tangent(equations: Lengths, first: float, z: Y, share: float) -> list[float] | None:
+def _homogeneous(equations: Lengths, first: float) -> Lengths:
+    """l(z, w) = |v(z, w)|: the constants times w, over the size of y."""
+
+    def form(affine: Form) -> Form:
+        return (0.0, *affine[1:], affine[0] / first)
+
+    vectors = tuple(tuple(map(form, forms)) for forms in equations.vectors)
+    return Lengths(tuple(map(form, equations.lengths)), vectors, equations.touching)
+
+
+def _with(whole: Lengths, z: Y, share: float) -> Lengths:
+    """l = share |v|, and to fix the scale the next (z, w) is as long in the direction of this one."""
+    vectors = tuple(tuple(tuple(share * a for a in form) for form in forms) for forms in whole.vectors)
+    return Lengths((*whole.lengths, (-1.0, *z)), (*vectors, ()), (*whole.touching, False))
+
+
+def _normed(z: Sequence[float]) -> Y:
+    size = math.hypot(*z) or 1.0
+    return tuple(a / size for a in z)
+
+
+def _tangent(whole: Lengths, z: Y, share: float) -> list[float] | None:
     """Derivative of the solution by the share of friction."""
-    here = _homogeneous(equations, first, share)
-    right = []
-    for now, forms in zip(here.vectors, equations.vectors, strict=False):
-        v = vector(now, z)
-        size = math.hypot(*v) or 1.0
-        slope = [sum(a * x for a, x in zip(form[1:], z, strict=False)) for form in forms]
-        right.append(sum(a * b for a, b in zip(v, slope, strict=True)) / size)
-    return solve_square(slopes(here, z), [*right, 0.0])
+    sizes = [math.hypot(*vector(forms, z)) for forms in whole.vectors]
+    return solve_square(slopes(_with(whole, z, share), z), [*sizes, 0.0])
 
 
 MOST_RUBS = 6

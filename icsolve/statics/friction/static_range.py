@@ -36,7 +36,7 @@ from icsolve.statics.friction.equations import (
     without_friction,
 )
 from icsolve.statics.friction.interface import place_of
-from icsolve.statics.friction.limits import SHORT, counted, parting, too_many
+from icsolve.statics.friction.limits import SHORT, parting, too_many, well_told
 from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording.sentences import listed
 
@@ -200,8 +200,9 @@ def _about_to_move(statics: Statics, senses: Sequence[float]) -> list[End]:
         own = tuple([direction * s for s in senses])
         equations = reduced(statics, own) or reduced_workless(statics, own)
         if equations is not None:
-            by, roots = counted(statics, own, equations)
-            found += [End(by.load(y)[0] / statics.scale, own, by.friction(y)) for y in roots or ()]
+            by = well_told(statics, own, equations)
+            roots = every.all_roots(by.equations) or ()
+            found += [End(by.load(y)[0] / statics.scale, own, by.friction(y)) for y in roots]
     return found
 
 
