@@ -66,9 +66,10 @@ def _followed(equations: Lengths) -> tuple[Y | None, float, bool]:
         return without_friction(equations), 1.0, False
     z: Y = (*(size / first for size in without_friction(equations)), 1.0)
     share, step = 0.0, LONGEST
+    change = _tangent(equations, first, z, share)
     while share < 1.0:
         ahead = min(1.0, share + step)
-        moved = _moved(equations, first, z, share, ahead)
+        moved = _moved(equations, first, z, change, ahead - share, ahead)
         if moved is not None and moved[-1] <= 0.0:
             if step < FINE:
                 return None, share, True
@@ -79,13 +80,15 @@ def _followed(equations: Lengths) -> tuple[Y | None, float, bool]:
                 return None, share, False
             continue
         z, share, step = moved, ahead, min(LONGEST, 2.0 * step)
+        change = _tangent(equations, first, z, share)
     return tuple(part * first / z[-1] for part in z[:-1]), 1.0, False
 
 
-def _moved(equations: Lengths, first: float, z: Y, share: float, ahead: float) -> Y | None:
+def _moved(
+    equations: Lengths, first: float, z: Y, change: Sequence[float] | None, step: float, ahead: float
+) -> Y | None:
     """The solution a step on: predicted along the tangent, corrected; None where the step was too long."""
-    change = _tangent(equations, first, z, share)
-    start = z if change is None else tuple(a + (ahead - share) * b for a, b in zip(z, change, strict=True))
+    start = z if change is None else tuple([a + step * b for a, b in zip(z, change, strict=True)])
     found = newton(_homogeneous(equations, first, ahead), start, STEPS)
     if found is None or min(found[:-1], default=0.0) < -1e-10:
         return None
