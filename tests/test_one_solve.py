@@ -23,8 +23,10 @@ from icsolve.case import Case
 from icsolve.draw import Drawing, draw
 from icsolve.explain import explain
 from icsolve.page import page_html
+from icsolve.read.document import parse
 from icsolve.scene.program import evaluate
 from icsolve.structure.topology import topology
+from icsolve.sweep.program import setting_of
 
 CASES = Path(__file__).parent.parent / "cases"
 SHOWN = {
@@ -89,6 +91,29 @@ def test_a_page_adds_the_setting_of_its_sweep(name: str) -> None:
     found = counted(case, page_html)
     assert (found["topology"], found["solve_figure"]) == (1, 2)
     assert all(count == 1 for work, count in found.items() if work.startswith("evaluate"))
+
+
+@pytest.mark.parametrize("name", ["four_bar", "stephenson_six_bar", "peaucellier", "geared_five_bar"])
+def test_a_page_without_friction_sets_no_sweep_up_twice_and_reads_its_text_twice(name: str) -> None:
+    """Its curve and its dead centres are of one mechanism, whatever case tells of it; and its text is read as
+    a case and for the places of its numbers, however many these are."""
+    case = icsolve.load(CASES / "linkages" / f"{name}.yaml")
+    driven: Counter[object] = Counter()
+    texts: Counter[object] = Counter()
+
+    def watch(frame: FrameType, event: str, _: object) -> None:
+        if event == "call" and frame.f_code is code_of(setting_of):
+            driven[frame.f_locals["paths"], frame.f_locals["links"]] += 1
+        elif event == "call" and frame.f_code is code_of(parse):
+            texts[frame.f_locals["text"]] += 1
+
+    sys.setprofile(watch)
+    try:
+        page_html(case)
+    finally:
+        sys.setprofile(None)
+    assert set(driven.values()) == {1}
+    assert list(texts.values()) == [2]
 
 
 def test_a_figure_is_searched_for_once_whatever_its_loads_are() -> None:

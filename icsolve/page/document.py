@@ -4,13 +4,12 @@ lets nothing else run or load."""
 from __future__ import annotations
 
 import base64
-import hashlib
 import os
 import re
 from collections.abc import Iterable
 from functools import cache
 from html import escape
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -37,6 +36,17 @@ from icsolve.page.poses import Array, exact, script_json
 from icsolve.report.derivation.known import Acting, Known, acting_loads, resting
 from icsolve.report.derivation.ratios import Step
 from icsolve.tuples import NamedTuple
+
+if TYPE_CHECKING:
+    from hashlib import sha256
+else:  # what is written in C of it: the rest loads all of OpenSSL
+    try:
+        from _sha2 import sha256
+    except ImportError:
+        try:
+            from _sha256 import sha256
+        except ImportError:
+            from hashlib import sha256
 
 
 class PageEquation(NamedTuple):
@@ -149,6 +159,7 @@ def _file(*names: str) -> str:
 NAMES = "data scene rest live moving centres labels words position construction turn fields see"
 PARTS = NAMES.split()
 """The parts of the script, in the order in which they run: each uses those before it."""
+SIGNS = "=> === !== && || <= >= = * < > :".split()
 
 
 @cache
@@ -156,11 +167,14 @@ def _parts() -> str:
     """What is the same in the script of every page, without its comments and indents, and without spaces
     about signs in lines that have no strings, templates or expressions of their own."""
     text = "".join(_file("script", f"{part}.js") for part in PARTS)
-    text = re.sub(r"^\s*/\*.*?\*/\s*|^\s+", "", text, flags=re.MULTILINE | re.DOTALL)
-    plain = re.compile(r"^[^\"'`/\n]+$", re.MULTILINE)
-    return plain.sub(
-        lambda line: re.sub(r" (=>|[=!]==|&&|\|\||[<>]?=|[*<>:]) |(?<=,) ", r"\1", line.group()), text
-    )
+    lines = re.sub(r"^\s*/\*.*?\*/\s*|^\s+", "", text, flags=re.MULTILINE | re.DOTALL).split("\n")
+    plain = [n for n, s in enumerate(lines) if not ('"' in s or "'" in s or "`" in s or "/" in s)]
+    closed = "\n".join([lines[n] for n in plain]).replace(", ", ",")
+    for sign in SIGNS:
+        closed = closed.replace(f" {sign} ", sign)
+    for n, line in zip(plain, closed.split("\n"), strict=True):
+        lines[n] = line
+    return "\n".join(lines)
 
 
 def script(live: Live | None) -> str:
@@ -184,7 +198,7 @@ def policy(styles: str, scripts: str) -> str:
 
 
 def _hash(text: str) -> str:
-    return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+    return "sha256-" + base64.b64encode(sha256(text.encode()).digest()).decode()
 
 
 # --- the document ----------------------------------------------------------------------------------------

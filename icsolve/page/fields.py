@@ -192,14 +192,15 @@ def _along(locus: Locus, number: Callable[[Datum], int]) -> Iterable[list[Any]]:
 # --- the text of the case --------------------------------------------------------------------------------
 
 
-def text_of(case: Case) -> str | None:
-    """The text of a case's file, where it still says what the case says (but for numbers that were set)."""
+def text_of(case: Case) -> tuple[str, Mapping[str, Number]] | None:
+    """The text of a case's file, where it still says what the case says (but for numbers that were set), and
+    its numbers by path."""
     with suppress(OSError, UnicodeDecodeError, CaseError, ValueError):
         with open(case.path, encoding="utf-8-sig", newline="") as file:
             text = file.read()
-        again = load(text) if "\n" in text else None
-        if again is not None and numbers_of(again).keys() == numbers_of(case).keys():
-            return text.replace("\r\n", "\n")
+        written = numbers_of(load(text)) if "\n" in text else None
+        if written is not None and written.keys() == numbers_of(case).keys():
+            return text.replace("\r\n", "\n"), written
     return None
 
 
@@ -219,12 +220,12 @@ def units_to_write(case: Case) -> dict[str, str]:
 
 def text_data(case: Case, paths: list[str]) -> dict[str, Any] | None:
     """The text with the places of its numbers, by the place of each among the inputs; and of `near`."""
-    text = text_of(case)
-    if text is None:
+    found = text_of(case)
+    if found is None:
         return None
+    text, written = found
     near = [f"near.{name}.{axis}" for name in case.near for axis in "xy"]
     at = places(text, [*paths, *near])
-    written = numbers_of(load(text))
     return {
         "text": text,
         "at": [list(at[path]) if path in at else None for path in paths],

@@ -291,14 +291,15 @@ def _dead(case: Case, by: PageInput, degrees: Array, reach: tuple[float, float],
     """
     if _one_by_one(case) and all(np.all(v > 0.0) or np.all(v < 0.0) for v in found.answers.values()):
         return []
-    smooth = _smooth(case) if len(found.answers) == 1 else case
+    alone = len(found.answers) == 1
+    smooth = _smooth(case) if alone else case
     some = None if by.slides or case.dynamic else dead_centres(smooth, by.driven(degrees))
     if some is None:
         x = degrees.tolist()
         some = [at for at, word in zip(x, found.status, strict=True) if word in DEAD]
         for values in () if rubs(case) else found.answers.values():
             some = asymptotes(x, values.tolist(), some)
-    elif rubs(case) and smooth is not case:
+    elif rubs(case) and alone:
         some = [at for at in some if _jams(case, by, at)]
     return [at + 0.0 for at in some if reach[0] <= at <= reach[1]]
 
@@ -406,8 +407,10 @@ def _swept(case: Case, by: PageInput, degrees: Array, want: Sequence[str]) -> Sw
 
 
 def _smooth(case: Case) -> Case:
-    """The case without friction: its places do not ask whether a load holds."""
-    return replace(case, joints=tuple(map(without_friction, case.joints)))
+    """The case without friction: its places do not ask whether a load holds. One without is itself, of which
+    all that was found is remembered."""
+    joints = tuple(map(without_friction, case.joints))
+    return case if joints == case.joints else replace(case, joints=joints)
 
 
 def inputs(known: Known) -> list[str]:

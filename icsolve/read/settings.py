@@ -255,12 +255,14 @@ _SOUGHT = "the number that is sought"
 def places(text: str, paths: Iterable[str]) -> dict[str, tuple[int, int]]:
     """Where in a text the number at each path stands, from character to character; of a number that is not
     written (or not so that it could be set) nothing is said."""
-    problems = Problems("<text>")
-    written = {scalar.mark: scalar for scalar in scalars(parse(text, problems))}
+    tree = parse(text, Problems("<text>"))
+    if type(tree) is not Mapping:
+        return {}
+    written = {scalar.mark: scalar for scalar in scalars(tree)}
     starts = [0, *(found.end() for found in re.finditer("\n", text))]
     found = {}
     for path in paths:
-        root = parse(text, problems)
+        root = _copied(tree)
         if type(root) is not Mapping or _set(root, path, _SOUGHT):
             continue
         mark = next((scalar.mark for scalar in scalars(root) if scalar.text == _SOUGHT), None)
@@ -270,3 +272,10 @@ def places(text: str, paths: Iterable[str]) -> dict[str, tuple[int, int]]:
             if text[at : at + len(old.text)] == old.text:
                 found[path] = (at, at + len(old.text))
     return found
+
+
+def _copied(node: Node) -> Node:
+    """A tree of its own, in which values can be replaced."""
+    if type(node) is Mapping:
+        return Mapping({key: _copied(item) for key, item in node.items.items()}, dict(node.keys), node.mark)
+    return Sequence([_copied(item) for item in node.items], node.mark) if type(node) is Sequence else node

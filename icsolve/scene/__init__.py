@@ -138,9 +138,10 @@ def _has_long_numbers(case: Case) -> bool:
 def balanced(parts: AnswerBuilder) -> AnswerBuilder:
     """The scene; where its known loads balance but for the last digits of numbers that a program rounded, as
     explained by these."""
-    scene, motions = parts.scene, parts.first.outcome.motions
-    done = parts.in_equilibrium or scene.explained or not (scene.certain and motions.mobility)
-    if _asks(parts.case) or done or not _has_long_numbers(parts.case):
+    scene = parts.scene
+    if _asks(parts.case) or scene.explained or not (scene.certain and parts.first.outcome.motions.mobility):
+        return parts
+    if parts.in_equilibrium or not _has_long_numbers(parts.case):
         return parts
     with suppress(SceneError):
         explained = AnswerBuilder(EvaluatedScene(parts.program, True, explained=True))
@@ -157,9 +158,13 @@ def judged(parts: AnswerBuilder, reactions: bool) -> Answer:
         from icsolve.scene.free_bodies import with_friction
 
         return with_friction(parts, reactions)
-    rests = parts.in_equilibrium and not has_friction(parts.case)
-    if reactions or (parts.program.want.bodies and (_asks(parts.case) or rests)):
+    if reactions or (parts.program.want.bodies and (_asks(parts.case) or _rests(parts))):
         from icsolve.scene.free_bodies import with_bodies
 
         return with_bodies(parts, reactions)
     return parts.answer()
+
+
+def _rests(parts: AnswerBuilder) -> bool:
+    """Whether the known loads balance, and nothing rubs."""
+    return parts.in_equilibrium and not has_friction(parts.case)

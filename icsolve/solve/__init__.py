@@ -73,7 +73,7 @@ def solve(
             reactions=reactions,
             dynamic=dynamic,
         )
-        return _judged(found, replace(case, dynamic=dynamic or case.dynamic))
+        return _judged(found, replace(case, dynamic=True) if dynamic and not case.dynamic else case)
     asked = {"all_centres": all_centres, "rates": rates, "reactions": reactions}
     if without_inertia(case, dynamic):
         from icsolve.scene.dynamics import solve_dynamic

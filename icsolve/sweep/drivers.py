@@ -26,6 +26,7 @@ from icsolve.assembly.driven.mechanism import Mechanism
 from icsolve.assembly.driven.order import (
     AssemblyOrder,
     AssemblyStep,
+    Closing,
     PlaceAtIntersection,
     PlaceByPoint,
     PlaceByTwoPoints,
@@ -369,15 +370,15 @@ class Drive(NamedTuple):
     moving : the varied paths that move the mechanism; the others give another case in each row
     held : the data that are held while it moves, as many as it has freedoms left
     locked : bodies that only spin, which are kept from it
-    order : the order in which the links close with all these as drivers, where it showed that; its conditions
-        are those of the turned links, of the numbers, and of the mechanism
+    closing : how the links close with all these as drivers, where that showed it; its conditions are
+        those of the turned links, of the numbers, and of the mechanism
     """
 
     moving: tuple[str, ...]
     held: tuple[Pose, ...]
     locked: tuple[int, ...]
     """bodies that only spin, which are kept from it"""
-    order: AssemblyOrder | None = None
+    closing: Closing | None = None
 
 
 def drive_of(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str]) -> Drive:
@@ -451,7 +452,7 @@ def closed_drive(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str
     while len(order.full) < len(mechanism.spots):
         if not order.advance() or not _is_regular(order.steps[-1]):
             return None
-    return Drive(tuple(poses), (), (), order)
+    return Drive(tuple(poses), (), (), order.closing)
 
 
 def _is_regular(step: AssemblyStep) -> bool:

@@ -13,7 +13,7 @@ from icsolve.assembly import Figure, Placement, place, placed_figure
 from icsolve.assembly.conditions import ahead, refuse_misfit, teeth_margins
 from icsolve.assembly.driven.constraints import Constraint, Turning
 from icsolve.assembly.driven.mechanism import Mechanism, mechanism, placed_late
-from icsolve.assembly.driven.motion import DrivenMotion, order_of, set_moving
+from icsolve.assembly.driven.motion import DrivenMotion, closing_of, set_moving
 from icsolve.assembly.steps import Meet, Polar, spare_data
 from icsolve.assembly.workspace import CORNER, RAY, PlacedCase, data_in, names_of, number_of
 from icsolve.case import Case, Pair, TorsionSpring, is_angle
@@ -299,7 +299,7 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
     fits: tuple[int, ...] = ()
     senses: tuple[int, ...] = ()
     motion: DrivenMotion | None = None
-    if setting.first and setting.drive.order is not None:
+    if setting.first and setting.drive.closing is not None:
         motion = _motion(setting, setting.first.pop(), nudge, inputs, signs)
     else:
         record = BoundedRecord()
@@ -389,7 +389,7 @@ def _motion(
     drivers += [Turning(((body, 1.0),), 0.0) for body in drive.locked]
     turns = {name: record.input(name, sign) for name, sign in signs}
     inputs |= {name: node.index for name, node in turns.items()}
-    return set_moving(held, order_of(held, drivers, drive.order), turns)
+    return set_moving(held, closing_of(held, drivers, drive.closing), turns)
 
 
 def _not_together(path: str, paths: Sequence[str]) -> SceneError:

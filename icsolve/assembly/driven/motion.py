@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from copy import copy
 from typing import Any
 
 from icsolve.assembly.driven.constraints import (
@@ -23,6 +22,7 @@ from icsolve.assembly.driven.order import (
     AssemblyStep,
     AssurGroup,
     By,
+    Closing,
     PlaceAtIntersection,
     PlaceByPoint,
     PlaceByTwoPoints,
@@ -67,11 +67,8 @@ class DrivenMotion(NamedTuple):
     driver: Constraint
 
 
-def order_of(
-    mechanism: Mechanism, drivers: list[Constraint], known: AssemblyOrder | None = None
-) -> AssemblyOrder:
-    """The order in which the mechanism closes; that which is known, if one is, of the same drivers and
-    conditions.
+def closing_of(mechanism: Mechanism, drivers: list[Constraint], known: Closing | None = None) -> Closing:
+    """How the mechanism closes; as is known, if it is, of the same drivers and conditions.
 
     Raises SceneError where a joint cannot be moved, links stay loose, or the position as written is singular.
     """
@@ -87,13 +84,13 @@ def order_of(
             pass
         left = tuple(body for body in mechanism.spots if body not in order.full)
         if not left:
-            return order
+            return order.closing
         order.take(smallest(mechanism, order, left))
 
 
-def _again(order: AssemblyOrder, constraints: list[Constraint]) -> AssemblyOrder:
+def _again(closing: Closing, constraints: list[Constraint]) -> Closing:
     """The same steps of the same mechanism on other conditions of the same kinds, in the same order."""
-    now: dict[int, Any] = {id(was): c for was, c in zip(order.constraints, constraints, strict=True)}
+    now: dict[int, Any] = {id(was): c for was, c in zip(closing.constraints, constraints, strict=True)}
 
     def met(by: By) -> By:
         return by._replace(by=now[id(by.by)]) if isinstance(by, ThroughTurned) else by
@@ -110,26 +107,24 @@ def _again(order: AssemblyOrder, constraints: list[Constraint]) -> AssemblyOrder
                 return step._replace(constraints=tuple([now[id(c)] for c in step.constraints]))
         return step
 
-    other = copy(order)
-    other.constraints, other.steps = constraints, [renewed(step) for step in order.steps]
-    other.used = {id(now[k]) for k in order.used if k in now}
-    return other
+    used = {id(now[k]) for k in closing.used if k in now}
+    return Closing(tuple([renewed(step) for step in closing.steps]), constraints, used)
 
 
-def set_moving(mechanism: Mechanism, order: AssemblyOrder, signs: Mapping[str, Scalar]) -> DrivenMotion:
+def set_moving(mechanism: Mechanism, closing: Closing, signs: Mapping[str, Scalar]) -> DrivenMotion:
     """Run the steps; ``signs`` has those of branches that change on the way, by name."""
     run = _Placing(mechanism, signs)
-    for step in order.steps:
+    for step in closing.steps:
         run.take(step)
     return DrivenMotion(
         mechanism,
         run.moved,
-        tuple(order.steps),
+        closing.steps,
         run.branches,
         run.written,
         tuple(run.groups),
-        tuple(run.checked(c for c in order.constraints if id(c) not in order.used)),
-        order.constraints[0],
+        tuple(run.checked(c for c in closing.constraints if id(c) not in closing.used)),
+        closing.constraints[0],
     )
 
 

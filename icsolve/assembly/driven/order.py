@@ -276,6 +276,14 @@ class AssurGroup(NamedTuple):
 AssemblyStep = RotateWith | PlaceByPoint | PlaceByTwoPoints | PlaceAtIntersection | RotateToLine | AssurGroup
 
 
+class Closing(NamedTuple):
+    """How a mechanism closes: its steps, all its conditions, and which of these they use (by id)."""
+
+    steps: tuple[AssemblyStep, ...]
+    constraints: list[Constraint]
+    used: set[int]
+
+
 class AssemblyOrder:
     """The steps as they are found; ``full`` bodies are placed, ``turned`` have their rotation.
 
@@ -302,6 +310,11 @@ class AssemblyOrder:
         for carried in spots.values():
             for spot in carried:
                 self.members.setdefault(shape.one(spot), []).append(spot)
+
+    @property
+    def closing(self) -> Closing:
+        """The steps so far."""
+        return Closing(tuple(self.steps), self.constraints, self.used)
 
     def advance(self) -> bool:
         """Take the next closed form; False where there is none."""

@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
+from operator import mul
 
 from icsolve.numbers.arithmetic import largest_of
 from icsolve.numbers.linear import Row, inverse, solve_square
@@ -69,12 +70,13 @@ def fixed_point(vectors: Sequence[tuple[Form, ...]], touching: Sequence[bool]) -
 
 def at(form: Form, y: Sequence[float]) -> float:
     """Value of an affine form, (1 + n,), at y, (n,)."""
-    return form[0] + sum(a * x for a, x in zip(form[1:], y, strict=True))
+    found: float = form[0] + sum(map(mul, form[1:], y))
+    return found
 
 
 def vector(forms: Sequence[Form], y: Sequence[float]) -> tuple[float, ...]:
     """Value of v_k."""
-    return tuple(at(form, y) for form in forms)
+    return tuple([at(form, y) for form in forms])
 
 
 def misfits(equations: Lengths, y: Sequence[float]) -> list[float]:
@@ -118,10 +120,8 @@ def newton(equations: Lengths, start: Sequence[float], most: int = MOST_STEPS) -
     before = math.inf
     for _ in range(most):
         g = misfits(equations, y)
-        size = largest_of(g)
-        if size <= 4.0 * ROUNDING * scale_at(equations, y) or (
-            size < 1e-12 * scale_at(equations, y) and size >= before
-        ):
+        size, scale = largest_of(g), scale_at(equations, y)
+        if size <= 4.0 * ROUNDING * scale or (size < 1e-12 * scale and size >= before):
             return tuple(y)
         step = solve_square(slopes(equations, y), g)
         if step is None or not all(map(math.isfinite, step)):
@@ -134,11 +134,12 @@ def newton(equations: Lengths, start: Sequence[float], most: int = MOST_STEPS) -
 def scale_at(equations: Lengths, y: Sequence[float]) -> float:
     """The largest term in any of the forms: what rounding is measured by."""
     forms = [*equations.lengths, *(form for forms in equations.vectors for form in forms)]
-    return max((_size(form, y) for form in forms), default=0.0) or 1.0
+    return max([_size(form, y) for form in forms], default=0.0) or 1.0
 
 
 def _size(form: Form, y: Sequence[float]) -> float:
-    return abs(form[0]) + sum(abs(a * x) for a, x in zip(form[1:], y, strict=True))
+    found: float = abs(form[0]) + sum(map(abs, map(mul, form[1:], y)))
+    return found
 
 
 def contraction(equations: Lengths) -> list[list[float]] | None:

@@ -73,9 +73,10 @@ def _followed(equations: Lengths) -> tuple[Y | None, float, bool]:
     whole = _homogeneous(equations, first)
     z = _normed((*(part / first for part in begin), 1.0))
     share, step = 0.0, LONGEST
+    change = _tangent(whole, z, share)
     while share < 1.0:
         ahead = min(1.0, share + step)
-        moved = _moved(whole, z, share, ahead)
+        moved = _moved(whole, z, change, ahead - share, ahead)
         if moved is not None and moved[-1] <= 0.0:
             if step < FINE * max(share, LEAST):
                 return None, share, True
@@ -90,13 +91,13 @@ def _followed(equations: Lengths) -> tuple[Y | None, float, bool]:
         if 0.0 < less < 1.0:  # forces that fall far below the first would be lost beside w
             first, z = less * first, _normed((*z[:-1], less * z[-1]))
             whole = _homogeneous(equations, first)
+        change = _tangent(whole, z, share)
     return tuple(part * first / z[-1] for part in z[:-1]), 1.0, False
 
 
-def _moved(whole: Lengths, z: Y, share: float, ahead: float) -> Y | None:
+def _moved(whole: Lengths, z: Y, change: Sequence[float] | None, step: float, ahead: float) -> Y | None:
     """The solution a step on: predicted along the tangent, corrected; None where the step was too long."""
-    change = _tangent(whole, z, share)
-    start = z if change is None else tuple(a + (ahead - share) * b for a, b in zip(z, change, strict=True))
+    start = z if change is None else tuple([a + step * b for a, b in zip(z, change, strict=True)])
     found = newton(_with(whole, z, ahead), start, STEPS)
     if found is None or min((at(form, found) for form in whole.lengths), default=0.0) < -1e-10:
         return None
