@@ -276,7 +276,7 @@ def _solved(work: Worked, terms: Sequence[ShownTerm], friction: Sequence[Rubbed]
     """The unknown load: the powers of the others with the other sign, over its factor."""
     unknown = [term for term in terms if term.acting.unknown]
     roots = [term for term in unknown if _is_root(term.acting)]
-    if work.answer is None or len(roots) != 1:
+    if len(roots) != 1:
         return
     root = roots[0].acting
     found = work.answer.answers[root.load.name]
@@ -337,7 +337,7 @@ def motions_section(work: Worked, loads: Sequence[Acting]) -> Iterable[Section]:
         rows.append(row)
         blocks += said
     blocks += _found(work)
-    if work.answer is not None and all(acting.value is not None for acting in loads):
+    if all(acting.value is not None for acting in loads):
         blocks.append(words("With these values the sums are"))
         blocks += [_summed(work, row, found=True) for row in rows if row]
     yield Section("Power", tuple(blocks))
@@ -426,8 +426,6 @@ def _turned(
 
 
 def _found(work: Worked) -> Iterable[Block]:
-    if work.answer is None or not work.answer.answers:
-        return
     yield words("So")
     for name, found in work.answer.answers.items():
         yield formula(load_name(name), work.quantity(found.value, found.unit))
