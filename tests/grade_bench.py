@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from icsolve.bench import grading
+from icsolve.bench import speed
 
 CASES = Path(__file__).parent.parent / "cases"
 CHOSEN = (
@@ -16,13 +16,13 @@ CHOSEN = (
 )
 
 
-def questions(count: int = 25) -> list[grading.Asked]:
+def questions(count: int = 25) -> list[speed.Asked]:
     """Cases with their answers and units."""
-    found = grading.asked_of(str(CASES), " ".join(CHOSEN).split()[:count])
+    found = speed.asked_of(str(CASES), " ".join(CHOSEN).split()[:count])
     assert len(found) == count
     return found
 
 
 def write_class(path: Path, students: int, seed: int = 1) -> int:
     """A row a student and case; how many rows."""
-    return grading.write_class(path, students, questions(), seed)
+    return speed.write_class(path, students, questions(), seed)

@@ -407,9 +407,9 @@ def _rates(answer: Answer, program: Program, exact: Outcome) -> Iterator[Shown]:
                 yield Shown(f"v {key[0]} on {key[1]}", value, true, largest / frame.scale)
 
 
-def every_number(case: Case) -> float:
-    """How many numbers of a scene were held to their law; negative where one breaks it."""
-    faults = [one.fault for one in shown(case)]
+def faultless(numbers: Callable[[Case], Iterable[Shown]], case: Case) -> float:
+    """How many ``numbers`` of a scene were held to their law; negative where one breaks it."""
+    faults = [one.fault for one in numbers(case)]
     return -1.0 if any(faults) else float(len(faults))
 
 
@@ -446,12 +446,6 @@ def friction_ends(case: Case) -> Iterator[Shown]:
         for end, true in zip(found.holds, sorted(ends), strict=True):
             exact = found.error is not None and found.error <= 2.0 * worst
             yield Shown("end", end if exact else math.inf, true, max(abs(true), 1))
-
-
-def every_end(case: Case) -> float:
-    """How many ends of a range were held to their law; negative where one breaks it."""
-    faults = [one.fault for one in friction_ends(case)]
-    return -1.0 if any(faults) else float(len(faults))
 
 
 STEPS = (0.0, 1e-9, -1e-3)

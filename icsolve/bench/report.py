@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import platform
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from io import StringIO
 from itertools import cycle
 from math import isfinite
@@ -23,13 +24,14 @@ from icsolve.bench.accuracy import (
     Score,
     bits_kept,
     bound_over_error,
-    every_end,
-    every_number,
     every_row,
+    faultless,
     forward_error,
+    friction_ends,
     held,
     scenes,
     scored,
+    shown,
 )
 from icsolve.bench.families import BOUNDED, EXACT, FAMILIES, RUBBING
 from icsolve.bench.full_turn import compiler_version
@@ -126,9 +128,9 @@ def laws(effort: Effort, kept: Kept) -> Iterator[str]:
     kept.gates.append(Gate("bound over error, worst median of a family", middle, PESSIMISM))
     yield _laws(f"error bound / error; median at most {PESSIMISM:g}, never broken", found)
     for name, law, families, share in (
-        ("numbers", every_number, EXACT, 1),
+        ("numbers", partial(faultless, shown), EXACT, 1),
         ("rows of sweeps", every_row, EXACT, 10),
-        ("ends with friction", every_end, RUBBING, 1),
+        ("ends with friction", partial(faultless, friction_ends), RUBBING, 1),
     ):
         found = held(law, families, effort.digits // share, effort.jobs)
         broken, count = _broken(found), _scenes(found)
@@ -176,9 +178,8 @@ def stress() -> tuple[str, int]:
 
 def run(full: bool, say: Callable[[str], None]) -> Kept:
     """The whole benchmark; every piece of Markdown goes to ``say``. Returns what the picture draws."""
-    from icsolve.bench.grading import drawing, grading
     from icsolve.bench.promises import promises
-    from icsolve.bench.speed import full_turn, one_scene, other_programs
+    from icsolve.bench.speed import drawing, full_turn, grading, one_scene, other_programs
 
     effort, kept = FULL if full else USUAL, nothing()
     say(f"# icsolve bench\n\n{machine()}\n")

@@ -82,8 +82,7 @@ def body_panels(scene: Scene, left: float, top: float, width: float) -> list[Mar
 def support_parts(scene: Scene, solid: shapely.Geometry) -> list[Part]:
     """The forces of the frame on a structure, in the figure itself."""
     answer, ground = scene.known.answer, scene.case.ground
-    if answer is None or not scene.known.structure:
-        return []
+    assert answer is not None
     pushes = [
         _reaction(scene, name, r if r.by == ground else r.reversed())
         for name, r in (answer.reactions or {}).items()

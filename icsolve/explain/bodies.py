@@ -35,10 +35,9 @@ class On(NamedTuple):
 
 def bodies_sections(work: Worked) -> Iterable[Section]:
     """The equilibrium of every moving link, then all reactions."""
-    answer = work.answer
-    if answer is None or not answer.reactions:
+    units, reactions = work.units, work.answer.reactions
+    if not reactions:
         return
-    units, reactions = work.units, answer.reactions
     heading = (f"x, {units.force}", f"y, {units.force}", "size", f"couple, {units.torque}")
     rows = [(name, r, (r.x, r.y, r.magnitude, r.moment)) for name, r in reactions.items()]
     told = reactions_section(work, heading, rows)
@@ -157,10 +156,9 @@ def _moments(work: Worked, forces: Sequence[On], about: Vec, k: int, least: floa
 
 def sections_in_space(work: Worked) -> Iterable[Section]:
     """Power, the reactions, and the equilibrium of every link."""
-    answer = work.answer
-    if answer is None or answer.spatial is None:
+    if work.answer.spatial is None:
         return
-    if answer.terms:
+    if work.answer.terms:
         yield _power(work)
     yield _reactions(work)
     scene = in_space(work.known)
@@ -171,7 +169,6 @@ def sections_in_space(work: Worked) -> Iterable[Section]:
 
 def _power(work: Worked) -> Section:
     """One term a load, for the motion in which the unknown moves at 1."""
-    assert work.answer is not None
     terms = [term for term in work.answer.terms if term.power or term.unknown]
     numbers = Sum(tuple((1, product(work.number(t.value), work.number(t.factor))) for t in terms))
     symbols = Sum(tuple((1, product(load_name(t.load), Name("k", t.load))) for t in terms))
@@ -180,7 +177,7 @@ def _power(work: Worked) -> Section:
 
 
 def _reactions(work: Worked) -> Section:
-    assert work.answer is not None and work.answer.spatial is not None
+    assert work.answer.spatial is not None
     forces, couples = (f"F{{}}, {work.units.force}", f"M{{}}, {work.units.torque}")
     heading = [form.format(axis) for form in (forces, couples) for axis in "xyz"]
     rows = [(name, r, (*r.force, *r.couple)) for name, r in work.answer.spatial.reactions.items()]
@@ -261,7 +258,7 @@ def friction_section(work: Worked) -> Iterable[Section]:
 
 def rubbing_blocks(work: Worked) -> Iterable[Block]:
     """What the friction at each joint comes to."""
-    friction = None if work.answer is None else work.answer.friction
+    friction = work.answer.friction
     if friction is not None and friction.rubbing:
         yield words("With the equations of equilibrium of all links (below) these give:")
         yield Items(tuple((_rubs(work, one),) for one in friction.rubbing))
@@ -300,7 +297,7 @@ def _rubs(work: Worked, one: Rubbing) -> str:
     along = {"contact": "tangent", "screw": "thread", "rope": "rope"}.get(one.kind, "guide")
     what = "moment about the pin" if one.kind == "pin" else f"friction along the {along}"
     size = work.show(abs(one.value))
-    force = work.answer.reactions.get(one.joint) if work.answer and work.answer.reactions else None
+    force = work.answer.reactions.get(one.joint) if work.answer.reactions else None
     of = "" if force is None or force.magnitude is None else f" = {work.show(force.magnitude)} {units.force}"
     arm = ""
     if one.radius is not None:

@@ -39,8 +39,7 @@ LEAST = 1e-7
 
 def equilibrium_section(work: Worked) -> Iterable[Section]:
     """The virtual work of the loads in each position, where one is told so."""
-    positions = () if work.answer is None else work.answer.positions or ()
-    said = [block for one in positions for block in _position(work, one)]
+    said = [block for one in work.answer.positions or () for block in _position(work, one)]
     if not said:
         return
     ways = [(acting, Name("k", "".join(load_name(acting.load.name)))) for acting in acting_loads(work.known)]

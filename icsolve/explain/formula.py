@@ -146,11 +146,9 @@ def _symbols(angle: Expr) -> bool:
     return all(isinstance(part, Name) for part in parts)
 
 
-def needs_brackets(child: Expr, *, factor: bool) -> bool:
-    """Whether a part is set in brackets: sums among factors, and what is negative after another sign."""
-    if isinstance(child, Sum):
-        return factor or is_negative(child)
-    return is_negative(child)
+def needs_brackets(child: Expr) -> bool:
+    """Whether a part is set in brackets: a sum, and what has a sign in front."""
+    return isinstance(child, Sum) or is_negative(child)
 
 
 # --- how a formula is written -----------------------------------------------------------------------
@@ -227,8 +225,8 @@ class Notation(NamedTuple):
                 return self.square.format(self._grouped(of))
 
     def _grouped(self, inner: Expr, *, needed: bool = True) -> str:
-        """A part, in brackets where it is a sum or has a sign in front."""
-        return self._within(inner, needed and (isinstance(inner, Sum) or is_negative(inner)))
+        """A part, in the brackets that it needs."""
+        return self._within(inner, needed and needs_brackets(inner))
 
     def _within(self, inner: Expr, brackets: bool) -> str:
         text = self.expression(inner)
@@ -236,7 +234,7 @@ class Notation(NamedTuple):
 
     def _factor(self, child: Expr, place: int) -> str:
         bare = isinstance(child, Num) and place == 0
-        brackets = needs_brackets(child, factor=True) and not bare
+        brackets = needs_brackets(child) and not bare
         return self._within(child, brackets or (self.flat and isinstance(child, Quotient) and place > 0))
 
     def _over_and_under(self, quotient: Quotient) -> tuple[str, str]:
@@ -248,9 +246,8 @@ class Notation(NamedTuple):
 
     def _term(self, place: int, sign: int, term: Expr) -> str:
         first = place == 0 and sign > 0
-        brackets = not first and (isinstance(term, Sum) or needs_brackets(term, factor=False))
         mark = "" if first else self.signs[1 if sign > 0 else 0 if place == 0 else 2]
-        return mark + self._within(term, brackets)
+        return mark + self._within(term, not first and needs_brackets(term))
 
 
 # --- plain text, LaTeX, MathML ----------------------------------------------------------------------

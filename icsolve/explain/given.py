@@ -105,7 +105,7 @@ def _points(work: Worked, told: Statement) -> list[Block]:
     for name in dict.fromkeys((*work.case.points, *work.known.points)):
         if not is_named(name) or name not in work.known.points:
             continue
-        if work.known.posed and work.answer is None and name not in given:
+        if work.known.posed and work.known.answer is None and name not in given:
             continue
         if name in given:
             rows.append(((name,), *((told.show(n),) for n in given[name] if n is not None), ("given",)))

@@ -283,7 +283,7 @@ def _solved(work: Worked, terms: Sequence[ShownTerm], friction: Sequence[Rubbed]
     if friction and not any(term.factor for term in unknown):
         yield from _pressing(work)
         return
-    if work.answer is None or len(roots) != 1:
+    if len(roots) != 1:
         return
     root = roots[0].acting
     found = work.answer.answers[root.load.name]
@@ -299,7 +299,7 @@ def _solved(work: Worked, terms: Sequence[ShownTerm], friction: Sequence[Rubbed]
 
 def _pressing(work: Worked) -> Iterable[Block]:
     """The loads that do no work."""
-    for name, found in work.answer.answers.items() if work.answer is not None else ():
+    for name, found in work.answer.answers.items():
         yield words(load_name(name), PRESSES)
         yield formula(load_name(name), work.quantity(found.value, found.unit))
 
@@ -354,7 +354,7 @@ def motions_section(work: Worked, loads: Sequence[Acting]) -> Iterable[Section]:
         rows.append(row)
         blocks += said
     blocks += _found(work)
-    if work.answer is not None and all(acting.value is not None for acting in loads):
+    if all(acting.value is not None for acting in loads):
         blocks.append(words("With these values the sums are"))
         blocks += [_summed(work, row, found=True) for row in rows if row]
     yield Section("Power", tuple(blocks))
@@ -443,8 +443,6 @@ def _turned(
 
 
 def _found(work: Worked) -> Iterable[Block]:
-    if work.answer is None or not work.answer.answers:
-        return
     yield words("So")
     for name, found in work.answer.answers.items():
         yield formula(load_name(name), work.quantity(found.value, found.unit))

@@ -112,8 +112,7 @@ def ropes_section(
     """The tension of every rope: by the load at its free end, or by the equilibrium of one link; Euler's
     formula where it slips; and whether a tension is left to the equations of the links. Formulas that stand
     ``before`` are not repeated."""
-    answer = work.answer
-    if answer is None or not answer.tensions:
+    if not work.answer.tensions:
         return (), False
     blocks: list[Block] = []
     found: set[str] = set()

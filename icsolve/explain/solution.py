@@ -40,8 +40,6 @@ HOLDS = (
 def answer_section(work: Worked) -> Iterable[Section]:
     """Each unknown with its unit and sense in words, and the mechanical advantage."""
     answer = work.answer
-    if answer is None:
-        return
     if answer.positions:
         yield from equilibrium_section(work)
         rests = tuple((line,) for line in positions_text(answer, work.digits))
@@ -72,7 +70,7 @@ def _found(work: Worked, name: str, found: Found) -> tuple[Inline, ...]:
 
 def _advantage(work: Worked) -> Iterable[Block]:
     answer = work.answer
-    if answer is None or answer.advantage is None:
+    if answer.advantage is None:
         return
     loads = [term.load for term in answer.terms if " " not in term.load]
     top = next(iter(answer.answers))
@@ -136,12 +134,11 @@ SAME = 1e-12
 
 def check_section(work: Worked) -> Iterable[Section]:
     """The unknown loads a second time, by the equilibrium of every link."""
-    answer = work.answer
-    if answer is None or not answer.witnesses:
+    if not work.answer.witnesses:
         return
     entries: list[tuple[Inline, ...]] = []
-    units = {name: found.unit for name, found in answer.answers.items()}
-    for w in answer.witnesses:
+    units = {name: found.unit for name, found in work.answer.answers.items()}
+    for w in work.answer.witnesses:
         unit = units.get(w.load, "")
         off = Quantity(Num(f"{abs(w.difference):.1g}"), unit)
         found = work.quantity(w.bodies, unit)
@@ -155,24 +152,20 @@ def check_section(work: Worked) -> Iterable[Section]:
 
 def left_out(work: Worked, steps: Sequence[Step], *, bodies: bool) -> Iterable[Section]:
     """What the answer did not need, and why; ``bodies``: the forces in the joints are shown."""
-    if work.answer is None:
-        return
-    entries = tuple(_skipped(work, work.answer, steps, bodies=bodies))
+    entries = tuple(_skipped(work, steps, bodies=bodies))
     if entries:
         yield Section("Left out", (Items(entries),))
 
 
 def contacts_section(work: Worked) -> Iterable[Section]:
     """Where profiles touch, and their normal there, which the centres are found by."""
-    if work.answer is not None and work.answer.touching:
-        told = tuple((sentence(contact_said(one)),) for one in work.answer.touching)
+    if work.known.answer is not None and work.known.answer.touching:
+        told = tuple((sentence(contact_said(one)),) for one in work.known.answer.touching)
         yield Section("Contacts", (words("Profiles touch where they have one normal:"), Items(told)))
 
 
 def remarks_section(work: Worked) -> Iterable[Section]:
     """Notes, and what rounding leaves."""
-    if work.answer is None:
-        return
     told = [contact_said(one) for one in work.answer.touching]
     entries: list[tuple[Inline, ...]] = [(sentence(note),) for note in work.answer.notes if note not in told]
     entries += _rounding(work.answer)
@@ -180,11 +173,9 @@ def remarks_section(work: Worked) -> Iterable[Section]:
         yield Section("Remarks", (Items(tuple(entries)),))
 
 
-def _skipped(
-    work: Worked, answer: Answer, steps: Sequence[Step], *, bodies: bool
-) -> Iterable[tuple[Inline, ...]]:
+def _skipped(work: Worked, steps: Sequence[Step], *, bodies: bool) -> Iterable[tuple[Inline, ...]]:
     needed = {step.centre.pair for step in steps}
-    whole = work.known.whole
+    answer, whole = work.answer, work.known.whole
     others = [pair for pair in (whole.centres if whole else ()) if pair not in needed]
     if others and answer.answers:
         names: list[Inline] = []
@@ -261,8 +252,7 @@ def _sections(work: Worked, bodies: bool) -> Iterable[Section]:
     yield from answer_section(work)
     yield from left_out(work, steps, bodies=bodies or in_space)
     yield from check_section(work)
-    rubs = work.answer is not None and work.answer.friction is not None
-    if bodies or known.structure or is_open or rubs:
+    if bodies or known.structure or is_open or work.answer.friction is not None:
         yield from bodies_sections(work)
     yield from remarks_section(work)
 
@@ -277,7 +267,7 @@ def _by_power(work: Worked) -> Iterable[Section]:
         return
     ratios = answer_ratios(work.known)
     asked = [load for load in work.case.loads if is_unknown(load)]
-    several = work.answer is not None and (work.answer.mobility or 0) > 1 and len(asked) > 1
+    several = (work.answer.mobility or 0) > 1 and len(asked) > 1
     section = None if ratios is None or several else power_section(work, ratios, loads)
     if ratios is None or section is None:
         yield from motions_section(work, loads)
@@ -290,7 +280,7 @@ def ends_sections(work: Worked) -> Iterable[Section]:
     """The ends of a range in which friction holds: how it is about to move, power and the free bodies of
     each; the ratios of the speeds, which are those of both, once."""
     told: set[str] = set()
-    for way, answer in work.answer.about_to_move if work.answer is not None else ():
+    for way, answer in work.answer.about_to_move:
         twists = {link: (way * x, way * y, way * w) for link, (x, y, w) in work.known.twists.items()}
         here = work._replace(known=work.known._replace(answer=answer, twists=twists))
         (name, found), *_ = answer.answers.items()
@@ -334,7 +324,7 @@ def inertia_section(work: Worked) -> Iterable[Section]:
 
 def _inertia(work: Worked, load: Load) -> Iterable[Block]:
     answer, units, given = work.answer, work.units, work.case.inertia.get(load.link)
-    if answer is None or given is None:
+    if given is None:
         return
     symbol = load_name(load.name)
 

@@ -48,8 +48,9 @@ class Worked(NamedTuple):
         return self.known.case
 
     @property
-    def answer(self) -> Answer | None:
-        """Its answer; None where there is none."""
+    def answer(self) -> Answer:
+        """Its answer: a solution without one ends with the reason, before it would be told of."""
+        assert self.known.answer is not None
         return self.known.answer
 
     @property

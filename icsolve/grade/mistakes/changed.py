@@ -36,6 +36,7 @@ from icsolve.case.joints import Guided, Mesh, Sliding
 from icsolve.case.joints import without_friction as smooth
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.ropes import rope_parts, wrap_angle
+from icsolve.statics.load_wrenches import as_given
 from icsolve.tuples import NamedTuple, replace
 
 Place = tuple[float, float]
@@ -399,8 +400,7 @@ def _misread_bodies(case: Case, answer: Answer) -> Iterator[Changed]:
         for other_slide in _screws(joint) if isinstance(joint, Slide) and joint.thread is not None else ():
             yield Changed("lead", replace(case, joints=_instead(case.joints, joint, other_slide)))
     if case.dynamic:
-        own = tuple(load for load in case.loads if not load.name.startswith("inertia "))
-        yield from _masses(replace(case, loads=own))
+        yield from _masses(as_given(case))
 
 
 def _ropes(rope: Rope, answer: Answer) -> Iterator[tuple[str, Rope]]:
