@@ -107,7 +107,7 @@ def _case_figure(case: Case) -> str:
 
 def _as_posed(answer: Answer) -> Case:
     """The case of an answer as it was asked: inertia forces among its loads were found, not given."""
-    from icsolve.statics.inertia import as_posed
+    from icsolve.statics.load_wrenches import as_posed
 
     return as_posed(answer.case)
 

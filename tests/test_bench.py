@@ -47,9 +47,8 @@ from icsolve.bench.full_turn import (
     written_out,
 )
 from icsolve.bench.gates import Effort, Gate, cpu_seconds, gate_table, least, nothing, ratio
-from icsolve.bench.growth import butterflies, gears, scissors
-from icsolve.bench.picture import figure, picture
-from icsolve.bench.promises import SEED, STARTS, newton_in_c
+from icsolve.bench.promises import SEED, STARTS, butterflies, gears, newton_in_c, scissors
+from icsolve.bench.report import figure, picture
 from icsolve.bench.rivals import METHODS, Method
 from icsolve.bench.speed import BOUNDED as BOUNDED_SWEEP
 from icsolve.bench.speed import BY_HAND, IN_C, SWEPT
@@ -304,7 +303,7 @@ def test_a_promise_that_is_not_kept_is_no_success(
     for gate, code in ((ratio("slow", 3.5, 3), 1), (ratio("fast", 2.5, 3), 0)):
         kept = nothing()._replace(gates=[gate], scenes=[])
         monkeypatch.setattr("icsolve.bench.report.run", lambda full, say, kept=kept: kept)
-        monkeypatch.setattr("icsolve.bench.picture.picture", lambda *what: "<svg/>")
+        monkeypatch.setattr("icsolve.bench.report.picture", lambda *what: "<svg/>")
         ran = CliRunner().invoke(command, ["bench", "-o", str(tmp_path / "plot.svg")], standalone_mode=False)
         assert ran.return_value == code
         assert ("not kept: slow" in ran.stderr) == bool(code)
@@ -358,7 +357,7 @@ def test_a_broken_law_is_told_and_fails_the_command(tmp_path: Path, monkeypatch:
     """And so does a time that is not kept; what is kept is a success."""
     kept = nothing()
     monkeypatch.setattr(report, "run", lambda full, say: kept)
-    monkeypatch.setattr("icsolve.bench.picture.picture", lambda *what: "<svg/>")  # drawn in tests of its own
+    monkeypatch.setattr("icsolve.bench.report.picture", lambda *what: "<svg/>")  # drawn in tests of its own
     arguments = ["bench", "-o", str(tmp_path / "plot.svg")]
     kept.gates.append(ratio("a fast machine", 2, 3))
     assert CliRunner().invoke(command, arguments, standalone_mode=False).return_value == 0

@@ -21,14 +21,18 @@ import loading
 import mechanisms
 import transcribe
 from growth import random_mechanism
-from icsolve.case import Case
+from icsolve.answer import AboutToMove
+from icsolve.case import Case, Motion, Number, is_link
 from icsolve.draw import draw
 from icsolve.explain import explain
 from icsolve.explain.document import ShownTable
-from icsolve.explain.typeset import exercise
+from icsolve.explain.given import exercise
 from icsolve.manual import template
 from icsolve.report.derivation.known import known_of
+from icsolve.screws.plane import velocity
+from icsolve.tuples import replace
 from library import FILES, sample
+from rough_scenes import KINDS, Rough
 from sizes import FULL
 from test_draw import DEAD_CENTRE, FOUR_BAR, HOSTILE
 
@@ -752,3 +756,55 @@ loads:
     )
     assert "loop equations" not in told
     assert "U = -18 N*m" in told
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("seed", range(12 if FULL else 2))
+def test_an_end_of_a_range_that_holds_is_the_motion_that_begins_there(
+    kind: Callable[[Random], Rough], seed: int
+) -> None:
+    """Where friction holds an unknown load over a range each finite end, but one at which a contact parts, is
+    the answer of the motion that begins there, and is worked out so: its equations recompute, and the last is
+    the end. The motion itself is given, link by link, to `solve`; both are rounded once."""
+    case = kind(Random(f"ends {kind.__name__} {seed}")).case("unknown")
+    try:
+        answer = icsolve.solve(case)
+    except icsolve.SceneError as refusal:
+        if refusal.status not in ("no-value", "slack"):
+            raise
+        return
+    held = answer.answers["F"].holds
+    assert held is not None
+    said = explain(case, digits=DIGITS, bodies=True)
+    check(text_equations(said), known_of(case).size or 1.0)
+    parted = any("would have to pull" in note for note in answer.notes)
+    ends = [one.answer.answers["F"].value for one in answer.about_to_move]
+    assert parted or ends == sorted(filter(math.isfinite, held))
+    assert {*ends} <= {*held}
+    for one in answer.about_to_move:
+        value = one.answer.answers["F"].value
+        moved = icsolve.solve(replace(case, motion=begun(answer, one)))
+        assert f"where F = {value:.6g}" in said
+        assert re.search(rf"^    F = .*{re.escape(f'{value:.6g}')} ", said, re.M) or not value
+        if moved.answers["F"].value != pytest.approx(value, rel=1e-15):  # a pawl has several
+            assert any(f"at other values of F too: {value:.6g}" in note for note in moved.notes)
+            continue
+        assert one.answer.friction is not None
+        assert moved.friction is not None
+        assert [r.value for r in one.answer.friction.rubbing] == pytest.approx(
+            [r.value for r in moved.friction.rubbing], rel=1e-9, abs=1e-9 * abs(value)
+        )
+
+
+def begun(answer: icsolve.Answer, end: AboutToMove) -> tuple[Motion, ...]:
+    """The motion that begins at an end, by the first link that turns, or else by a point that moves."""
+    known = known_of(answer.case)
+    moving = {link: twist for link, twist in known.twists.items() if is_link(link) and not known.rests(link)}
+    for link, twist in moving.items():
+        if twist[2]:
+            return (Motion(link, turns="ccw" if twist[2] * end.way > 0.0 else "cw"),)
+    link, twist = next(iter(moving.items()))
+    x, y = velocity(twist, (0.0, 0.0, 1.0))
+    angle = math.degrees(math.atan2(y * end.way, x * end.way))
+    speed, toward = (Number(v, 0.0, "motion", repr(v)) for v in (1.0, round(angle, 9)))
+    return (Motion(link, speed, point=answer.case.carries[link][0], angle=toward),)

@@ -18,7 +18,7 @@ from icsolve.case import Case
 from icsolve.draw.tikz import standalone
 from icsolve.draw.words import answer_sentences
 from icsolve.explain import explain
-from icsolve.explain.typeset import exercise, sheet_tex
+from icsolve.explain.given import exercise, sheet_tex
 from icsolve.grade.platforms.questions import figure
 from icsolve.page.gallery import ENDINGS, KINDS, exhibit, index_html
 from icsolve.report.derivation.known import known_of

@@ -28,10 +28,9 @@ from icsolve.draw.bodies import pushes_on
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.page import page_html
 from icsolve.page.document import equation_of
-from icsolve.page.figure import figure_of
-from icsolve.page.forces import forces_data
 from icsolve.page.live import live_of
-from icsolve.page.motion import motion_of
+from icsolve.page.motion import forces_data, motion_of
+from icsolve.page.pictures import figure_of
 from icsolve.report.derivation.known import acting_loads, known_of
 from icsolve.scene.refusals import rubs
 from icsolve.screws.ropes import offsets_of, rope_length
@@ -544,7 +543,7 @@ def test_text_has_the_contrast_of_wcag_aa(theme: int) -> None:
 
 def test_a_cam_turns_its_follower(monkeypatch: pytest.MonkeyPatch) -> None:
     """Lobes by a spline under an offset roller: a whole turn, though no contact point is presolved."""
-    monkeypatch.setattr("icsolve.page.forces.forces_data", lambda *_: {})  # of each position
+    monkeypatch.setattr("icsolve.page.motion.forces_data", lambda *_: {})  # of each position
     model = model_of(page_html(CAMS["roller on lobes"]))
     assert model["motion"]["turns"] and model["motion"]["step"] == 2.0
     assert set(model["motion"]["links"]) == {"2", "3"}

@@ -21,8 +21,8 @@ from icsolve.draw import Drawing, draw
 from icsolve.draw.ropes import courses
 from icsolve.draw.words import figure_number, unit_word
 from icsolve.page import page_html
-from icsolve.page.figure import figure_of
 from icsolve.page.motion import PageMotion
+from icsolve.page.pictures import figure_of
 from icsolve.report.derivation.known import known_of
 from icsolve.report.derivation.ratios import needed_steps
 from library import FILES, PAGED, known, motion, page_of, sample

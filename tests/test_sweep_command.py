@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import sys
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -197,20 +196,20 @@ class Terminal(io.StringIO):
         return True
 
 
-def test_a_bar_is_shown_of_long_work_on_a_terminal_only(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_bar_is_shown_of_long_work_on_a_terminal_only(
+    press: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(output, "PATIENCE", 0.0)
-    monkeypatch.setattr("sys.stderr", Terminal())
-    for total, seen in ((10_000, True), (0, False)):
-        with output.Progress(total) as bar:
-            assert bar.told is not None
-            if total:
-                icsolve.sweep(
-                    icsolve.load(PRESS), {"angles.AB": np.linspace(0, 360, total)}, progress=bar.told
-                )
-        assert ("100%" in sys.stderr.getvalue()) == seen  # type: ignore[attr-defined]
-        monkeypatch.setattr("sys.stderr", Terminal())
-    monkeypatch.setattr("sys.stderr", io.StringIO())
-    assert output.Progress(10).told is None
+    for stream, shares in ((Terminal(), (0.5, 1.0)), (Terminal(), ()), (io.StringIO(), (0.5, 1.0))):
+        monkeypatch.setattr("sys.stderr", stream)
+        with output.progress() as told:
+            for share in shares:
+                told("rows", share)
+        assert ("100%" in stream.getvalue()) == (bool(shares) and stream.isatty())
+    terminal = Terminal()
+    monkeypatch.setattr("sys.stderr", terminal)
+    exit_status("sweep", str(press), "--vary", "angles.AB=0:360:1", "-o", str(tmp_path / "turn.csv"))
+    assert "rows" in terminal.getvalue() and "100%" in terminal.getvalue()
 
 
 @pytest.mark.parametrize("want", [("answers",), ("answers", "error")])

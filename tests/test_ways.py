@@ -19,7 +19,7 @@ from icsolve.assembly.conditions import residual
 from icsolve.assembly.modes import Ways, ways_of
 from icsolve.assembly.steps import PointGroup
 from icsolve.assembly.workspace import Workspace, data_in
-from icsolve.bench.growth import scissors
+from icsolve.bench.promises import scissors
 from icsolve.case import Case
 from icsolve.cli.commands import icsolve
 from icsolve.errors import SceneError, Status

@@ -170,6 +170,14 @@ class Later(Sequence[V]):
         return tuple, (tuple(self._made),)
 
 
+class AboutToMove(NamedTuple):
+    """An end of a range in which friction holds: the answer as of a given motion, with its reactions, and
+    ``way``, 1.0 where that is the motion in which rates are told, -1.0 where it is the opposite one."""
+
+    way: float
+    answer: Answer
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Answer:
     """All that was found of one case.
@@ -209,6 +217,8 @@ class Answer:
     witnesses: tuple[Witness, ...] = ()
     """the unknown loads by power and by free bodies, where reactions were asked"""
     friction: FrictionFound | None = None
+    about_to_move: Sequence[AboutToMove] = ()
+    """the ends of a range in which friction holds, at which it begins to move; they stay in their process"""
     touching: tuple[Touching, ...] = ()
     """the contacts that profiles gave"""
     positions: tuple[EquilibriumPosition, ...] | None = None
@@ -236,7 +246,7 @@ class Answer:
 
     def __getstate__(self) -> dict[str, Any]:
         """What is sent to another process."""
-        return {**self.__dict__, "scene": None}
+        return {**self.__dict__, "scene": None, "about_to_move": ()}
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of the format (``icsolve/solve/1``)."""

@@ -52,8 +52,7 @@ def _bench(full: bool, output: str) -> int:
     except ImportError as error:
         complain(f"icsolve bench needs {error.name}: pip install 'icsolve[bench]'")
         return UNREADABLE
-    from icsolve.bench.picture import picture
-    from icsolve.bench.report import run
+    from icsolve.bench.report import picture, run
 
     try:
         with whole_file(output) as file:

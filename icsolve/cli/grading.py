@@ -12,6 +12,7 @@ from typing import IO, TYPE_CHECKING, Any
 import click
 
 from icsolve.cli.commands import FORCE, Verb
+from icsolve.cli.output import progress
 from icsolve.cli.run import DONE, NO_ANSWER, complain, refusing
 from icsolve.files import check_free, files_of, folder_of, note, scratch, whole_file, write_whole
 
@@ -184,16 +185,16 @@ def _graded(job: Job, options: dict[str, Any]) -> int:
         if options["jsonl"]:
             stack.enter_context(folder_of(options["jsonl"]))
             jsonl = stack.enter_context(whole_file(options["jsonl"], force))
-        with _progress(quiet) as progress:
-            graded = grade(job, csv, jsonl, progress)
+        with progress(quiet) as told:
+            graded = grade(job, csv, jsonl, told)
         for note in graded.notes:
             complain(str(note))
         if csv is not None:
             csv.flush()
             changed = _regraded(results, options)
-            _further(job, results, options)
+            _further(graded, results, options)
             if options["html"] or options["students"]:
-                _pages(graded, job, results, options)
+                _pages(graded, job.course.title, results, options)
     if not quiet:
         from icsolve.grade.summary import summary
 
@@ -222,36 +223,15 @@ def _results(options: dict[str, Any], force: bool) -> Iterator[tuple[IO[str] | N
                 copyfileobj(file, target)
 
 
-@contextmanager
-def _progress(quiet: bool) -> Iterator[Any]:
-    """A bar for work that takes more than a second, on a terminal only."""
-    import time
-
-    shown = not quiet and sys.stderr.isatty()
-    start = time.monotonic()
-
-    def show(what: str, share: float) -> None:
-        if shown and time.monotonic() - start > 1.0:
-            bar = "#" * round(30 * min(share, 1.0))
-            click.echo(f"\r\033[K{what[:40]:40} [{bar:30}] {min(share, 1.0):4.0%}", nl=False, err=True)
-
-    yield show
-    if shown:
-        click.echo("\r\033[K", nl=False, err=True)
-
-
-def _further(job: Job, results: str, options: dict[str, Any]) -> None:
+def _further(graded: Graded, results: str, options: dict[str, Any]) -> None:
     """The files for platforms, made from the results."""
     if not options["writes"]:
         return
-    from icsolve.grade.course import read_roster
     from icsolve.grade.platforms.write import PlatformFile, write
 
-    wanted = _pairs(options["writes"])
-    people = read_roster(job.roster, lambda line, why: None).people if job.roster and wanted else {}
-    template = options["template"] or ""
-    for kind, path in wanted.items():
-        file = PlatformFile(results, path, people, template, options["force"], options["total"] or "")
+    template, total = options["template"] or "", options["total"] or ""
+    for kind, path in _pairs(options["writes"]).items():
+        file = PlatformFile(results, path, graded.people, template, options["force"], total)
         told = write(kind, file)
         if told and not options["quiet"]:
             complain(told)
@@ -271,19 +251,17 @@ def _regraded(results: str, options: dict[str, Any]) -> str:
     return changes_text(changes, options["against"])
 
 
-def _pages(graded: Graded, job: Job, results: str, options: dict[str, Any]) -> None:
+def _pages(graded: Graded, title: str, results: str, options: dict[str, Any]) -> None:
     """The page for the teacher, and one for each student."""
-    from icsolve.grade.course import read_roster
     from icsolve.grade.results import by_student
     from icsolve.grade.summary import page, statistics, student_page
     from icsolve.grade.variants.record import file_name
 
     if options["html"]:
-        people = read_roster(job.roster, lambda line, why: None).people if job.roster else {}
-        found = statistics(results, people)
-        write_whole(options["html"], page(graded, job.course.title, found), options["force"])
+        found = statistics(results, graded.people)
+        write_whole(options["html"], page(graded, title, found), options["force"])
     if options["students"]:
         for student, rows in by_student(results):
             if student:
                 path = os.path.join(options["students"], f"{file_name(student)}.html")
-                write_whole(path, student_page(student, rows, job.course.title), options["force"])
+                write_whole(path, student_page(student, rows, title), options["force"])

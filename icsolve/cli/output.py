@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Iterable
-from contextlib import AbstractContextManager, nullcontext
-from types import TracebackType
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack, contextmanager, nullcontext
 from typing import Any, TypeVar
 
 import click
@@ -62,49 +61,37 @@ def unwritten(verb: str, path: str, error: OSError) -> int:
 
 
 T = TypeVar("T")
+Told = Callable[[str, float], None]
+"""Told what is being done, and how much of it is, from 0 to 1."""
 
 PATIENCE = 1.0
 """Seconds of work before a bar is shown."""
+_STEPS = 1000
 
 
-def watched(
-    items: Iterable[T], count: int, label: str, quiet: bool = False
-) -> AbstractContextManager[Iterable[T]]:
-    """The items, with a bar on standard error where someone sees it."""
+@contextmanager
+def progress(quiet: bool = False) -> Iterator[Told]:
+    """What is told of work, as a bar on standard error where someone sees it, once the work takes long."""
     if quiet or sys.stderr is None or not sys.stderr.isatty():
-        return nullcontext(items)
-    return click.progressbar(items, length=count, label=label, file=sys.stderr)
+        yield lambda what, share: None
+        return
+    start = time.monotonic()
+    bars: dict[str, Any] = {}
+
+    def told(what: str, share: float) -> None:
+        if time.monotonic() - start < PATIENCE:
+            return
+        if what not in bars:
+            bars[what] = shown.enter_context(click.progressbar(length=_STEPS, label=what, file=sys.stderr))
+        bars[what].update(round(_STEPS * min(share, 1.0)) - bars[what].pos)
+
+    with ExitStack() as shown:
+        yield told
 
 
-class Progress:
-    """Told how much is done; shows a bar on a terminal once the work takes long, and ends it as a context.
-
-    ``told`` is None where nobody would see the bar.
-    """
-
-    def __init__(self, total: int, label: str = "rows") -> None:
-        self.total, self.label = total, label
-        self.done = self.shown = 0
-        self.start = time.monotonic()
-        self.bar: Any = None
-        seen = sys.stderr is not None and sys.stderr.isatty()
-        self.told: Callable[[int], None] | None = self._told if seen else None
-
-    def _told(self, count: int) -> None:
-        self.done = min(self.done + count, self.total)
-        if self.bar is None:
-            if time.monotonic() - self.start < PATIENCE:
-                return
-            self.bar = click.progressbar(length=self.total, label=self.label, file=sys.stderr)
-            self.bar.__enter__()
-        self.bar.update(self.done - self.shown)
-        self.shown = self.done
-
-    def __enter__(self) -> Progress:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        if self.bar is not None:
-            self.bar.__exit__(kind, error, trace)
+def watched(items: Iterable[T], count: int, label: str, quiet: bool = False) -> Iterator[T]:
+    """The items, with a bar of how many are done."""
+    with progress(quiet) as told:
+        for n, item in enumerate(items, 1):
+            yield item
+            told(label, n / count)

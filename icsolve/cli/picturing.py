@@ -156,7 +156,7 @@ def sheet_command(
     except (OSError, ValueError) as error:
         complain(f"icsolve sheet: {variants or '--student'}: {error}")
         return UNREADABLE
-    from icsolve.explain.typeset import Exercise, exercise, sheet_tex
+    from icsolve.explain.given import Exercise, exercise, sheet_tex
 
     sheets: list[tuple[str, list[Exercise]]] = []
     worst = DONE
@@ -336,15 +336,14 @@ def _write(items: list[Item], output: str, title: str, exercises: bool) -> int:
 
     exhibits: list[Exhibit] = []
     worst = DONE
-    with watched(items, len(items), "gallery") as bar:
-        for item in bar:
-            one, code = _shown(item, exercises)
-            if one is None:
-                continue
-            if not all(_put(output, item.name + ending, text) for ending, text in one.files.items()):
-                return UNREADABLE
-            worst = max(worst, code)
-            exhibits.append(one._replace(files={}))
+    for item in watched(items, len(items), "gallery"):
+        one, code = _shown(item, exercises)
+        if one is None:
+            continue
+        if not all(_put(output, item.name + ending, text) for ending, text in one.files.items()):
+            return UNREADABLE
+        worst = max(worst, code)
+        exhibits.append(one._replace(files={}))
     done = _put(output, f"{INDEX}.html", index_html(exhibits, title))
     return worst if done else UNREADABLE
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from icsolve.cli.commands import CASE, DIGITS, SET, Verb
-from icsolve.cli.output import OUTPUT, Progress, one_source, write_output
+from icsolve.cli.output import OUTPUT, one_source, progress, write_output
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, Refuse, complain, for_each, in_json, on_stderr
 from icsolve.errors import SceneError, Status
 from icsolve.tuples import NamedTuple, replace
@@ -252,8 +252,15 @@ def _table(read: Case, path: str, asked: SweepOptions) -> int:
             raise RequestError(f"{path} is unknown, and {what} is for a case in which it is given")
         content, some = _positions_table(read, varied, asked.suffix)
         return _written([content], asked.output) or (DONE if some else NO_ANSWER)
-    with Progress(math.prod(len(values) for _, values in (*asked.vary, *asked.drive))) as progress:
-        found = sweep(read, varied, asked.want, drive=driven, progress=progress.told)
+    total, done = math.prod(len(values) for _, values in (*asked.vary, *asked.drive)), 0
+    with progress() as told:
+
+        def counted(rows: int) -> None:
+            nonlocal done
+            done += rows
+            told("rows", done / total)
+
+        found = sweep(read, varied, asked.want, drive=driven, progress=counted)
     for note in found.notes:
         complain(f"{path}: {note}")
     code = DONE

@@ -107,13 +107,13 @@ def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force
     start = time.perf_counter()
     found: list[VariantTask] = []
     code = DONE
-    with watched(zip(people, tasks(varied, people), strict=True), len(people), "variants", quiet) as bar:
-        for person, task in bar:
-            if isinstance(task, NoKeyError):
-                complain(f"{person.student_id}: {task}")
-                code = NO_ANSWER
-            else:
-                found.append(task)
+    drawn = zip(people, tasks(varied, people), strict=True)
+    for person, task in watched(drawn, len(people), "variants", quiet):
+        if isinstance(task, NoKeyError):
+            complain(f"{person.student_id}: {task}")
+            code = NO_ANSWER
+        else:
+            found.append(task)
     write_whole(paths[0], values_csv(varied, found), force)
     write_whole(paths[1], key_csv(varied, found), force)
     if not quiet:
@@ -154,12 +154,11 @@ def _draw(varied: Varied, groups: list[list[VariantTask]], folder: str, force: b
     from icsolve.grade.platforms.questions import figure
     from icsolve.grade.variants.record import sheet
 
-    with watched(groups, len(groups), "figures", quiet) as bar:
-        for tasks in bar:
-            picture = figure(varied.read(tasks[0].draw.values))
-            write_whole(_figure_path(folder, tasks[0].draw.label), picture, force)
-            for task in tasks:
-                write_whole(_sheet_path(folder, task), sheet(varied, task, picture), force)
+    for tasks in watched(groups, len(groups), "figures", quiet):
+        picture = figure(varied.read(tasks[0].draw.values))
+        write_whole(_figure_path(folder, tasks[0].draw.label), picture, force)
+        for task in tasks:
+            write_whole(_sheet_path(folder, task), sheet(varied, task, picture), force)
 
 
 def _figure_path(folder: str, label: str) -> str:

@@ -1,15 +1,13 @@
 """The worked solution of a case, as a textbook has it: given and asked, the centres, the ratios of speeds,
-the equation of power, the answer, its check by free bodies. As text, Markdown with LaTeX, or HTML."""
+the equation of power, the answer, its check by free bodies. As text, Markdown, HTML or LaTeX."""
 
 from __future__ import annotations
 
 from icsolve.case import Case
 from icsolve.draw.figure import Drawing, draw, drawn
-from icsolve.explain.document import AsMarkdown, AsText
+from icsolve.explain.document import AsHtml, AsMarkdown, AsTex, AsText
 from icsolve.explain.solution import solution
 from icsolve.report.derivation.known import Known, known_of
-
-FORMATS = ("text", "md", "html", "tex")
 
 
 def explain(
@@ -30,12 +28,10 @@ def explain(
         return AsText().whole(document)
     if form == "md":
         return AsMarkdown().whole(document)
-    from icsolve.explain.typeset import AsHtml, AsTex
-
     drawing = Drawing(bodies=bodies, captions=False)
     if form == "tex":
         return AsTex(drawn(known, drawing)).whole(document)
     return AsHtml(draw(case, drawing, known)).whole(document)
 
 
-__all__ = ["FORMATS", "explain"]
+__all__ = ["explain"]

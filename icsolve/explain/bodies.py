@@ -14,9 +14,8 @@ from icsolve.explain.formula import Expr, Name, Num, Sum, Trig, product
 from icsolve.explain.worked import Worked, load_name
 from icsolve.report.derivation.known import Known, acting_loads, rope_pulls
 from icsolve.report.derivation.spatial import InSpace, in_space
-from icsolve.report.published import spatial
 from icsolve.screws.plane import subtract
-from icsolve.screws.space import ZERO, Vec, size, times
+from icsolve.screws.space import ZERO, Vec, size, spatial, times
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
@@ -255,14 +254,17 @@ def friction_section(work: Worked) -> Iterable[Section]:
     """The rule at each joint that rubs: friction circles of pins, friction angles of guides; then what they
     come to in this position."""
     rules = [block for joint in work.case.joints for block in _rule(work, joint)]
-    if not rules:
-        return
-    blocks: list[Block] = [words(RULE), *rules]
+    blocks = [*([words(RULE)] if rules else []), *rules, *rubbing_blocks(work)]
+    if blocks:
+        yield Section("Friction", tuple(blocks))
+
+
+def rubbing_blocks(work: Worked) -> Iterable[Block]:
+    """What the friction at each joint comes to."""
     friction = None if work.answer is None else work.answer.friction
     if friction is not None and friction.rubbing:
-        blocks += [words("With the equations of equilibrium of all links (below) these give:")]
-        blocks += [Items(tuple((_rubs(work, one),) for one in friction.rubbing))]
-    yield Section("Friction", tuple(blocks))
+        yield words("With the equations of equilibrium of all links (below) these give:")
+        yield Items(tuple((_rubs(work, one),) for one in friction.rubbing))
 
 
 RULE = (
@@ -295,7 +297,8 @@ def _rubs(work: Worked, one: Rubbing) -> str:
     """What friction does at one place."""
     units = work.units
     unit = units.torque if one.kind == "pin" else units.force
-    what = "moment about the pin" if one.kind == "pin" else "friction along the guide"
+    along = {"contact": "tangent", "screw": "thread", "rope": "rope"}.get(one.kind, "guide")
+    what = "moment about the pin" if one.kind == "pin" else f"friction along the {along}"
     size = work.show(abs(one.value))
     force = work.answer.reactions.get(one.joint) if work.answer and work.answer.reactions else None
     of = "" if force is None or force.magnitude is None else f" = {work.show(force.magnitude)} {units.force}"

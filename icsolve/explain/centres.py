@@ -127,12 +127,15 @@ def _normal(joint: Joint | None) -> str:
 # --- ratios of speeds ------------------------------------------------------------------------------------
 
 
+RATIOS = "Ratios of the speeds"
+
+
 def ratio_section(work: Worked, ratios: Ratios) -> Iterable[Section]:
     """How the other links move beside the reference, where anything follows."""
     blocks = [block for ratio in ratios.ratios for block in _blocks(work, ratios, ratio)]
     blocks += _carried(work, ratios)
     if blocks:
-        yield Section("Ratios of the speeds", tuple(blocks))
+        yield Section(RATIOS, tuple(blocks))
 
 
 def _blocks(work: Worked, ratios: Ratios, ratio: Ratio) -> Iterable[Block]:

@@ -1,5 +1,5 @@
-"""A worked solution as a document: sections of paragraphs, formulas, lists and tables; as plain text and as
-Markdown with LaTeX."""
+"""A worked solution as a document: sections of paragraphs, formulas, lists and tables; as plain text, as
+Markdown with LaTeX, as one HTML file with MathML and SVG, which has nothing to load, as LaTeX with TikZ."""
 
 from __future__ import annotations
 
@@ -9,7 +9,10 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
-from icsolve.explain.formula import LATEX, PLAIN, Expr, Notation, Quantity
+from icsolve.draw import tikz
+from icsolve.draw.marks import Mark, kinds_of
+from icsolve.draw.svg import escaped
+from icsolve.explain.formula import LATEX, MATHML, PLAIN, Expr, Notation, Quantity
 from icsolve.report.text import table
 from icsolve.tuples import NamedTuple
 
@@ -184,3 +187,139 @@ class AsMarkdown(Layout):
                 heading, *rows = self.cells(block)
                 rows = [heading, ["---"] * len(heading), *rows]
                 return "\n".join(f"| {' | '.join(row)} |" for row in rows)
+
+
+STYLE = """
+:root{color-scheme:light dark;--ink:#1b1f24;--paper:#fff;--line:#d0d7de}
+@media screen and (prefers-color-scheme:dark){:root{--ink:#e6e9ed;--paper:#14181d;--line:#3d444d}}
+body{font:1rem/1.55 'Helvetica Neue',Helvetica,Arial,'Liberation Sans',sans-serif;color:var(--ink);
+background:var(--paper);max-width:46rem;margin:2rem auto;padding:0 1rem}
+h1{font-size:1.5rem;line-height:1.25}h2{font-size:1.15rem;margin-top:1.8em}
+.lead{font-style:italic}math[display=block]{margin:.5em 0}
+section{overflow-x:auto;overflow-y:hidden}table{border-collapse:collapse}
+th,td{text-align:left;padding:.2em .8em .2em 0;border-bottom:1px solid var(--line)}
+figure{margin:1rem 0}svg{max-width:100%;height:auto}
+"""
+
+
+class AsHtml(Layout):
+    """A whole page; ``figure`` is an SVG drawing."""
+
+    notation = MATHML
+
+    def __init__(self, figure: str = "") -> None:
+        self.figure = figure
+
+    def text(self, text: str) -> str:
+        return escaped(dotted(text))
+
+    def symbol(self, expression: Expr) -> str:
+        return f"<math>{self.notation.expression(expression)}</math>"
+
+    def whole(self, document: Document) -> str:
+        title = escaped(document.title)
+        lead = "".join(f'<p class="lead">{escaped(text)}</p>\n' for text in document.lead)
+        picture = f"<figure>{self.figure}</figure>\n" if self.figure else ""
+        return (
+            '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
+            '<meta name="viewport" content="width=device-width,initial-scale=1">\n'
+            f"<title>{title}</title>\n<style>{STYLE}</style></head>\n<body><main>\n"
+            f"<h1>{title}</h1>\n{lead}{picture}{self.sections(document)}</main></body></html>\n"
+        )
+
+    def sections(self, document: Document) -> str:
+        """The sections alone, to stand in another page; where a formula is wider than the window its section
+        scrolls, by the keyboard too."""
+        return "".join(
+            f'<section tabindex="0" role="group" aria-label="{escaped(section.title)}">'
+            f"<h2>{escaped(section.title)}</h2>\n{''.join(map(self._block, section.blocks))}"
+            "</section>\n"
+            for section in document.sections
+        )
+
+    def _block(self, block: Block) -> str:
+        match block:
+            case Words():
+                return f"<p>{self.inline(block.parts)}</p>\n"
+            case Formula():
+                return f'<math display="block">{self.notation.equation(block.sides)}</math>\n'
+            case Items():
+                tag = "ol" if block.numbered else "ul"
+                entries = "".join(f"<li>{self.inline(entry)}</li>" for entry in block.entries)
+                return f"<{tag}>{entries}</{tag}>\n"
+            case ShownTable():
+                heading, *rows = self.cells(block)
+                head = "".join(f'<th scope="col">{cell}</th>' for cell in heading)
+                body = "".join(f"<tr>{''.join(f'<td>{cell}</td>' for cell in row)}</tr>" for row in rows)
+                return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>\n"
+
+
+LONG = 24
+"""A table of more rows goes on over pages in LaTeX."""
+
+
+class AsTex(Layout):
+    """A whole LaTeX document; ``figure`` are the marks of a drawing, which stand in it as TikZ."""
+
+    notation = LATEX
+    packages = "\\usepackage{amsmath}\n\\usepackage{tikz}\n\\usepackage{longtable}\n"
+    page = "\\usepackage[margin=2.2cm]{geometry}\n\\usepackage{adjustbox}\n\\allowdisplaybreaks\n"
+
+    def __init__(self, figure: Sequence[Mark] = ()) -> None:
+        self.figure = tuple(figure)
+
+    def text(self, text: str) -> str:
+        return re.sub(r"(?<![\w)$-])-(?=\d)", "$-$", tikz.escaped(dotted(text)))
+
+    def symbol(self, expression: Expr) -> str:
+        return f"${self.notation.expression(expression)}$"
+
+    def whole(self, document: Document) -> str:
+        lead = "".join(f"\\emph{{{self.text(text)}}}\\par\n" for text in document.lead)
+        return (
+            f"\\documentclass[11pt]{{article}}\n{tikz.PREAMBLE}{self.packages}{self.page}"
+            f"{tikz.styles(kinds_of(self.figure))}\\begin{{document}}\n"
+            f"\\section*{{{self.text(document.title)}}}\n{lead}{picture_tex(self.figure)}"
+            f"{self.sections(document)}\\end{{document}}\n"
+        )
+
+    def sections(self, document: Document) -> str:
+        """The sections alone, to stand in another document."""
+        return "".join(
+            f"\\subsection*{{{self.text(section.title)}}}\n{''.join(map(self.block, section.blocks))}"
+            for section in document.sections
+        )
+
+    def block(self, block: Block) -> str:
+        """One block of a section."""
+        match block:
+            case Words():
+                return f"\\noindent {self.inline(block.parts)}\\par\n"
+            case Formula():
+                sides = [self.notation.side(side) for side in block.sides]
+                lines = (f"{sides[0]} & = {sides[1]}", *sides[2:]) if sides[1:] else sides
+                broken = " \\\\\n& = ".join(lines)
+                return f"\\begin{{align*}}\n{broken}\n\\end{{align*}}\n"
+            case Items():
+                kind = "enumerate" if block.numbered else "itemize"
+                entries = "".join(f"\\item {self.inline(entry)}\n" for entry in block.entries)
+                return f"\\begin{{{kind}}}\n{entries}\\end{{{kind}}}\n"
+            case ShownTable():
+                heading, *rows = (" & ".join(row) + " \\\\\n" for row in self.cells(block))
+                columns = "l" * len(block.heading)
+                body = f"{heading}\\hline\n{''.join(rows)}"
+                if len(rows) > LONG:
+                    return f"\\begin{{longtable}}[l]{{{columns}}}\n{body}\\end{{longtable}}\n"
+                table = f"\\begin{{tabular}}{{{columns}}}\n{body}\\end{{tabular}}"
+                return f"\\par\\medskip\\noindent {table}\\par\\medskip\n"
+
+
+def picture_tex(marks: Sequence[Mark], height: float = 0.5) -> str:
+    """A drawing as TikZ, no wider than the text and no higher than a part of a page; '' of no marks."""
+    if not marks:
+        return ""
+    return (
+        "\\begin{center}\n"
+        f"\\begin{{adjustbox}}{{max width=\\linewidth,max totalheight={height}\\textheight}}\n"
+        f"{tikz.picture(marks)}\\end{{adjustbox}}\n\\end{{center}}\n"
+    )

@@ -1,20 +1,26 @@
-"""What a problem gives, and what it asks, in the plane and in space."""
+"""What a problem gives, and what it asks, in the plane and in space; and an exercise sheet for LaTeX, which
+has no more than that: figures and questions, with the key behind them."""
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable
+from collections.abc import Container, Iterable, Sequence
 from typing import TypeGuard
 
 from icsolve.case import Centroid, Coordinates, is_named
-from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, words
-from icsolve.explain.worked import Worked, load_name
+from icsolve.draw import tikz
+from icsolve.draw.figure import ASKED, drawn
+from icsolve.draw.marks import Mark, kinds_of
+from icsolve.draw.words import answer_sentences, position_sentences, reaction_sentences
+from icsolve.explain.document import AsTex, Block, Inline, Items, Section, ShownTable, picture_tex, words
+from icsolve.explain.worked import Worked, load_name, worked
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.spatial import Push, in_space
 from icsolve.screws.space import size
 from icsolve.statics.power import has_friction
 from icsolve.statics.space.reaction_basis import SpatialTie
 from icsolve.statics.space.reactions import direction_words
-from icsolve.wording.sentences import at_words, listed
+from icsolve.tuples import NamedTuple
+from icsolve.wording.sentences import at_words, listed, provenance
 from icsolve.wording.statement import Row, Statement
 
 
@@ -162,3 +168,65 @@ def _load(work: Worked, push: Push) -> tuple[Inline, ...]:
     value = "" if push.value is None else f" of {work.show(push.value)} {push.unit}"
     what = f"a {'couple' if push.at is None else 'load'}{'' if push.unknown else value}"
     return load_name(push.name), f": {what} on link {push.link}{at_words(push.where)}, {push.way}"
+
+
+# --- exercises ------------------------------------------------------------------------------------------
+
+
+DIGITS = 6
+
+
+class Exercise(NamedTuple):
+    """A case as it is asked: its title, figure and text, and what the key says."""
+
+    title: str
+    figure: tuple[Mark, ...]
+    blocks: tuple[Block, ...]
+    key: tuple[Inline, ...]
+
+
+def exercise(known: Known) -> Exercise:
+    """A case as an exercise: its figure has neither answer nor centres."""
+    asked = known.as_asked
+    work = worked(known, DIGITS)
+    own = work._replace(known=asked)
+    found = reaction_sentences(known) if known.structure else answer_sentences(known)
+    sections = (given_section(own), asked_section(work if known.structure else own))
+    answers = ((sentence.split(" ", 1)[0], sentence) for sentence in found)
+    key: tuple[Inline, ...] = tuple(
+        part for name, told in answers for part in (load_name(name), f"{told.removeprefix(name)}. ")
+    )
+    if known.posed:
+        key = (f"{'; '.join(position_sentences(known))}.",)
+    if known.refusal is not None:
+        key = (f"No answer ({known.refusal.status}): {known.refusal.message}",)
+    blocks = tuple(block for section in sections for block in section.blocks)
+    lead = tuple(words(told) for told in provenance(known.case))
+    key = key or ("See the worked solution.",)
+    return Exercise(known.title, tuple(drawn(asked, ASKED)), (*lead, *blocks), key)
+
+
+def sheet_tex(title: str, sheets: Sequence[tuple[str, Sequence[Exercise]]]) -> str:
+    """A document with the exercises of every student, each on pages of their own, and all keys behind."""
+    layout = AsTex()
+    used = kinds_of(mark for _, some in sheets for one in some for mark in one.figure)
+    questions, keys = [], []
+    for who, some in sheets:
+        heading = layout.text(title) + (f" \\hfill {layout.text(who)}" if who else "")
+        questions.append(f"\\section*{{{heading}}}\n")
+        questions += [_question(layout, n, one) for n, one in enumerate(some, 1)]
+        questions.append("\\clearpage\n")
+        name = f"Key {layout.text(who)}".rstrip()
+        items = "".join(f"\\item {layout.inline(one.key)}\n" for one in some)
+        keys.append(f"\\section*{{{name}}}\n\\begin{{enumerate}}\n{items}\\end{{enumerate}}\n")
+    return (
+        f"\\documentclass[11pt]{{article}}\n{tikz.PREAMBLE}{layout.packages}{layout.page}"
+        f"{tikz.styles(used)}\\begin{{document}}\n{''.join((*questions, *keys))}\\end{{document}}\n"
+    )
+
+
+def _question(layout: AsTex, n: int, one: Exercise) -> str:
+    """An exercise, on one page where it has room there."""
+    body = "".join(map(layout.block, one.blocks))
+    figure = picture_tex(one.figure, 0.34)
+    return f"\\filbreak\n\\subsection*{{{n}. {layout.text(one.title)}}}\n{figure}{body}"

@@ -208,6 +208,7 @@ SLIDING = (
     "In equilibrium the powers of all loads add up to zero, with those of the friction L at each joint "
     "(worked out below), which acts against the given motion:"
 )
+ABOUT_TO = SLIDING.replace("below", "above").replace("the given motion", "the motion that is about to begin")
 
 
 def power_section(work: Worked, ratios: Ratios, loads: Sequence[Acting]) -> Section | None:
@@ -222,8 +223,9 @@ def power_section(work: Worked, ratios: Ratios, loads: Sequence[Acting]) -> Sect
     friction = rubbed(work.known, ratios.reference)
     if not _agrees(terms, friction):
         return None
+    sliding = SLIDING if work.case.motion else ABOUT_TO
     blocks.append(
-        words("In equilibrium the powers of all loads add up to zero:" if not friction else SLIDING)
+        words("In equilibrium the powers of all loads add up to zero:" if not friction else sliding)
     )
     symbols: list[tuple[int, Expr]] = [(term.sign, term.symbols(work)) for term in terms]
     symbols += [(1, product(r.name, work.motion_name(ratios.reference))) for r in friction]
@@ -253,7 +255,9 @@ def _numbers(
     for term in terms:
         yield from _term(work, reference, term, unit)
     for r in friction:
-        yield words(f"{r.words}, {work.show(r.value)} {r.unit}:")
+        rubs = "rate" if r.unit == units.torque else "speed"
+        said = f"{r.words}, {work.show(r.value)} {r.unit}, times its {rubs} of rubbing over "
+        yield words(said, work.motion_name(reference), ":")
         ratio = r.power / (r.value * r.rate) if r.value * r.rate else 1.0
         numbers = product(work.number(r.value), work.number(r.rate), work.number(ratio))
         yield formula(r.name, numbers, work.quantity(r.power, unit))
@@ -276,6 +280,9 @@ def _solved(work: Worked, terms: Sequence[ShownTerm], friction: Sequence[Rubbed]
     """The unknown load: the powers of the others with the other sign, over its factor."""
     unknown = [term for term in terms if term.acting.unknown]
     roots = [term for term in unknown if _is_root(term.acting)]
+    if friction and not any(term.factor for term in unknown):
+        yield from _pressing(work)
+        return
     if work.answer is None or len(roots) != 1:
         return
     root = roots[0].acting
@@ -288,6 +295,16 @@ def _solved(work: Worked, terms: Sequence[ShownTerm], friction: Sequence[Rubbed]
     yield words("So")
     numbers = () if factors == [(1, Num("1"))] and len(rest) == 1 else (solved_for(rest, factors),)
     yield formula(load_name(root.load.name), *numbers, value)
+
+
+def _pressing(work: Worked) -> Iterable[Block]:
+    """The loads that do no work."""
+    for name, found in work.answer.answers.items() if work.answer is not None else ():
+        yield words(load_name(name), PRESSES)
+        yield formula(load_name(name), work.quantity(found.value, found.unit))
+
+
+PRESSES = " does no work: it presses until friction is enough, by the equilibrium of all links (below):"
 
 
 def torque_words(units: Units) -> Iterable[Block]:

@@ -8,9 +8,9 @@ from collections.abc import Iterable, Sequence
 
 from icsolve.answer import Answer, Found
 from icsolve.cams.words import contact_said
-from icsolve.case import ForceVector, Like, Load, Spring, Torque, is_named
-from icsolve.explain.bodies import bodies_sections, friction_section, sections_in_space
-from icsolve.explain.centres import centre_sections, ratio_section, worked_speeds
+from icsolve.case import ForceVector, Like, Load, Spring, Torque, is_link, is_named
+from icsolve.explain.bodies import bodies_sections, friction_section, rubbing_blocks, sections_in_space
+from icsolve.explain.centres import RATIOS, centre_sections, ratio_section, worked_speeds
 from icsolve.explain.document import Block, Document, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.equilibrium import equilibrium_section
 from icsolve.explain.formula import Name, Num, Product, Quantity, Quotient, minus, product
@@ -18,11 +18,13 @@ from icsolve.explain.given import asked_section, given_section
 from icsolve.explain.power import motions_section, power_section
 from icsolve.explain.ropes import ropes_section, screws_section
 from icsolve.explain.worked import Worked, exerted_name, load_name, rate_name, worked
+from icsolve.kinematics.twists import FRAME
 from icsolve.report.derivation.known import Known, acting_loads
 from icsolve.report.derivation.ratios import Step, all_steps, answer_ratios, needed_steps
 from icsolve.report.text import positions_text
+from icsolve.screws.plane import velocity
 from icsolve.statics.power import is_unknown
-from icsolve.wording.senses import holding, plain_vector, spelt
+from icsolve.wording.senses import direction_words, holding, plain_vector, spelt
 from icsolve.wording.sentences import provenance
 
 SEARCHED = (
@@ -255,6 +257,7 @@ def _sections(work: Worked, bodies: bool) -> Iterable[Section]:
         yield from ropes
         yield from screws_section(work)
         yield from friction_section(work)
+        yield from ends_sections(work)
     yield from answer_section(work)
     yield from left_out(work, steps, bodies=bodies or in_space)
     yield from check_section(work)
@@ -281,6 +284,35 @@ def _by_power(work: Worked) -> Iterable[Section]:
         return
     yield from ratio_section(work, ratios)
     yield section
+
+
+def ends_sections(work: Worked) -> Iterable[Section]:
+    """The ends of a range in which friction holds: how it is about to move, power and the free bodies of
+    each; the ratios of the speeds, which are those of both, once."""
+    told: set[str] = set()
+    for way, answer in work.answer.about_to_move if work.answer is not None else ():
+        twists = {link: (way * x, way * y, way * w) for link, (x, y, w) in work.known.twists.items()}
+        here = work._replace(known=work.known._replace(answer=answer, twists=twists))
+        (name, found), *_ = answer.answers.items()
+        at = f" where {name} = {work.show(found.value)} {found.unit}"
+        yield Section(f"About to move{at}", (words(f"{_about_to(here)}:"), *rubbing_blocks(here)))
+        for section in (*_by_power(here), *bodies_sections(here)):
+            if section.title == RATIOS and section.title not in told:
+                yield section
+            elif section.title != RATIOS:
+                yield section._replace(title=f"{section.title}{at}")
+            told.add(section.title)
+
+
+def _about_to(work: Worked) -> str:
+    """How the first link that moves is about to."""
+    known = work.known
+    link = next(link for link in known.twists if is_link(link) and not known.rests(link))
+    twist = known.twists[link]
+    if known.turns(link):
+        return f"Link {link} is about to turn {'counterclockwise' if twist[2] > 0.0 else 'clockwise'}"
+    x, y = velocity(twist, FRAME)
+    return f"Link {link} is about to move toward {direction_words(math.degrees(math.atan2(y, x)))}"
 
 
 # --- inertia forces ---------------------------------------------------------------------------------

@@ -184,57 +184,53 @@ def _by_place(answer: Answer, i: Intermediate, own: str, links: Mapping[str, str
 Found = tuple[StoredAnswer, Marked]
 
 
-class CarriedForward:
-    """Recognises errors carried forward."""
+def carried_forward(store: CaseStore, found: list[Found]) -> list[Found]:
+    """One student's answers, those that follow from a wrong intermediate one with that cause."""
+    marked = {entry.item: (entry, m) for entry, m in found}
+    wrong = [item for item, (_, m) in marked.items() if ":" in item and m.judged.verdict == WRONG]
+    for case in dict.fromkeys(item.partition(":")[0] for item in wrong):
+        try:
+            finals = final_questions(store.read(case), case)
+        except NoKeyError:
+            continue
+        given = [item for item in finals if item in marked and marked[item][1].judged.value is not None]
+        last = [item for item in given if marked[item][1].judged.verdict == WRONG]
+        if not last:
+            continue
+        solved = store.solved(case, marked[last[0]][0].student)
+        steps = [marked[item] for item in wrong if item.startswith(f"{case}:") and item not in finals]
+        for item in last:
+            marked[item] = _again(solved, marked[item], _from_steps(solved, finals[item], steps))
+        last.sort(key=lambda item: not marked[item][1].judged.mistakes)
+        for n, item in enumerate(last[1:], 1):
+            before = {finals[other]: marked[other] for other in last[:n]}
+            marked[item] = _again(solved, marked[item], _from_others(solved, item, finals, before))
+    return list(marked.values())
 
-    def __init__(self, case_store: CaseStore, reveal: bool) -> None:
-        self._case_store = case_store
-        self._reveal = reveal
 
-    def looked_at(self, found: list[Found]) -> list[Found]:
-        """One student's answers, those that follow from a wrong intermediate one with that cause."""
-        marked = {entry.item: (entry, m) for entry, m in found}
-        wrong = [item for item, (_, m) in marked.items() if ":" in item and m.judged.verdict == WRONG]
-        for case in dict.fromkeys(item.partition(":")[0] for item in wrong):
-            try:
-                finals = final_questions(self._case_store.read(case), case)
-            except NoKeyError:
-                continue
-            given = [item for item in finals if item in marked and marked[item][1].judged.value is not None]
-            last = [item for item in given if marked[item][1].judged.verdict == WRONG]
-            if not last:
-                continue
-            solved = self._case_store.solved(case, marked[last[0]][0].student)
-            steps = [marked[item] for item in wrong if item.startswith(f"{case}:") and item not in finals]
-            for item in last:
-                marked[item] = self._again(solved, marked[item], _from_steps(solved, finals[item], steps))
-            last.sort(key=lambda item: not marked[item][1].judged.mistakes)
-            for n, item in enumerate(last[1:], 1):
-                before = {finals[other]: marked[other] for other in last[:n]}
-                marked[item] = self._again(solved, marked[item], _from_others(solved, item, finals, before))
-        return list(marked.values())
-
-    def _again(self, solved: SolvedCase, final: Found, causes: Iterable[Wrong]) -> Found:
-        """The final answer with the first of these causes that it follows from."""
-        entry, before = final
-        key, value = solved.key(entry.item), before.judged.value
-        for cause in causes if isinstance(key, NumberKey) and value is not None else ():
-            assert isinstance(key, NumberKey) and value is not None
-            close = abs(value - cause.value) <= key.wrongs.width(cause.code) * abs(cause.value)
-            if close and abs(cause.value - key.value) > key.half:
-                others = (m for m in before.judged.mistakes if m.code != "near-miss")
-                mistakes = (cause, *others)[:3]
-                share = max(share_of(key, before.judged.parts, mistakes), before.judged.share)
-                judged = before.judged._replace(mistakes=mistakes, code=codes(mistakes), share=share)
-                told = feedback(key, judged, self._reveal)
-                return entry, Marked(before.item, before.raw, judged, before.points, told, before.read)
+def _again(solved: SolvedCase, final: Found, causes: Iterable[Wrong]) -> Found:
+    """The final answer with the first of these causes that it follows from."""
+    entry, before = final
+    key, value = solved.key(entry.item), before.judged.value
+    if not isinstance(key, NumberKey) or value is None:
         return final
+    for cause in causes:
+        close = abs(value - cause.value) <= key.wrongs.width(cause.code) * abs(cause.value)
+        if close and abs(cause.value - key.value) > key.half:
+            others = (m for m in before.judged.mistakes if m.code != "near-miss")
+            mistakes = (cause, *others)[:3]
+            share = max(share_of(key, before.judged.parts, mistakes), before.judged.share)
+            judged = before.judged._replace(mistakes=mistakes, code=codes(mistakes), share=share)
+            told = feedback(key, judged, solved.course.reveal)
+            return entry, Marked(before.item, before.raw, judged, before.points, told, before.read)
+    return final
 
 
 def _from_steps(solved: SolvedCase, unknown: str, wrong: list[Found]) -> Iterator[Wrong]:
     """What a final answer is by the right method from wrong steps."""
-    for cause in carried(solved.wrongs, unknown, list(_steps(solved, wrong))) if wrong else ():
-        yield cause._replace(value=cause.value * solved.scale)
+    if wrong:
+        for cause in carried(solved.wrongs, unknown, list(_steps(solved, wrong))):
+            yield cause._replace(value=cause.value * solved.scale)
 
 
 def _from_others(
@@ -247,9 +243,9 @@ def _from_others(
         if isinstance(key, NumberKey) and marked.judged.value is not None:
             off[unknown] = marked.judged.value - key.value
     key = solved.key(item)
-    for by in coupled(solved.answer, off, finals[item]) if off and isinstance(key, NumberKey) else ():
-        assert isinstance(key, NumberKey)
-        yield Wrong("carried", key.value + by, ", ".join(off))
+    if off and isinstance(key, NumberKey):
+        for by in coupled(solved.answer, off, finals[item]):
+            yield Wrong("carried", key.value + by, ", ".join(off))
 
 
 def _steps(solved: SolvedCase, wrong: list[Found]) -> Iterator[Intermediate]:

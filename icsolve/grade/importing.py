@@ -42,6 +42,7 @@ _MOST_TROUBLES = 10_000
 _STEP = 10_000
 """Answers between two reports of progress."""
 Progress = Callable[[str, float], None]
+"""Told what is being done, and how much of it is, from 0 to 1."""
 
 
 class Import:

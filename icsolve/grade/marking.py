@@ -11,7 +11,7 @@ from functools import reduce
 from itertools import chain, groupby, islice, pairwise
 from operator import itemgetter
 
-from icsolve.grade.carried_forward import CarriedForward
+from icsolve.grade.carried_forward import carried_forward
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.importing import Issues
 from icsolve.grade.judge import IN_REVIEW, RIGHT, WRONG, Judgement, feedback, judge_answer
@@ -160,7 +160,6 @@ class Marker:
         self.silent = 0
         """students who gave no answer at all"""
         self.tally = Tally(case_store.common_key)
-        self._carried_forward = CarriedForward(case_store, self.course.reveal)
 
     def results(self, entries: Iterable[StoredAnswer], students: Iterable[str] = ()) -> Iterator[Result]:
         """The results of sorted entries, and of sorted ``students`` who may have given none."""
@@ -200,7 +199,7 @@ class Marker:
         found = [(entry, self._marked(entry)) for entry in chosen]
         self.silent += not chosen
         if any(":" in entry.item for entry in chosen):
-            found = self._carried_forward.looked_at(found)
+            found = carried_forward(self.case_store, found)
         if student:
             self._add_missing(student, found)
         for entry, judged in found:

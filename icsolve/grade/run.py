@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from typing import IO
 
 from icsolve.grade.case_store import CaseStore
-from icsolve.grade.course import Course, Roster, read_roster
-from icsolve.grade.importing import Import, Issue, Issues, Store, expand
+from icsolve.grade.course import Course, Person, Roster, read_roster
+from icsolve.grade.importing import Import, Issue, Issues, Progress, Store, expand
 from icsolve.grade.keys import AnyKey, NumberKey
 from icsolve.grade.marking import Counts, Marker
 from icsolve.grade.results import HEADER, Override, Overrides, json_line, line, read_overrides
@@ -56,10 +56,8 @@ class Graded(NamedTuple):
     """of each question the first students who gave no answer"""
     accepted: dict[str, str]
     """of each question that asks the same of all, what is accepted, in words"""
-
-
-Progress = Callable[[str, float], None]
-"""Told what is being done, and how much of it is, from 0 to 1."""
+    people: dict[str, Person]
+    """those of the roster by their ids"""
 
 
 def spare_collector() -> None:
@@ -138,7 +136,8 @@ def grade(
     _note_unmet(overrides, marker, job, issues)
     if neighbours is not None:
         _note_other_seeds(job, case_store, marker.given, issues)
-    return _graded(marker, issues, case_store, imported.count, len(students))
+    people = roster.people if roster is not None else {}
+    return _graded(marker, issues, case_store, imported.count, len(students), people)
 
 
 def _note_unmet(overrides: Overrides, marker: Marker, job: Job, issues: Issues) -> None:
@@ -181,7 +180,14 @@ def _shown(paths: list[tuple[str, str]]) -> str:
     return ", ".join(names) if len(names) < 4 else f"{names[0]} and {len(names) - 1} other files"
 
 
-def _graded(marker: Marker, issues: Issues, case_store: CaseStore, rows: int, students: int) -> Graded:
+def _graded(
+    marker: Marker,
+    issues: Issues,
+    case_store: CaseStore,
+    rows: int,
+    students: int,
+    people: dict[str, Person],
+) -> Graded:
     """What the marker found, with what the keys tell of it."""
     counts = dict(sorted(marker.counted().items()))
     keys = {item: key for item in counts if (key := case_store.common_key(item)) is not None}
@@ -189,7 +195,7 @@ def _graded(marker: Marker, issues: Issues, case_store: CaseStore, rows: int, st
     owing = {item: tuple(names) for item, names in sorted(marker.owing.items())}
     accepted = {item: key.accepted for item, key in keys.items()}
     notes, silent = tuple(issues.entries()), marker.silent
-    return Graded(counts, notes, issues.serious, rows, students, silent, marks, owing, accepted)
+    return Graded(counts, notes, issues.serious, rows, students, silent, marks, owing, accepted, people)
 
 
 def _marks(key: AnyKey, counts: Counts) -> Iterator[tuple[str, float]]:

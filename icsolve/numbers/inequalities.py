@@ -19,6 +19,9 @@ NOTHING = 2.0**-48
 """What is left of two terms that cancel, as a fraction of them, is rounding; so is what is so small beside
 the largest number of an inequality."""
 
+CLOSE = 2.0**-40
+"""Ends that differ by less of their size may be one."""
+
 
 class Inequality(NamedTuple):
     """``form`` is not less than zero; ``of`` are the places of the given ones that it was made of."""
@@ -42,6 +45,14 @@ class Region(NamedTuple):
         low, high = _between(self.stages[-1], ())
         room = NOTHING * largest_of([end for end in (low, high) if math.isfinite(end)])
         return None if low > high + room else (min(low, high), max(low, high))
+
+    def vertex(self, end: int) -> tuple[frozenset[int], ...]:
+        """The places of the given inequalities of which an end of the first variable, the least or the most,
+        follows where they are equations; several where these are apart by next to nothing."""
+        value = _between(self.stages[-1], ())[end]
+        sides = [one for one in self.stages[-1] if one.form[1] * (1.0, -1.0)[end] > 0.0]
+        near = ((abs(one.form[0] + one.form[1] * value), one) for one in sides)
+        return tuple([one.of for off, one in near if off <= CLOSE * abs(one.form[1] * value)])
 
     def point(self, first: float) -> tuple[float, ...]:
         """Its other variables at a value of the first: each in the middle of what the ones before leave, ends

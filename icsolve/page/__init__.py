@@ -8,11 +8,19 @@ from icsolve.draw.marks import kinds_of
 from icsolve.draw.svg import sheet
 from icsolve.explain.solution import solution
 from icsolve.page.document import PageParts, equation_of, html_of
-from icsolve.page.figure import figure_of
 from icsolve.page.live import live_of
 from icsolve.page.model import model_of
 from icsolve.page.motion import motion_of, why_still
-from icsolve.page.pictures import ALWAYS, circle_svg, figure_svg, plot_data, plot_svg, plots_of, still_svg
+from icsolve.page.pictures import (
+    ALWAYS,
+    circle_svg,
+    figure_of,
+    figure_svg,
+    plot_data,
+    plot_svg,
+    plots_of,
+    still_svg,
+)
 from icsolve.report.derivation.known import Known, known_of
 from icsolve.report.derivation.ratios import needed_steps
 
@@ -40,7 +48,7 @@ def _in_space(known: Known) -> PageParts:
 
 
 def _in_plane(known: Known) -> PageParts:
-    from icsolve.page.forces import forces_data
+    from icsolve.page.motion import forces_data
 
     steps = needed_steps(known) if known.whole is not None else ()
     motion = motion_of(known, [step.centre.pair for step in steps])

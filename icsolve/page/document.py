@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from icsolve.case import Torque, is_link, is_named
+from icsolve.case import is_link, is_named
 from icsolve.draw.words import (
     answer_sentences,
     datum_name,
@@ -25,16 +25,15 @@ from icsolve.draw.words import (
     step_sentence,
     unit_word,
 )
-from icsolve.explain.document import Document, Formula, formula
+from icsolve.explain.document import AsHtml, Document, Formula, formula
 from icsolve.explain.formula import MATHML, OMEGA, Expr, Name, Num, Quotient, Sum, product
-from icsolve.explain.typeset import AsHtml
 from icsolve.explain.worked import gain_names, load_name
-from icsolve.page.columns import Array, exact, script_json
 from icsolve.page.fields import section
 from icsolve.page.live import Live, why_presolved
 from icsolve.page.model import forces_in_joints, gain_rows
 from icsolve.page.motion import PageMotion
 from icsolve.page.pictures import track_svg
+from icsolve.page.poses import Array, exact, script_json
 from icsolve.report.derivation.known import Acting, Known, acting_loads, resting
 from icsolve.report.derivation.ratios import Step
 from icsolve.tuples import NamedTuple
@@ -68,24 +67,23 @@ def equation_of(known: Known, motion: PageMotion | None) -> PageEquation | None:
     if set(motion.shares) != {a.load.name for a in others}:
         return None
     root = unknown[0]
-    signed = [(turn_of(a), product(exerted(a), speed_of(known, a))) for a in (*others, root)]
+    signed = [(a.sign, product(exerted(a), speed_of(known, a))) for a in (*others, root)]
     symbols = _displayed(formula(Sum(tuple(signed)), Num("0")))
     over = [Quotient(speed_of(known, a), speed_of(known, root)) for a in others]
     solved: list[tuple[int, Expr]] = [
-        (-turn_of(a) * turn_of(root), product(exerted(a), ratio))
-        for a, ratio in zip(others, over, strict=True)
+        (-a.sign * root.sign, product(exerted(a), ratio)) for a, ratio in zip(others, over, strict=True)
     ]
     ratio = _displayed(formula(exerted(root), Sum(tuple(solved)))) if solved else ""
-    rows = slice(motion.first, motion.last + 1)
-    gain = turn_of(root) * gain_rows(known, motion, root)[rows]
+    rows = motion.rows
+    gain = root.sign * gain_rows(known, motion, root)[rows]
     data = [_term(known, motion, a, rows, gain) for a in others]
     shown = tuple(
         (_math(exerted(a)), _math(q), ratio_unit(known, root, a), unit_exerted(known, a))
         for a, q in zip(others, over, strict=True)
     )
     own = (_math(exerted(root)), unit_exerted(known, root))
-    exerts = exact((turn_of(root) * gain).tolist())
-    return PageEquation(symbols, ratio, shown, own, data, turn_of(root), exerts)
+    exerts = exact((root.sign * gain).tolist())
+    return PageEquation(symbols, ratio, shown, own, data, root.sign, exerts)
 
 
 def _term(known: Known, motion: PageMotion, acting: Acting, rows: slice, root: Array) -> dict[str, Any]:
@@ -93,16 +91,11 @@ def _term(known: Known, motion: PageMotion, acting: Acting, rows: slice, root: A
 
     ``shares`` are in units of the loads themselves, ``root`` is what a unit of the unknown exerts, signed.
     """
-    gain, sign = gain_rows(known, motion, acting)[rows], turn_of(acting)
+    gain, sign = gain_rows(known, motion, acting)[rows], acting.sign
     with np.errstate(all="ignore"):
         ratio = motion.shares[acting.load.name][rows] * root / (sign * gain)
     size = exact((gain * (acting.value or 0.0)).tolist())
     return {"name": acting.load.name, "sign": sign, "size": size, "ratio": exact(ratio.tolist())}
-
-
-def turn_of(acting: Acting) -> int:
-    """-1 for a torque that is positive clockwise: its power has a minus in the equation."""
-    return -1 if isinstance(acting.load, Torque) and acting.load.turns == "cw" else 1
 
 
 def exerted(acting: Acting) -> Expr:

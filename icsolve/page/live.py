@@ -48,7 +48,7 @@ from icsolve.screws.joints import OFF_RADIUS, at_radius, freedoms, guide_directi
 from icsolve.screws.plane import Triple, force_wrench
 from icsolve.screws.ropes import RopePart, rope_parts
 from icsolve.statics import load_wrenches, power
-from icsolve.statics.inertia import COUPLE, FORCE, inertia_forces, is_loaded
+from icsolve.statics.load_wrenches import COUPLE, FORCE, inertia_forces, is_loaded
 from icsolve.structure.topology import Bond
 from icsolve.sweep.numbers import numbers_of
 from icsolve.sweep.program import wanted_points
@@ -271,7 +271,7 @@ class _ProgramWriter:
         ]
         loads = []
         for w in load_wrenches.wrenches(self._place()):
-            loads.append([*w.unit, w.gain, w.ratio, power.number_of(w, self.record)])
+            loads.append([*w.unit, w.gain, w.ratio, load_wrenches.number_of(w, self.record)])
         freed = [[list(twist) for twist in basis] for _, basis in sorted(bases.items())]
         courses = [[[p.length, *p.wrench, *p.along] for p in parts] for parts in ropes.values()]
         threads = [self._thread(screw) for screw in self.case.screws]

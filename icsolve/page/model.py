@@ -33,11 +33,10 @@ from icsolve.draw.scene import Scene
 from icsolve.draw.svg import identifier
 from icsolve.draw.words import centre_runs, datum_name, datum_unit, figure_number, name_runs, unit_word
 from icsolve.errors import Status
-from icsolve.page.columns import FINE, Array, compact, exact, moves
-from icsolve.page.figure import PageFigure
 from icsolve.page.live import Live
 from icsolve.page.motion import PageMotion
-from icsolve.page.poses import moved
+from icsolve.page.pictures import PageFigure
+from icsolve.page.poses import FINE, Array, compact, exact, moved, moves
 from icsolve.report.derivation.known import Acting, Known, acting_loads, resting
 from icsolve.report.derivation.ratios import Step
 from icsolve.wording.senses import holding, sense_of, spelt, unit_of
@@ -151,7 +150,7 @@ def load_data(scene: Scene, motion: PageMotion | None, acting: Acting) -> dict[s
         return found
     if motion is None:
         return found
-    rows = slice(motion.first, motion.last + 1)
+    rows = motion.rows
     inertia = inertia_rows(scene.known, motion, load)
     if inertia is not None:
         size = inertia if acting.at is None else np.hypot(inertia[:, 0], inertia[:, 1])
@@ -226,7 +225,7 @@ def model_of(
 
 def motion_data(known: Known, view: View, motion: PageMotion, fine: float) -> dict[str, Any]:
     """Degrees, poses of links and places of points (in steps of 1 / ``fine``) in the rows that assemble."""
-    rows = slice(motion.first, motion.last + 1)
+    rows = motion.rows
     degrees = motion.degrees
     step = float(degrees[1] - degrees[0])
     return {
@@ -236,7 +235,7 @@ def motion_data(known: Known, view: View, motion: PageMotion, fine: float) -> di
         "senses": motion.by.senses,
         "first": _round(degrees[motion.first]),
         "step": _round(step),
-        "rows": motion.last + 1 - motion.first,
+        "rows": motion.positions,
         "zero": motion.zero - motion.first,
         "low": _round(degrees[0]),
         "high": _round(degrees[-1]),
@@ -244,22 +243,22 @@ def motion_data(known: Known, view: View, motion: PageMotion, fine: float) -> di
         "dead": motion.dead,
         "hints": _hints(motion),
         "ends": motion.ends,
-        "links": _links(known, view, motion, rows),
+        "links": _links(known, view, motion),
         "points": {
             name: _place(view, column[rows, 0], column[rows, 1], fine)
-            for name, column in {**motion.found.points, **_contacts(known, motion, rows)}.items()
+            for name, column in {**motion.found.points, **_contacts(known, motion)}.items()
             if moves(column[rows, 0] * view.scale, FINE["px"])
             or moves(column[rows, 1] * view.scale, FINE["px"])
         },
     }
 
 
-def _contacts(known: Known, motion: PageMotion, rows: slice) -> dict[str, Array]:
+def _contacts(known: Known, motion: PageMotion) -> dict[str, Array]:
     """Where profiles touch in every row, by the hidden point that the figure has there."""
     found = {}
     for pair, places in motion.found.touching.items():
         names = [name for name in known.points if name.startswith(f"@{pair}.")]
-        if len(names) == 1 and np.isfinite(places[rows]).all():
+        if len(names) == 1 and np.isfinite(places[motion.rows]).all():
             found[names[0]] = places
     return found
 
@@ -270,7 +269,7 @@ def _round(value: float) -> float:
 
 def _hints(motion: PageMotion) -> list[list[Any]]:
     """First row, last row, sentence and status of every stretch that has no answer."""
-    status = motion.status[motion.first : motion.last + 1]
+    status = motion.status[motion.rows]
     found: list[list[Any]] = []
     for word, rows in groupby(range(len(status)), key=lambda n: status[n]):
         some = list(rows)
@@ -279,11 +278,11 @@ def _hints(motion: PageMotion) -> list[list[Any]]:
     return found
 
 
-def _links(known: Known, view: View, motion: PageMotion, rows: slice) -> dict[str, Any]:
+def _links(known: Known, view: View, motion: PageMotion) -> dict[str, Any]:
     """The poses of the links that move, and the place of their point as written."""
     found = {}
     for link, pose in motion.poses.items():
-        x, y, angle = pose.x[rows], pose.y[rows], pose.angle[rows]
+        x, y, angle = (column[motion.rows] for column in (pose.x, pose.y, pose.angle))
         still = not any((moves(x * view.scale, FINE["px"]), moves(y * view.scale, FINE["px"])))
         if still and not moves(angle, FINE["deg"]):
             continue
@@ -356,7 +355,7 @@ def _centre(
 def _places(centre: Centre, name: str, view: View, motion: PageMotion | None) -> tuple[Array, Array]:
     """Picture units in every row; beyond INFINITE a direction; not a number where there is none."""
     if motion is not None and name in motion.found.centres:
-        rows = motion.found.centres[name][motion.first : motion.last + 1]
+        rows = motion.found.centres[name][motion.rows]
     else:
         rows = _written_centre(centre, motion)
     x, y, w = rows.T
@@ -378,7 +377,7 @@ def _written_centre(centre: Centre, motion: PageMotion | None) -> Array:
         row = [np.cos(angle), np.sin(angle), 0.0]
     if motion is None:
         return np.array([row])
-    rows = np.full((motion.last + 1 - motion.first, 3), np.nan)
+    rows = np.full((motion.positions, 3), np.nan)
     rows[motion.zero - motion.first] = row
     return rows
 
@@ -405,7 +404,7 @@ def _answers(known: Known, motion: PageMotion | None, loads: Sequence[Acting]) -
         | {"values": exact([size]), "senses": [sense], "unit": unit_word(known.case.units.force)}
         for name, force, size, sense in forces_in_joints(known)
     ]
-    return found + _asked(known, 1 if motion is None else motion.last + 1 - motion.first)
+    return found + _asked(known, 1 if motion is None else motion.positions)
 
 
 ZERO = np.zeros(1)
@@ -442,7 +441,7 @@ def _named(name: str) -> dict[str, str]:
 
 def _through(known: Known, motion: PageMotion, one: dict[str, Any], name: str, acting: Acting) -> None:
     """The columns of an unknown load."""
-    rows = slice(motion.first, motion.last + 1)
+    rows = motion.rows
     values = motion.found.answers[name]
     one["values"] = exact(values[rows].tolist())
     one["senses"], one["sense"] = _indexed(senses(known, motion, acting, values)[rows])
@@ -454,7 +453,7 @@ def _through(known: Known, motion: PageMotion, one: dict[str, Any], name: str, a
 
 def _of_any_direction(motion: PageMotion, one: dict[str, Any], name: str, load: Load) -> None:
     """The columns of an unknown force of unknown direction, from those of its components."""
-    x, y = (motion.found.answers[f"{name}.{axis}"][motion.first : motion.last + 1] for axis in "xy")
+    x, y = (motion.found.answers[f"{name}.{axis}"][motion.rows] for axis in "xy")
     sizes, degrees = np.hypot(x, y), np.nan_to_num(np.degrees(np.arctan2(y, x)))
     one["values"] = exact(sizes.tolist())
     rows = zip(np.nan_to_num(sizes).tolist(), degrees.tolist(), strict=True)

@@ -20,7 +20,7 @@ from icsolve.kinematics.speeds import OPEN, moving_points
 from icsolve.numbers.arithmetic import Scalar, Showing
 from icsolve.numbers.units import Number
 from icsolve.scene.program import EvaluatedScene, Evaluation, Want, prepare
-from icsolve.statics.inertia import COUPLE, FORCE, inertia_forces
+from icsolve.statics.load_wrenches import COUPLE, FORCE, inertia_forces
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed
 
@@ -94,7 +94,7 @@ def _found(case: Case, found: Evaluation) -> tuple[Case, Accelerations, tuple[st
 def _slopes(loaded: Case, solve: Callable[..., Answer]) -> Mapping[str, Mapping[str, float]]:
     """Slopes of the unknown loads, inertia forces included.
 
-    On a tape these stand in the wrenches, a number times as large (`icsolve.statics.inertia.exactly`). With a
+    On a tape these stand in the wrenches, a number times as large (`load_wrenches.exactly`). With a
     number of one what is zero has its slopes too.
     """
     one = Number(1.0, 0.0, "", "1")

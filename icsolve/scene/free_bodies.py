@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from copy import copy
 from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.answer import Answer
@@ -39,8 +40,9 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     from icsolve.statics.friction.scene import FrictionScene, solved
 
     def answer_with(values: Mapping[str, Value]) -> Answer:
-        parts.given = dict(values)
-        return parts.answer()
+        own = copy(parts)  # the ends of a range have values of their own
+        own.given = dict(values)
+        return own.answer()
 
     outcome = parts.outcome
     position = _position(parts.first._replace(outcome=outcome, arithmetic=FLOATS))

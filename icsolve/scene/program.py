@@ -160,11 +160,8 @@ def evaluate(program: Program, arithmetic: Arithmetic = FLOATS) -> tuple[Program
     motions = motion.with_ends(motions, place)
     # power
     case, wrenches = program.case, load_wrenches.wrenches(place)
-    if case.dynamic and case.inertia:
-        from icsolve.statics.inertia import exactly, is_loaded
-
-        if is_loaded(case):
-            wrenches = exactly(place, motions, wrenches)
+    if case.dynamic and load_wrenches.is_loaded(case):
+        wrenches = load_wrenches.exactly(place, motions, wrenches)
     balance = power.balance(wrenches, motions.twists, motions.mobility)
     return program, Outcome(place, motions, balance, power.solve_balance(balance, arithmetic))
 

@@ -61,3 +61,9 @@ def moved(wrench: Components, at: Components, about: Components) -> Components:
 def velocity_of(twist: Components, at: Components) -> Vec:
     """Velocity of the point of a link that is at ``at``: v + w x at."""
     return add((twist[0], twist[1], twist[2]), cross((twist[3], twist[4], twist[5]), (at[0], at[1], at[2])))
+
+
+def spatial(place: tuple[float, ...]) -> Vec:
+    """A place of the plane or of space by three coordinates."""
+    x, y, *z = place
+    return (x, y, z[0] if z else 0.0)

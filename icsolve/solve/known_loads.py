@@ -12,6 +12,7 @@ from icsolve.case import Case, Force, ForceVector, Load, Number, Stretch, Torque
 from icsolve.case.joints import without_friction
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
+from icsolve.numbers.arithmetic import largest_of
 from icsolve.scene import solve_scene
 from icsolve.solve.rest import PROBE, probes
 from icsolve.statics.power import has_friction
@@ -21,15 +22,18 @@ from icsolve.wording.sentences import plural
 
 
 class Held(NamedTuple):
-    """From what to what value of a load it holds still, turned about where nowhere; beyond what values
-    it may hold again."""
+    """From what to what value of a load it holds still, turned about where nowhere; how far off these may be;
+    beyond what values it may hold again."""
 
     low: float
     high: float
+    error: float = 0.0
     again: tuple[float, ...] = ()
 
 
 NOWHERE = Held(math.inf, -math.inf)
+Spare = tuple[float, float]
+"""How far from slipping, and the bound of its error."""
 
 
 class AskedLoad(NamedTuple):
@@ -72,7 +76,11 @@ def asked_of(case: Case, path: str = "") -> AskedLoad | None:
     return outside
 
 
-def moving_loads(case: Case, path: str = "") -> tuple[float, float]:
+UNPROVEN = 1e-9
+"""Ends of a range of which no bound is proven may be off by so much of their size."""
+
+
+def moving_loads(case: Case, path: str = "") -> Held:
     """From what load to what load more a mechanism under known loads holds still as written [case units]:
     infinite where none would move it, or where any does (turned about).
 
@@ -81,17 +89,13 @@ def moving_loads(case: Case, path: str = "") -> tuple[float, float]:
     found = asked_of(case, path)
     if found is None:
         return _of_structure(replace(case, motion=(), expect=()))
-    return found.held.low - found.value, found.held.high - found.value
+    return Held(found.held.low - found.value, found.held.high - found.value, found.held.error)
 
 
-def spare_friction(case: Case, path: str = "") -> float:
-    """How far a mechanism under known loads is from slipping as written: the least load in either sense
-    that would move it [case units], negative where it slips; infinite where none or any would.
-
-    Parameters as of `asked_of`.
-    """
-    low, high = moving_loads(case, path)
-    return min(high, -low)
+def spare_friction(held: Held) -> Spare:
+    """How far a mechanism is from slipping under these loads more: the least in either sense that would move
+    it, negative where it slips, with the bound of its error; infinite where none or any would."""
+    return min(held.high, -held.low), held.error
 
 
 def _one_unknown(case: Case, path: str = "") -> Iterator[tuple[Case, Load, Number]]:
@@ -134,8 +138,10 @@ def _held(case: Case, load: str, alone: bool) -> Held:
         raise
     found, friction = answer.answers[load], answer.friction
     if found.holds is None:
-        return NOWHERE if _pulls(answer) else Held(found.value, found.value)
-    return Held(*found.holds, () if friction is None else friction.again)
+        return NOWHERE if _pulls(answer) else Held(found.value, found.value, found.error or 0.0)
+    largest = largest_of([end for end in found.holds if math.isfinite(end)])
+    error = UNPROVEN * largest if found.error is None else found.error
+    return Held(*found.holds, error, () if friction is None else friction.again)
 
 
 def _pulls(answer: Answer) -> bool:
@@ -144,7 +150,7 @@ def _pulls(answer: Answer) -> bool:
     return any(normal < 0.0 for normal in normals)
 
 
-def _of_structure(case: Case) -> tuple[float, float]:
+def _of_structure(case: Case) -> Held:
     """The same of what nothing moves: turned about where it does not assemble, or a contact parts.
 
     Raises SceneError where it moves in several ways.
@@ -152,11 +158,11 @@ def _of_structure(case: Case) -> tuple[float, float]:
     try:
         answer = solve_scene(smooth(case))
     except SceneError:
-        return math.inf, -math.inf
+        return NOWHERE
     if answer.mobility and answer.mobility > 1:
         said = f"of {plural(answer.mobility, 'degree')} of freedom no one load says whether it holds still."
         raise SceneError(Status.MOBILITY, said)
-    return (math.inf, -math.inf) if answer.mobility or _pulls(answer) else (-math.inf, math.inf)
+    return NOWHERE if answer.mobility or _pulls(answer) else Held(-math.inf, math.inf)
 
 
 def smooth(case: Case) -> Case:
@@ -192,7 +198,7 @@ def _at_rest(case: Case) -> tuple[bool | None, str]:
     found = asked_of(case)
     if found is None:
         return None, OPEN.format("no load does work.")
-    low, high, again = found.held
+    low, high, _, again = found.held
     reach = reach_of((low, high), unit_of(found.load, case), lambda end: f"{end + 0.0:.6g}", None)
     what = f"{_named(found.load)} {reach}"
     if low <= found.value <= high:

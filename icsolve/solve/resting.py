@@ -16,7 +16,7 @@ from icsolve.errors import SceneError
 from icsolve.numbers.roots import last_that_holds, zero_between
 from icsolve.solve.branches import Branches, nearest
 from icsolve.solve.followed import NOT_ALL, led_mechanisms
-from icsolve.solve.known_loads import smooth, spare_friction
+from icsolve.solve.known_loads import Spare, moving_loads, smooth, spare_friction
 from icsolve.solve.load_function import TogetherError
 from icsolve.solve.positions import functions_of, refuse_unwritten, search_modes, whole_range
 from icsolve.solve.settled import scene_at
@@ -112,26 +112,49 @@ def _rough(case: Case, row: Case) -> Case:
     return replace(row, joints=tuple(joints), ropes=tuple(ropes))
 
 
-def edge_of_rest(spare: Callable[[float], float], inside: float, outside: float) -> tuple[float, float]:
-    """The last value at which a mechanism holds still (``spare`` is not negative) and the next, between
-    two of which it holds at the first: near the zero that Brent's method finds, or at 0, else by halving, to
-    far below the last digit of the places between which it was sought."""
-    least = FINEST * math.ulp(max(abs(inside), abs(outside)))
+def edge_of_rest(spare: Callable[[float], Spare], inside: float, outside: float) -> Spare:
+    """The last value at which a mechanism holds still (its spare friction is not negative) between two of
+    which it holds at the first, and the bound of its error.
+
+    It is closed in on near the zero that Brent's method finds, or at 0, else by halving, to far below the
+    last digit of the places between which it was sought. It may lie as far to either side as the error of
+    the spare friction leaves its sign open.
+    """
+    whole, least = (inside, outside), FINEST * math.ulp(max(abs(inside), abs(outside)))
+
+    def is_held(value: float) -> bool:
+        return spare(value)[0] >= 0.0
 
     def narrowed(*values: float) -> tuple[float, float]:
         a, b = inside, outside
         for value in values:
             if min(a, b) < value < max(a, b):
-                a, b = (value, b) if spare(value) >= 0.0 else (a, value)
+                a, b = (value, b) if is_held(value) else (a, value)
         return a, b
 
     inside, outside = narrowed(0.0, least, -least)
-    at_inside, at_outside = spare(inside), spare(outside)
+    at_inside, at_outside = spare(inside)[0], spare(outside)[0]
     if math.isfinite(at_inside - at_outside):
-        zero = zero_between(spare, inside, outside, at_inside, at_outside)
+        zero = zero_between(lambda value: spare(value)[0], inside, outside, at_inside, at_outside)
         reach = 2.0 * math.ulp(zero)
         inside, outside = narrowed(zero, zero - reach, zero + reach)
-    return last_that_holds(lambda value: spare(value) >= 0.0, inside, outside, least)
+    last, beyond = last_that_holds(is_held, inside, outside, least)
+    return last, max(_open(spare, last, beyond - last, end) for end in whole)
+
+
+WIDER = 8.0
+
+
+def _open(spare: Callable[[float], Spare], last: float, step: float, end: float) -> float:
+    """So far from the last value that holds, toward an end, the error of the spare friction leaves its sign
+    open; first the ``step`` to the next value is looked at."""
+    reach = math.copysign(step, end - last)
+    while abs(reach) < abs(end - last):
+        value, error = spare(last + reach)
+        if abs(value) > error:
+            return abs(reach)
+        reach *= WIDER
+    return abs(end - last)
 
 
 FINEST = 2.0**-20
@@ -143,19 +166,18 @@ def _runs(case: Case, mode: RoughMode, turns: bool) -> list[Range]:
     values = mode.values
 
     @cache  # what was sampled is asked again where a run ends
-    def spare(value: float) -> float:
+    def spare(value: float) -> Spare:
         try:
-            return spare_friction(_rough(case, mode.scene(value)))
+            return spare_friction(moving_loads(_rough(case, mode.scene(value))))
         except SceneError:  # it does not assemble
-            return -math.inf
+            return -math.inf, 0.0
 
     def end(inside: int, outside: int) -> tuple[float, float]:
         if not 0 <= outside < len(values):
             return values[inside], 0.0
-        last, beyond = edge_of_rest(spare, values[inside], values[outside])
-        return last, 2.0 * abs(beyond - last)
+        return edge_of_rest(spare, values[inside], values[outside])
 
-    holding = [usable and spare(value) >= 0.0 for value, usable in zip(values, mode.usable, strict=True)]
+    holding = [usable and spare(value)[0] >= 0.0 for value, usable in zip(values, mode.usable, strict=True)]
     found = []
     for holds_there, group in groupby(range(len(values)), key=holding.__getitem__):
         if holds_there:

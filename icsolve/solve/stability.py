@@ -203,42 +203,41 @@ def _driven(case: Case) -> str:
 
 def holding_values(case: Case, path: str, low: float, high: float) -> list[TurningPower]:
     """The values of a number at which a mechanism under known loads begins or ceases to hold still."""
-    from icsolve.solve.known_loads import moving_loads
+    from icsolve.solve.known_loads import Held, Spare, moving_loads, spare_friction
     from icsolve.solve.resting import edge_of_rest
 
     own = find_number(case, path).path
 
     @cache  # what was sampled is asked again where it is closed in on
-    def loads(value: float) -> tuple[float, float]:
+    def loads(value: float) -> Held:
         return moving_loads(with_numbers(case, {own: value}), own)
 
-    def spare(value: float) -> float:
-        return min(loads(value)[1], -loads(value)[0])
+    def spare(value: float) -> Spare:
+        return spare_friction(loads(value))
 
     def middle(value: float) -> float:
-        both = sum(loads(value))
+        both = loads(value).low + loads(value).high
         return both if math.isfinite(both) else 0.0
 
     values = [low + (high - low) * k / CUTS for k in range(CUTS + 1)]
     for a, b in pairwise(tuple(values)):  # between two at which it slips in either sense it may hold
-        if max(spare(a), spare(b)) < 0.0 and middle(a) * middle(b) < 0.0:
+        if max(spare(a)[0], spare(b)[0]) < 0.0 and middle(a) * middle(b) < 0.0:
             values.append(zero_between(middle, a, b, middle(a), middle(b)))
     values.sort()
     found = []
-    for (a, holds), (b, held) in pairwise([(value, spare(value) >= 0.0) for value in values]):
+    for (a, holds), (b, held) in pairwise([(value, spare(value)[0] >= 0.0) for value in values]):
         if holds != held:
-            last, beyond = edge_of_rest(spare, *((a, b) if holds else (b, a)))
             words = ("holds", "slips") if holds else ("slips", "holds")
-            found.append(TurningPower(last, abs(beyond - last), *words))
+            found.append(TurningPower(*edge_of_rest(spare, *((a, b) if holds else (b, a))), *words))
     return found
 
 
 def is_still(case: Case, path: str, value: float) -> bool:
     """Whether a mechanism under known loads holds still at a value of a number."""
-    from icsolve.solve.known_loads import spare_friction
+    from icsolve.solve.known_loads import moving_loads, spare_friction
 
     own = find_number(case, path).path
-    return spare_friction(with_numbers(case, {own: value}), own) >= 0.0
+    return spare_friction(moving_loads(with_numbers(case, {own: value}), own))[0] >= 0.0
 
 
 __all__ = [

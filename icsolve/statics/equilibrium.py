@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
 from icsolve.numbers.linear import General, Row, eliminate
-from icsolve.statics.load_wrenches import L, UnitWrench, Wrench, place_of
-from icsolve.statics.power import Balance, PowerFactors, force_scale, number_of, unknown_loads
+from icsolve.statics.load_wrenches import L, UnitWrench, Wrench, number_of, place_of
+from icsolve.statics.power import Balance, PowerFactors, force_scale, unknown_loads
 from icsolve.statics.reaction_basis import Force, Position, RopeTie, Tie
 from icsolve.tuples import Generic, LateModule, NamedTuple, Protocol
 

@@ -27,7 +27,7 @@ from icsolve.numbers.arithmetic import (
     sum_of_sizes,
     zero_of,
 )
-from icsolve.statics.load_wrenches import L, Points, UnitWrench, vector_size
+from icsolve.statics.load_wrenches import L, Points, UnitWrench, number_of, vector_size
 from icsolve.tuples import Generic, LateModule, NamedTuple
 
 if TYPE_CHECKING:
@@ -210,14 +210,6 @@ def known_value(w: UnitWrench[L]) -> float | None:
 def _known(w: UnitWrench[L], scale: float, arithmetic: Arithmetic) -> Scalar:
     """The number of a known load, scaled."""
     return number_of(w, arithmetic) * scale * w.measure * w.ratio
-
-
-def number_of(w: UnitWrench[L], arithmetic: Arithmetic) -> Scalar:
-    """The number of a known load in its own unit; 0 of one that hangs on an unknown."""
-    number = w.number
-    if isinstance(number, Number):
-        return arithmetic.given(number)
-    return vector_size(number) if number else 0.0
 
 
 def load_value(w: UnitWrench[L], values: Mapping[str, Scalar], a: Arithmetic) -> Scalar:

@@ -30,8 +30,7 @@ from icsolve.scene.parts import AnswerBuilder, scene_of
 from icsolve.screws.plane import Point, Triple
 from icsolve.screws.ropes import rope_parts
 from icsolve.solve import Attempt, attempt
-from icsolve.statics.inertia import as_given
-from icsolve.statics.load_wrenches import Wrench, place_of, points_of, wrenches
+from icsolve.statics.load_wrenches import Wrench, as_given, place_of, points_of, wrenches
 from icsolve.statics.power import known_value
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.senses import unit_of

@@ -132,6 +132,10 @@ class RubbingRates(NamedTuple):
         """1, -1, or 0 in place of each rate."""
         return self._each(lambda rate: math.copysign(1.0, rate) if rate else 0.0)
 
+    def times(self, way: float) -> RubbingRates:
+        """Those of a multiple of the motion."""
+        return self._each(lambda rate: way * float(rate) + 0.0)
+
     def _each(self, change: Callable[[Scalar], float]) -> RubbingRates:
         return RubbingRates(
             tuple(map(change, self.rubs)), tuple(tuple(map(change, row)) for row in self.ropes)

@@ -13,9 +13,9 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import product
 
-from icsolve.numbers.arithmetic import largest_of
+from icsolve.numbers.arithmetic import Scalar, all_vanish, decider, largest_of, zero_of
 from icsolve.numbers.inequalities import Form, region
-from icsolve.numbers.linear import Row
+from icsolve.numbers.linear import Row, eliminate
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.friction.equations import at, forces_of, smooth_normals
 from icsolve.tuples import NamedTuple
@@ -32,8 +32,31 @@ PROVEN = "proven: no friction within its limits holds more"
 TURNED = "the forces of pins were turned until no friction was found that holds more"
 Toward = Callable[[Sequence[float]], list[tuple[float, ...]]]
 """Directions of the forces that press, of a load and frictions."""
-Interval = tuple[float, float]
-"""From what load to what load, perhaps infinite."""
+
+
+class Vertex(NamedTuple):
+    """What an end of a range follows from.
+
+    Attributes
+    ----------
+    end : 0 of the least load, 1 of the most
+    of : sets of inequalities, by their places, of each of which as equations the end follows; empty where
+        forces of pins were turned
+    senses : (rubs,) in which the forces press
+    """
+
+    end: int
+    of: tuple[frozenset[int], ...]
+    senses: tuple[float, ...]
+
+
+class HeldRange(NamedTuple):
+    """From what load to what load it holds, perhaps infinite, and what the two ends follow from."""
+
+    low: float
+    high: float
+    vertices: tuple[Vertex, Vertex]
+
 
 
 class Limits(NamedTuple):
@@ -69,7 +92,7 @@ class Limits(NamedTuple):
         return found
 
 
-def held(statics: Statics, starts: Sequence[Sequence[float]] = ()) -> list[Interval] | None:
+def held(statics: Statics, starts: Sequence[Sequence[float]] = ()) -> list[HeldRange] | None:
     """The ranges of the one unknown load in which friction within its limits holds, by rising value [case
     units]; None where no friction does work, and where guides rub in too many places.
 
@@ -84,13 +107,13 @@ def held(statics: Statics, starts: Sequence[Sequence[float]] = ()) -> list[Inter
     ]
     if limits is None or len(guides) > MOST_GUIDES:
         return None
-    found: list[Interval] = []
+    found: list[HeldRange] = []
     for senses in product((1.0, -1.0), repeat=len(guides)):
         by_guide = dict(zip(guides, senses, strict=True))
         own = [by_guide.get(k, 1.0) for k in range(len(statics.rubs))]
         found += _with_senses(limits, own, [limits.inside(statics, start) for start in starts])
     unit = limits.load / statics.scale
-    return _joined([(low * unit, high * unit) for low, high in found])
+    return _joined([one._replace(low=one.low * unit, high=one.high * unit) for one in found])
 
 
 def how(statics: Statics) -> str:
@@ -127,9 +150,9 @@ def _limits(statics: Statics) -> Limits | None:
 
     presses = tuple(tuple(map(form, rows)) for rows in forces_of(statics))
     frictions = tuple(form({statics.rub(k): 1.0 / rub.limit}) for k, rub in enumerate(statics.rubs))
-    pulls = [statics.general.of(statics.tension(n)) for n in range(len(statics.ropes))]
     kept = tuple([k for k in range(count) if k != gone - 2])
-    return Limits(load, presses, frictions, tuple(map(form, (*smooth_normals(statics), *pulls))), kept)
+    smooth = tuple(map(form, (*smooth_normals(statics), *_pulls(statics))))
+    return Limits(load, presses, frictions, smooth, kept)
 
 
 def _summed(forms: Sequence[Form], shares: Sequence[float]) -> Form:
@@ -141,7 +164,7 @@ def _summed(forms: Sequence[Form], shares: Sequence[float]) -> Form:
 
 def _with_senses(
     limits: Limits, senses: Sequence[float], starts: Sequence[Sequence[float]]
-) -> Iterator[Interval]:
+) -> Iterator[HeldRange]:
     """The ranges where guides and contacts press in these senses, and pins in any direction."""
     pins = [k for k, forces in enumerate(limits.presses) if len(forces) == 2]
 
@@ -155,14 +178,21 @@ def _with_senses(
         return found
 
     if not pins:
-        found = region(limits.forms([(sense,) for sense in senses])).first
-        if found is not None:
-            yield found
+        part = region(limits.forms([(sense,) for sense in senses]))
+        if part.first is not None:
+            yield HeldRange(*part.first, _vertices(senses, part.vertex(0), part.vertex(1)))
         return
     for start in (*starts, *((load, *[0.0] * len(limits.kept)) for load in LOADS)):
         units = toward(start)
         if region(limits.forms(units)).first is not None:
-            yield _turned(limits, toward, units, 0), _turned(limits, toward, units, 1)
+            least, most = (_turned(limits, toward, units, end) for end in (0, 1))
+            yield HeldRange(least, most, _vertices(senses, (), ()))
+
+
+def _vertices(
+    senses: Sequence[float], least: tuple[frozenset[int], ...], most: tuple[frozenset[int], ...]
+) -> tuple[Vertex, Vertex]:
+    return Vertex(0, least, tuple(senses)), Vertex(1, most, tuple(senses))
 
 
 def _turned(limits: Limits, toward: Toward, units: Sequence[tuple[float, ...]], end: int) -> float:
@@ -179,13 +209,53 @@ def _turned(limits: Limits, toward: Toward, units: Sequence[tuple[float, ...]], 
     return last
 
 
-def _joined(found: Sequence[Interval]) -> list[Interval]:
+def _joined(found: Sequence[HeldRange]) -> list[HeldRange]:
     """The ranges that meet as one."""
-    joined: list[Interval] = []
-    for low, high in sorted(found):
-        room = ROUNDED * largest_of([end for end in (low, high) if math.isfinite(end)])
-        if joined and low <= joined[-1][1] + room:
-            joined[-1] = (joined[-1][0], max(joined[-1][1], high))
+    joined: list[HeldRange] = []
+    for one in sorted(found, key=lambda one: (one.low, one.high)):
+        room = ROUNDED * largest_of([end for end in (one.low, one.high) if math.isfinite(end)])
+        if joined and one.low <= joined[-1].high + room:
+            last = joined[-1]
+            if one.high > last.high:
+                joined[-1] = last._replace(high=one.high, vertices=(last.vertices[0], one.vertices[1]))
         else:
-            joined.append((low, high))
+            joined.append(one)
     return joined
+
+
+def exactly(statics: Statics, vertex: Vertex) -> Scalar | None:
+    """The load at a vertex in the numbers of the statics (balls) [scaled]; None where none follows there.
+
+    Raises MoreDigits where the balls leave that open.
+    """
+    count, found = len(statics.rubs), []
+    place = {statics.rub(k): k for k in range(count)} | {statics.root(0): count, statics.known: count + 1}
+    inequalities = _inequalities(statics, vertex.senses)
+    for of in vertex.of:
+        rows = [statics.general.left[0], *(inequalities[n] for n in of)]
+        by_place = [{place[c]: a for c, a in row.items() if c in place} for row in rows]
+        left = eliminate(by_place, count, vanishes=decider(statics.arithmetic)).left
+        loads = [row for row in left if getattr(row.get(count, 0.0), "is_certain", False)]
+        if len(loads) != 1:
+            return None
+        known, size = loads[0].get(count + 1, 0.0), largest_of([row.get(count + 1, 0.0) for row in by_place])
+        if all_vanish(statics.arithmetic, [(known, size)]):
+            known = zero_of(known)
+        found.append(known / (0.0 - loads[0][count]))
+    return (max, min)[vertex.end](found, key=float, default=None)
+
+
+def _inequalities(statics: Statics, senses: Sequence[float]) -> list[Row]:
+    """The inequalities in the order of `Limits.forms`, as combinations of the parameters."""
+    found = [*smooth_normals(statics), *_pulls(statics)]
+    for k, (forces, sense) in enumerate(zip(forces_of(statics), senses, strict=True)):
+        most = statics.rubs[k].limit * sense
+        for side in (1.0, -1.0):
+            row = {c: a * most for c, a in forces[0].items()}
+            row[statics.rub(k)] = row.get(statics.rub(k), 0.0) + side
+            found.append(row)
+    return found
+
+
+def _pulls(statics: Statics) -> list[Row]:
+    return [statics.general.of(statics.tension(n)) for n in range(len(statics.ropes))]

@@ -8,9 +8,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
-from icsolve.answer import Answer, Deferred, Found
+from icsolve.answer import AboutToMove, Answer, Deferred, Found, Later
 from icsolve.answer.bodies import FrictionFound, Rubbing, Tension
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import Speed, fastest
@@ -50,8 +50,13 @@ from icsolve.statics.power import Balance, Bounded, Solution, Value, is_unknown
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import names_by_tie, reactions_of, tensions_of
 from icsolve.statics.witness import refuse_doubt, residual, terms_of
-from icsolve.tuples import NamedTuple, Protocol, replace
+from icsolve.tuples import LateModule, NamedTuple, Protocol, replace
 from icsolve.wording.sentences import listed, plural
+
+if TYPE_CHECKING:
+    from icsolve.statics.friction import pushing as limited
+else:  # where a contact parts
+    limited = LateModule("icsolve.statics.friction.pushing")
 
 
 class Slipping(NamedTuple):
@@ -91,9 +96,21 @@ def in_motion(scene: FrictionScene, reactions: bool = False) -> Slipping:
         return Solved(statics, slides[-1].unknowns, slides[-1].friction)
 
     rough = on_flanks(_flanks(scene, ties, workless), solve)
+    return _with_bodies(scene, rough, senses, slides[-1], rates, reactions)
+
+
+def _with_bodies(
+    scene: FrictionScene,
+    rough: Solved,
+    senses: tuple[float, ...],
+    slid: Slid,
+    rates: RubbingRates,
+    reactions: bool,
+) -> Slipping:
+    """A solution in a motion with what is proven of it and its free bodies."""
     proven = _proven(scene, rough, senses, reactions)
     solved = rough if proven.why else rough._replace(unknowns=dict(proven.values), friction=proven.friction)
-    bodies = _bodies(scene, solved, slides[-1], rates, reactions)
+    bodies = _bodies(scene, solved, slid, rates, reactions)
     if proven.reactions is not None:
         bodies = bodies._replace(reactions=proven.reactions, tensions=proven.tensions)
     return Slipping(scene, solved, senses, proven, bodies)
@@ -133,13 +150,37 @@ def _rounded(placed: SceneOnBalls, solved: Solved, senses: Sequence[float], reac
     )
 
 
-def at_rest(scene: FrictionScene) -> tuple[StaticRange, float | None, str]:
-    """The range of the one unknown load in which the mechanism holds still.
+class EndOfRange(NamedTuple):
+    """An end of a range, with what is proven of it: in the motion that is meant (``way`` is 1.0), or the
+    opposite one; the scene has the pulls of its ropes as they slip."""
 
-    Returns
-    -------
-    tuple[StaticRange, float | None, str]
-        The range, the bound of its ends [case units], and, with None, the reason why none is proven.
+    way: float
+    scene: FrictionScene
+    statics: Statics
+    end: End
+    proven: Proven
+
+
+class AtRest(NamedTuple):
+    """Where a mechanism holds still.
+
+    Attributes
+    ----------
+    range : of the one unknown load
+    bound, why : of the errors of its ends [case units]; with None, why none is proven
+    ends : those that are finite
+    rates : how fast everything rubs in the motion that is meant
+    """
+
+    range: StaticRange
+    bound: float | None
+    why: str
+    ends: Sequence[EndOfRange]
+    rates: RubbingRates
+
+
+def at_rest(scene: FrictionScene) -> AtRest:
+    """The range of the one unknown load in which the mechanism holds still.
 
     Raises
     ------
@@ -155,20 +196,30 @@ def at_rest(scene: FrictionScene) -> tuple[StaticRange, float | None, str]:
         raise SceneError(Status.MOBILITY, message)
     rates = rates_of_motion(scene)
     if any(rope.slips for rope in scene.position.case.ropes):
-        found, proven = _range_with_ropes(scene, rates)
+        found, ends = _range_with_ropes(scene, rates)
     else:
         ties, workless, senses = ties_of(scene.position), _is_workless(scene), rates.senses.rubs
-        statics = _statics(scene, ties, _flanks(scene, ties, workless))
+        flanks = _flanks(scene, ties, workless)
+        statics = _statics(scene, ties, flanks)
         driven = scene.solution.verdict == "no value"
         found = pressed(statics, senses, driven) if workless else static_range(statics, senses, scene.alone)
-        proven = [_proven_end(scene, statics, end) for end in found.ends]
+        ends = [
+            EndOfRange(
+                1.0 if end.senses == senses else -1.0,
+                scene,
+                statics,
+                end,
+                _proven_end(scene, statics, flanks, end),
+            )
+            for end in found.ends
+        ]
+    proven = [one.proven for one in ends]
     bounds = [bound for each in proven for bound in each.bounds.values()]
     why = next((each.why for each in proven if each.why), "" if bounds else UNENDING)
-    both = zip(found.ends, proven, strict=True)
-    exact = {end.value: value for end, each in both for value in each.values.values()}
+    exact = {one.end.value: value for one in ends for value in one.proven.values.values()}
     least, most, *possible = (exact.get(v, v) for v in (found.least, found.most, *found.possible))
     found = found._replace(least=least, most=most, possible=(possible[0], possible[1]))
-    return found, None if why else max(bounds), why
+    return AtRest(found, None if why else max(bounds), why, ends, rates)
 
 
 def _slipping(scene: FrictionScene, rates: RubbingRates, direction: float = 1.0) -> FrictionScene:
@@ -194,28 +245,30 @@ SLOW = 1e-7
 """Rates below this fraction of the fastest are looked at on balls."""
 
 
-def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[StaticRange, list[Proven]]:
+def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[StaticRange, list[EndOfRange]]:
     """The range where ropes slip: about to move one way and the other, with the pulls that go with each; and
-    the bounds of its finite ends.
+    its finite ends.
 
     Where a rope would have to push, the mechanism never moves that way: the range has no end there, on the
     side on which the unknown load draws the ropes tighter.
     """
     ends: list[End] = []
-    proven: list[Proven] = []
+    finite: list[EndOfRange] = []
     for direction in (1.0, -1.0):
         one = _slipping(scene, rates, direction)
         ties = ties_of(one.position)
-        statics = _statics(one, ties, _flanks(one, ties, False))
+        flanks = _flanks(one, ties, False)
+        statics = _statics(one, ties, flanks)
         end = end_of(statics, [direction * sense for sense in rates.senses.rubs])
         if end is None:
             raise SceneError(Status.NO_VALUE, nothing_rubs(statics))
         ends.append(_pulling(statics, end))
         if math.isfinite(ends[-1].value):
-            proven.append(_proven_end(one, statics, ends[-1]))
-    if not proven:
+            proven = _proven_end(one, statics, flanks, ends[-1])
+            finite.append(EndOfRange(direction, one, statics, ends[-1], proven))
+    if not finite:
         _refuse_slack(_slipping(scene, rates, 0.0))
-    return range_of(ends), proven
+    return range_of(ends), finite
 
 
 def _refuse_slack(scene: FrictionScene) -> None:
@@ -245,10 +298,24 @@ def _pulling(statics: Statics, end: End) -> End:
 UNENDING = "the range has no ends"
 
 
-def _proven_end(scene: FrictionScene, statics: Statics, end: End) -> Proven:
-    """What is proven of an end, at which the mechanism is about to move."""
-    (root,) = statics.roots
-    return _proven(scene, Solved(statics, {root: end.value}, end.friction), end.senses)
+def _proven_end(scene: FrictionScene, own: Statics, flanks: Mapping[int, float], end: End) -> Proven:
+    """What is proven of an end: at which the mechanism is about to move, or that inequalities set."""
+    (root,), vertex = own.roots, end.vertex
+    if vertex is None:
+        return _proven(scene, Solved(own, {root: end.value}, end.friction), end.senses)
+    if scene.enclose is None or not vertex.of:
+        return Proven(limited.how(own) if scene.enclose else UNBOUND)
+
+    def rounded(placed: SceneOnBalls) -> Value | None:
+        statics = placed.statics(flanks, [tie.senses for tie in scene.position.ropes])
+        found = limited.exactly(statics, vertex)
+        return None if found is None else Value(*placed.arithmetic.rounded(found / statics.scale))
+
+    with suppress(SceneError):
+        value = scene.enclose(rounded)
+        if value is not None:
+            return Proven("", {root: value.error or 0.0}, {root: value.value})
+    return Proven(TOO_CLOSE)
 
 
 def _flanks(scene: FrictionScene, ties: Sequence[Tie], workless: bool) -> Mapping[int, float]:
@@ -365,20 +432,39 @@ def solved(
     """
     if scene.position.case.motion:
         return _moving(scene, answer_with, reactions)
-    found, bound, why = at_rest(scene)
-    (root,) = (w.load.name for w in scene.balance.wrenches if is_unknown(w.load))
-    answer = answer_with({root: Value(0.0, bound, why)})
+    rest = at_rest(scene)
+    found, (root,) = rest.range, (w.load.name for w in scene.balance.wrenches if is_unknown(w.load))
+    answer = answer_with({root: Value(0.0, rest.bound, rest.why)})
     answers = {name: _held(scene, name, found, shown) for name, shown in answer.answers.items()}
     notes = (*answer.notes, *notes_at_rest(root, found))
     friction = FrictionFound((), 0.0, 0.0, found.how, possible=found.possible, again=found.again)
     bare = replace(answer, answers=answers, terms=(), advantage=None, sensitivities=Deferred(_no_slopes))
-    return replace(bare, notes=notes, friction=friction)
+    ends = Later(lambda: list(_about_to_move(rest, answer_with)))
+    return replace(bare, notes=notes, friction=friction, about_to_move=ends)
+
+
+def _about_to_move(
+    rest: AtRest, answer_with: Callable[[Mapping[str, Value]], Answer]
+) -> Iterator[AboutToMove]:
+    """The finite ends at which everything rubs that can, as answers of that motion; none where a contact
+    parts before."""
+    for way, scene, statics, end, _ in sorted(rest.ends, key=lambda one: one.end.value):
+        if len(end.friction) == len(statics.rubs):
+            rough = Solved(statics, dict.fromkeys(statics.roots, end.value), end.friction)
+            slid = Slid(rough.unknowns, end.friction, 0.0, rest.range.how, ())
+            found = _with_bodies(scene, rough, end.senses, slid, rest.rates.times(way), True)
+            yield AboutToMove(way, _answer_of(found, answer_with, True))
 
 
 def _moving(
     scene: FrictionScene, answer_with: Callable[[Mapping[str, Value]], Answer], reactions: bool
 ) -> Answer:
-    found = in_motion(scene, reactions)
+    return _answer_of(in_motion(scene, reactions), answer_with, reactions)
+
+
+def _answer_of(
+    found: Slipping, answer_with: Callable[[Mapping[str, Value]], Answer], reactions: bool
+) -> Answer:
     bounds, why = found.proven.bounds, found.proven.why
     values = {root: Value(x, bounds.get(root), why) for root, x in found.solved.unknowns.items()}
     answer = replace(answer_with(values), sensitivities=Deferred(lambda: _slopes(found)))

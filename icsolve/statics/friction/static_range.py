@@ -64,12 +64,14 @@ class End(NamedTuple):
     friction : (rubs,) [scaled]; empty where the value is infinite, or not that of an equilibrium about to
         move
     pushes : whether every contact pushes there
+    vertex : of an end of linear inequalities, which these are
     """
 
     value: float
     senses: tuple[float, ...]
     friction: tuple[float, ...] = ()
     pushes: bool = True
+    vertex: limited.Vertex | None = None
 
 
 class StaticRange(NamedTuple):
@@ -142,7 +144,7 @@ def _nothing_presses(statics: Statics, senses: Sequence[float]) -> bool:
 
 
 def _of_limits(
-    statics: Statics, senses: Sequence[float], within: Sequence[tuple[float, float]], alone: bool
+    statics: Statics, senses: Sequence[float], within: Sequence[limited.HeldRange], alone: bool
 ) -> StaticRange:
     """The range, of those in which friction within its limits holds, that is nearest to the load without
     friction. It ends where the mechanism is about to move, or where a contact parts.
@@ -152,14 +154,16 @@ def _of_limits(
     smooth = smooth_load(statics) or 0.0
     if not within:
         raise SceneError(Status.NO_VALUE, _lost(statics, smooth))
-    least, most = min(within, key=lambda pair: max(pair[0] - smooth, smooth - pair[1]))
-    again = sorted(end for pair in within if pair != (least, most) for end in pair if math.isfinite(end))
+    own = min(within, key=lambda one: max(one.low - smooth, smooth - one.high))
+    others = [one for one in within if one is not own]
+    again = sorted(end for one in others for end in (one.low, one.high) if math.isfinite(end))
     moving = [] if alone else _about_to_move(statics, senses)
     ends = []
-    for value in (least, most):
+    for value, vertex in zip((own.low, own.high), own.vertices, strict=True):
         room = SAME * abs(value) if math.isfinite(value) else -1.0
         same = (end for end in moving if abs(end.value - value) <= room)
-        ends.append(next(same, End(value, tuple(senses), pushes=math.isinf(value))))
+        parts = End(value, tuple(senses), pushes=math.isinf(value), vertex=vertex)
+        ends.append(next(same, parts))
     return range_of(ends)._replace(how=limited.how(statics), again=tuple(again))
 
 
@@ -382,7 +386,7 @@ def pressed(statics: Statics, senses: Sequence[float], driven: bool) -> StaticRa
     name = statics.roots[0]
     if _may_part(statics):
         within = limited.held(statics)
-        if within is not None and (driven or not any(math.isinf(end) for pair in within for end in pair)):
+        if within is not None and (driven or all(math.isfinite(one.high - one.low) for one in within)):
             return _of_limits(statics, senses, within, False)
     (left,) = statics.general.left
     powers = [left.get(statics.rub(k), 0.0) for k in range(len(senses))]
