@@ -6,7 +6,7 @@ import json
 import math
 import re
 from decimal import localcontext
-from itertools import pairwise, product
+from itertools import combinations, pairwise, product
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -907,3 +907,54 @@ loads: {P: {force: unknown, link: 3, at: L, angle: -90}, M: {torque: 20, link: 2
     for link in ("2", "3"):
         icsolve.sweep(case, None, ("status", "points"), drive={link: np.arange(-180.0, 180.1, 5.0)})
     assert 0 < len(asked) <= 100
+
+
+# --- shared by more ropes or contacts than equilibrium needs -----------------------------------------
+
+
+def hung_block(dice: Random, count: int, kind: str) -> tuple[str, np.ndarray, np.ndarray]:
+    """A block on so many ropes or contacts under one force; what a unit of each does on it, and the force,
+    both as force and moment about the origin."""
+    draw = lambda low, high: round(dice.uniform(low, high), 3)  # noqa: E731
+    points, joints, units = [], [], []
+    for n in range(count):
+        (x, y), (u, v) = (draw(-2, 2), draw(-1, 1)), (draw(-6, 6), draw(2, 6))
+        if kind == "rope":
+            points += [f"A{n}: [{x}, {y}]", f"B{n}: [{u}, {v}]"]
+            joints.append(f"{{rope: [A{n}, B{n}], on: [2, 1]}}")
+            way = math.atan2(v - y, u - x)
+        else:
+            degrees = draw(0, 180)
+            points.append(f"A{n}: [{x}, {y}]")
+            joints.append(f"{{contact: [1, 2], at: A{n}, normal: {degrees}}}")
+            way = math.radians(degrees)
+        units.append((math.cos(way), math.sin(way), x * math.sin(way) - y * math.cos(way)))
+    x, y, degrees = draw(-2, 2), draw(-1, 1), draw(-150, -30)
+    way = math.radians(degrees)
+    text = (
+        f"points: {{{', '.join(points)}, G: [{x}, {y}]}}\njoints: [{', '.join(joints)}]\n"
+        f"loads: {{W: {{force: 10, link: 2, at: G, angle: {degrees}}}}}\n"
+    )
+    load = 10.0 * np.array((math.cos(way), math.sin(way), x * math.sin(way) - y * math.cos(way)))
+    return text, np.array(units), load
+
+
+@pytest.mark.parametrize("kind", ["rope", "contact"])
+def test_ropes_and_contacts_that_share_a_load_carry_it_only_where_all_of_them_can(kind: str) -> None:
+    """By Caratheodory's theorem some three of them carry it without pushing (pulling) where any number do."""
+    met = {True: 0, False: 0}
+    for seed in range(40 * MORE):
+        text, units, load = hung_block(Random(seed), 4 + seed % 2, kind)
+        carried = any(
+            (np.linalg.solve(units[list(three)].T, -load) >= 0.0).all()
+            for three in combinations(range(len(units)), 3)
+        )
+        met[carried] += 1
+        if kind == "rope" and not carried:
+            assert refused(text).status == "slack", text
+            continue
+        answer = solved(text)
+        lost = any("would have to pull" in note for note in answer.notes)
+        assert answer.tensions == () or None in [one.tension for one in answer.tensions], text
+        assert lost is not carried, text
+    assert min(met.values()) >= 10
