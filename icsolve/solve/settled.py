@@ -23,12 +23,12 @@ from icsolve.scene import solve_by_power, solve_scene
 from icsolve.solve.followed import rate_of
 from icsolve.solve.load_function import LoadFunction, given_at
 from icsolve.solve.rest import AT_LIMIT, PROBE, Rest, held
+from icsolve.statics.load_wrenches import counted_about
 from icsolve.sweep.exact import (
     CONTEXT,
     ZERO,
     RowScenes,
     as_written,
-    counted_about,
     decimal_ratio,
     exact_record,
 )
