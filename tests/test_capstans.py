@@ -15,6 +15,7 @@ import pytest
 from mpmath import mp, mpf
 
 import icsolve
+from icsolve.errors import SceneError
 from icsolve.scene.sensitivity import influences
 from sizes import MORE
 
@@ -246,3 +247,102 @@ def test_the_friction_of_a_rope_is_against_its_slip(angle: int, sense: float) ->
     assert (rub.rate, rub.value) == (sense, pytest.approx(100.0 - pull, rel=1e-12))
     (term,) = (term for term in answer.terms if term.load.startswith("friction"))
     assert term.power == pytest.approx(rub.value * rub.rate, rel=1e-15) == -rub.loss
+
+
+def two_cranks(seed: int, posts: int) -> tuple[str, np.ndarray]:
+    """A rope from one crank round a post on the other, and for two posts one on the frame, to an end; and the
+    torques on the second crank that hold loads on both, over a grid of the pulls' ratios in which friction
+    within its limits has them: (ratios, ...), not a number where the rope would have to push."""
+    dice = Random(seed)
+    at: dict[str, tuple[float, float]] = {}
+    while len(at) < 8:  # rope and posts apart
+        place = (round(dice.uniform(-5, 5), 3), round(dice.uniform(-5, 5), 3))
+        if all(math.dist(place, other) > 1.0 for other in at.values()):
+            at["ABCPQEMN"[len(at)]] = place
+    radii, wraps = (
+        [round(dice.uniform(0.1, 0.4), 3) for _ in "PQ"],
+        [dice.choice(("cw", "ccw")) for _ in "PQ"],
+    )
+    mu, one, two = [round(dice.uniform(0.05, 0.5), 3) for _ in "PQ"], *(dice.uniform(-40, 40) for _ in "MN")
+    sides = [round(dice.uniform(-180, 180), 2) for _ in "MN"]
+    ends, middle = dice.choice((("2", "2"), ("2", "1"), ("1", "2"))), ["3", "1"][:posts]
+    links, names = [ends[0], *middle, ends[1]], ["C", *"PQ"[:posts], "E"]
+    turned = ((1 if w == "ccw" else -1) * r for w, r in zip(wraps, radii, strict=True))
+    round_it = [0.0, *list(turned)[:posts], 0.0]
+    pivots = {"2": at["A"], "3": at["B"]}
+    angles, arms = [], {"2": np.zeros(posts + 1), "3": np.zeros(posts + 1)}
+    for k in range(posts + 1):
+        (ax, ay), (bx, by) = at[names[k]], at[names[k + 1]]
+        lean = (round_it[k + 1] - round_it[k]) / math.hypot(bx - ax, by - ay)
+        angles.append(math.atan2(by - ay, bx - ax) - math.asin(lean))
+        ux, uy = math.cos(angles[k]), math.sin(angles[k])
+        for link, (x, y), side, pull in ((links[k], (ax, ay), k, 1.0), (links[k + 1], (bx, by), k + 1, -1.0)):
+            if link in pivots:
+                px, py = pivots[link]
+                arms[link][k] += pull * ((x - px) * uy - (y - py) * ux + round_it[side])
+    grids = []
+    for k in range(posts):
+        wrap = math.copysign(1.0, round_it[k + 1]) * (angles[k + 1] - angles[k]) % (2 * math.pi)
+        grids.append(np.exp(np.linspace(-mu[k] * wrap, mu[k] * wrap, 401 if posts == 1 else 81)))
+    pulls = [np.ones_like(np.meshgrid(*grids)[0])]
+    for ratio in np.meshgrid(*grids):
+        pulls.append(pulls[-1] * ratio)
+
+    def torque(link: str, force: float, degrees: float, name: str) -> float:
+        (x, y), (px, py) = at[name], pivots[link]
+        return force * (
+            (x - px) * math.sin(math.radians(degrees)) - (y - py) * math.cos(math.radians(degrees))
+        )
+
+    first = -torque("2", one, sides[0], "M") / sum(a * p for a, p in zip(arms["2"], pulls, strict=True))
+    asked = -torque("3", two, sides[1], "N") - first * sum(
+        a * p for a, p in zip(arms["3"], pulls, strict=True)
+    )
+    on = ", ".join(links)
+    text = (
+        "icsolve: 1\npoints: {" + ", ".join(f"{n}: [{x}, {y}]" for n, (x, y) in at.items()) + "}\n"
+        "joints:\n  - {pin: [1, 2], at: A}\n  - {pin: [1, 3], at: B}\n"
+        f"  - {{rope: [{', '.join(names)}], on: [{on}], "
+        + ", ".join(
+            f"{what}: {{{', '.join(f'{n}: {v}' for n, v in zip(names[1:-1], of, strict=False))}}}"
+            for what, of in (("radii", radii), ("wraps", wraps), ("mu", mu))
+        )
+        + "}\nloads:\n"
+        f"  G: {{force: {one!r}, link: 2, at: M, angle: {sides[0]}}}\n"
+        f"  H: {{force: {two!r}, link: 3, at: N, angle: {sides[1]}}}\n"
+        "  U: {torque: unknown, link: 3}\n"
+    )
+    return text, np.where(first > 0.0, asked, math.nan)
+
+
+@pytest.mark.parametrize("posts", [1, 2])
+def test_a_rope_that_slips_holds_what_friction_within_its_limits_holds(posts: int) -> None:
+    """The range is that of the equilibria in which the rope pulls: its finite ends are met at the corners of
+    the grid (1e-9), and it goes on without end just where the pulls grow without bound inside the grid."""
+    met = dict.fromkeys(("closed", "open", "none"), 0)
+    for seed in range(80 * MORE):
+        text, asked = two_cranks(seed, posts)
+        held = asked[~np.isnan(asked)]
+        case = icsolve.load(text)
+        if not held.size:
+            with pytest.raises(SceneError, match="would have to push"):
+                icsolve.solve(case)
+            met["none"] += 1
+            continue
+        answer = icsolve.solve(case)
+        found = answer.answers["U"].holds
+        assert found is not None, text
+        assert answer.friction is not None
+        low, high = answer.friction.possible
+        size = 1e-9 * np.abs(held).max()
+        assert low - size <= held.min(), (seed, text)
+        assert held.max() <= high + size, (seed, text)
+        assert low <= found[0] <= found[1] <= high, (seed, text)
+        if held.size == asked.size:
+            assert (low, high) == pytest.approx((held.min(), held.max()), rel=1e-9, abs=size), (seed, text)
+        else:  # where a pull is without bound so is the torque, but for one that the rope does not change
+            assert math.isinf(low) or math.isinf(high), (seed, text)
+        met["closed" if held.size == asked.size else "open"] += 1
+        if answer.answers["U"].self_locking:
+            assert low <= 0.0 <= high or math.isinf(low) or math.isinf(high)
+    assert min(met.values()) >= 5, met

@@ -1966,3 +1966,46 @@ loads: {V: {weight: 50, link: 2, at: B}, W: {weight: 10, link: 3, at: C}}
     with pytest.raises(SceneError, match="2 degrees of freedom") as refused:
         with_stability(case, icsolve.solve(case), link)
     assert refused.value.status == "mobility"
+
+
+@pytest.mark.parametrize("geared", [True, False])
+@pytest.mark.parametrize("beyond", [179.0, 179.7, 179.99, -179.99, -179.7, -179.0, 3.0])
+def test_a_torsion_spring_turns_in_a_motion_from_where_the_position_as_written_has_it(
+    geared: bool, beyond: float
+) -> None:
+    """free - angle stays in (-180, 180] as written, however near to its ends, in `solve`, in rows that move
+    from there and in the position that is found from there: all to 1e-9 of the spring's half turn."""
+    at, stiffness, ratio = 82.9, 20.46, (39 / 16 if geared else 1.0)
+    x, y = math.cos(math.radians(at)), math.sin(math.radians(at))
+    text = """icsolve: 1
+points: {{A: [0, 0], D: [3, 0], C: [{x!r}, {y!r}]}}
+lengths: {{AB: 1}}
+angles: {{AB: {ab}}}
+links: {{2: [B]}}
+joints: [{{pin: [1, 2], at: A}}{gears}]
+loads:
+  S: {{spring: {k} N*m/rad, corner: {corner}, free: {free!r}, link: {on}}}
+  {load}
+"""
+    joints = ", {pin: [1, 3], at: D}, {gears: [2, 3], teeth: [39, 16]}"
+    numbers = {
+        "x": 3 + x if geared else x,
+        "y": y,
+        "gears": joints if geared else "",
+        "k": stiffness,
+        "corner": "DC" if geared else "AB",
+        "on": 3 if geared else 2,
+        "free": at + beyond,
+    }
+    way = -ratio if geared else 1.0  # of the spring's link, a turn of the crank
+    torque = -stiffness * math.radians(beyond) * way
+    case = icsolve.load(text.format(**numbers, ab=at, load="U: {torque: unknown, link: 2}"))
+    assert icsolve.solve(case).answers["U"].value == pytest.approx(torque, rel=1e-9)
+    rows = icsolve.sweep(case, {"angles.AB": [at, at + 2.0, at - 100.0]}).answers["U"]
+    turned = [torque + stiffness * math.radians(d) * ratio**2 for d in (0.0, 2.0, -100.0)]
+    assert rows.tolist() == pytest.approx(turned, rel=1e-9)
+    rest = at + beyond * way / ratio**2
+    unknown = f"{{unknown: [{rest - 20!r}, {rest + 20!r}], from: {at}}}"
+    known = icsolve.load(text.format(**numbers, ab=unknown, load="T: {torque: 0, link: 2}"))
+    (position,) = icsolve.solve(known).positions
+    assert position.at["angles.AB"] == pytest.approx(rest, abs=1e-6)

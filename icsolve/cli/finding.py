@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from icsolve.cli.run import json_text
@@ -227,11 +227,12 @@ def _equilibrium(case: Case, word: str, along: str, low: float, high: float) -> 
         )
     if word == "neutral" and not along.startswith("loads."):
         raise RequestError(f"--find neutral varies a load's number, as loads.P, not {along}")
+    places, notes = _found(case, word, along, low, high)
     found = [
         {"kind": word, "at": {along: one.value + 0.0}, "error": {along: one.error}, **told}
-        for one, told in _found(case, word, along, low, high)
+        for one, told in places
     ]
-    return Finding(word, along, found, notes=tuple(_notes(case, word, along, low, bool(found))))
+    return Finding(word, along, found, notes=(*notes, *_notes(case, word, along, low, bool(found))))
 
 
 FRICTIONLESS = (
@@ -253,16 +254,15 @@ def _notes(case: Case, word: str, along: str, low: float, found: bool) -> Iterat
 
 def _found(
     case: Case, word: str, along: str, low: float, high: float
-) -> Iterable[tuple[Any, dict[str, Any]]]:
-    """Each place with what is told of it."""
+) -> tuple[list[tuple[Any, dict[str, Any]]], list[str]]:
+    """Each place with what is told of it, and sentences on what was left out."""
     if word == "rest":
         from icsolve.answer.equilibrium import stability_dict
         from icsolve.solve.positions import find_along
 
-        for one in find_along(case, along, low, high):
-            yield one, stability_dict(one.stability, one.stiffness, one.why)
-        return
+        rests, notes = find_along(case, along, low, high)
+        return [(one, stability_dict(one.stability, one.stiffness, one.why)) for one in rests], notes
     from icsolve.solve.stability import holding_values, neutral_values
 
-    for change in (neutral_values if word == "neutral" else holding_values)(case, along, low, high):
-        yield change, {"from": change.before, "to": change.after}
+    changes = (neutral_values if word == "neutral" else holding_values)(case, along, low, high)
+    return [(change, {"from": change.before, "to": change.after}) for change in changes], []

@@ -65,8 +65,8 @@ def solve_scene(
             if want == least:
                 raise
             answer = _solved(case, least, bound, reactions)
-            said = f"whether its contacts have to pull was not examined: {refusal.message}"
-            return replace(answer, notes=(*answer.notes, said))
+            said = "" if refusal.status == Status.SLACK else UNEXAMINED
+            return replace(answer, notes=(*answer.notes, f"{said}{refusal.message}"))
     except SceneError as refusal:
         if not case.noticed or refusal.status not in MISTAKEN or NOTICED in refusal.message:
             raise
@@ -74,8 +74,21 @@ def solve_scene(
         raise SceneError(refusal.status, said, refusal.more) from None
 
 
+def solve_by_power(case: Case, *, rates: bool = False) -> Answer:
+    """The unknown loads by power alone, whether ropes and contacts pull and push for them or not.
+
+    Raises SceneError as `solve_scene`.
+    """
+    if case.profiles is not None and case.profiles.touches:
+        from icsolve.cams.solving import solve_touching
+
+        return solve_touching(case, lambda found, **_: solve_by_power(found, rates=rates), bound=True)
+    return _solved(case, Want(rates=rates), True, False)
+
+
 AT_REST = "a case in space is solved at rest: give the forces of inertia as loads, and leave `dynamic` out."
 NOTICED = " Noticed: "
+UNEXAMINED = "whether its contacts have to pull was not examined: "
 MISTAKEN = (
     *(Status.STRUCTURE, Status.MOBILITY, Status.NO_VALUE, Status.ANY_VALUE, Status.DEAD_CENTRE),
     *(Status.INCONSISTENT, Status.CANNOT_ASSEMBLE, Status.UNDERDETERMINED),

@@ -33,7 +33,7 @@ from icsolve.solve.load_function import (
     with_other_ways,
     written_function,
 )
-from icsolve.solve.rest import Rest
+from icsolve.solve.rest import Rest, taut
 from icsolve.solve.settled import (
     at_change_point,
     balancing_torque,
@@ -82,9 +82,11 @@ def find_positions(case: Case, path: str, span: tuple[float, float] | None, star
     Raises SceneError where the figure assembles nowhere, or `near` does not tell branches apart.
     """
     try:
-        return _find_in_modes(case, path, span, start)
+        found = _find_in_modes(case, path, span, start)
     except TogetherError:
-        return _find_followed(case, path, span or whole_range(case, path), start, span is None)
+        found = _find_followed(case, path, span or whole_range(case, path), start, span is None)
+    rests, slack = taut(found.positions, path)
+    return found._replace(positions=tuple(rests), notes=(*found.notes, *slack))
 
 
 def _find_in_modes(
@@ -230,9 +232,14 @@ def _balanced(some: int, of: int) -> str:
     )
 
 
-def find_along(case: Case, along: str, low: float, high: float) -> list[Rest]:
-    """The positions of equilibrium along a sweep of an ordinary case: by a datum that poses it, or by
-    turning a link from the position as written (degrees)."""
+def find_along(case: Case, along: str, low: float, high: float) -> tuple[list[Rest], list[str]]:
+    """The positions of equilibrium along a sweep of an ordinary case, by a datum that poses it or by turning
+    a link from the position as written (degrees); and sentences on those that were left out."""
+    rests = _along(case, along, low, high)
+    return taut(distinct(sorted(rests, key=lambda rest: rest.value)), along)
+
+
+def _along(case: Case, along: str, low: float, high: float) -> list[Rest]:
     bare = replace(case, motion=(), expect=())
     own, value = _as_written(bare, along)
     wide = (min(low, value), max(high, value))
@@ -244,8 +251,7 @@ def find_along(case: Case, along: str, low: float, high: float) -> list[Rest]:
     branches = Branches(functions, *wide)
     kept = frozenset({branches.on(0, value)})
     found = (rest for _, rest in search_modes(functions, branches, kept, False))
-    rests = [rest for rest in found if low <= rest.value <= high]
-    return distinct(sorted(rests, key=lambda rest: rest.value))
+    return [rest for rest in found if low <= rest.value <= high]
 
 
 def _as_written(case: Case, along: str) -> tuple[str, float]:

@@ -3,14 +3,14 @@ from it another is."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import combinations
 
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
 from icsolve.case import Case, Force, Number, Torque
-from icsolve.errors import SceneError
-from icsolve.scene import solve_scene
+from icsolve.errors import SceneError, Status
+from icsolve.scene import solve_by_power, solve_scene
 from icsolve.tuples import NamedTuple, replace
 
 PROBE = "@equilibrium"
@@ -53,7 +53,7 @@ def with_scene(
     if not (all_centres or rates or reactions):
         return replace(answer, rates=None, velocities=None, centres={})
     asked = {"all_centres": all_centres, "rates": rates}
-    found = held(answer.case, links, freedoms, **asked, reactions=True) if reactions else None
+    found = held(answer.case, links, freedoms, solve_scene, **asked, reactions=True) if reactions else None
     found = found or solve_scene(answer.case, **asked)
     found = found if rates else replace(found, rates=None, velocities=None)
     shown = found.centres if all_centres else {}
@@ -62,16 +62,48 @@ def with_scene(
 
 def balances(rest: Rest) -> bool:
     """Whether the loads balance there, to what a figure written in decimals can tell."""
-    answer = held(rest.case, rest.links)
+    answer = held(rest.case, rest.links, solve=solve_by_power)
     return answer is None or abs(answer.answers[PROBE].value) <= NEAR * rest.size
 
 
-def held(case: Case, links: Sequence[str], freedoms: int = 1, **asked: bool) -> Answer | None:
+def taut(rests: Sequence[Rest], path: str) -> tuple[list[Rest], list[str]]:
+    """The positions in which every rope pulls, and a sentence on each of the others."""
+    found, notes = list[Rest](), list[str]()
+    for rest in rests:
+        slack = why_slack(rest.case, rest.links)
+        if slack:
+            notes.append(LEFT_OUT.format(at=f"{path} = {rest.value:.6g}", slack=slack))
+        else:
+            found.append(rest)
+    return found, notes
+
+
+LEFT_OUT = "left out is {at}, where {slack}."
+
+
+def why_slack(case: Case, links: Sequence[str], freedoms: int = 1) -> str:
+    """Which rope would have to push in a position in which the loads balance; empty where none would."""
+    try:
+        if case.ropes:
+            held(case, links, freedoms)
+    except SceneError as refusal:
+        if refusal.status == Status.SLACK:
+            return refusal.message.partition(". ")[0]
+    return ""
+
+
+def held(
+    case: Case,
+    links: Sequence[str],
+    freedoms: int = 1,
+    solve: Callable[..., Answer] = solve_scene,
+    **asked: bool,
+) -> Answer | None:
     """The scene with the first unknown loads, one a freedom, that do work in its motions; None where it has
     none to try. Of several freedoms those of the first loads that hold it with the least: in a position of
     equilibrium others may all but do no work in one motion, and are then as large as may be.
 
-    Raises SceneError where none do.
+    Raises SceneError where none do, and where a rope would have to push.
     """
     refusal: SceneError | None = None
     best: tuple[float, Case] | None = None
@@ -82,8 +114,10 @@ def held(case: Case, links: Sequence[str], freedoms: int = 1, **asked: bool) -> 
         named = (load._replace(name=f"{PROBE}{k or ''}") for k, load in enumerate(some))
         loaded = replace(case, loads=(*case.loads, *named))
         try:
-            answer = solve_scene(loaded, **(asked if freedoms == 1 else {}))
+            answer = solve(loaded, **(asked if freedoms == 1 else {}))
         except SceneError as error:
+            if error.status == Status.SLACK:
+                raise
             refusal = error
             continue
         if freedoms == 1:
@@ -92,7 +126,7 @@ def held(case: Case, links: Sequence[str], freedoms: int = 1, **asked: bool) -> 
         if best is None or most < best[0]:
             best = (most, loaded)
     if best is not None:
-        return solve_scene(best[1], **asked)
+        return solve(best[1], **asked)
     if refusal is not None:
         raise refusal
     return None

@@ -19,16 +19,16 @@ from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import terms_of
 from icsolve.numbers.replay import Array, Code
 from icsolve.numbers.roots import MOST_ORDER, last_that_holds, zeros_between
-from icsolve.scene import solve_scene
+from icsolve.scene import solve_by_power, solve_scene
 from icsolve.solve.followed import rate_of
 from icsolve.solve.load_function import LoadFunction, given_at
 from icsolve.solve.rest import AT_LIMIT, PROBE, Rest, held
+from icsolve.statics.load_wrenches import counted_about
 from icsolve.sweep.exact import (
     CONTEXT,
     ZERO,
     RowScenes,
     as_written,
-    counted_about,
     decimal_ratio,
     exact_record,
 )
@@ -231,8 +231,8 @@ def placed_by_coordinates(case: Case) -> set[str]:
 
 
 def balancing_torque(function: LoadFunction, value: float, on: str = "") -> float:
-    """The torque on a link that would balance the loads, as `icsolve.solve` finds it."""
-    answer = held(scene_at(function, value), [on] if on else function.links)
+    """The torque on a link that would balance the loads, as `icsolve.solve` finds it by power."""
+    answer = held(scene_at(function, value), [on] if on else function.links, solve=solve_by_power)
     assert answer is not None
     torque: float = answer.answers[PROBE].value
     return torque
@@ -437,7 +437,7 @@ def at_change_point(
 
 def _generalised(function: LoadFunction, value: float) -> float:
     """The generalised load of the free datum [case units], of the torque that would balance it."""
-    answer = held(scene_at(function, value), function.links, rates=True)
+    answer = held(scene_at(function, value), function.links, solve=solve_by_power, rates=True)
     assert answer is not None
     probe, units = answer.case.loads[-1], function.case.units
     if not isinstance(probe, Torque):

@@ -42,7 +42,7 @@ from icsolve.solve.load_function import (
     refuse_together,
 )
 from icsolve.solve.positions import refuse_ropes, refuse_unwritten, whole_range
-from icsolve.solve.rest import with_scene
+from icsolve.solve.rest import LEFT_OUT, why_slack, with_scene
 from icsolve.solve.settled import CLOSED, NEAR, rounded, scene_in, within_a_turn
 from icsolve.statics import load_wrenches, power
 from icsolve.sweep.exact import CONTEXT, VANISHED, as_written, decimal_ratio, exact_record
@@ -168,13 +168,16 @@ def find_pairs(
         surfaces = [surfaces[nearest(case, distances, rough)]]
     turning = [span is None and is_angle(path) for span, path in zip(spans, paths, strict=True)]
     found: list[EquilibriumPosition] = []
+    slack: list[str] = []
     lines: list[Zero] = []
     for surface in surfaces:
         zeros, flat = _zeros(surface, limits, turning)
         lines += flat
         for zero in zeros:
             position = _described(surface, paths, zero, limits, turning, asked)
-            if position is not None and not any(_same(position, other) for other in found):
+            if isinstance(position, str):
+                slack.append(position)
+            elif position is not None and not any(_same(position, other) for other in found):
                 found.append(position)
     found.sort(key=lambda one: [float(one.at[path]) for path in paths])  # type: ignore[arg-type]
     where = " and ".join(f"{p} from {a:g} to {b:g}" for p, (a, b) in zip(paths, limits, strict=True))
@@ -183,14 +186,14 @@ def find_pairs(
         f"and from the cells of {FINE - 1} x {FINE - 1} in which both loads change their signs."
     )
     if not lines:
-        return FoundPairs(tuple(found), (note,))
+        return FoundPairs(tuple(found), (note, *dict.fromkeys(slack)))
     there = " and ".join(f"{p} = {float(v):.6g}" for p, v in zip(paths, lines[0].at, strict=True))
     said = f"the loads balance in more positions than can be listed, at {there} for one, and beside it"
     if not found:
         raise SceneError(
             Status.ANY_VALUE, f"{said}: a freedom of the mechanism is left to itself.", {"positions": []}
         )
-    return FoundPairs(tuple(found), (note, f"{said}; of these none is listed."))
+    return FoundPairs(tuple(found), (note, *dict.fromkeys(slack), f"{said}; of these none is listed."))
 
 
 def _surfaces(
@@ -547,9 +550,9 @@ def _described(
     limits: Sequence[Ends],
     turning: Sequence[bool],
     asked: Mapping[str, bool],
-) -> EquilibriumPosition | None:
+) -> EquilibriumPosition | str | None:
     """A zero in all digits as a position, with its stiffness matrix and stability; None where it lies beyond
-    the limits."""
+    the limits, a sentence where a rope would have to push."""
     (x, dx), (y, dy) = map(rounded, zero.at)
     off = (dx, dy)
     x, y = (within_a_turn(v, e) if turns else v for v, e, turns in zip((x, y), off, turning, strict=True))
@@ -558,6 +561,9 @@ def _described(
     x, y = (min(max(v, a), b) for v, (a, b) in zip((x, y), limits, strict=True))
     slopes = _values(surface, zero.beside, surface.slopes)
     scene = solve_scene(_scene(surface, paths, (x, y)))
+    if slack := why_slack(scene.case, surface.links, 2):
+        there = " and ".join(f"{p} = {v:.6g}" for p, v in zip(paths, (x, y), strict=True))
+        return LEFT_OUT.format(at=there, slack=slack)
     shown = with_scene(scene, surface.links, 2, **asked)
     at, error_of = (dict(zip(paths, pair, strict=True)) for pair in ((x, y), off))
     stiffness = _stiffness(surface, paths, slopes)

@@ -111,7 +111,7 @@ def told(
     reactions = Reactions()
     if asked or statics.general.free or any(tie.joint.only_pushes for tie in statics.ties):
         reactions = reactions_of(position, statics, parameters, a)
-    notes = notes_of(statics, reactions, names_by_tie(position.case, statics.ties))
+    notes = notes_of(statics, reactions, names_by_tie(position.case, statics.ties), parameters, a)
     return FreeBodies(
         reactions, both, notes, tensions=tensions_of(statics, parameters, a, position.case.units.force)
     )

@@ -315,6 +315,17 @@ def spring_angle(load: TorsionSpring, points: Points, arithmetic: Arithmetic) ->
     return angle + 360.0 * whole if whole else angle
 
 
+def counted_about(case: Case, angles: Mapping[str, float]) -> Case:
+    """The case with its torsion springs' turns counted about angles, by load [degrees]."""
+    loads = [
+        load._replace(about=angles[load.name])
+        if isinstance(load, TorsionSpring) and load.name in angles
+        else load
+        for load in case.loads
+    ]
+    return replace(case, loads=tuple(loads)) if angles else case
+
+
 def direction(load: Force, points: Points, arithmetic: Arithmetic) -> Point:
     """Unit vector (cos, sin) along which a force acts; not of one along a rope."""
     heading = load.heading

@@ -14,6 +14,8 @@ from icsolve.case import Case, Rope, is_link, ordered_pair
 from icsolve.case.joints import Mesh, Sliding
 from icsolve.errors import SceneError, Status, refuse_overflow
 from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, largest_of, size_of, zero_of
+from icsolve.numbers.inequalities import region
+from icsolve.numbers.linear import Row
 from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Equilibrium, Statics, T, Transmits, value_of
 from icsolve.statics.reaction_basis import Position, Tie, axial_shares, tangent_and_separating
@@ -75,8 +77,14 @@ def tensions_of(
     sizes = statics.open_sizes()
     largest = largest_of([statics.value(c, parameters) for c in range(statics.known)])
     found = []
+    pulls = [statics.general.of(statics.tension(n)) for n in range(len(statics.ropes))]
+    if not can_share(statics, parameters, pulls, a):
+        ropes = zip(statics.ropes, pulls, strict=True)
+        raise SceneError(
+            Status.SLACK, _slack_of([t.rope.name for t, row in ropes if not statics.determines(row, sizes)])
+        )
     for n, tie in enumerate(statics.ropes):
-        row = statics.general.of(statics.tension(n))
+        row = pulls[n]
         if not statics.determines(row, sizes):
             found.append(Tension(tie.rope.name, None, why=SHARED))
             continue
@@ -91,6 +99,22 @@ def tensions_of(
     return tuple(found)
 
 
+def can_share(statics: Statics, parameters: Mapping[int, Scalar], rows: Sequence[Row], a: Showing) -> bool:
+    """Whether what equilibrium leaves open can be such that none of these combinations that hang on it is
+    less than zero."""
+    sizes = statics.open_sizes()
+    largest = largest_of([statics.value(c, parameters) for c in range(statics.known)])
+    forms = []
+    for row in rows:
+        shares = [0.0 if statics.determines(row, {c: size}) else float(row[c]) for c, size in sizes.items()]
+        if any(shares):
+            value = value_of(row, parameters)
+            forms.append((0.0 if a.vanishes(value, largest) else float(value), *shares))
+    return not forms or len(sizes) > MOST_OPEN or region(forms).first is not None
+
+
+MOST_OPEN = 8
+"""Inequalities in more variables are too many to eliminate them one by one."""
 SHARED = "the joints share the load in a way that equilibrium alone does not determine"
 
 
@@ -99,6 +123,14 @@ def _slack(rope: Rope, value: float, unit: str) -> str:
         f"the rope {rope.name} would have to push ({-value:.6g} {unit}): it goes slack, and the links do "
         "not hold so. Turn the load round that pulls it, see that the rope names its points and links in the "
         "order in which it runs past them, or put a link in its place."
+    )
+
+
+def _slack_of(names: Sequence[str]) -> str:
+    return (
+        f"however the ropes {listed(names)} share the load, one of them would have to push: they go slack, "
+        "and the links do not hold so. Turn the load round that pulls them, see that each rope names its "
+        "points and links in the order in which it runs past them, or put a link in the place of one."
     )
 
 
@@ -223,7 +255,13 @@ def _why(tie: Tie, kept: list[Scalar | None]) -> str:
     return SHARED
 
 
-def notes_of(statics: Statics, reactions: Reactions, names: Sequence[str]) -> tuple[str, ...]:
+def notes_of(
+    statics: Statics,
+    reactions: Reactions,
+    names: Sequence[str],
+    parameters: Mapping[int, Scalar],
+    a: Showing,
+) -> tuple[str, ...]:
     """All sentences, in the order of the joints; without reactions those that need none."""
     if not reactions:
         return tuple(_black_boxes(statics.ties))
@@ -232,6 +270,7 @@ def notes_of(statics: Statics, reactions: Reactions, names: Sequence[str]) -> tu
     shown = [reactions[name] for name in names]
     both = zip(ties, shown, strict=True)
     touching = [sentence for tie, reaction in both for sentence in _touching(tie, reaction)]
+    touching += _lost_together(statics, parameters, a)
     said = _open_parts(dict(zip(names, shown, strict=True)))
     open_ = [left_open(statics, said, _remedy(statics.ties))] if said else []
     return (*open_, *touching, *_black_boxes(statics.ties))
@@ -278,6 +317,22 @@ def _touching(tie: Tie, reaction: Reaction) -> Iterable[str]:
     place = f"the contact of links {tie.by} and {tie.on}" + (f" at {tie.where}" if tie.where else "")
     if force is not None and force < 0.0:
         yield f"{place} is lost: its normal force would have to pull ({force:.6g}). The links part there."
+
+
+def _lost_together(statics: Statics, parameters: Mapping[int, Scalar], a: Showing) -> Iterable[str]:
+    """Contacts of which one would have to pull however they, and the ropes, share the load."""
+    sizes = statics.open_sizes()
+    firsts = zip(statics.ties, statics.first, strict=True)
+    normals = [(tie, statics.general.of(first)) for tie, first in firsts if tie.joint.only_pushes]
+    pulls = [statics.general.of(statics.tension(n)) for n in range(len(statics.ropes))]
+    if can_share(statics, parameters, [*(row for _, row in normals), *pulls], a):
+        return
+    open_ones = [tie for tie, row in normals if not statics.determines(row, sizes)]
+    places = listed(f"{tie.by} and {tie.on}" + (f" at {tie.where}" if tie.where else "") for tie in open_ones)
+    yield (
+        f"however the contacts of links {places} share the load, the normal force of one would have to pull: "
+        "it is lost, and the links part there."
+    )
 
 
 def _black_boxes(ties: Sequence[Tie]) -> Iterable[str]:

@@ -13,7 +13,7 @@ from decimal import Context, Decimal, DivisionByZero, localcontext
 from functools import lru_cache
 
 from icsolve.assembly.steps import PointGroup, place
-from icsolve.case import Case, Centroid, Coordinates, Number, TorsionSpring
+from icsolve.case import Case, Centroid, Coordinates, Number
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.balls import Ball, Balls, BelowZero, MoreDigits
@@ -22,6 +22,7 @@ from icsolve.numbers.record import Implicit, Op, Root, Traced, live, terms_of
 from icsolve.numbers.replay import BINARY
 from icsolve.numbers.roots import STEP
 from icsolve.numbers.units import ExactRatio, found_number
+from icsolve.statics.load_wrenches import counted_about
 from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep, live_roots
 from icsolve.tuples import replace
@@ -468,17 +469,6 @@ class RowScenes:
         }
         case = replace(case, lengths=(), angles=(), near={}, expect=(), motion=tuple(motion))
         return replace(case, points=points, carries=carries)
-
-
-def counted_about(case: Case, angles: Mapping[str, float]) -> Case:
-    """The case with its torsion springs' turns counted about angles, by load [degrees]."""
-    loads = [
-        load._replace(about=angles[load.name])
-        if isinstance(load, TorsionSpring) and load.name in angles
-        else load
-        for load in case.loads
-    ]
-    return replace(case, loads=tuple(loads)) if angles else case
 
 
 def _without_dust(value: Decimal) -> Decimal:

@@ -25,7 +25,7 @@ from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.numbers.record import Record, Root, Traced, live, varies
 from icsolve.scene import refusals
 from icsolve.screws.plane import Point
-from icsolve.statics.load_wrenches import points_of, spring_angle
+from icsolve.statics.load_wrenches import counted_about, points_of, spring_angle
 from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import (
     Drive,
@@ -180,10 +180,18 @@ def setting_of(case: Case, paths: Sequence[str], links: Sequence[str], *, posing
     refusals.refuse_no_direction(refusals.directions_of_joints(case), figure.points, FLOATS)
     setting = Setting(case, top, figure, own, tuple(links), Drive((), (), ()))
     if links or any(path.split(".")[0] in ("points", "lengths", "angles") for path in own):
-        setting = _driven(setting, posing=posing)
+        counted = counted_about(case, _springs_as_written(case, figure))
+        driven = _driven(setting._replace(case=counted), posing=posing)
+        setting = driven if driven.moves else driven._replace(case=case)
     if setting.moves:
         _refuse_misdirected(setting)
     return setting
+
+
+def _springs_as_written(case: Case, figure: Figure) -> dict[str, float]:
+    """The angles of the torsion springs as written, from which a motion counts their turns."""
+    springs = [load for load in case.loads if isinstance(load, TorsionSpring)]
+    return {load.name: float(spring_angle(load, figure.points, FLOATS)) for load in springs}
 
 
 def _refuse_misdirected(setting: Setting) -> None:

@@ -1,10 +1,12 @@
-"""Where contacts only push, or nothing presses without friction: the loads that friction within its limits
-can hold.
+"""Where contacts only push, ropes slip, or nothing presses without friction: the loads that friction within
+its limits can hold.
 
 Each friction is at most its coefficient times the force that presses, and a contact's force is not less than
-zero. Where the sense of each force that presses is given, these are linear inequalities in the unknown load
-and the frictions. The sense of a guide's force is tried both ways; that of a pin's is turned to where the
-force lies at the end that was found, until the end goes no farther: each time the range is one of equilibria.
+zero; nor is the pull of a rope, and beside a place where it slips neither part pulls with more than
+exp(mu beta) times the other. Where the sense of each force that presses is given, these are linear
+inequalities in the unknown load and the frictions. The sense of a guide's force is tried both ways; that of a
+pin's is turned to where the force lies at the end that was found, until the end goes no farther: each time
+the range is one of equilibria.
 """
 
 from __future__ import annotations
@@ -12,13 +14,21 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import product
+from typing import TYPE_CHECKING
 
 from icsolve.numbers.arithmetic import Scalar, all_vanish, decider, largest_of, zero_of
 from icsolve.numbers.inequalities import Form, region
 from icsolve.numbers.linear import Row, eliminate
-from icsolve.statics.equilibrium import Statics
+from icsolve.statics.equilibrium import Action, Rub, Statics, actions_of, columns_of, solve_statics
 from icsolve.statics.friction.equations import at, forces_of, smooth_normals
-from icsolve.tuples import NamedTuple
+from icsolve.statics.power import Balance
+from icsolve.statics.reaction_basis import Position, Tie
+from icsolve.tuples import LateModule, NamedTuple
+
+if TYPE_CHECKING:
+    from icsolve.screws import ropes as rope_screws
+else:
+    rope_screws = LateModule("icsolve.screws.ropes")
 
 MOST_GUIDES = 6
 """More have too many combinations of senses."""
@@ -58,6 +68,42 @@ class HeldRange(NamedTuple):
     vertices: tuple[Vertex, Vertex]
 
 
+class RopeSlip(NamedTuple):
+    """A place where a rope can slip.
+
+    Attributes
+    ----------
+    before : columns of the statics whose sum is the pull of the part before it
+    column : the parameter that is what the part after it pulls more
+    grown : the most that one of the two pulls is of the other
+    """
+
+    before: tuple[int, ...]
+    column: int
+    grown: float
+
+
+def with_slips(
+    position: Position, ties: Sequence[Tie], balance: Balance, rubs: Sequence[Rub]
+) -> tuple[Statics, tuple[RopeSlip, ...]]:
+    """The statics of ropes each part of which has a pull of its own, and where they slip; ``position`` has
+    them as they are without friction."""
+    bare = columns_of(tuple(ties), balance, position.arithmetic, position.ropes, tuple(rubs))
+    actions, slips = [*actions_of(bare, position, balance.wrenches)], list[RopeSlip]()
+    for n, tie in enumerate(position.ropes):
+        before = [bare.tension(n)]
+        for k in range(1, len(tie.parts)):
+            if tie.rope.mu[k] is None:
+                continue
+            column, here = bare.rub(len(rubs) + len(slips)), [float(j == k) for j in range(1, len(tie.parts))]
+            grown = rope_screws.tension_ratios(tie.rope, tie.parts, here, position.arithmetic)[k]
+            for j, part in enumerate(tie.parts[k:], start=k):
+                on, by = part.links[0], part.links[1] or tie.rope.end
+                actions.append(Action(column, on, by, *tie.unit(j)))
+            slips.append(RopeSlip(tuple(before), column, float(grown)))
+            before.append(column)
+    return solve_statics(bare, actions, position.case.ground), tuple(slips)
+
 
 class Limits(NamedTuple):
     """Affine forms in the unknown load and the frictions, each over its limit, without the one that follows
@@ -68,8 +114,9 @@ class Limits(NamedTuple):
     load : the unit of the unknown load, which makes its largest coefficient 1 [scaled]
     presses : of each rub the components of the force that presses
     frictions : of each rub
-    smooth : the normal forces of contacts without friction, and the pulls of ropes
-    kept : the places of the rubs whose frictions are variables
+    smooth : the normal forces of contacts without friction, the pulls of ropes, and what these leave one
+        another where they slip
+    kept : the places of the rubs, and after them of the slips, whose frictions are variables
     """
 
     load: float
@@ -80,7 +127,9 @@ class Limits(NamedTuple):
 
     def inside(self, statics: Statics, start: Sequence[float]) -> list[float]:
         """The variables at a load with its frictions."""
-        return [start[0] / self.load, *(start[1 + k] / statics.rubs[k].limit for k in self.kept)]
+        count = len(statics.rubs)
+        own = (start[1 + k] / statics.rubs[k].limit if k < count else 0.0 for k in self.kept)
+        return [start[0] / self.load, *own]
 
     def forms(self, toward: Sequence[Sequence[float]]) -> list[Form]:
         """What is not less than zero in an equilibrium where each force that presses has, toward its unit
@@ -92,14 +141,16 @@ class Limits(NamedTuple):
         return found
 
 
-def held(statics: Statics, starts: Sequence[Sequence[float]] = ()) -> list[HeldRange] | None:
+def held(
+    statics: Statics, starts: Sequence[Sequence[float]] = (), slips: Sequence[RopeSlip] = ()
+) -> list[HeldRange] | None:
     """The ranges of the one unknown load in which friction within its limits holds, by rising value [case
     units]; None where no friction does work, and where guides rub in too many places.
 
     ``starts`` are loads with their frictions, (1 + rubs,) [scaled], at which the forces of pins are looked at
-    first.
+    first; with ``slips`` the statics are those of `with_slips`.
     """
-    limits = _limits(statics)
+    limits = _limits(statics, slips)
     guides = [
         k
         for k, rub in enumerate(statics.rubs)
@@ -121,16 +172,18 @@ def how(statics: Statics) -> str:
     return TURNED if any(len(rub.normal) == 2 for rub in statics.rubs) else PROVEN
 
 
-def _limits(statics: Statics) -> Limits | None:
+def _limits(statics: Statics, slips: Sequence[RopeSlip]) -> Limits | None:
     """None where there is not one sum of power, or no friction in it."""
     left, count = statics.general.left[0], len(statics.rubs)
     if len(statics.general.left) > 1:
         return None
 
+    count += len(slips)
     columns = (statics.known, statics.root(0), *map(statics.rub, range(count)))
     sizes = [largest_of([row.get(c, 0.0) for row in statics.general.solved.values()]) for c in columns]
     load = 1.0 / (sizes[1] or 1.0)
-    units = (1.0, load, *(rub.limit for rub in statics.rubs))
+    pulls = (1.0 / (size or 1.0) for size in sizes[2 + len(statics.rubs) :])
+    units = (1.0, load, *(rub.limit for rub in statics.rubs), *pulls)
 
     def whole(row: Row) -> Form:
         three = zip(columns, sizes, units, strict=True)
@@ -140,18 +193,23 @@ def _limits(statics: Statics) -> Limits | None:
 
     power = whole(left)
     gone = max(range(2, 2 + count), key=lambda k: abs(power[k]), default=0)
-    if not gone or not power[gone]:
+    fixed = not gone or not power[gone]
+    if fixed and not slips:
         return None
 
     def form(row: Row) -> Form:
         own = whole(row)
+        if fixed:
+            return own
         share = -own[gone] / power[gone]
         return _summed((own[:gone] + own[gone + 1 :], power[:gone] + power[gone + 1 :]), (1.0, share))
 
     presses = tuple(tuple(map(form, rows)) for rows in forces_of(statics))
     frictions = tuple(form({statics.rub(k): 1.0 / rub.limit}) for k, rub in enumerate(statics.rubs))
-    kept = tuple([k for k in range(count) if k != gone - 2])
-    smooth = tuple(map(form, (*smooth_normals(statics), *_pulls(statics))))
+    kept = tuple([k for k in range(count) if fixed or k != gone - 2])
+    between = [row for slip in slips for row in _between_pulls(statics, slip)]
+    between += [left, {c: -a for c, a in left.items()}] if fixed else []  # without friction in it
+    smooth = tuple(map(form, (*smooth_normals(statics), *_pulls(statics), *between)))
     return Limits(load, presses, frictions, smooth, kept)
 
 
@@ -259,3 +317,15 @@ def _inequalities(statics: Statics, senses: Sequence[float]) -> list[Row]:
 
 def _pulls(statics: Statics) -> list[Row]:
     return [statics.general.of(statics.tension(n)) for n in range(len(statics.ropes))]
+
+
+def _between_pulls(statics: Statics, slip: RopeSlip) -> tuple[Row, Row]:
+    """How much less than it may be each of the pulls beside a place is, as combinations of the parameters."""
+    rows = [statics.general.of(column) for column in slip.before]
+    before = {c: sum(row.get(c, 0.0) for row in rows) for row in rows for c in row}
+    after = {**before, slip.column: before.get(slip.column, 0.0) + 1.0}
+
+    def spare(one: Row, other: Row) -> Row:
+        return {c: slip.grown * one.get(c, 0.0) - other.get(c, 0.0) for c in after}
+
+    return spare(before, after), spare(after, before)

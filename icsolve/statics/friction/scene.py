@@ -24,6 +24,7 @@ from icsolve.statics.friction.enclosure import (
     MISSED,
     TOO_CLOSE,
     UNBOUND,
+    UNSURE,
     Proven,
     SceneOnBalls,
     Senses,
@@ -38,8 +39,9 @@ from icsolve.statics.friction.interface import (
     rubs_of,
     unknowns_by_power,
 )
-from icsolve.statics.friction.limits import Slid, nothing_rubs, slid
+from icsolve.statics.friction.limits import Slid, slid
 from icsolve.statics.friction.static_range import (
+    SAME,
     End,
     StaticRange,
     end_of,
@@ -196,9 +198,9 @@ def at_rest(scene: FrictionScene) -> AtRest:
             "each: without it each unknown load has a range that depends on the others."
         )
         raise SceneError(Status.MOBILITY, message)
-    rates = rates_of_motion(scene)
+    rates, unproven = rates_of_motion(scene), ""
     if any(rope.slips for rope in scene.position.case.ropes):
-        found, ends = _range_with_ropes(scene, rates)
+        found, ends, unproven = _range_with_ropes(scene, rates)
     else:
         ties, workless, senses = ties_of(scene.position), _is_workless(scene), rates.senses.rubs
         statics = _statics(scene, ties, _flanks(scene, ties, workless))
@@ -211,7 +213,7 @@ def at_rest(scene: FrictionScene) -> AtRest:
         ]
     proven = [one.proven for one in ends]
     bounds = [bound for each in proven for bound in each.bounds.values()]
-    why = next((each.why for each in proven if each.why), "" if bounds else UNENDING)
+    why = next((each.why for each in proven if each.why), unproven or ("" if bounds else UNENDING))
     exact = {one.end.value: value for one in ends for value in one.proven.values.values()}
     least, most, *possible = (exact.get(v, v) for v in (found.least, found.most, *found.possible))
     found = found._replace(least=least, most=most, possible=(possible[0], possible[1]))
@@ -241,53 +243,81 @@ SLOW = 1e-7
 """Rates below this fraction of the fastest are looked at on balls."""
 
 
-def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[StaticRange, list[EndOfRange]]:
-    """The range where ropes slip: about to move one way and the other, with the pulls that go with each; and
-    its finite ends.
+def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[StaticRange, list[EndOfRange], str]:
+    """The range where ropes slip: about to move one way and the other, with the pulls that go with each; its
+    ends that are so, and why of another nothing is proven.
 
-    Where a rope would have to push, the mechanism never moves that way: the range has no end there, on the
-    side on which the unknown load draws the ropes tighter.
+    Where a rope would have to push before the mechanism is about to move, the range is that in which friction
+    within its limits holds.
     """
-    ends: list[End] = []
-    finite: list[EndOfRange] = []
-    for direction in (1.0, -1.0):
-        one = _slipping(scene, rates, direction)
+    bare, senses = _without_slip(scene, rates), rates.senses.rubs
+    within = _within_limits(bare)
+    moving: list[EndOfRange] = []
+    for way in (1.0, -1.0):
+        one = _slipping(scene, rates, way)
         ties = ties_of(one.position)
         statics = _statics(one, ties, _flanks(one, ties, False))
-        end = end_of(statics, [direction * sense for sense in rates.senses.rubs])
-        if end is None:
-            raise SceneError(Status.NO_VALUE, nothing_rubs(statics))
-        ends.append(_pulling(statics, end))
-        if math.isfinite(ends[-1].value):
-            proven = _proven_end(one, statics, ends[-1])
-            finite.append(EndOfRange(direction, one, statics, ends[-1], proven))
-    if not finite:
-        _refuse_slack(_slipping(scene, rates, 0.0))
-    return range_of(ends), finite
+        end = end_of(statics, [way * sense for sense in senses])
+        if end is not None and math.isfinite(end.value) and _pulls(statics, end):
+            moving.append(EndOfRange(way, one, statics, end, _proven_end(one, statics, end)))
+    smooth = smooth_load(bare.statics) or 0.0
+    if not within:
+        parameters = bare.statics.parameters({bare.statics.roots[0]: smooth}, (0.0,) * len(senses))
+        tensions_of(bare.statics, parameters, FLOATS, scene.position.case.units.force)
+        status, said = (Status.UNSUPPORTED, MANY_GUIDES) if within is None else (Status.NO_VALUE, NEVER_TAUT)
+        raise SceneError(status, said.format(bare.statics.roots[0]))
+    own = min(within, key=lambda one: max(one.low - smooth, smooth - one.high))
+    ends = [_same(value, moving) or End(value, senses) for value in (own.low, own.high)]
+    possible = (ends[0].value, ends[1].value)
+    told = all(_same(value, moving) for value in possible if math.isfinite(value))
+    if len(moving) == 2:
+        ends, told = [one.end for one in moving], True
+    found = range_of(ends)._replace(possible=possible, how=limited.how(bare.statics))
+    return found, moving, "" if told else BY_LIMITS
 
 
-def _refuse_slack(scene: FrictionScene) -> None:
-    """Refuse a scene whose ropes would have to push without friction, which then has nothing to grow from."""
+def _same(value: float, moving: Sequence[EndOfRange]) -> End | None:
+    """The end at which it is about to move that this value is, but for rounding."""
+    room = SAME * abs(value) if math.isfinite(value) else -1.0
+    return next((one.end for one in moving if abs(one.end.value - value) <= room), None)
+
+
+class WithoutSlip(NamedTuple):
+    """A scene whose ropes do not slip, and its statics."""
+
+    scene: FrictionScene
+    ties: Sequence[Tie]
+    statics: Statics
+
+
+def _without_slip(scene: FrictionScene, rates: RubbingRates) -> WithoutSlip:
+    scene = _slipping(scene, rates, 0.0)
     ties = ties_of(scene.position)
-    statics = _statics(scene, ties, _flanks(scene, ties, False))
-    smooth = smooth_load(statics)
-    if smooth is not None:
-        parameters = statics.parameters({statics.roots[0]: smooth}, (0.0,) * len(statics.rubs))
-        tensions_of(statics, parameters, FLOATS, scene.position.case.units.force)
+    flanks = _flanks(scene, ties, False)
+    return WithoutSlip(
+        scene, reaction_basis.with_flanks(scene.position, ties, flanks), _statics(scene, ties, flanks)
+    )
 
 
-def _pulling(statics: Statics, end: End) -> End:
-    """An end at which every rope pulls; else none: infinite where the load draws that rope tighter."""
+def _within_limits(bare: WithoutSlip) -> list[limited.HeldRange] | None:
+    """The ranges in which friction within its limits holds, that of ropes among it."""
+    position, rubs = bare.scene.position, bare.statics.rubs
+    statics, slips = limited.with_slips(position, bare.ties, bare.scene.balance, rubs)
+    return limited.held(statics, (), slips)
+
+
+BY_LIMITS = f"{UNSURE} where the pulls of ropes set an end"
+NEVER_TAUT = "no value of {} holds: a rope would have to push, or a contact to pull."
+MANY_GUIDES = (
+    "where ropes slip, the range of {} is not found with friction at so many guides: give a `motion`."
+)
+
+
+def _pulls(statics: Statics, end: End) -> bool:
+    """Whether every rope pulls at an end."""
     (root,) = statics.roots
-    if not math.isfinite(end.value):
-        return end
     parameters = statics.parameters({root: end.value}, end.friction or (0.0,) * len(statics.rubs))
-    for n in range(len(statics.ropes)):
-        row = statics.general.of(statics.tension(n))
-        if statics.value(statics.tension(n), parameters) < 0.0:
-            tighter = row.get(statics.root(0), 0.0) or 1.0
-            return End(math.copysign(math.inf, tighter), end.senses)
-    return end
+    return all(statics.value(statics.tension(n), parameters) >= 0.0 for n in range(len(statics.ropes)))
 
 
 UNENDING = "the range has no ends"
@@ -598,9 +628,10 @@ def notes_at_rest(root: str, found: StaticRange) -> Sequence[str]:
     for value in found.again:
         notes.append(f"beyond {root} = {value:.6g}, where it is about to move too, it may hold again.")
     for end, more in zip((found.least, found.most), found.possible, strict=True):
-        if end != more and abs(end - more) > 1e-9 * max(abs(end), abs(more)):
+        if end != more and abs(end - more) > SAME * abs(end):
+            far = f"to {more:.6g}" if math.isfinite(more) else "up" if more > 0.0 else "down"
             notes.append(
-                f"from {end:.6g} to {more:.6g} it may still hold, if friction was left the other way round "
+                f"from {end:.6g} {far} it may still hold, if friction was left the other way round "
                 "at some joint (the end is that of impending motion)."
             )
     return notes
