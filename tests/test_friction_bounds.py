@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from random import Random
 from statistics import median
@@ -23,6 +24,7 @@ import rubbing
 import transcribe
 from growth import random_mechanism
 from icsolve.answer.bodies import Witness
+from icsolve.case import Motion
 from icsolve.report.text import answer_text
 from icsolve.scene.program import Want, evaluate, prepare
 from icsolve.scene.sensitivity import influences
@@ -37,6 +39,7 @@ from icsolve.statics.load_wrenches import Wrench
 from icsolve.statics.reaction_basis import Position, ties_of
 from icsolve.statics.reactions import names_by_tie
 from icsolve.statics.witness import refuse_apart
+from icsolve.tuples import replace
 from more_digits import SixtyDigits
 from sizes import FULL, MORE
 from test_friction import BLOCK, QUICK_RETURN, SIX_BAR, brake, lever, slider_crank, turning, wedge
@@ -591,6 +594,22 @@ loads: {M: {torque: 10, link: 4}, T: {torque: unknown, link: 2}}
     holds = answer.answers["T"].holds
     assert holds is not None
     assert len([note for note in answer.notes if "it may still hold" in note]) == len(holds)
+
+
+@pytest.mark.parametrize("seed", range(60 if FULL else 6))
+def test_beside_a_change_point_the_ends_of_the_range_are_those_of_the_motions(seed: int) -> None:
+    """Without a motion it holds from the load of one to that of the other, to 1e-9; without end where it
+    jams."""
+    for gap in (1e-7, 1e-13):
+        case = icsolve.load(parallelogram(Random(seed), gap))
+        holds = icsolve.solve(replace(case, motion=())).answers["T"].holds
+        assert holds is not None
+        ends = []
+        for turns in ("cw", "ccw"):
+            with suppress(icsolve.SceneError):
+                moved = icsolve.solve(replace(case, motion=(Motion("2", turns=turns),)))
+                ends.append(moved.answers["T"].value)
+        assert [end for end in holds if math.isfinite(end)] == pytest.approx(sorted(ends), rel=1e-9), gap
 
 
 @pytest.mark.parametrize("radius", ["5", "1e4", "1e9", "1e13"])

@@ -50,10 +50,13 @@ class Lengths(NamedTuple):
         return all(form == own_length(k, n) for k, form in enumerate(self.lengths))
 
     def scaled(self, share: float) -> Lengths:
-        """The equations with friction reduced to a share of it (where y are the lengths)."""
-        vectors = tuple(
-            tuple((form[0], *(share * a for a in form[1:])) for form in forms) for forms in self.vectors
-        )
+        """The equations with friction reduced to a share of it."""
+        if not self.is_fixed_point:  # the coordinates tell frictions and forces as they are
+            vectors = tuple(tuple(tuple(share * a for a in form) for form in forms) for forms in self.vectors)
+        else:
+            vectors = tuple(
+                tuple((form[0], *(share * a for a in form[1:])) for form in forms) for forms in self.vectors
+            )
         return self._replace(vectors=vectors)
 
 
@@ -213,14 +216,15 @@ class Reduced(NamedTuple):
     smooth: tuple[Form, ...] = ()
 
     def scaled(self, share: float) -> Reduced:
-        """The same with friction reduced to a share of it (where y are the lengths)."""
+        """The same with friction reduced to a share of it."""
 
         def less(forms: Sequence[Form]) -> tuple[Form, ...]:
             return tuple((form[0], *(share * a for a in form[1:])) for form in forms)
 
-        return self._replace(
-            equations=self.equations.scaled(share), loads=less(self.loads), smooth=less(self.smooth)
-        )
+        equations = self.equations.scaled(share)
+        if not self.equations.is_fixed_point:
+            return self._replace(equations=equations)
+        return self._replace(equations=equations, loads=less(self.loads), smooth=less(self.smooth))
 
     def least_push(self, y: Sequence[float]) -> float:
         """The normal force of the contact that pushes least, over its terms; 1.0 where there is none, 0.0 of

@@ -254,9 +254,10 @@ def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> En
     assert equations is not None
     if contraction(equations.equations) is not None:
         return _moving(statics, equations, senses, contracted(equations.equations), pushing)
-    y, share, grows = every.followed(equations.equations)
+    by = well_told(statics, senses, equations)
+    y, share, grows = every.followed(by.equations)
     if y is not None:
-        return _moving(statics, equations, senses, y, pushing)
+        return _moving(statics, by, senses, y, pushing)
     far = SHORT * share
     short = equations.equations.scaled(far)
     last = every.followed(short)[0] or without_friction(equations.equations)
