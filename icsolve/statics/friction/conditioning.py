@@ -1,4 +1,4 @@
-"""The equations of the rubs in coordinates of which all that they tell has moderate coefficients.
+"""The equations of the rubs in coordinates of which all that they tell is made with moderate coefficients.
 
 Beside a dead centre or a change point forces are thousands of times the frictions and loads that make them:
 beside such coefficients doubles lose the others, and solutions with them. Here the coordinates are those of
@@ -95,7 +95,7 @@ class _Table:
     def turn(self) -> None:
         """Take the sums of power, which are zero, and then rows that are asked for as coordinates, until no
         column is open that one of them hangs on."""
-        for _ in self.powers:
+        for _ in self.powers[: len(self.open)]:
             row, column = self._largest(self.powers, ())
             if self.powers[row][column]:
                 self._substitute(self.powers[row], column, 0.0)

@@ -28,10 +28,10 @@ from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:
-    from icsolve.statics.friction import conditioning as apart
+    from icsolve.statics.friction import conditioning as coordinates
     from icsolve.statics.friction import solutions as every
 else:  # where one is not proven to be the only one
-    apart = LateModule("icsolve.statics.friction.conditioning")
+    coordinates = LateModule("icsolve.statics.friction.conditioning")
     every = LateModule("icsolve.statics.friction.solutions")
 
 CONTRACTS = "the friction equations contract: Banach's theorem gives one solution and no other"
@@ -138,11 +138,11 @@ SHORT = 0.999
 def well_told(statics: Statics, senses: Sequence[float], equations: Reduced) -> Reduced:
     """The equations; beside a singular position in other coordinates, with the digits that it takes: rounding
     beside large coefficients loses solutions, and makes some that are none."""
-    if not apart.is_large(equations):
+    if not coordinates.is_large(equations):
         return equations
     if statics.asks is not None:
         with suppress(SceneError):  # no digits settle it
-            other: Reduced | None = statics.asks(lambda exact: apart.conditioned(exact, senses))
+            other: Reduced | None = statics.asks(lambda exact: coordinates.conditioned(exact, senses))
             return other or equations
     alone = len(statics.roots) == len(statics.general.left) == 1
     return (reduced_workless(statics, senses) if alone else None) or equations

@@ -66,7 +66,8 @@ def followed(equations: Lengths) -> tuple[Y | None, float, bool]:
 def _followed(equations: Lengths) -> tuple[Y | None, float, bool]:
     lengths = equations.lengths
     begin = solve_square([[*form[1:]] for form in lengths], [-form[0] for form in lengths])
-    assert begin is not None  # lengths are coordinates, or tell these
+    if begin is None:  # nothing balances without friction
+        return None, 0.0, False
     first = largest_of([*begin, *(part for forms in equations.vectors for part in vector(forms, begin))])
     if not first:
         return tuple(begin), 1.0, False
