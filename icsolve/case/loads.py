@@ -257,6 +257,11 @@ class TorsionSpring(NamedTuple):
 Load = Force | ForceVector | Torque | Weight | Spring | TorsionSpring
 
 
+def name_of_inertia(name: str) -> bool:
+    """Whether a load stands for the inertia of a link: one of the file has no blank in its name."""
+    return name.startswith("inertia ")
+
+
 class Motion(NamedTuple):
     """A given motion: of a link (rad/s, or only its sense), or of a point on a link."""
 

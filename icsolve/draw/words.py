@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 
 from icsolve.answer.bodies import Reaction
 from icsolve.case import is_angle, pair_name
+from icsolve.case.loads import name_of_inertia
 from icsolve.draw.marks import Mark, MarkGroup, TextMark, TextRun, bounds, text_width
 from icsolve.draw.svg import runs_of
 from icsolve.errors import refuse_overflow
@@ -54,7 +55,7 @@ def quantity(value: float, unit: str, digits: int = DIGITS) -> str:
 
 def name_runs(name: str) -> tuple[TextRun, ...]:
     """``T12`` as a T with 12 set low, an inertia force as F with i and the link low, ``B'`` as it is."""
-    if name.startswith("inertia "):
+    if name_of_inertia(name):
         _, kind, link = name.split(" ", 2)
         return (TextRun("F" if kind == "force" else "T"), TextRun(f"i{link}", True))
     found = re.fullmatch(r"([^\W\d_]+)_?(\d+)('*)", name)

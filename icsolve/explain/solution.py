@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 from icsolve.answer import Answer, Found
 from icsolve.cams.words import contact_said
 from icsolve.case import ForceVector, Like, Load, Spring, Torque, is_link, is_named
+from icsolve.case.loads import name_of_inertia
 from icsolve.explain.bodies import bodies_sections, friction_section, rubbing_blocks, sections_in_space
 from icsolve.explain.centres import RATIOS, centre_sections, ratio_section, worked_speeds
 from icsolve.explain.document import Block, Document, Inline, Items, Section, ShownTable, formula, words
@@ -316,7 +317,7 @@ DALEMBERT = (
 
 def inertia_section(work: Worked) -> Iterable[Section]:
     """-m a at the centre of mass and -J alpha of every link that has a mass."""
-    loads = [load for load in work.case.loads if load.name.startswith("inertia ")]
+    loads = [load for load in work.case.loads if name_of_inertia(load.name)]
     blocks = [block for load in loads for block in _inertia(work, load)]
     if blocks:
         yield Section("Inertia forces", (words(DALEMBERT), *blocks))

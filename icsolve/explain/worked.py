@@ -22,6 +22,7 @@ from icsolve.case import (
     is_link,
     pair_name,
 )
+from icsolve.case.loads import name_of_inertia
 from icsolve.draw.words import name_runs
 from icsolve.explain.document import Block, Inline, formula, words
 from icsolve.explain.formula import OMEGA, Expr, Name, Num, Quantity, Sum, Trig, product
@@ -150,7 +151,7 @@ def worked(known: Known, digits: int) -> Worked:
 def load_name(name: str) -> Name:
     """A load as a symbol: ``T12`` as T with 12 low, an inertia force as F with i and the link low, others
     whole."""
-    if name.startswith("inertia "):
+    if name_of_inertia(name):
         return Name(*(run.text for run in name_runs(name)))
     letters = name.rstrip("0123456789")
     return Name(letters, name[len(letters) :]) if len(letters) == 1 else Name(name)

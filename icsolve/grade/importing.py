@@ -103,8 +103,7 @@ class Import:
             return
         with io.BytesIO(sys.stdin.buffer.read()) if path == "-" else reading(path) as file:
             table = AnswerTable(file, lambda line, why: self.issues.note(path, line, why))
-            near = self.case_store.near
-            columns = TableColumns(table.header, mapping, self.case_store.find, lambda text: bool(near(text)))
+            columns = TableColumns(table.header, mapping, self.case_store.find, self.case_store.near)
             self._order = self._date_order(path)
             entries: Iterator[StoredAnswer]
             if student:

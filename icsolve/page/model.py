@@ -26,6 +26,7 @@ from icsolve.case import (
     is_link,
     pair_name,
 )
+from icsolve.case.loads import name_of_inertia
 from icsolve.draw.loads import axle
 from icsolve.draw.marks import Point, View
 from icsolve.draw.ropes import RopeCourse
@@ -78,7 +79,7 @@ def inertia_rows(known: Known, motion: PageMotion, load: Load) -> Array | None:
     """The force (n, 2) or couple (n,) of a link's inertia in every row, case units; None of another load, and
     where no row has any.
     """
-    if not load.name.startswith("inertia ") or not motion.found.angular_accelerations:
+    if not name_of_inertia(load.name) or not motion.found.angular_accelerations:
         return None
     units, inertia = known.case.units, known.case.inertia[load.link]
     if isinstance(load, ForceVector):

@@ -29,6 +29,7 @@ from icsolve.case import (
     Toward,
     Weight,
 )
+from icsolve.case.loads import name_of_inertia
 from icsolve.kinematics.motion import Motions
 from icsolve.numbers.arithmetic import FLOATS, HALF_TURN, Arithmetic, Scalar, all_vanish, magnitude
 from icsolve.numbers.units import exact_ratio, parse_unit
@@ -355,17 +356,17 @@ def vector_size(parts: Sequence[Number]) -> float:
 FORCE = "inertia force {}"
 
 COUPLE = "inertia couple {}"
-"""Names of the loads, by link; a load of the file has no blank in its name."""
+"""Names of the loads, by link."""
 
 
 def is_loaded(case: Case) -> bool:
     """Whether the inertia forces are among the loads of a case."""
-    return any(load.name.startswith("inertia ") for load in case.loads)
+    return any(name_of_inertia(load.name) for load in case.loads)
 
 
 def as_given(case: Case) -> Case:
     """The case without inertia forces among its loads: what other positions are solved from."""
-    loads = tuple(load for load in case.loads if not load.name.startswith("inertia "))
+    loads = tuple(load for load in case.loads if not name_of_inertia(load.name))
     return case if loads == case.loads else replace(case, loads=loads)
 
 
@@ -387,21 +388,18 @@ def exactly(place: PlacedCase, motions: Motions, wrenches: Sequence[Wrench]) -> 
     forces = inertia_forces(place, accelerations.moving(place, motions.twists, motions.slack))
     found = []
     for w in wrenches:
-        load = w.load
-        if load.name == FORCE.format(load.link) and isinstance(load, ForceVector):
-            _, force, _ = forces[load.link]
-            assert force is not None
-            size = number_of(w, place.arithmetic) or 1.0
-            found.append(
-                w._replace(unit=force_wrench((force[0] / size, force[1] / size), place.points[load.at]))
-            )
-        elif load.name == COUPLE.format(load.link) and isinstance(load, Torque):
-            couple = forces[load.link][2]
-            assert couple is not None
-            size = number_of(w, place.arithmetic) or 1.0
-            found.append(w._replace(unit=(0.0, 0.0, couple / size)))
-        else:
+        if not name_of_inertia(w.load.name):
             found.append(w)
+            continue
+        _, force, couple = forces[w.load.link]
+        size = number_of(w, place.arithmetic) or 1.0
+        if isinstance(w.load, ForceVector):
+            assert force is not None
+            unit = force_wrench((force[0] / size, force[1] / size), place.points[w.load.at])
+        else:
+            assert couple is not None
+            unit = (0.0, 0.0, couple / size)
+        found.append(w._replace(unit=unit))
     return tuple(found)
 
 

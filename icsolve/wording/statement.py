@@ -31,6 +31,7 @@ from icsolve.case import (
     is_named,
 )
 from icsolve.case.figure import Corner, Unknown
+from icsolve.case.loads import name_of_inertia
 from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Knife, Polygon, Radii, Roller, Shape
 from icsolve.numbers.units import nearest, parse_unit
 from icsolve.tuples import NamedTuple
@@ -310,11 +311,6 @@ class Statement(NamedTuple):
 
     def _size(self, number: Number) -> str:
         return self.show(number).lstrip("+-")
-
-
-def name_of_inertia(name: str) -> bool:
-    """Whether a load stands for the inertia of a link."""
-    return name.startswith("inertia ")
 
 
 def _size_of(load: Load) -> Number | Like | Load | None:

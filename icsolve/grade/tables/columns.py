@@ -148,12 +148,13 @@ class TableColumns:
         header: Sequence[str],
         mapping: Iterable[tuple[str, str]],
         find: Find,
-        near: Callable[[str], bool] | None = None,
+        near: Callable[[str], str] = lambda text: "",
     ) -> None:
         self.header = list(header)
         self.names = [plain_name(text) for text in header]
         self.find = find
-        self._near = near
+        self.near = near
+        """the case whose name a text is much like; '' for none"""
         self.fields: dict[str, int] = {}
         self.questions: dict[int, str] = {}
         for left, right in mapping:
@@ -225,10 +226,6 @@ class TableColumns:
             if question is not None:
                 return question
         return None
-
-    def is_near(self, text: str) -> bool:
-        """Whether a header is much like the name of a case."""
-        return self._near is not None and self._near(text)
 
     def listed(self) -> str:
         """The columns, for a message."""

@@ -137,7 +137,7 @@ def _wide(columns: TableColumns, kind: str) -> TableLayout:
             f'no column names a case: {columns.listed()}; name them with --map, such as --map "Q3=press"'
         )
     if kind == "wide":  # a column much like a case is meant for one, and is listed answer by answer
-        meant = [i for i in strange if columns.is_near(columns.header[i])]
+        meant = [i for i in strange if columns.near(columns.header[i])]
         asked |= {i: columns.header[i] for i in meant}
         strange = [i for i in strange if i not in meant]
     cells_of = sorted(asked.items())
