@@ -7,6 +7,7 @@ import csv
 import importlib
 import io
 import math
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -100,20 +101,19 @@ def test_several_positions_are_right_where_each_is_and_never_one_with_a_directio
     assert set(a_class.verdicts(*open_, case="crank")) == {"review"}
 
 
-@pytest.mark.parametrize("join", [", ", "; ", " ", " and ", " & "])
-@pytest.mark.parametrize("unit", [" deg", "°"])
-def test_a_list_of_positions_is_read_as_a_list_where_the_last_has_the_unit(
-    a_class: Class, join: str, unit: str
-) -> None:
+def test_a_list_of_positions_is_read_as_a_list_where_the_last_has_the_unit(a_class: Class) -> None:
     """The second of two angles is no direction of the first."""
     a_class.case("two", TWO.read_text())
     a_class.case("bar", BAR)
-    both = {
-        f"50.04{join}233.1{unit}": "right", f"50.04{unit}{join}233.1{unit}": "right",
-        f"50.04{join}200{unit}": "review", f"200{join}50.04{unit}": "review",
-    }  # fmt: skip
+    both, one = {}, []
+    for join, unit in product((", ", "; ", " ", " and ", " & "), (" deg", "°")):
+        both |= {
+            f"50.04{join}233.1{unit}": "right", f"50.04{unit}{join}233.1{unit}": "right",
+            f"50.04{join}200{unit}": "review", f"200{join}50.04{unit}": "review",
+        }  # fmt: skip
+        one.append(f"{rest(0.2 * 180.0 / math.pi):.4g}{join}20{unit}")
     assert dict(zip(both, a_class.verdicts(*both, case="two"), strict=True)) == both
-    assert a_class.verdicts(f"{rest(0.2 * 180.0 / math.pi):.4g}{join}20{unit}", case="bar") == ["review"]
+    assert set(a_class.verdicts(*one, case="bar")) == {"review"}
 
 
 def test_mistakes_with_a_position_are_named(a_class: Class) -> None:

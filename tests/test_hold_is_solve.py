@@ -16,10 +16,12 @@ import equilibrium
 import icsolve
 import rubbing
 from icsolve import case as c
+from icsolve.scene import solve_scene
+from icsolve.solve import known_loads
 from icsolve.solve.stability import holding_values
 from icsolve.sweep.numbers import find_number, with_numbers
 from reference import frame_of, points_of
-from rough_scenes import KINDS, TOUCHING, Rough
+from rough_scenes import KINDS, TOUCHING, Rough, band
 from shell import Shell
 from sizes import FULL
 
@@ -172,6 +174,24 @@ def test_a_load_begins_and_ceases_to_hold_at_the_ends_of_its_range(
     assert [one.value for one in found] == pytest.approx(ends, rel=1e-12, abs=1e-13)
     words = {held[0]: ("slips", "holds"), held[1]: ("holds", "slips")}
     assert [(one.before, one.after) for one in found] == [words[end] for end in ends]
+
+
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind is not band])
+def test_the_range_of_a_load_that_varies_is_worked_out_once(
+    kind: Callable[[Random], Rough], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whatever values are tried, the case whose unknown it is says the same: one scene with friction, and one
+    without, by which the load does work (on a band it does none, and the others say)."""
+    dice, rough, _, (low, high) = drawn(kind, 0)
+    scenes: list[icsolve.Case] = []
+
+    def counted(case: icsolve.Case, **asked: bool) -> icsolve.Answer:
+        scenes.append(case)
+        return solve_scene(case, **asked)
+
+    monkeypatch.setattr(known_loads, "solve_scene", counted)
+    holding_values(rough.case(f"{dice.uniform(low, high):.3f}"), "loads.F", low, high)
+    assert len(scenes) <= 2
 
 
 @pytest.mark.parametrize("kind", KINDS)

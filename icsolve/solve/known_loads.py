@@ -57,13 +57,14 @@ def asked_of(case: Case, path: str = "") -> AskedLoad | None:
     outside: AskedLoad | None = None
     refusal: SceneError | None = None
     for one, load, number in _one_unknown(case, path):
-        if not _works(one):
+        if not _works(SaidCase(smooth(one))):
             continue
         value, varied = number.value, bool(path) and number.path == path
         try:
-            held = _held(one, load.name, not varied)
+            said = SaidCase(one)
+            held = _held(said, load.name, not varied)
             if not held.low <= value <= held.high and math.isinf(held.high - held.low):
-                held = _held(one, load.name, False)
+                held = _held(said, load.name, False)
         except SceneError as error:
             refusal = error
             continue
@@ -117,19 +118,36 @@ def _known(case: Case) -> Iterator[tuple[Load, Number]]:
             yield load._replace(value=None), load.value
 
 
-@lru_cache(maxsize=256)  # of a load or a coefficient that varies it is one case
-def _works(case: Case) -> bool:
-    """Whether an unknown load does work: one that does none holds by the friction alone that it makes."""
+class SaidCase:
+    """A case that is equal to any that says the same: where a load or a coefficient varies, what does not
+    hang on it is asked once."""
+
+    def __init__(self, case: Case) -> None:
+        self.case = case
+        self.said = tuple([tuple(v.items()) if type(v) is dict else v for v in vars(case).values()])
+
+    def __hash__(self) -> int:
+        return hash((self.case.joints, self.case.loads))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, SaidCase) and self.said == other.said
+
+
+@lru_cache(maxsize=256)
+def _works(said: SaidCase) -> bool:
+    """Whether an unknown load does work, in a case without friction: one that does none holds by the friction
+    alone that it makes."""
     try:
-        solve_scene(smooth(case))
+        solve_scene(said.case)
     except SceneError:
         return False
     return True
 
 
 @lru_cache(maxsize=256)
-def _held(case: Case, load: str, alone: bool) -> Held:
+def _held(said: SaidCase, load: str, alone: bool) -> Held:
     """Where it holds still; with ``alone`` it is not told where it holds again beyond a range without end."""
+    case = said.case
     try:
         answer = solve_scene(case, alone=alone, reactions=not has_friction(case))
     except SceneError as refusal:
@@ -222,7 +240,7 @@ def _of_motion(case: Case) -> str:
     """What would keep up the given motion; raises SceneError where no load does."""
     refusal = SceneError(Status.NO_VALUE, "no load does work.")
     for one, load, number in _one_unknown(replace(case, expect=())):
-        if _works(replace(one, motion=())):
+        if _works(SaidCase(smooth(replace(one, motion=())))):
             try:
                 found = solve_scene(one).answers[load.name]
             except SceneError as error:
