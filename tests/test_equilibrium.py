@@ -2009,3 +2009,25 @@ loads:
     known = icsolve.load(text.format(**numbers, ab=unknown, load="T: {torque: 0, link: 2}"))
     (position,) = icsolve.solve(known).positions
     assert position.at["angles.AB"] == pytest.approx(rest, abs=1e-6)
+
+
+@pytest.mark.parametrize("free", [40, 205, 215, 300, 400, -145, -155, -300])
+@pytest.mark.parametrize("written", [40, 209, -149])
+def test_a_torsion_spring_whose_free_angle_varies_is_wound_as_if_written_so(free: int, written: int) -> None:
+    """free - angle lies within half a turn where the crank stands as written, in rows in which it moves too,
+    and goes on from there: to 1e-12 of the spring's torque."""
+    text = """icsolve: 1
+points: {{A: [0, 0]}}
+lengths: {{AB: 1}}
+angles: {{AB: 30}}
+links: {{2: [B]}}
+joints: [{{pin: [1, 2], at: A}}]
+loads: {{S: {{spring: 10 N*m/rad, corner: AB, free: {free}, link: 2}}, U: {{torque: unknown, link: 2}}}}
+"""
+    true = icsolve.solve(icsolve.load(text.format(free=free))).answers["U"].value
+    case = icsolve.load(text.format(free=written))
+    assert icsolve.sweep(case, {"loads.S.free": [free]}).answers["U"] == pytest.approx(true, rel=1e-12)
+    turned = [30.0, 31.0, 80.0, -80.0]
+    rows = icsolve.sweep(case, {"loads.S.free": [free] * 4, "angles.AB": turned}).answers["U"]
+    stretched = [true + 10.0 * math.radians(at - 30.0) for at in turned]
+    assert rows.tolist() == pytest.approx(stretched, rel=1e-12)

@@ -260,6 +260,25 @@ loads:
 """
 
 
+@pytest.mark.parametrize("shared", [False, True], ids=["one rope", "two ropes that share"])
+@pytest.mark.parametrize("moves", [False, True], ids=["a structure", "beside a link that moves"])
+def test_ropes_that_hold_a_link_are_slack_where_they_would_push(
+    shared: bool, moves: bool, shown: Any
+) -> None:
+    case = """icsolve: 1
+points: {A: [0, 0], B: [2, 0], C: [3, 0], D: [2, 2], E: [3, 2.5], F: [4, 0], O: [6, 0], Q: [7, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {rope: [B, D], on: [2, 1]}
+"""
+    case += "  - {rope: [C, E], on: [2, 1]}\n" if shared else ""
+    case += "  - {pin: [1, 3], at: O}\n" if moves else ""
+    case += "loads:\n  P: {force: 100, link: 2, at: F, angle: -90}\n"
+    case += "  W: {weight: 10, link: 3, at: Q}\n  T: {torque: unknown, link: 3}\n" if moves else ""
+    changes = [{"loads.P": "50"}, {"loads.P": "-50"}, {"loads.P.angle": "80"}]
+    assert compare(shown(case), case, changes) == ["ok", "slack", "slack"]
+
+
 @pytest.mark.parametrize("name", ["quick_return_lever", "rolling_disk", "hoist_starting"])
 def test_a_motion_the_other_way_is_solved_as_solve_does(name: str, shown: Any) -> None:
     """An acceleration is faster in the sense of the speed, whichever that was as the page was made."""

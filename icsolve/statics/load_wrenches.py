@@ -307,13 +307,16 @@ def spring_angle(load: TorsionSpring, points: Points, arithmetic: Arithmetic) ->
     """
     x, y = corner_vector(load, points)
     counted, about = getattr(arithmetic, "turns", None), load.free.value if load.about is None else load.about
-    angle = arithmetic.angle(x, y)
+    angle, free, wound = arithmetic.angle(x, y), arithmetic.given(load.free), None
     if callable(counted):
-        angle = counted(x, y, arithmetic.given(load.free) if load.about is None else about)
+        angle = counted(x, y, free if load.about is None else about)
         if not getattr(arithmetic, "follows", True):  # in every row within half a turn
             return angle
+        if not isinstance(free, float):  # it varies: in every row as if written so
+            wound = 360.0 * getattr(arithmetic, "nearest", round)((free - about) / 360.0 - HALF_TURN)
     whole = math.ceil((about - float(angle) - 180.0) / 360.0 - HALF_TURN)
-    return angle + 360.0 * whole if whole else angle
+    angle = angle + 360.0 * whole if whole else angle
+    return angle if wound is None else angle + wound
 
 
 def counted_about(case: Case, angles: Mapping[str, float]) -> Case:

@@ -740,9 +740,9 @@ function sceneAsPlaced(told, x, figure) {
   const values = told.loads.map((load, n) => loads[n][4] * (root.has(load.root) ? root.get(load.root) : loads[n][5]));
   const thrusts = thrustsOf(told, loads, values, threads, figure.points);
   const solved = { motions, twists, values, loads, bases, courses, thrusts, own: ownOf(told, bases), power: found.power };
-  if (told.ropes.length && found.unknown.length) {
-    const { ropes, most } = reactionsOf({ solved });
-    if (ropes.some((pull) => pull !== null && pull < -1e-11 * most)) refuse("slack");
+  if (told.ropes.length && (found.unknown.length || !motions.mobility)) {
+    const { ropes, most, shares } = reactionsOf({ solved });
+    if (!shares || ropes.some((pull) => pull !== null && pull < -1e-11 * most)) refuse("slack");
   }
   return solved;
 }

@@ -230,11 +230,12 @@ function reactionsOf({ solved }) {
   const count = columns.length + live.ropes.length;
   const { basis } = nullSpace(rows, count + 1, 1e-12);
   const first = basis.reduce((best, v) => (!best || abs(v[count]) > abs(best[count]) ? v : best), null);
-  if (!first || abs(first[count]) < 1e-9) return { loads: loadsNow, most, joints: live.bonds.map(() => null), ropes: live.ropes.map(() => null) };
+  if (!first || abs(first[count]) < 1e-9) return { loads: loadsNow, most, joints: live.bonds.map(() => null), ropes: live.ropes.map(() => null), shares: true };
   const unit = first.map((v) => v / first[count]);
   const open = basis.filter((v) => v !== first).map((v) => v.map((x, k) => x - v[count] * unit[k]));
   const isOpen = (n) => open.some((v) => abs(v[n]) > 1e-9);
   const ropes = live.ropes.map((_, k) => (isOpen(columns.length + k) ? null : unit[columns.length + k] * most));
+  const shares = canShare(live.ropes.map((_, k) => [unit, ...open].map((v) => v[columns.length + k])), open.length);
   const joints = live.bonds.map((_, k) => {
     const own = columns.map((c, n) => n).filter((n) => columns[n][0] === k);
     if (own.some(isOpen)) return null;
@@ -242,7 +243,18 @@ function reactionsOf({ solved }) {
     const thrust = screw < 0 ? [0, 0, 0] : solved.thrusts[screw];
     return [0, 1, 2].map((m) => own.reduce((sum, n) => sum + unit[n] * most * columns[n][1][m], -thrust[m]));
   });
-  return { loads: loadsNow, most, joints, ropes };
+  return { loads: loadsNow, most, joints, ropes, shares };
+}
+/* Whether what is open, so many numbers, can be such that none of the rows, a value and the shares in these, is
+   less than zero: one number after the other is eliminated. Rows without a share are told by themselves. */
+function canShare(rows, count) {
+  let left = rows.map((row) => row.map((v, k) => (k && abs(v) <= 1e-9 ? 0 : v))).filter((row) => row.some((v, k) => k && v));
+  for (let k = count; k; k--) {
+    const above = left.filter((row) => row[k] > 0), below = left.filter((row) => row[k] < 0);
+    const between = above.flatMap((a) => below.map((b) => a.slice(0, k).map((v, n) => v / a[k] - b[n] / b[k])));
+    left = [...left.filter((row) => !row[k]), ...between];
+  }
+  return left.every(([value]) => value >= -1e-11);
 }
 /* What acts on a link: names, forces, couples about where they act. */
 function actingOn(state, link) {
