@@ -279,6 +279,43 @@ joints:
     assert compare(shown(case), case, changes) == ["ok", "slack", "slack"]
 
 
+TIED = """icsolve: 1
+points: {A: [0, 0], P: [1, 2], C: [1, unknown]}
+lengths: {AB: 0.5}
+angles: {AB: 30}
+near: {C: [1, 0.3]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {slide: [3, 1], at: C, along: 90}
+  - {rope: [B, P, C], on: [2, 1, 3], length: 3.2, radii: {P: 0.2}, wraps: {P: cw}}
+loads:
+  W: {force: 10, link: 3, at: C, angle: -90}
+  V: {force: 30, link: 2, at: B, angle: -90}
+  T: {torque: unknown, link: 2}
+"""
+
+
+def test_a_rope_of_given_length_places_what_hangs_on_it_as_numbers_are_typed(shown: Any) -> None:
+    """Also where it only repeats what coordinates say: then it has to fit them."""
+    changes = [{"loads.W": "50"}, {"angles.AB": "50"}, {"joints.B-P-C.length": "3.0"}, {"loads.W": "-5"}]
+    assert compare(shown(TIED), TIED, changes) == ["ok", "ok", "ok", "slack"]
+    low = icsolve.solve(icsolve.load(TIED)).points["C"][1]
+    repeated = TIED.replace("unknown]", f"{low!r}]")
+    changes = [{"loads.W": "50"}, {"points.C.y": "0.5"}, {"joints.B-P-C.length": "3.0"}]
+    assert compare(shown(repeated), repeated, changes) == ["ok", "inconsistent", "inconsistent"]
+
+
+def test_a_position_in_which_a_rope_would_push_is_slack(shown: Any) -> None:
+    """The page stands where the rope pulls; turned round the same loads balance there, and it would push."""
+    case = TIED.replace("AB: 30", "AB: {unknown: [0, 180]}").replace("  T: {torque: unknown, link: 2}\n", "")
+    case = case.replace(", radii: {P: 0.2}, wraps: {P: cw}", "")
+    page = shown(case)
+    (stands,) = icsolve.solve(icsolve.load(case)).positions
+    (same, _), (other, _) = page.run(AT_REST, [{}, {"loads.V": "-30", "loads.W": "-10"}])
+    assert float(same["value"]) == pytest.approx(stands.at["angles.AB"], abs=1e-6)
+    assert (same["status"], other["status"]) == ("ok", "slack")
+
+
 @pytest.mark.parametrize("name", ["quick_return_lever", "rolling_disk", "hoist_starting"])
 def test_a_motion_the_other_way_is_solved_as_solve_does(name: str, shown: Any) -> None:
     """An acceleration is faster in the sense of the speed, whichever that was as the page was made."""

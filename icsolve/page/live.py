@@ -8,9 +8,10 @@ page walks the steps, and eliminates with pivots of its own, so that what is sin
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from itertools import pairwise
+from itertools import count, pairwise
 from typing import Any
 
+from icsolve.assembly.conditions import CONDITIONS
 from icsolve.assembly.loci import gaps_of, intersection, is_round
 from icsolve.assembly.steps import Given, Mean, Meet, PointGroup, Step, aims, leading_to
 from icsolve.assembly.workspace import (
@@ -19,6 +20,8 @@ from icsolve.assembly.workspace import (
     LINE,
     MEAN,
     RAY,
+    ROPE,
+    Datum,
     Key,
     PlacedCase,
     Workspace,
@@ -46,7 +49,7 @@ from icsolve.scene.program import Evaluation, Program, Want, prepare
 from icsolve.scene.refusals import HANGS, rubs
 from icsolve.screws.joints import OFF_RADIUS, at_radius, freedoms, guide_direction
 from icsolve.screws.plane import Triple, force_wrench
-from icsolve.screws.ropes import RopePart, rope_parts
+from icsolve.screws.ropes import TOUCHING, RopePart, rope_parts
 from icsolve.statics import load_wrenches, power
 from icsolve.statics.load_wrenches import COUPLE, FORCE, inertia_forces, is_loaded
 from icsolve.structure.topology import Bond
@@ -149,6 +152,10 @@ class _CountingRecord(Record):
             self.springs[key] = (self.lifted(counted), about, start)
         return self.springs[key][0]
 
+    def round_it(self, signed: Scalar) -> Scalar:
+        """The angle over which a rope lies on a pulley, of one within half a turn [degrees]."""
+        return signed + 360.0 * self.nearest(0.5 - (signed + TOUCHING) / 360.0)
+
 
 class _ProgramWriter:
     """A case on a record whose inputs are its numbers."""
@@ -180,10 +187,17 @@ class _ProgramWriter:
         ends = [steps[-1].end if steps else 0]
         parts = {"scene": self._scene(bases, tree)}
         ends.append(len(self.record.nodes))
+        tied = [datum for datum in data_of(self.case) if datum.kind == ROPE and self._is_placed(datum)]
+        if tied:  # on what the scene has of the ropes
+            parts["tied"] = [CONDITIONS[ROPE](self.workspace, datum, 0).value for datum in tied]
+            ends.append(len(self.record.nodes))
         for name, made in self._dynamics() if is_loaded(self.case) else ():
             parts[name] = made
             ends.append(len(self.record.nodes))
         return Live(self._source(steps, parts, ends), self._data(steps, tree, bases))
+
+    def _is_placed(self, datum: Datum) -> bool:
+        return all(p in self.workspace.points for p in datum.points)
 
     def _points(self) -> Mapping[str, tuple[Scalar, Scalar]]:
         return {name: at for name, at in self.workspace.points.items() if isinstance(name, str)}
@@ -428,11 +442,14 @@ class _ProgramWriter:
         return {"name": rope.name, "points": rope.points, "parts": parts, "end": end}
 
     def _checks(self, place: Mapping[Key, int]) -> Iterable[list[Any]]:
-        """All data of the figure: kind, points, and the number's place among the inputs."""
+        """All data of the figure: kind, points, and the number's place among the inputs, of the length of a
+        rope that of what is off."""
+        tied = count()
         for datum in data_of(self.case):
-            if all(p in place for p in datum.points):
+            if self._is_placed(datum):
                 path = None if datum.kind in (MEAN, LINE) else number_of(self.case, datum).path
                 number = None if path is None else self.paths.index(path)
+                number = next(tied) if datum.kind == ROPE else number
                 yield [datum.kind, [place[p] for p in datum.points], number]
 
     def _rolls(self, place: Mapping[Key, int]) -> Iterable[list[Any]]:

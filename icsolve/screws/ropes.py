@@ -182,7 +182,8 @@ def wrap_angle(
     (ax, ay), (bx, by) = before.along, after.along
     turned = arithmetic.angle(ax * bx + ay * by, ax * by - ay * bx)
     signed = turned if rope.wraps[k] == "ccw" else 0.0 - turned
-    round_it = signed + 360.0 if float(signed) < -TOUCHING else signed
+    counted = getattr(arithmetic, "round_it", None)  # of a record whose numbers are typed anew
+    round_it = counted(signed) if counted else signed + 360.0 if float(signed) < -TOUCHING else signed
     return (round_it + 360.0 * rope.whole_turns(k)) * arithmetic.ratio(DEGREE)
 
 

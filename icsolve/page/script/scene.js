@@ -98,11 +98,13 @@ function figureOf(program, told, x) {
   const s = [];
   const q = [];
   const [t, r, w] = [[], [], []];
-  const { steps, scene, rates, inertia } = program(x, s, q, t, r, w);
+  const { steps, scene, tied, rates, inertia } = program(x, s, q, t, r, w);
+  /* Where Newton's method stands with a point. */
+  function stand(k, at) { [q[2 * k], q[2 * k + 1]] = at; }
   const near = new Map(entries(told.near).map(([k, at]) => [Number(k), at]));
   for (const step of told.steps) {
     if (step.sign !== undefined) s[step.p[0]] = step.sign;
-    (step.start || []).forEach((at, n) => q.splice(2 * step.p[n], 2, ...at));
+    (step.start || []).forEach((at, n) => stand(step.p[n], at));
   }
   const size = () => {
     const own = Object.values(told.points).map((k) => points[k]).filter(Boolean);
@@ -208,7 +210,7 @@ function figureOf(program, told, x) {
     const found = [];
     const starts = [(k) => near.get(k), written, (k) => last.slice(2 * k, 2 * k + 2)];
     for (const start of starts) {
-      step.p.forEach((k, m) => q.splice(2 * k, 2, ...(start(k, m) || written(k, m))));
+      step.p.forEach((k, m) => stand(k, start(k, m) || written(k, m)));
       if (!iterate(n)) continue;
       const places = step.p.map((k) => [...points[k]]);
       if (!found.some((one) => one.every((at, m) => apart(at, places[m]) < 1e-9))) found.push(places);
@@ -220,7 +222,7 @@ function figureOf(program, told, x) {
   }
   function take(n, option) {
     const step = told.steps[n];
-    if (step.start) step.p.forEach((k, m) => q.splice(2 * k, 2, ...option[m]));
+    if (step.start) step.p.forEach((k, m) => stand(k, option[m]));
     else if (step.sign !== undefined) s[step.p[0]] = option;
     return run(n);
   }
@@ -242,6 +244,7 @@ function figureOf(program, told, x) {
   }
   function residual(kind, names, place) {
     const [p, o, v, w] = names.map((k) => points[k]);
+    if (kind === "rope") return scene() && [tied()[place], true];
     const value = place === null ? 0 : x[place];
     const turned = (d) => [cos((d * PI) / 180), sin((d * PI) / 180)];
     if (kind === "length") return [apart(p, o) - value * told.frame[2], true];
@@ -740,7 +743,7 @@ function sceneAsPlaced(told, x, figure) {
   const values = told.loads.map((load, n) => loads[n][4] * (root.has(load.root) ? root.get(load.root) : loads[n][5]));
   const thrusts = thrustsOf(told, loads, values, threads, figure.points);
   const solved = { motions, twists, values, loads, bases, courses, thrusts, own: ownOf(told, bases), power: found.power };
-  if (told.ropes.length && (found.unknown.length || !motions.mobility)) {
+  if (told.ropes.length && (found.unknown.length || told.posed.length || !motions.mobility)) {
     const { ropes, most, shares } = reactionsOf({ solved });
     if (!shares || ropes.some((pull) => pull !== null && pull < -1e-11 * most)) refuse("slack");
   }
