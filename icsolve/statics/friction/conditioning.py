@@ -15,16 +15,8 @@ from icsolve.numbers.balls import Ball, MoreDigits
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.friction.equations import Form, Lengths, Reduced, forces_of, smooth_normals, touching_of
 
-LARGE = 100.0
-"""Where a coefficient is larger other coordinates are worth their time."""
 SHARP = 2.0**-60
 """A ball is as good as a number where its radius is below this fraction of the largest in its row."""
-
-
-def is_large(equations: Reduced) -> bool:
-    """Whether some coefficient is."""
-    forms = (*equations.loads, *(form for forms in equations.equations.vectors for form in forms))
-    return any(abs(a) > LARGE for form in forms for a in form[1:])
 
 
 def conditioned(exact: Statics, senses: Sequence[float]) -> Reduced | None:

@@ -135,10 +135,15 @@ SHORT = 0.999
 """So far before its end an equilibrium is looked at."""
 
 
+LARGE = 100.0
+"""Where a coefficient is larger other coordinates are worth their time."""
+
+
 def well_told(statics: Statics, senses: Sequence[float], equations: Reduced) -> Reduced:
     """The equations; beside a singular position in other coordinates, with the digits that it takes: rounding
     beside large coefficients loses solutions, and makes some that are none."""
-    if not coordinates.is_large(equations):
+    forms = (*equations.loads, *(form for forms in equations.equations.vectors for form in forms))
+    if all(abs(a) <= LARGE for form in forms for a in form[1:]):
         return equations
     if statics.asks is not None:
         with suppress(SceneError):  # no digits settle it
