@@ -142,10 +142,10 @@ def _moments(work: Worked, forces: Sequence[On], about: Vec, k: int, least: floa
     for on in forces:
         arm = subtract(on.at, about) if on.at is not None else ZERO
         if abs(arm[i] * on.force[j]) > least:
-            terms.append((1, product(work.length(arm[i]), work.number(on.force[j]))))
+            terms.append((1, product(work.number(arm[i]), work.number(on.force[j]))))
         if abs(arm[j] * on.force[i]) > least:
             sign = 1 if arm[j] < 0.0 else -1
-            terms.append((sign, product(work.length(abs(arm[j])), work.number(on.force[i]))))
+            terms.append((sign, product(work.number(abs(arm[j])), work.number(on.force[i]))))
         if abs(on.couple[k]) > least:
             terms.append((1, work.number(on.couple[k])))
     return formula(Sum(tuple(terms)), Num("0")) if terms else words("No force has an arm about it.")

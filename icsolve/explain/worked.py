@@ -68,9 +68,11 @@ class Worked(NamedTuple):
         """The digits of a number, among words."""
         return self.number(value).digits
 
-    def length(self, value: float) -> Num:
-        """A coordinate or distance to the figure's last place."""
-        places = self.digits - 1 - math.floor(math.log10(self.size)) if self.size > 0.0 else 0
+    def length(self, value: float, apart: float = 0.0) -> Num:
+        """A coordinate or distance to the figure's last place; or to that of what it is ``apart`` from
+        another."""
+        size = apart if NOTHING * self.size < apart < self.size else self.size
+        places = self.digits - 1 - math.floor(math.log10(size)) if size > 0.0 else 0
         if not 0 <= places <= 12 or abs(value) >= 10.0 ** (15 - places):
             return self.number(value)
         text = f"{value:.{places}f}"
@@ -87,7 +89,8 @@ class Worked(NamedTuple):
 
     def difference(self, to: float, start: float) -> Expr:
         """One coordinate less another."""
-        return Sum(((1, self.length(to)), (-1, self.length(start))))
+        apart = abs(to - start)
+        return Sum(((1, self.length(to, apart)), (-1, self.length(start, apart))))
 
     def statement(self) -> Statement:
         """The words of the case, its numbers as they are written, or with these digits."""
@@ -217,7 +220,7 @@ def lever(
         return found, [said, formula(found.name, Trig("cos", between), found.number)]
     arm = (at[0] - about[0]) * direction[1] - (at[1] - about[1]) * direction[0]
     arm = arm if abs(arm) > NOTHING * math.dist(at, about) else 0.0
-    found = Lever(Name("h", low), work.length(arm), arm)
+    found = Lever(Name("h", low), work.number(arm), arm)
     across, up = (work.difference(to, start) for to, start in zip(at, about, strict=True))
     moments = Sum(((1, product(across, Trig("sin", written))), (-1, product(up, Trig("cos", written)))))
     turns = f", positive where it turns link {link} counterclockwise:"
