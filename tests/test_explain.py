@@ -210,31 +210,23 @@ def moment_sums(text: str) -> list[list[str]]:
     return [[python_of_text(side) for side in line.strip().split(" = ")] for line in below]
 
 
-@pytest.mark.parametrize("block", range(5 if FULL else 1))
-def test_arms_have_the_digits_of_forces(block: int) -> None:
-    """However short an arm is beside the figure, the sum of moments is zero to six digits of each number."""
-    checked = 0
-    for seed in range(20 * block, 20 * block + 20):
-        kind = mechanisms.ALL[seed % len(mechanisms.ALL)]
-        case = icsolve.load(transcribe.text(loading.drawn(seed % 40, kind)))
-        checked += check(moment_sums(explain(case, digits=DIGITS, bodies=True)), 1e-300)
-    assert checked >= 20
-
-
-@pytest.mark.parametrize("near", ["1e-3", "1e-6"])
+@pytest.mark.parametrize("near", ["1.23456e-3", "1.23456e-6"])
 def test_points_that_nearly_fall_together_are_told_apart_by_six_digits(near: str) -> None:
-    """The distance of a torque's point of force from its pin, in a figure of 5 m."""
+    """The arm of a force about its pin, in a figure of 5 m: in its own formula, and among moments that add up
+    to zero to six digits of each number."""
     case = icsolve.load(f"""icsolve: 1
 points: {{A: [1, 2], B: [{1 + float(near)}, 2], C: [5, 0]}}
 joints: [{{pin: [1, 2], at: A}}]
 loads:
   T: {{torque: unknown, link: 2}}
-  P: {{force: 7, link: 2, at: B, angle: 90}}
-  Q: {{force: 3, link: 2, at: C, angle: 0}}
+  P: {{force: 7000, link: 2, at: B, angle: 90}}
 """)
-    (line,) = (line for line in explain(case, digits=DIGITS).splitlines() if line.startswith("    h_P = "))
+    said = explain(case, digits=DIGITS, bodies=True)
+    (line,) = (line for line in said.splitlines() if line.startswith("    h_P = "))
     sides = [python_of_text(side) for side in line.strip().split(" = ")]
     assert value(sides[1]) == pytest.approx(float(near), rel=1e-5)
+    (moments,) = moment_sums(said)
+    assert check([moments], 1e-300) == 1
 
 
 AT_REST = sorted(name for name in FILES if name.startswith("equilibrium/"))
