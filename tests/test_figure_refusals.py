@@ -399,3 +399,30 @@ def test_a_point_next_to_nothing_beside_the_figure_is_refused_wherever_the_figur
     turned = ((p, [x, y + off][:: 1 - 2 * axis]) for p, (x, y) in places.items())
     text = f"points: {{{', '.join(f'{p}: {at}' for p, at in turned)}}}\n" + LOOP
     assert_refused(text, Status.NEAR_SINGULAR, "point B, with 1e-150, cannot be told from nothing")
+
+
+@pytest.mark.parametrize(
+    ("second", "carrier", "mends"),
+    [
+        ("{pin: [1, 2], at: C}", "", "let one pin join each of them to their carrier"),
+        ("{pin: [1, 2], at: C}", ", carrier: 1", "let one pin join each of them to their carrier"),
+        ("{pin: [4, 2], at: C}\n  - {pin: [4, 3], at: D}", "", "give `carrier:` the link"),
+    ],
+)
+def test_wheels_with_several_pairs_of_pins_are_told_what_would_mend_them(
+    second: str, carrier: str, mends: str
+) -> None:
+    """Two pins between a wheel and its carrier are no choice of a carrier, whether that is given or not."""
+    text = f"""icsolve: 1
+points: {{A: [0, 0], B: [3, 0], C: [1, 1], D: [2, 1]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [1, 3], at: B}}
+  - {second}
+  - {{gears: [2, 3], teeth: [20, 40]{carrier}}}
+loads: {{T: {{torque: unknown, link: 2}}, Q: {{torque: 5, link: 3}}}}
+"""
+    with pytest.raises(SceneError) as refusal:
+        icsolve.solve(icsolve.load(text))
+    assert refusal.value.status == Status.AMBIGUOUS
+    assert mends in refusal.value.message

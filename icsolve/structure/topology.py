@@ -226,5 +226,8 @@ def _pivots(
             "(the frame or an arm) and they can turn about those pins.",
         )
     ways = " or ".join(sorted(f"{p}-{q}" for p, q in found))
-    message = f"the {names} could turn about several pairs of pins ({ways}): give `carrier:` the link."
+    mend = "give `carrier:` the link."
+    if len(set(found.values())) == 1:  # two links that are pinned twice do not turn
+        mend = "let one pin join each of them to their carrier, or weld what does not turn."
+    message = f"the {names} could turn about several pairs of pins ({ways}): {mend}"
     raise SceneError(Status.AMBIGUOUS, message)
