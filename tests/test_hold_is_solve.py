@@ -226,16 +226,23 @@ def test_between_two_values_that_are_found_it_holds_or_slips_as_solve_says(
 def test_where_nothing_changes_it_is_told_whether_it_holds(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """A block on a slope of 30 degrees: by friction from mu = tan 30 on."""
+    """A block on a slope of 30 degrees: by friction from mu = tan 30 on. Of a load's own number the range is
+    known, of another the places that were looked at."""
     text = "joints: [{slide: [2, 1], at: C, along: 30, mu: 0.3}]\nloads: {Q: {weight: 9, link: 2, at: C}}\n"
     case = tmp_path / "case.yaml"
     case.write_text("icsolve: 1\npoints: {C: [0, 0]}\n" + text)
     shell = Shell(capsys)
-    for span, said in (("0:0.5:0.1", "slips"), ("0.6:0.9:0.1", "holds still")):
-        (found,) = shell("sweep", case, "--vary", f"joints.C.mu={span}", "--find", "hold", "--json").objects()
-        assert (found["found"], found["notes"]) == ([], [f"it {said} throughout."])
-        told = shell("sweep", case, "--vary", f"joints.C.mu={span}", "--find", "hold")
-        assert told.code == 0 and f"it {said} throughout." in told.err
+    looked = "at all 33 places that were looked at."
+    for vary, said in (
+        ("joints.C.mu=0:0.5:0.1", f"it slips {looked}"),
+        ("joints.C.mu=0.6:0.9:0.1", f"it holds still {looked}"),
+        ("loads.Q=1:9:1", "it slips throughout."),
+    ):
+        (found,) = shell("sweep", case, "--vary", vary, "--find", "hold", "--json").objects()
+        assert (found["found"], found["notes"]) == ([], [said])
+        told = shell("sweep", case, "--vary", vary, "--find", "hold")
+        assert told.code == 0
+        assert said in told.err
 
 
 def test_positions_of_rest_say_that_friction_has_no_part_in_them(

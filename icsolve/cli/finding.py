@@ -247,9 +247,11 @@ def _notes(case: Case, word: str, along: str, low: float, found: bool) -> Iterat
     if word == "rest" and has_friction(case):
         yield FRICTIONLESS
     if word == "hold" and not found:
-        from icsolve.solve.stability import is_still
+        from icsolve.solve.stability import CUTS, is_still
 
-        yield f"it {'holds still' if is_still(case, along, low) else 'slips'} throughout."
+        whole = along.count(".") == 1 and along.startswith("loads.")  # its range is one of `solve`
+        where = "throughout" if whole else f"at all {CUTS + 1} places that were looked at"
+        yield f"it {'holds still' if is_still(case, along, low) else 'slips'} {where}."
 
 
 def _found(
