@@ -85,14 +85,16 @@ def test_a_group_takes_the_way_nearest_to_near(links: int, spread: float) -> Non
 @pytest.mark.parametrize("links", [4, 5, 6, 7])
 def test_of_all_ways_of_a_group_none_is_nearer_however_rough_near_is(links: int) -> None:
     """Off by about the length of a rod. Every way is listed by exclusion; the one that is taken is the
-    nearest of them."""
+    nearest of them. Where a draft by chance has points that are placed one by one, `near` may be so rough
+    that what lies there does not assemble: it is refused, and told where another lies."""
     for seed in range(MORE if MORE > 1 else 1 + (links < 6)):
         draft = linkage(9000 + 100 * links + seed, links)
         for p in draft.names:
             if p not in draft.points:
                 draft.approximately(p, 1.2)
-        case = draft.case()
-        places = unless_even(case)
+        case, places = draft.case(), None
+        if AT_NEAR not in refusal(case):
+            places = unless_even(case)
         if places is not None:
             ways = modes.ways_of(case)
             assert ways.complete
