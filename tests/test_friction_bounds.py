@@ -99,12 +99,26 @@ def many_digits(case: icsolve.Case, found: SlidingSolution) -> Exact:
 
 
 def rubbed(found: SlidingSolution, exact: Exact, values: dict[int, Any], k: int) -> Any:
-    """What is left of a friction: against its sense, as large as its coefficient times its force."""
+    """What is left of a friction: against its sense, as large as its coefficient times its force. Where that
+    vanishes, at the kink that Newton's method does not settle at, there is none."""
+    if is_idle(found, k):
+        return values[found.statics.rub(k)]
+    return values[found.statics.rub(k)] + found.senses[k] * exact.statics.rubs[k].limit * pressed(
+        found, exact, values, k
+    )
+
+
+def pressed(found: SlidingSolution, exact: Exact, values: dict[int, Any], k: int) -> Any:
+    """The size of the force that presses at a rub."""
     rub = exact.statics.rubs[k]
     first = found.statics.first[rub.tie]
     force = [sum(a * values[first + n] for n, a in enumerate(row)) for row in rub.normal]
-    size = mp.sqrt(sum(f * f for f in force))
-    return values[found.statics.rub(k)] + found.senses[k] * rub.limit * size
+    return mp.sqrt(sum(f * f for f in force))
+
+
+def is_idle(found: SlidingSolution, k: int) -> bool:
+    """Whether the friction of a rub is no more than rounding beside the largest force."""
+    return abs(found.values[found.statics.rub(k)]) <= 2.0**-50 * max(map(abs, found.values.values()))
 
 
 def true_load(case: icsolve.Case, found: SlidingSolution) -> Any:
@@ -139,7 +153,10 @@ def true_solution(case: icsolve.Case, found: SlidingSolution) -> Exact:
             break
         for c, row in zip(columns, inverse, strict=True):
             values[c] -= sum(mpf(float(a)) * r for a, r in zip(row, rest, strict=True))
-    assert max(map(abs, residuals(values))) <= mpf(10) ** -25 * max(map(abs, values.values()))
+    largest = max(map(abs, values.values()))
+    assert max(map(abs, residuals(values))) <= mpf(10) ** -25 * largest
+    idle = [k for k in range(len(exact.statics.rubs)) if is_idle(found, k)]
+    assert all(pressed(found, exact, values, k) <= mpf(10) ** -25 * largest for k in idle if found.senses[k])
     return exact._replace(values=values)
 
 
