@@ -280,19 +280,17 @@ def _by_power(work: Worked) -> Iterable[Section]:
 def ends_sections(work: Worked) -> Iterable[Section]:
     """The ends of a range in which friction holds: how it is about to move, power and the free bodies of
     each; the ratios of the speeds, which are those of both, once."""
-    told: set[str] = set()
-    for way, answer in work.answer.about_to_move:
+    for n, (way, answer) in enumerate(work.answer.about_to_move):
         twists = {link: (way * x, way * y, way * w) for link, (x, y, w) in work.known.twists.items()}
         here = work._replace(known=work.known._replace(answer=answer, twists=twists))
         (name, found), *_ = answer.answers.items()
         at = f" where {name} = {work.show(found.value)} {found.unit}"
         yield Section(f"About to move{at}", (words(f"{_about_to(here)}:"), *rubbing_blocks(here)))
         for section in (*_by_power(here), *bodies_sections(here)):
-            if section.title == RATIOS and section.title not in told:
-                yield section
-            elif section.title != RATIOS:
+            if section.title != RATIOS:
                 yield section._replace(title=f"{section.title}{at}")
-            told.add(section.title)
+            elif n == 0:
+                yield section
 
 
 def _about_to(work: Worked) -> str:
@@ -301,7 +299,7 @@ def _about_to(work: Worked) -> str:
     link = next(link for link in known.twists if is_link(link) and not known.rests(link))
     twist = known.twists[link]
     if known.turns(link):
-        return f"Link {link} is about to turn {'counterclockwise' if twist[2] > 0.0 else 'clockwise'}"
+        return f"Link {link} is about to turn {spelt('ccw' if twist[2] > 0.0 else 'cw')}"
     x, y = velocity(twist, FRAME)
     return f"Link {link} is about to move toward {direction_words(math.degrees(math.atan2(y, x)))}"
 
