@@ -355,8 +355,11 @@ def codes(mistakes: tuple[Wrong, ...]) -> str:
     return mistakes[0].code if len(mistakes) == 1 else " ".join(mistake.code for mistake in mistakes)
 
 
-def feedback(key: AnyKey, judged: Judgement, reveal: bool = False) -> str:
-    """What the student is told; never the answer, unless it is right or the course reveals it."""
+def feedback(key: AnyKey, judged: Judgement, reveal: bool = False, by_person: bool = True) -> str:
+    """What the student is told; never the answer, unless it is right or the course reveals it.
+
+    ``by_person`` says whether a person looks at what waits for one: else it has to be written otherwise.
+    """
     if judged.verdict == RIGHT:
         noted = " Mind the capitals of its unit." if judged.code else ""
         return f"Right: {key.accepted} is accepted.{noted}"
@@ -368,25 +371,29 @@ def feedback(key: AnyKey, judged: Judgement, reveal: bool = False) -> str:
         return said + (band if reveal or judged.mistakes[0].code == "near-miss" else "")
     if judged.verdict == WRONG:
         return f"Not right.{band}"
-    return UNJUDGED.get(judged.code, "This can't be read as an answer.")
+    why, advice = UNJUDGED.get(judged.code, ("This can't be read as an answer", ""))
+    looked_at = "; a person will look at it" if judged.verdict == IN_REVIEW and by_person else ""
+    return f"{why}{looked_at}. {advice}".rstrip()
 
 
 UNJUDGED = {
-    MISSING: "No answer was given.",
-    UNREAD: "This can't be read surely; a person will look at it. Write a number, a unit and a direction, "
-    "such as '41.2 N*m ccw'.",
-    "no-number": "There is no number in this.",
-    "too-long": "This is too long to be read as an answer; a person will look at it.",
-    "ambiguous-number": "This number can be read in two ways; a person will look at it. Write no commas.",
-    "ambiguous-direction": "Sign and words, or words alone, say two directions; a person will look at it.",
-    "ambiguous-unit": "This unit has several meanings; a person will look at it.",
-    "two-values": "There are two values in this; a person will look at it.",
-    OTHER_NAME: "This is named as another quantity than the one that is asked for; a person will look at it.",
-    SQUARE: "These words are square to the answer's direction; a person will look at it.",
-    BY_ANGLE: "A direction in words is for a person to judge here; an angle, as 'at 30 deg', is not.",
-    "no-direction": "In which direction it lies at infinity is not said; a person will look at it.",
+    MISSING: ("No answer was given", ""),
+    UNREAD: (
+        "This can't be read surely",
+        "Write a number, a unit and a direction, such as '41.2 N*m ccw'.",
+    ),
+    "no-number": ("There is no number in this", ""),
+    "too-long": ("This is too long to be read as an answer", ""),
+    "ambiguous-number": ("This number can be read in two ways", "Write no commas."),
+    "ambiguous-direction": ("Sign and words, or words alone, say two directions", ""),
+    "ambiguous-unit": ("This unit has several meanings", ""),
+    "two-values": ("There are two values in this", ""),
+    OTHER_NAME: ("This is named as another quantity than the one that is asked for", ""),
+    SQUARE: ("These words are square to the answer's direction", ""),
+    BY_ANGLE: ("This direction in words is not judged by itself", "Write an angle, as 'at 30 deg'."),
+    "no-direction": ("In which direction it lies at infinity is not said", ""),
 }
-"""What is told where nothing was judged, by the flag."""
+"""What is told where nothing was judged, by the flag: why, and how to write it."""
 
 
 def judge_place(key: PlaceKey, written: WrittenPlace) -> Judgement:

@@ -67,11 +67,12 @@ class Task:
         Returns
         -------
         dict[str, Any]
-            ``verdict``, ``score`` from 0 to 1, ``code`` and ``feedback``.
+            ``verdict``, ``score`` from 0 to 1, ``code`` and ``feedback``, which speaks to the student as no
+            person will look at it.
         """
         key = self._key(what)
         judged, _ = judge_answer(key, Reader(self._course.decimal), answer)
-        told = feedback(key, judged, self._course.reveal)
+        told = feedback(key, judged, self._course.reveal, by_person=False)
         return {"verdict": judged.verdict, "score": judged.share, "code": judged.code, "feedback": told}
 
     def _key(self, what: str) -> AnyKey:

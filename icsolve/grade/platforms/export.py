@@ -34,10 +34,10 @@ from icsolve.wording.statement import Statement
 _SERVER = '''\
 """A question of icsolve: values by student, and marks with the cause of a mistake.
 
-It needs icsolve where PrairieLearn finds the Python modules of a course, in serverFilesCourse; in the
-course's folder:
+It needs icsolve {version} where PrairieLearn finds the Python modules of a course, in serverFilesCourse. In
+the folder that icsolve was installed from, with the version of Python that PrairieLearn runs:
 
-    python -m pip install --target serverFilesCourse {pins}
+    python -m pip install --target COURSE/serverFilesCourse . {pins}
 """
 
 from pathlib import Path
@@ -68,14 +68,18 @@ def file(data):
         return task(data).figure()
 
 
+def marked(data):
+    return task(data).grade(QUESTION, data["submitted_answers"].get("answer") or "")
+
+
 def parse(data):
-    marks = task(data).grade(QUESTION, data["submitted_answers"].get("answer", ""))
+    marks = marked(data)
     if marks["verdict"] in ("invalid", "missing", "review"):
         data["format_errors"]["answer"] = marks["feedback"]
 
 
 def grade(data):
-    marks = task(data).grade(QUESTION, data["submitted_answers"].get("answer", ""))
+    marks = marked(data)
     data["partial_scores"]["answer"] = {{"score": marks["score"], "weight": 1, "feedback": marks["feedback"]}}
     data["score"] = marks["score"]
 '''
@@ -103,21 +107,22 @@ def element(question: Question, text: str, course: str, varied: bool) -> dict[st
     varied : whether each student has a figure of their own
     """
     name, _, what = question.key.question.partition(":")
+    title, figure, (own, *pins) = question.title or question.key.question, "", pinned()
     about = {
         "uuid": str(uuid.uuid5(uuid.NAMESPACE_URL, f"icsolve:{question.name}")),
-        "title": question.title or question.name,
+        "title": title,
         "topic": "Instant centres",
         "tags": ["icsolve"],
         "type": "v3",
     }
-    figure = ""
+    title = escape(title)
     if question.picture:
         kind = ' type="dynamic"' if varied else ""
-        figure = f'\n  <pl-figure file-name="figure.svg"{kind}></pl-figure>'
+        figure = f'\n  <pl-figure file-name="figure.svg"{kind} alt="{title}"></pl-figure>'
     files = {
         "info.json": json.dumps(about, indent=2, ensure_ascii=False) + "\n",
-        "question.html": _HTML.format(title=escape(question.title or question.name), figure=figure),
-        "server.py": _SERVER.format(pins=" ".join(pinned()), file=f"{name}.yaml", question=what),
+        "question.html": _HTML.format(title=title, figure=figure),
+        "server.py": _SERVER.format(version=own, pins=" ".join(pins), file=f"{name}.yaml", question=what),
         f"{name}.yaml": text,
     }
     if course:
@@ -301,12 +306,12 @@ python="$base/venv/bin/python"
 
 
 def pinned() -> list[str]:
-    """icsolve and what it runs on, in the versions with which this export was made."""
+    """The version of icsolve, and what it runs on, in the versions with which this export was made."""
     from importlib.metadata import PackageNotFoundError, version
 
     import icsolve
 
-    found = [f"icsolve=={icsolve.__version__}"]
+    found = [icsolve.__version__]
     for name in ("numpy", "shapely", "click", "pyyaml"):
         try:
             found.append(f"{name}=={version(name)}")
