@@ -7,6 +7,7 @@ the figure's, for coordinates), and what that makes of the side is its tolerance
 
 from __future__ import annotations
 
+import ast
 import math
 import re
 from collections.abc import Callable, Iterable
@@ -29,6 +30,7 @@ from icsolve.explain import explain
 from icsolve.explain.document import ShownTable
 from icsolve.explain.given import exercise
 from icsolve.manual import template
+from icsolve.numbers.arithmetic import turn_of
 from icsolve.report.derivation.known import known_of
 from icsolve.screws.plane import velocity
 from icsolve.tuples import replace
@@ -45,16 +47,18 @@ NUMERAL = re.compile(r"(?<![\w.])\d+(?:\.\d+)?(?:e[+-]\d+)?(?![\w.])")
 
 
 def sin(degrees: float) -> float:
-    return math.sin(math.radians(degrees))
+    return turn_of(degrees)[1]
 
 
 def cos(degrees: float) -> float:
-    return math.cos(math.radians(degrees))
+    return turn_of(degrees)[0]
 
 
 FUNCTIONS = {
     "sin": sin,
     "cos": cos,
+    "tan": lambda degrees: sin(degrees) / cos(degrees),
+    "exp": math.exp,
     "sqrt": lambda x: math.sqrt(max(x, 0.0)),
     "pi": math.pi,
     "__builtins__": {},
@@ -75,7 +79,7 @@ def python_of_text(side: str) -> str:
 
 
 def only_numbers(side: str) -> bool:
-    bare = re.sub(r"sqrt|sin|cos|pi", "", NUMERAL.sub("", side))
+    bare = re.sub(r"sqrt|sin|cos|tan|exp|pi", "", NUMERAL.sub("", side))
     return not re.search(r"[A-Za-z|_]", bare)
 
 
@@ -96,9 +100,11 @@ def python_of_latex(side: str) -> str:
         side = opened(side, r"\frac", "(({0}) / ({1}))", 2)
     while r"\sqrt" in side:
         side = opened(side, r"\sqrt", "root({0})", 1)
+    while "e^{" in side:
+        side = opened(side, "e^", "exp({0})", 1)
     side = side.replace("^{2}", "**2").replace("root", "sqrt")
-    side = re.sub(r"\\(sin|cos) (-?[\d.]+)", r"\1(\2)", side)
-    side = re.sub(r"\\(sin|cos)\(", r"\1(", side).replace(r"\cdot", "*").replace(r"\pi", "pi")
+    side = re.sub(r"\\(sin|cos|tan) (-?[\d.]+)", r"\1(\2)", side)
+    side = re.sub(r"\\(sin|cos|tan)\(", r"\1(", side).replace(r"\cdot", "*").replace(r"\pi", "pi")
     return side if only_numbers(side) and "\\" not in side else ""
 
 
@@ -201,6 +207,76 @@ def test_equations_of_random_mechanisms_recompute(block: int) -> None:
         scene = loading.drawn(seed % 40, kind) if seed % 2 else random_mechanism(Random(seed))
         case = icsolve.load(transcribe.text(scene))
         assert check(text_equations(explain(case, digits=DIGITS)), known_of(case).size or 1.0) >= 1
+
+
+def terms_of(node: ast.expr) -> list[ast.expr]:
+    """The terms of a sum, without their signs."""
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
+        return terms_of(node.left) + terms_of(node.right)
+    return terms_of(node.operand) if isinstance(node, ast.UnaryOp) else [node]
+
+
+def disagreeing(text: str) -> list[tuple[str, str]]:
+    """Sides of numbers that do not come to the last side, as a calculator has them: to four digits, one more
+    than engineers quote; where it is 0, to four digits of the largest term."""
+    wrong = []
+    for sides in text_equations(text):
+        *numeric, last = [side for side in sides if side] or [""]
+        for side in numeric:
+            parts = [ast.unparse(term) for term in terms_of(ast.parse(side, mode="eval").body)]
+            scale = abs(value(last)) or max(abs(value(part)) for part in parts)
+            if abs(value(side) - value(last)) > 1e-4 * scale:
+                wrong.append((side, last))
+    return wrong
+
+
+@pytest.mark.parametrize("block", range(10 if FULL else 2))
+def test_equations_recompute_to_four_digits_where_loads_are_nearly_along_an_axis(block: int) -> None:
+    """Directions 1e-9 to 0.1 degree off the axes, whose smaller component is by all digits of the angle."""
+    for seed in range(15 * block, 15 * block + 15):
+        draw, kind = Random(f"axes {seed}"), mechanisms.ALL[seed % len(mechanisms.ALL)]
+        scene = loading.drawn(seed % 40, kind) if seed % 2 else random_mechanism(Random(seed))
+        for load in scene["loads"].values():
+            if "angle" in load:
+                load["angle"] = 90 * draw.randrange(4) + draw.choice([-1, 1]) * 10 ** draw.uniform(-9, -1)
+        assert not disagreeing(explain(icsolve.load(transcribe.text(scene)), digits=DIGITS, bodies=True))
+
+
+BESIDE = """icsolve: 1
+points: {{A: [{x}, {y}], {more}}}
+lengths: {{AB: {r}, BC: {l}{length}}}
+angles: {{AB: {angle}}}
+near: {{C: [{near}]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{{joint}}}]
+loads:
+  P: {{force: 100, link: 4, at: C, angle: {p}}}
+  Q: {{force: {q}, link: 3, at: B, angle: 90}}
+  M: {{torque: -0.8, link: 3}}
+  T: {{torque: unknown, link: {link}}}
+"""
+
+
+@pytest.mark.parametrize("block", range(10 if FULL else 2))
+def test_equations_recompute_to_four_digits_beside_singular_positions(block: int) -> None:
+    """Slider-cranks at their dead centres, four-bars whose coupler and rocker are all but in line: reactions
+    without an arm are up to 1e11 times the loads, which still have their moments in the sums. Nearer than
+    1e-10 degree the doubles of the points have not four digits of an arm."""
+    for seed in range(30 * block, 30 * block + 30):
+        draw = Random(f"beside {seed}")
+        gap, r = draw.choice([-1, 1]) * 10 ** draw.uniform(-10, 0), draw.choice([1, 0.35, 2.2])
+        x, y = draw.choice([0, 1, -3.25, 120.7]), draw.choice([0, 2, -0.75])
+        numbers = {"x": x, "y": y, "r": r, "l": 2.5 * r, "angle": repr(draw.choice([0, 180]) + gap)}
+        numbers |= {"p": draw.choice([0, 90, 179.9999, 33.3]), "q": draw.choice([0.01, 10, 1000])}
+        if seed % 2:
+            how = {"more": f"K: [{x}, {y}]", "length": ""}
+            how |= {"joint": "slide: [4, 1], at: C, along: 0, through: K"}
+            numbers |= how | {"near": f"{x + 3 * r}, {y}", "link": 2}
+        else:
+            d = x + draw.choice([3.5, 4]) * r
+            how = {"more": f"D: [{d}, {y}]", "length": f", CD: {2 * r}", "joint": "pin: [4, 1], at: D"}
+            numbers |= how | {"near": f"{d}, {y + 2 * r}", "link": draw.choice([2, 4])}
+        text = BESIDE.format(**numbers)
+        assert not disagreeing(explain(icsolve.load(text), digits=DIGITS, bodies=True)), text
 
 
 def moment_sums(text: str) -> list[list[str]]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from decimal import Decimal
 from fractions import Fraction
+from random import Random
 
 import pytest
 
@@ -103,3 +105,71 @@ def test_cranks_as_good_as_equal_bind_by_their_decimals(off: str) -> None:
 
 def _decimal(value: Fraction) -> str:
     return f"{Decimal(value.numerator) / Decimal(value.denominator)}"
+
+
+EXACT, HELD = "moves only because the figure is exact", "the motion does not depend on"
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_what_holds_a_part_in_itself_twice_does_not_make_the_others_move(seed: int) -> None:
+    """A slider-crank or a four-bar of any figure, one link of which carries more: a plate on two pins of it,
+    a triangle of bars and one bar over, a plate on one pin with two more pins in slots."""
+    draw = Random(f"held {seed}")
+    base = draw.choice("1234")
+    p, q, r, s = ([round(draw.uniform(-3, 3), 3) for _ in "xy"] for _ in range(4))
+    near = f"P: {p}, Q: {q}, R: {r}, S: {s}"
+    held, parts = draw.choice(
+        [
+            (f"{{pin: [{base}, 5], at: P}}, {{pin: [{base}, 5], at: Q}}", "5"),
+            (
+                f"{{pin: [{base}, 5], at: P}}, {{pin: [{base}, 6], at: Q}}, {{pin: [5, 6], at: R}}, "
+                f"{{pin: [5, 7], at: S}}, {{pin: [{base}, 7], at: R}}",
+                "567",
+            ),
+            (
+                f"{{pin: [{base}, 5], at: P}}, {{slot: [5, {base}], at: Q, along: 17}}, "
+                f"{{slot: [5, {base}], at: R, along: 62.5}}",
+                "5",
+            ),
+        ]
+    )
+    last = draw.choice(["{pin: [4, 1], at: D}", "{slide: [4, 1], at: C, along: 4}"])
+    said = note(
+        f"icsolve: 1\npoints: {{A: [0, 0], B: [1, 1.1], C: [4, 1.9], D: [3.7, -0.3], {near}}}\n"
+        f"joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {last}, {held}]\n"
+        "loads: {P1: {force: 9, link: 4, at: C, angle: 7}, U: {torque: unknown, link: 2}}\n"
+    )
+    assert "1 redundant constraint" in said
+    assert HELD in said
+    assert EXACT not in said
+    for link in (base, *parts):
+        assert re.search(rf"links [^;]*\b{link}\b", said), (link, said)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_rack_by_teeth_is_not_held_twice(seed: int) -> None:
+    """Teeth push along their line of action; a wheel that rolls without teeth keeps its distance too."""
+    draw = Random(f"rack {seed}")
+    r, y = draw.choice([20, 35.5, 40]), draw.choice([-7, 0, 12.25])
+    roll = f"roll: [2, 3], at: P, radii: [{r}, 0]"
+    text = (
+        f"icsolve: 1\npoints: {{A: [3, {y}], P: [3, {y - r}], R: [{draw.randint(30, 90)}, {y - r - 5}]}}\n"
+        f"joints: [{{pin: [1, 2], at: A}}, {{{roll}}}, {{slide: [3, 1], at: R, along: 0}}]\n"
+        "loads: {T: {torque: 10, link: 2}, F: {force: unknown, link: 3, at: R, angle: 180}}\n"
+    )
+    assert EXACT in note(text)
+    toothed = note(text.replace(roll, f"{roll}, pressure angle: {draw.choice([14.5, 20, 25])}"))
+    assert "redundant" not in toothed
+
+
+def test_wedges_and_a_part_that_is_held_twice_are_told_apart() -> None:
+    """Links that only slide on each other, and a plate on two pins of the frame."""
+    said = note(
+        "icsolve: 1\npoints: {A: [0, 0], B: [0.1, 0.05], C: [0.2, 0.2], P: [1, 1], Q: [2, 1.5]}\n"
+        "joints: [{slide: [w, 1], at: A, along: 0}, {slide: [b, w], at: B, along: 160},\n"
+        "  {slide: [b, 1], at: C, along: 90}, {pin: [1, p], at: P}, {pin: [1, p], at: Q}]\n"
+        "loads: {W: {weight: 10, link: b, at: C}, F: {force: unknown, link: w, at: A, angle: 180}}\n"
+    )
+    assert "2 redundant constraints" in said
+    assert EXACT not in said
+    assert HELD in said

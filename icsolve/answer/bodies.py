@@ -43,6 +43,12 @@ class Reaction(NamedTuple):
         """Force and couple along x, y and z."""
         return (self.x, self.y, 0.0), (0.0, 0.0, self.moment)
 
+    @property
+    def bounds(self) -> tuple[Parts, Parts] | None:
+        """Of the errors of the components; None where none is proven."""
+        x, y, moment = (self.errors.get(name) for name in ("x", "y", "moment"))
+        return ((x, y, 0.0), (0.0, 0.0, moment)) if self.errors else None
+
     def reversed(self) -> Reaction:
         """The force of ``on`` on ``by``: equal and opposite."""
         x, y, moment = (None if v is None else 0.0 - v for v in (self.x, self.y, self.moment))
@@ -74,6 +80,11 @@ class SpatialReaction(NamedTuple):
     def components(self) -> tuple[Parts, Parts]:
         """Force and couple along x, y and z."""
         return self.force, self.couple
+
+    @property
+    def bounds(self) -> tuple[Parts, Parts] | None:
+        """Of the errors of the components; None where none is proven."""
+        return self.errors
 
     @property
     def magnitude(self) -> float | None:

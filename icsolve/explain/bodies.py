@@ -20,17 +20,32 @@ from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 NOTHING = 1e-13
+ROUNDED = 2.0**-49
+"""What rounding makes of a coordinate, of its size: a few units of the last digit."""
 
 
 class On(NamedTuple):
     """A force and a couple on a link: symbol, place (None for a couple alone) and components, in force and in
-    force times length; in the plane a force along x and y, a couple about z."""
+    force times length; in the plane a force along x and y, a couple about z. ``rounding`` is what rounding
+    can make of each component; None where that is not known."""
 
     name: str
     low: str
     at: Vec | None
     force: Vec
     couple: Vec
+    rounding: tuple[Vec, Vec] | None = None
+
+    def plain(self, largest: float, reach: float) -> On:
+        """Without the components that rounding may have made; where that is not known, those that are
+        nothing beside the ``largest`` force and its moment."""
+        both = (self.force, self.couple)
+        least = self.rounding or ((NOTHING * largest,) * 3, (NOTHING * largest * reach,) * 3)
+        (a, b, c), (d, e, f) = (
+            (v if abs(v) > room else 0.0 for v, room in zip(*pair, strict=True))
+            for pair in zip(both, least, strict=True)
+        )
+        return self._replace(force=(a, b, c), couple=(d, e, f))
 
 
 def bodies_sections(work: Worked) -> Iterable[Section]:
@@ -78,13 +93,18 @@ def _acting_on(known: Known, link: str) -> Iterable[On | None]:
         for pull in rope_pulls(known, rope):
             if pull.link == link:
                 at, force = (*pull.at, 0.0), (*pull.force, 0.0)
-                yield None if pull.tension is None else On(*pull.symbol, at, force, ZERO)
+                yield None if pull.tension is None else load_on(*pull.symbol, at, force, ZERO)
     for acting in acting_loads(known):
         if link in (acting.link, acting.against) and is_link(acting.link):
             sign, own = 1.0 if link == acting.link else -1.0, load_name(acting.load.name)
             place = None if acting.at is None else (*acting.at, 0.0)
             force, couple = (*acting.force, 0.0), (0.0, 0.0, acting.couple)
-            yield On(own.base, own.low, place, times(sign, force), times(sign, couple))
+            yield load_on(own.base, own.low, place, times(sign, force), times(sign, couple))
+
+
+def load_on(name: str, low: str, at: Vec | None, force: Vec, couple: Vec) -> On:
+    """A load, whose components are as good as its direction."""
+    return On(name, low, at, force, couple, ((NOTHING * size(force),) * 3, ZERO))
 
 
 def _reaction(known: Known, name: str, r: Reaction | SpatialReaction) -> On | None:
@@ -94,7 +114,11 @@ def _reaction(known: Known, name: str, r: Reaction | SpatialReaction) -> On | No
         return None
     low = r.by + r.on if len(r.by) == len(r.on) == 1 else f"{r.by}-{r.on}"
     low, per = f"{low}@{r.where}," if "@" in name else low, known.case.units.torque_per_force_length
-    return On("F", low, spatial(r.at), (x, y, z), (mx / per, my / per, mz / per))
+    rounding = None
+    if r.bounds is not None:
+        force, (ex, ey, ez) = ((a or 0.0, b or 0.0, c or 0.0) for a, b, c in r.bounds)
+        rounding = (force, (ex / per, ey / per, ez / per))
+    return On("F", low, spatial(r.at), (x, y, z), (mx / per, my / per, mz / per), rounding)
 
 
 def link_section(
@@ -108,12 +132,13 @@ def link_section(
         said = "Its joints share the load in a way that equilibrium does not determine."
         return Section(title, (words(said),))
     largest = max((size(on.force) for on in found), default=0.0)
+    found = [on.plain(largest, reach) for on in found]
     place, where = about
     blocks: list[Block] = []
     for k, axis in enumerate(axes):
-        blocks += [words(f"Forces along {axis}:"), _forces(work, found, k, axis, largest)]
+        blocks += [words(f"Forces along {axis}:"), _forces(work, found, k, axis, NOTHING * largest)]
     for k, along in [(2, "")] if len(axes) == 2 else [(k, f" along {axis}") for k, axis in enumerate(axes)]:
-        moments = _moments(work, found, place, k, NOTHING * largest * reach)
+        moments = _moments(work, found, place, k, NOTHING * largest * reach, NOTHING * reach)
         blocks += [words(f"Moments about {where}{along}:"), moments]
     return Section(title, tuple(blocks))
 
@@ -126,29 +151,62 @@ def _about(known: Known, link: str) -> tuple[Vec, str]:
     return ZERO, "the origin"
 
 
-def _forces(work: Worked, forces: Sequence[On], k: int, axis: str, largest: float) -> Block:
+class TermOfZero(NamedTuple):
+    """A term of a sum that is zero, as it is told, with its sign; ``fine``: 0 where it is something beside
+    the largest force, else 1, or 2 where its arm is nothing beside the link."""
+
+    value: float
+    told: tuple[int, Expr]
+    fine: int
+    symbol: Name | None = None
+
+
+def _closing(work: Worked, terms: Sequence[TermOfZero]) -> list[TermOfZero]:
+    """The terms that are told: the coarsest that by themselves come to zero, as far as the digits of the
+    points let any. Beside a singular position a force that has no arm is so large that all others are
+    nothing beside it."""
+    levels = [[term for term in terms if term.fine <= level] for level in range(3)]
+    closed = (kept for kept in levels if kept and _gap(kept) <= 10.0**-work.digits)
+    return next(closed, min(levels, key=_gap) if levels[0] else [])
+
+
+def _gap(terms: Sequence[TermOfZero]) -> float:
+    """By how much terms miss zero, of the largest."""
+    values = [term.value for term in terms]
+    return abs(math.fsum(values)) / max(map(abs, values), default=math.inf)
+
+
+def _forces(work: Worked, forces: Sequence[On], k: int, axis: str, least: float) -> Block:
     """Symbols, then numbers, then zero."""
-    kept = [on for on in forces if abs(on.force[k]) > NOTHING * largest]
+    sizes = [(on.force[k], Name(on.name, on.low + axis)) for on in forces if on.force[k]]
+    terms = [TermOfZero(f, (1, work.number(f)), int(abs(f) <= least), name) for f, name in sizes]
+    kept = _closing(work, terms)
     if not kept:
         return words("No force acts that way.")
-    symbols = Sum(tuple((1, Name(on.name, on.low + axis)) for on in kept))
-    return formula(symbols, Sum(tuple((1, work.number(on.force[k])) for on in kept)), Num("0"))
+    symbols = Sum(tuple((1, term.symbol) for term in kept if term.symbol is not None))
+    return formula(symbols, Sum(tuple(term.told for term in kept)), Num("0"))
 
 
-def _moments(work: Worked, forces: Sequence[On], about: Vec, k: int, least: float) -> Block:
-    """Arms times components, and couples: M_x = y F_z - z F_y and so on round."""
+def _moments(work: Worked, forces: Sequence[On], about: Vec, k: int, least: float, short: float) -> Block:
+    """Arms times components, and couples: M_x = y F_z - z F_y and so on round. Moments up to the ``least``
+    and arms up to the ``short`` one are nothing beside those of the link."""
     i, j = (k + 1) % 3, (k + 2) % 3
-    terms: list[tuple[int, Expr]] = []
+    terms: list[TermOfZero] = []
     for on in forces:
-        arm = subtract(on.at, about) if on.at is not None else ZERO
-        if abs(arm[i] * on.force[j]) > least:
-            terms.append((1, product(work.number(arm[i]), work.number(on.force[j]))))
-        if abs(arm[j] * on.force[i]) > least:
-            sign = 1 if arm[j] < 0.0 else -1
-            terms.append((sign, product(work.number(abs(arm[j])), work.number(on.force[i]))))
-        if abs(on.couple[k]) > least:
-            terms.append((1, work.number(on.couple[k])))
-    return formula(Sum(tuple(terms)), Num("0")) if terms else words("No force has an arm about it.")
+        at = on.at if on.at is not None else about
+        for sign, axis, other in ((1, i, j), (-1, j, i)):
+            arm, force = at[axis] - about[axis], on.force[other]
+            value = sign * arm * force
+            if value and abs(arm) > ROUNDED * max(abs(at[axis]), abs(about[axis])):
+                fine = 2 if abs(arm) <= short else int(abs(value) <= least)
+                way = -1 if sign < 0 < arm else 1  # what is taken away has no sign in front
+                told = product(work.number(sign * way * arm), work.number(force))
+                terms.append(TermOfZero(value, (way, told), fine))
+        if on.couple[k]:
+            couple = on.couple[k]
+            terms.append(TermOfZero(couple, (1, work.number(couple)), int(abs(couple) <= least)))
+    sums = tuple(term.told for term in _closing(work, terms))
+    return formula(Sum(sums), Num("0")) if sums else words("No force has an arm about it.")
 
 
 # --- in space --------------------------------------------------------------------------------------------
@@ -200,7 +258,7 @@ def _acting(known: Known, scene: InSpace, link: str) -> Iterable[On | None]:
     for push in scene.loads:
         if link in (push.link, push.against):
             sign, own = 1.0 if link == push.link else -1.0, load_name(push.name)
-            yield On(own.base, own.low, push.at, times(sign, push.force), times(sign, push.couple))
+            yield load_on(own.base, own.low, push.at, times(sign, push.force), times(sign, push.couple))
 
 
 # --- friction --------------------------------------------------------------------------------------------

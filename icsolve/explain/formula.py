@@ -6,16 +6,29 @@ One walk decides what is set in brackets and which sign stands where; a `Notatio
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Sequence
 from html import escape
 
+from icsolve.numbers.arithmetic import turn_of
 from icsolve.tuples import NamedTuple
 
 
 class Num(NamedTuple):
-    """A number with the digits that are shown: ``-1.18``, ``1.2e-05``."""
+    """A number with the digits that are shown: ``-1.18``, ``1.2e-05``; ``value`` is all of it, where more may
+    be shown. What is shown alike is equal."""
 
     digits: str
+    value: float | None = None
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Num) and self.digits == other.digits
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    def __hash__(self) -> int:
+        return hash(self.digits)
 
 
 class Name(NamedTuple):
@@ -126,9 +139,13 @@ def _signed(terms: Terms) -> list[tuple[int, Expr]]:
     for sign, term in terms:
         factors = term.factors if isinstance(term, Product) else (term,)
         minuses = sum(isinstance(f, Num) and is_negative(f) for f in factors)
-        bare = (Num(f.digits.lstrip("-")) if isinstance(f, Num) else f for f in factors)
+        bare = (_unsigned(f) if isinstance(f, Num) else f for f in factors)
         found.append((sign * (-1) ** minuses, product(*bare)))
     return found
+
+
+def _unsigned(number: Num) -> Num:
+    return Num(number.digits.lstrip("-"), None if number.value is None else abs(number.value))
 
 
 def is_negative(expression: Expr) -> bool:
@@ -149,6 +166,84 @@ def _symbols(angle: Expr) -> bool:
 def needs_brackets(child: Expr) -> bool:
     """Whether a part is set in brackets: a sum, and what has a sign in front."""
     return isinstance(child, Sum) or is_negative(child)
+
+
+# --- what a formula comes to ------------------------------------------------------------------------
+
+
+def names_in(expression: Expr) -> set[Expr]:
+    """The symbols of an expression."""
+    match expression:
+        case Name("pi") | Num() | Quantity():
+            return set()
+        case Name() | Spanned():
+            return {expression}
+        case Product(parts):
+            return set().union(*map(names_in, parts))
+        case Quotient(over, under):
+            return names_in(over) | names_in(under)
+        case Sum(terms):
+            return set().union(*(names_in(term) for _, term in terms))
+        case Trig(_, of) | RootOf(of) | Square(of) | Exp(of):
+            return names_in(of)
+
+
+def worth(expression: Expr) -> float:
+    """What an expression comes to by its digits as they are shown, each symbol taken as 1."""
+    match expression:
+        case Num(digits):
+            return float(digits)
+        case Quantity(number):
+            return worth(number)
+        case Name(base):
+            return math.pi if base == "pi" else 1.0
+        case Spanned():
+            return 1.0
+        case Product(factors):
+            return math.prod(map(worth, factors))
+        case Quotient(over, under):
+            below = worth(under)
+            return worth(over) / below if below else math.inf
+        case Sum(terms):
+            return math.fsum(sign * worth(term) for sign, term in terms)
+        case Trig(function, angle):
+            co, s = turn_of(worth(angle))
+            return {"cos": co, "sin": s}.get(function) or (s / co if co and function == "tan" else 0.0)
+        case RootOf(of):
+            return math.sqrt(max(worth(of), 0.0))
+        case Square(of):
+            return worth(of) ** 2
+        case Exp(of):
+            return math.exp(worth(of))
+
+
+def rewritten(expression: Expr, shown: Callable[[float], Num]) -> Expr:
+    """An expression with its numbers shown another way."""
+
+    def again(part: Expr) -> Expr:
+        return rewritten(part, shown)
+
+    match expression:
+        case Num(_, value):
+            return expression if value is None else shown(value)
+        case Quantity(number, unit):
+            return expression if number.value is None else Quantity(shown(number.value), unit)
+        case Product(factors):
+            return Product(tuple(map(again, factors)))
+        case Quotient(over, under):
+            return Quotient(again(over), again(under))
+        case Sum(terms):
+            return Sum(tuple((sign, again(term)) for sign, term in terms))
+        case Trig(function, angle):
+            return Trig(function, again(angle))
+        case RootOf(of):
+            return RootOf(again(of))
+        case Square(of):
+            return Square(again(of))
+        case Exp(of):
+            return Exp(again(of))
+        case Name() | Spanned():
+            return expression
 
 
 # --- how a formula is written -----------------------------------------------------------------------

@@ -412,7 +412,7 @@ def factor_of(
     if acting.at is None:
         return _turned(work, acting, motion, name, units)
     (ax, ay), (bx, by) = (velocity(motion.twists[link], acting.at) for link in (acting.link, acting.against))
-    v = (ax - bx, ay - by)
+    v = plain_vector((ax - bx, ay - by))
     dx, dy = acting.direction
     value = acting.gain * (v[0] * dx + v[1] * dy) * units
     fastest = max(abs(c) for twist in motion.twists.values() for c in twist)
@@ -420,7 +420,7 @@ def factor_of(
     if abs(value) <= NOTHING * size or size == 0.0:
         return 0.0, []
     angle = work.number(math.degrees(math.atan2(dy, dx)) % 360.0)
-    x, y = map(work.number, plain_vector(v))
+    x, y = map(work.number, v)
     along = Sum(((1, product(x, Trig("cos", angle))), (1, product(y, Trig("sin", angle)))))
     extra = [work.number(f) for f in (acting.gain, units) if f != 1.0]
     whole = product(*extra, along) if extra else along

@@ -222,7 +222,12 @@ def solution(known: Known, digits: int = 6, *, bodies: bool = False) -> Document
     """The worked solution; ``bodies`` adds the equations of every link."""
     case = known.case
     lead = [f"Source: {case.source}"] if case.source else []
-    return Document(known.title, (*lead, *provenance(case)), tuple(_sections(worked(known, digits), bodies)))
+    work = worked(known, digits)
+    sections = (
+        section._replace(blocks=tuple(map(work.recomputing, section.blocks)))
+        for section in _sections(work, bodies)
+    )
+    return Document(known.title, (*lead, *provenance(case)), tuple(sections))
 
 
 def _sections(work: Worked, bodies: bool) -> Iterable[Section]:

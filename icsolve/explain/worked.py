@@ -24,8 +24,20 @@ from icsolve.case import (
 )
 from icsolve.case.loads import name_of_inertia
 from icsolve.draw.words import name_runs
-from icsolve.explain.document import Block, Inline, formula, words
-from icsolve.explain.formula import OMEGA, Expr, Name, Num, Quantity, Sum, Trig, product
+from icsolve.explain.document import Block, Formula, Inline, formula, words
+from icsolve.explain.formula import (
+    OMEGA,
+    Expr,
+    Name,
+    Num,
+    Quantity,
+    Sum,
+    Trig,
+    names_in,
+    product,
+    rewritten,
+    worth,
+)
 from icsolve.numbers.arithmetic import turn_of
 from icsolve.report.derivation.known import Known
 from icsolve.screws.plane import Point
@@ -33,6 +45,9 @@ from icsolve.tuples import NamedTuple
 from icsolve.wording.senses import NOTHING
 from icsolve.wording.sentences import link_words
 from icsolve.wording.statement import Statement
+
+MOST_DIGITS = 17
+"""More than a double has."""
 
 
 class Worked(NamedTuple):
@@ -62,22 +77,36 @@ class Worked(NamedTuple):
     def number(self, value: float) -> Num:
         """A number to its significant digits."""
         rounded = float(format(value, f".{self.digits}g")) + 0.0
-        return Num(format(rounded, f".{max(self.digits, 12)}g"))
+        return Num(format(rounded, f".{max(self.digits, 12)}g"), value)
 
     def show(self, value: float) -> str:
         """The digits of a number, among words."""
         return self.number(value).digits
 
-    def length(self, value: float, apart: float = 0.0) -> Num:
-        """A coordinate or distance to the figure's last place; or to that of what it is ``apart`` from
-        another."""
-        size = apart if NOTHING * self.size < apart < self.size else self.size
-        places = self.digits - 1 - math.floor(math.log10(size)) if size > 0.0 else 0
+    def length(self, value: float) -> Num:
+        """A coordinate or distance to the figure's last place."""
+        places = self.digits - 1 - math.floor(math.log10(self.size)) if self.size > 0.0 else 0
         if not 0 <= places <= 12 or abs(value) >= 10.0 ** (15 - places):
             return self.number(value)
         text = f"{value:.{places}f}"
         text = text.rstrip("0").rstrip(".") if "." in text else text
-        return Num("0" if text == "-0" else text)
+        return Num("0" if text == "-0" else text, value)
+
+    def recomputing(self, block: Block) -> Block:
+        """A formula, each side with as many more digits as it takes to come to the last as a calculator has
+        it: the sine of an angle near 0, or a difference, has fewer digits than what it is made of."""
+        if not isinstance(block, Formula):
+            return block
+        *sides, last = block.sides
+        known = names_in(last)
+        return Formula((*(self._recomputing(s, last) if names_in(s) <= known else s for s in sides), last))
+
+    def _recomputing(self, side: Expr, last: Expr) -> Expr:
+        sought, terms = worth(last), side.terms if isinstance(side, Sum) else ((1, side),)
+        room = 5.0 * 10.0**-self.digits * (abs(sought) or max(abs(worth(term)) for _, term in terms))
+        longer = range(self.digits + 1, MOST_DIGITS + 1)
+        more = (rewritten(side, self._replace(digits=n).number) for n in longer)
+        return next((one for one in (side, *more) if abs(worth(one) - sought) <= room), side)
 
     def quantity(self, value: float, unit: str) -> Quantity:
         """A number with a unit."""
@@ -89,8 +118,7 @@ class Worked(NamedTuple):
 
     def difference(self, to: float, start: float) -> Expr:
         """One coordinate less another."""
-        apart = abs(to - start)
-        return Sum(((1, self.length(to, apart)), (-1, self.length(start, apart))))
+        return Sum(((1, self.length(to)), (-1, self.length(start))))
 
     def statement(self) -> Statement:
         """The words of the case, its numbers as they are written, or with these digits."""
@@ -218,8 +246,9 @@ def lever(
         between = Sum(((1, written), (-1, work.number(headings[link]))))
         said = words("The part of ", *force, f" along the motion of {link_words(link)}:")
         return found, [said, formula(found.name, Trig("cos", between), found.number)]
-    arm = (at[0] - about[0]) * direction[1] - (at[1] - about[1]) * direction[0]
-    arm = arm if abs(arm) > NOTHING * math.dist(at, about) else 0.0
+    parts = ((at[0] - about[0]) * direction[1], (at[1] - about[1]) * direction[0])
+    arm = parts[0] - parts[1]
+    arm = arm if abs(arm) > NOTHING * max(*map(abs, parts), work.size) else 0.0
     found = Lever(Name("h", low), work.number(arm), arm)
     across, up = (work.difference(to, start) for to, start in zip(at, about, strict=True))
     moments = Sum(((1, product(across, Trig("sin", written))), (-1, product(up, Trig("cos", written)))))

@@ -449,7 +449,7 @@ def _notes(found: Evaluation) -> list[str]:
     program, (_, motions, _, solution) = found.program, found.outcome
     notes = [*program.case.noticed]
     if motions.redundant and not motions.notes:
-        notes.append(_redundancy(found))
+        notes += _redundancy(found)
     if solution.idle and solution.values:
         count = sentences.plural(len(solution.idle), "passive freedom")
         ends = sentences.free_ends(program.top, program.case)
@@ -460,15 +460,18 @@ def _notes(found: Evaluation) -> list[str]:
     return notes
 
 
-def _redundancy(found: Evaluation) -> str:
+def _redundancy(found: Evaluation) -> Iterable[str]:
     """What becomes of a motion that redundant constraints allow in this position."""
     from icsolve.kinematics.accelerations import goes_on
+    from icsolve.statics.self_stress import self_stress
 
-    motions, top = found.outcome.motions, found.program.top
-    onward = None
-    if motions.mobility == 1:
-        onward = goes_on(found.outcome.place, {link: one for link, (one,) in motions.twists.items()})
-    return sentences.redundant(motions.redundant, onward, found.program.want.bodies, top.wedges)
+    place, motions, wedges = found.outcome.place, found.outcome.motions, found.program.top.wedges
+    onward, stress = None, self_stress(place)
+    if motions.mobility == 1 and stress.moves:
+        onward = goes_on(place, {link: one for link, (one,) in motions.twists.items()})
+    if stress.ways + wedges:
+        held = () if stress.moves else stress.links
+        yield sentences.redundant(stress.ways, onward, found.program.want.bodies, wedges, held)
 
 
 def _skipped(program: Program, outcome: Outcome) -> tuple[str, ...]:

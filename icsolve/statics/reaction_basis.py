@@ -291,6 +291,12 @@ def _along_action(position: Position, tie: Tie, flank: float) -> Tie:
     return tie._replace(units=((flank * tx + apart * sx, flank * ty + apart * sy, 0.0),))
 
 
+def line_of_action(position: Position, bond: Bond) -> tuple[Point, Force]:
+    """Of teeth of known pressure angle: the pitch point, and what passes there on one of their flanks."""
+    tie = _along_action(position, _tie(position, bond), 1.0)
+    return tie.at, tie.units[0]
+
+
 def tangent_and_separating(position: Position, tie: Tie) -> tuple[Point, Point]:
     """Unit vectors at the pitch point: the common tangent, and the separating force on link ``on``."""
     arithmetic = position.arithmetic

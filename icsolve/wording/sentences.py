@@ -192,18 +192,24 @@ def nothing_asked(mobility: int, balanced: bool) -> str:
     )
 
 
-def redundant(count: int, goes_on: bool | None, bodies: bool, wedges: int = 0) -> str:
+def redundant(
+    count: int, goes_on: bool | None, bodies: bool, wedges: int = 0, held: Sequence[str] = ()
+) -> str:
     """Redundant constraints, and whether the motion is more than a moment's (None: not known).
 
-    Without ``bodies`` nobody looked which reactions are unique. ``wedges`` of the constraints are those of
-    rings of links that only slide on each other, which keep their directions whatever the numbers.
+    Without ``bodies`` nobody looked which reactions are unique. ``wedges`` further constraints are those of
+    rings of links that only slide on each other, which keep their directions whatever the numbers. ``held``
+    are the links on which the others are, where these do not move against one another.
     """
-    cause = f"the joints have {plural(count, 'redundant constraint')}"
+    cause = f"the joints have {plural(count + wedges, 'redundant constraint')}"
     end = "." if bodies else "; reactions that share a load are not unique (`--reactions` tells which)."
-    if wedges == count:
-        return (
-            f"{cause}: links that only slide keep their direction by each of their guides, as wedges do{end}"
-        )
+    slides = "links that only slide keep their direction by each of their guides, as wedges do"
+    if not count:
+        return f"{cause}: {slides}{end}"
+    if held:
+        told = f"links {listed(held)} are held together by more than they need"
+        told = f"{told}; {slides}" if wedges else told
+        return f"{cause}: {told}; the motion does not depend on it{end}"
     if goes_on is False:
         return (
             f"{cause}: the links yield only for an instant, then they bind (second order), so the answer is "
