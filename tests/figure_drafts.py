@@ -242,6 +242,51 @@ def _loose(draft: Draft, bars: set[frozenset[str]], lines: list[Aligned]) -> boo
     return len(rows) != 2 * len(free) or bool(np.linalg.svd(np.array(rows), compute_uv=False)[-1] < 0.05)
 
 
+def block_on_a_bent_link(seed: int) -> Draft | None:
+    """A block PQ whose angle is told from its guide AG, of a link that is drawn about its third point C: no
+    length names A and G. Three bars tie both to the ground, one the block to the link. None where that
+    leaves them loose.
+    """
+    draft = Draft(seed, 8)
+    rng, at = draft.rng, draft.at
+    ground, (p, q, a, g, c) = draft.names[:3], draft.names[3:]
+    share = rng.uniform(-0.5, 1.5)
+    at[p] = tuple((1.0 - share) * u + share * v for u, v in zip(at[a], at[g], strict=True))
+    for name in ground:
+        draft.coordinates(name)
+    for name in (p, q, a, g, c):
+        draft.approximately(name, 0.02)
+    draft.joints.append(Slot(("2", "3"), p, Guide(None, (a, g), a)))
+    draft.corner(g, p, q)
+    draft.corner(a, c, g)
+    ties = zip(ground, rng.sample([p, q, a, g, c], 3), strict=True)
+    for pair in ((p, q), (c, a), (c, g), rng.choice([(q, a), (q, c), (p, c)]), *ties):
+        draft.length(*pair)
+    return draft if _stiffness(draft, [p, q, a, g, c]) > 0.05 else None
+
+
+def _stiffness(draft: Draft, free: list[str]) -> float:
+    """The least change of lengths, angles and distances from guides when the free points move by one."""
+
+    def measured(step: float, moved: tuple[str, int]) -> list[float]:
+        at = {p: np.array(xy) + [step * ((p, k) == moved) for k in (0, 1)] for p, xy in draft.at.items()}
+        values = [math.dist(at[one.a], at[one.b]) for one in draft.lengths]
+        for corner in draft.angles:
+            assert isinstance(corner, Corner)
+            u, v = at[corner.a] - at[corner.at], at[corner.b] - at[corner.at]
+            values.append(math.atan2(u[0] * v[1] - u[1] * v[0], u @ v))
+        for joint in draft.joints:
+            assert isinstance(joint, Slot) and joint.guide.ends is not None
+            start, end = (at[p] for p in joint.guide.ends)
+            across = np.array([start[1] - end[1], end[0] - start[0]]) / math.dist(start, end)
+            values.append(across @ (at[str(joint.at)] - start))
+        return values
+
+    columns = [(p, k) for p in free for k in (0, 1)]
+    slopes = [np.subtract(measured(1e-6, moved), measured(-1e-6, moved)) / 2e-6 for moved in columns]
+    return float(np.linalg.svd(np.array(slopes), compute_uv=False)[-1])
+
+
 def _with_corners(draft: Draft, bars: set[frozenset[str]], share: float) -> None:
     arms: set[frozenset[str]] = set()
     for a in draft.names:

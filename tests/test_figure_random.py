@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from figure_drafts import Draft, aligned, framework, sequence
+from figure_drafts import Draft, aligned, block_on_a_bent_link, framework, sequence
 from icsolve.assembly import Figure, case_point, solve_figure
 from icsolve.assembly.refusals import step_words
 from icsolve.errors import SceneError, Status
@@ -99,6 +99,17 @@ def test_points_on_lines_of_others_are_held_by_them() -> None:
     assert len(found) > 0.8 * len(drafts)
     assert found[len(found) // 2] < 1e-12
     assert found[int(0.9 * len(found))] < 1e-9
+
+
+def test_a_guide_and_the_direction_along_it_are_one_line() -> None:
+    """An angle from a guide to its block tells no second line for the guide's points, in whatever order they
+    are drawn."""
+    drafts = [draft for seed in range(100 * MORE) if (draft := block_on_a_bent_link(seed)) is not None]
+    assert len(drafts) > 30 * MORE
+    found = errors(drafts)
+    assert len(found) > 0.9 * len(drafts)
+    assert found[len(found) // 2] < 1e-12
+    assert found[-1] < 1e-8
 
 
 def test_near_is_where_the_assembly_is_nearest() -> None:

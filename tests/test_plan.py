@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from itertools import pairwise
 from random import Random
+from typing import Any
 
 import pytest
 
+import icsolve
 import mechanisms
 import transcribe
 from chains import BUTTERFLY, FLIER
+from icsolve.errors import SceneError
 from icsolve.structure.plan import Matching, Plan, make_plan
 from icsolve.structure.topology import Topology, topology
 
@@ -112,3 +115,51 @@ def test_a_chain_of_double_butterflies_has_a_group_of_six_each(monkeypatch: pyte
         assert plan.closed
         assert [len(group.bodies) for group in plan.groups] == [6] * count
     assert placed[20] < 2.5 * placed[10]
+
+
+def hung_on(seed: int) -> dict[str, Any] | None:
+    """A four-bar, and links that hang on it by joints drawn at random, three constraints a link: some of the
+    links may be held once too often, and others once too little. None where a link hangs on nothing."""
+    rng = Random(seed)
+    scene = mechanisms.four_bar(rng)
+    links = [1, 2, 3, 4]
+    for link in range(5, 7 + seed % 3):
+        scene["joints"].append({"pin": [link, rng.choice(links)], "at": f"K{link}"})
+        links.append(link)
+    left = len(links) - 4  # constraints, after a pin of each
+    for k in range(2 * left):
+        new = rng.choice(links[4:])
+        other, at = rng.choice([link for link in links if link != new]), f"Q{k}"
+        more = rng.choice(["pin", "slot", "slot", "many"]) if left > 1 else "slot"
+        if more == "slot":
+            scene["joints"].append({"slot": [new, other], "at": at, "along": mechanisms.heading(rng)})
+        elif more == "pin":
+            scene["joints"].append({"pin": [new, other], "at": at})
+        else:
+            joint = rng.choice(scene["joints"][4:])
+            if "pin" not in joint or new in joint["pin"]:
+                continue
+            joint["pin"].append(new)
+        left -= 1 if more == "slot" else 2
+        if not left:
+            break
+    points = {joint["at"] for joint in scene["joints"]}
+    scene["points"] |= {p: mechanisms.spot(rng) for p in sorted(points - scene["points"].keys())}
+    loads = {"P": {"torque": 7.5, "link": 4}, "T": {"torque": "unknown", "link": 2}}
+    return scene | {"loads": loads} if not left else None
+
+
+def told(scene: dict[str, Any], examine: bool) -> tuple[str, float | None]:
+    """The status of a scene and its answer."""
+    try:
+        return "ok", icsolve.solve(transcribe.case(scene), examine=examine).answers["T"].value
+    except SceneError as refused:
+        return str(refused.status), None
+
+
+def test_what_a_plan_leaves_out_holds_nothing_of_what_it_plans() -> None:
+    """A scene has the answer that it has when all of it is examined, whatever hangs on it and how."""
+    scenes = [scene for seed in range(120) if (scene := hung_on(seed)) is not None]
+    found = [told(scene, examine=False) for scene in scenes]
+    assert found == [told(scene, examine=True) for scene in scenes]
+    assert min(sum(status == "ok" for status, _ in found), sum(status != "ok" for status, _ in found)) > 10

@@ -80,10 +80,12 @@ class Cluster:
     ``placed`` has the cost of each point's step. ``directions`` has the known directions of pairs
     that are arms of corners or have a direction given. ``committed`` has the numbers of the
     clusters that lent a distance: their shapes are part of this one; ``carried`` the lengths of the
-    vectors by which loci were moved.
+    vectors by which loci were moved; ``lines`` the direction along which a point was put from another.
     """
 
-    __slots__ = ("carried", "committed", "directions", "dirty", "drawing", "heap", "number", "placed", "turn")
+    __slots__ = (
+        "carried", "committed", "directions", "dirty", "drawing", "heap", "lines", "number", "placed", "turn",
+    )  # fmt: skip
 
     def __init__(self, drawing: LooseFigure) -> None:
         self.drawing = drawing
@@ -92,6 +94,7 @@ class Cluster:
         self.directions: dict[tuple[str, str], LineDirection] = {}
         self.committed: set[int] = set()
         self.carried: set[object] = set()
+        self.lines: dict[frozenset[Key], LineDirection] = {}
         self.dirty: dict[str, None] = {}
         self.heap: list[tuple[Cost, int, str, Step]] = []
         self.turn: dict[str, int] = {}
@@ -205,7 +208,9 @@ class Cluster:
             self.committed.add(step.shape[0][0])  # type: ignore[arg-type]
         elif isinstance(step, Meet):
             for locus in (step.first, step.second):
-                if isinstance(locus, CircleLocus) and isinstance(locus.radius, Apart):
+                if isinstance(locus, LineLocus):
+                    self.lines[frozenset((locus.through, step.target))] = locus.direction
+                elif isinstance(locus, CircleLocus) and isinstance(locus.radius, Apart):
                     key = locus.radius.a
                     self.committed.add(key[0] if isinstance(key, tuple) else 0)
 
@@ -470,10 +475,22 @@ def _meet(cluster: Cluster, point: str, one: Locus, two: Locus) -> Step | None:
     if isinstance(line, LineLocus) and isinstance(other, CircleLocus):
         if line.ray and line.through == other.centre:
             return Polar(cluster.key(point), line.through, other.radius, line.direction)
-    elif isinstance(one, CircleLocus) and isinstance(two, CircleLocus) and one.centre == two.centre:
-        return None
-    elif isinstance(line, LineLocus) and isinstance(other, LineLocus):
-        h, k = line.direction, other.direction
-        if h.root == k.root and h.turns == k.turns:
+    elif isinstance(one, CircleLocus) and isinstance(two, CircleLocus):
+        if one.centre == two.centre:
             return None
+    elif (
+        isinstance(line, LineLocus)
+        and isinstance(other, LineLocus)
+        and _course(cluster, line.direction) == _course(cluster, other.direction)
+    ):
+        return None
     return Meet(cluster.key(point), line, other, 1 if is_round(other) else 0)
+
+
+def _course(cluster: Cluster, direction: LineDirection) -> tuple[object, tuple[tuple[Datum, int], ...]]:
+    """What a direction comes from, either way along it: that between two points of which one was put along a
+    line from the other comes from the line's."""
+    root, turns = direction.root, direction.turns
+    while isinstance(root, Apart) and (line := cluster.lines.get(frozenset(root))) is not None:
+        root, turns = line.root, (*line.turns, *turns)
+    return (frozenset(root) if isinstance(root, Apart) else root), turns

@@ -345,13 +345,16 @@ class _Growth:
 
 
 def _pruned(top: Skeleton, plan: Plan, wanted: Collection[int]) -> Plan:
-    """The plan without the groups that no wanted body needs."""
+    """The plan without the groups that no wanted body needs; not closed where one of these holds some of its
+    bodies more than once, and with them what it is left out of."""
     if not plan.closed:
         return plan._replace(groups=())
     needed = set(wanted)
     kept: list[Group] = []
     for group in reversed(plan.groups):
         if needed.isdisjoint(group.bodies):
+            if _repeats(top, group):
+                return plan._replace(closed=False, groups=())
             continue
         kept.append(group)
         for k in group.bonds:
@@ -361,6 +364,41 @@ def _pruned(top: Skeleton, plan: Plan, wanted: Collection[int]) -> Plan:
     groups = tuple(_classified(top, group) for group in reversed(kept))
     bonds = dict.fromkeys((plan.entry, *(k for group in kept for k in group.bonds)))
     return plan._replace(groups=groups, bodies=bodies, bonds=tuple(bonds))
+
+
+KNOWN = -1
+"""All bodies that are known before a group, as one."""
+
+
+def _repeats(top: Skeleton, group: Group) -> bool:
+    """Whether some bodies of a group, or some and what is known, have more constraints among them than they
+    have freedoms, so that others have fewer.
+
+    The pebble game: no constraint is one too many where three more between the same two still find a place
+    (A. Lee and I. Streinu, Discrete Mathematics 308, 2008). Bodies on one pin hold its point, not one another
+    (W. Whiteley, SIAM Journal on Discrete Mathematics 2, 1989).
+    """
+    bonds = [top.bonds[k] for k in group.bonds]
+    pinned = [bond for bond in bonds if bond.pin]
+    if _classified(top, group).kind and len(pinned) == len({bond.pin for bond in pinned}):
+        return False
+    inside = {*group.bodies}
+
+    def side(body: int) -> int:
+        return body if body in inside else KNOWN
+
+    on_pins = dict.fromkeys((body, KNOWN - bond.pin) for bond in pinned for body in (bond.a, bond.b))
+    ends = [(side(body), pin, 2) for body, pin in on_pins]
+    ends += [(side(bond.a), side(bond.b), bond.constraints) for bond in bonds if not bond.pin]
+    held: dict[int, list[tuple[int, int, int]]] = {body: [] for body in (KNOWN, *inside)}
+    held |= {pin: [(pin, pin, 0)] for _, pin in on_pins}  # a point has two freedoms
+    for n, (a, b, constraints) in enumerate(ends, 1):
+        rows = [(a, b, 8 * n + row) for row in range(constraints + 3)]
+        if not all(matched(row, lambda row: row[:2], held, 3) for row in rows):
+            return True
+        for kept in held.values():
+            kept[:] = [row for row in kept if row not in rows[constraints:]]
+    return False
 
 
 def _classified(top: Skeleton, group: Group) -> Group:

@@ -23,6 +23,8 @@ class BareBond(NamedTuple):
     a: int
     b: int
     freedom: int
+    pin: int = 0
+    """of pins: a number from 1, the same for all bodies that turn about one"""
 
     @property
     def constraints(self) -> int:
@@ -77,7 +79,15 @@ class Topology(NamedTuple):
     @property
     def skeleton(self) -> Skeleton:
         """What a plan is made from."""
-        return Skeleton(len(self.members), tuple([bond.bare for bond in self.bonds]), self.at)
+        pins: dict[tuple[str, int], int] = {}
+        bare: list[BareBond] = []
+        for a, b, freedom, joint, *_ in self.bonds:
+            pin, pivot = 0, joint.pivot
+            if pivot is not None:
+                pin = pins.get((pivot, a)) or pins.get((pivot, b)) or len(bare) + 1
+                pins[pivot, a] = pins[pivot, b] = pin
+            bare.append(BareBond(a, b, freedom, pin))
+        return Skeleton(len(self.members), tuple(bare), self.at)
 
     @property
     def freedoms_by_count(self) -> int:
