@@ -258,12 +258,24 @@ LONG = 24
 """A table of more rows goes on over pages in LaTeX."""
 
 
+FITTED = r"""\newsavebox{\icfigure}
+\newcommand{\icfitted}[1]{%
+  \ifdim\wd\icfigure>\linewidth
+    \sbox{\icfigure}{\resizebox{\linewidth}{!}{\usebox{\icfigure}}}\fi
+  \ifdim\dimexpr\ht\icfigure+\dp\icfigure\relax>#1\textheight
+    \sbox{\icfigure}{\resizebox*{!}{#1\textheight}{\usebox{\icfigure}}}\fi
+  \usebox{\icfigure}}
+"""
+"""The box of a drawing, and what shrinks it to the width of the text and to a part of a page; by what TikZ
+itself loads, as small installations of LaTeX have no more."""
+
+
 class AsTex(Layout):
     """A whole LaTeX document; ``figure`` are the marks of a drawing, which stand in it as TikZ."""
 
     notation = LATEX
     packages = "\\usepackage{amsmath}\n\\usepackage{tikz}\n\\usepackage{longtable}\n"
-    page = "\\usepackage[margin=2.2cm]{geometry}\n\\usepackage{adjustbox}\n\\allowdisplaybreaks\n"
+    page = "\\usepackage[margin=2.2cm]{geometry}\n\\allowdisplaybreaks\n" + FITTED
 
     def __init__(self, figure: Sequence[Mark] = ()) -> None:
         self.figure = tuple(figure)
@@ -319,7 +331,6 @@ def picture_tex(marks: Sequence[Mark], height: float = 0.5) -> str:
     if not marks:
         return ""
     return (
-        "\\begin{center}\n"
-        f"\\begin{{adjustbox}}{{max width=\\linewidth,max totalheight={height}\\textheight}}\n"
-        f"{tikz.picture(marks)}\\end{{adjustbox}}\n\\end{{center}}\n"
+        "\\begin{center}\n\\begin{lrbox}{\\icfigure}%\n"
+        f"{tikz.picture(marks)}\\end{{lrbox}}\\icfitted{{{height}}}\n\\end{{center}}\n"
     )
