@@ -38,6 +38,10 @@ Twists = Mapping[str, Triple]
 """By link."""
 
 
+Drive = tuple[Motion, Point | None, Scalar]
+"""A given motion, the direction of its point, the acceleration."""
+
+
 class Moving(NamedTuple):
     """The given motion and its change.
 
@@ -94,12 +98,15 @@ def moving(place: PlacedCase, motions: Mapping[str, Sequence[Triple]], slack: fl
         size = LOOSE * largest_of([part for t in motions[link] for part in t])
         if not all_vanish(arithmetic, ((part, size) for t in open_ for part in t)):
             idle.add(link)
-    rates, loose = _rates(place, twists, drives_of(place, motions), slack)
-    return Moving(twists, {link: rates[top.body_of[link]] for link in twists}, frozenset(idle | loose))
+    moves = accelerated(place, twists, drives_of(place, motions), slack)
+    return moves._replace(open=moves.open | idle)
 
 
-Drive = tuple[Motion, Point | None, Scalar]
-"""A given motion, the direction of its point, the acceleration."""
+def accelerated(place: PlacedCase, twists: Twists, drives: Sequence[Drive], slack: float = 0.0) -> Moving:
+    """The motion in which the links have these twists, (3,) each as of `Moving`, and what is driven these
+    accelerations. Raises SceneError as `moving`."""
+    rates, loose = _rates(place, twists, drives, slack)
+    return Moving(twists, {link: rates[place.top.body_of[link]] for link in twists}, frozenset(loose))
 
 
 def drives_of(place: PlacedCase, motions: Mapping[str, Sequence[Triple]]) -> list[Drive]:

@@ -20,7 +20,7 @@ from icsolve.kinematics.speeds import OPEN, moving_points
 from icsolve.numbers.arithmetic import Scalar, Showing
 from icsolve.numbers.units import Number
 from icsolve.scene.program import EvaluatedScene, Evaluation, Want, prepare
-from icsolve.statics.load_wrenches import COUPLE, FORCE, inertia_forces
+from icsolve.statics.load_wrenches import COUPLE, FORCE, as_given, inertia_forces, inertia_of_one
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed
 
@@ -97,16 +97,8 @@ def _slopes(loaded: Case, solve: Callable[..., Answer]) -> Mapping[str, Mapping[
     On a tape these stand in the wrenches, a number times as large (`load_wrenches.exactly`). With a
     number of one what is zero has its slopes too.
     """
-    one = Number(1.0, 0.0, "", "1")
-
-    def of_one(load: Load) -> Load:
-        if isinstance(load, ForceVector) and load.name == FORCE.format(load.link):
-            return load._replace(x=one, y=one._replace(value=0.0, digits="0"))
-        if isinstance(load, Torque) and load.name == COUPLE.format(load.link):
-            return load._replace(value=one)
-        return load
-
-    found = solve(replace(loaded, loads=tuple(map(of_one, loaded.loads)))).sensitivities
+    loads = (*as_given(loaded).loads, *inertia_of_one(loaded))
+    found = solve(replace(loaded, loads=loads)).sensitivities
     return {load: {path: slope for path, slope in by.items() if path} for load, by in found.items()}
 
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import lru_cache, partial
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.assembly import Figure, place, placed_figure, solve_figure
 from icsolve.assembly.workspace import PlacedCase, case_places, names_of
@@ -29,7 +29,12 @@ from icsolve.statics import load_wrenches, power
 from icsolve.statics.power import Bounded, Outcome, Value
 from icsolve.structure.plan import Plan, make_plan
 from icsolve.structure.topology import Topology, topology
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import LateModule, NamedTuple
+
+if TYPE_CHECKING:
+    from icsolve.kinematics import accelerations
+else:  # with inertia forces alone
+    accelerations = LateModule("icsolve.kinematics.accelerations")
 
 
 class Want(NamedTuple):
@@ -161,7 +166,8 @@ def evaluate(program: Program, arithmetic: Arithmetic = FLOATS) -> tuple[Program
     # power
     case, wrenches = program.case, load_wrenches.wrenches(place)
     if case.dynamic and load_wrenches.is_loaded(case):
-        wrenches = load_wrenches.exactly(place, motions, wrenches)
+        moves = accelerations.moving(place, motions.twists, motions.slack)
+        wrenches = load_wrenches.exactly(place, moves, wrenches)
     balance = power.balance(wrenches, motions.twists, motions.mobility)
     return program, Outcome(place, motions, balance, power.solve_balance(balance, arithmetic))
 

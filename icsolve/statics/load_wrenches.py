@@ -8,7 +8,7 @@ wrenches -m a and -I alpha, in any arithmetic.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.assembly.workspace import PlacedCase
@@ -30,7 +30,6 @@ from icsolve.case import (
     Weight,
 )
 from icsolve.case.loads import name_of_inertia
-from icsolve.kinematics.motion import Motions
 from icsolve.numbers.arithmetic import FLOATS, HALF_TURN, Arithmetic, Scalar, all_vanish, magnitude
 from icsolve.numbers.units import exact_ratio, parse_unit
 from icsolve.screws.plane import Point, Triple, force_wrench, unit_between
@@ -378,17 +377,25 @@ def as_posed(case: Case) -> Case:
     return replace(as_given(case), dynamic=True) if is_loaded(case) else case
 
 
-def exactly(place: PlacedCase, motions: Motions, wrenches: Sequence[Wrench]) -> tuple[Wrench, ...]:
+def inertia_of_one(case: Case) -> Iterator[Load]:
+    """The inertia forces of a case as loads of the number one, whose wrenches `exactly` tells."""
+    one = Number(1.0, 0.0, "", "1")
+    for link, inertia in case.inertia.items():
+        if inertia.mass is not None and inertia.centre is not None:
+            zero = one._replace(value=0.0, digits="0")
+            yield ForceVector(FORCE.format(link), link, inertia.centre, one, zero)
+        if inertia.moment is not None:
+            yield Torque(COUPLE.format(link), link, one)
+
+
+def exactly(
+    place: PlacedCase, moves: accelerations.Moving, wrenches: Sequence[Wrench]
+) -> tuple[Wrench, ...]:
     """The wrenches with those of the inertia forces as this arithmetic has them; the loads are rounded.
 
     D'Alembert's principle: ``-m a`` at the centre of mass and the couple ``-I alpha``, in case units.
-
-    Raises
-    ------
-    SceneError
-        As `icsolve.kinematics.accelerations.moving`.
     """
-    forces = inertia_forces(place, accelerations.moving(place, motions.twists, motions.slack))
+    forces = inertia_forces(place, moves)
     found = []
     for w in wrenches:
         if not name_of_inertia(w.load.name):

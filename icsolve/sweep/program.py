@@ -46,10 +46,12 @@ from icsolve.sweep.recorded_scene import (
     centre,
     motion_fits,
     moved_scene,
+    point_accelerations,
     pressing,
     rates,
     rested,
     statics,
+    velocities,
 )
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
@@ -74,7 +76,7 @@ class RowRequest(NamedTuple):
 
     @property
     def in_motion(self) -> bool:
-        """Whether it asks for what only a scene of its own tells of a row's motion."""
+        """Whether it asks for the motion of a row, and not for ratios alone."""
         return self.velocities or self.dynamic
 
 
@@ -140,6 +142,9 @@ class CompiledSweep(NamedTuple):
     """whether the powers of the known loads all but cancel where the record is made"""
     spent: tuple[int, ...] = ()
     """what was taken as zero in the sums of power, though doubles do not show it"""
+    dynamic: bool = False
+    """whether inertia forces are among the loads; where they are asked for and are not, a scene of its own
+    has to tell them"""
 
 
 def live_roots(compiled: CompiledSweep) -> list[Root]:
@@ -349,7 +354,7 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
     fits += motion_fits(scene, found, sense=asked.rates and not setting.moves)
     compiled = compiled._replace(
         delicate=found.delicate, idle=found.idle, cancels=found.cancels, spent=found.spent, fits=fits
-    )
+    )._replace(dynamic=found.moves is not None)
     if not (asked.answers and refusals.rubs(case)):
         return compiled._replace(refusal=found.refusal)
     return (
@@ -417,10 +422,11 @@ def _outputs(
         if name in scene.points:
             x, y = scene.points[name]
             out["points", name] = (x / scale + ox, y / scale + oy)
-    if not (asked.answers or asked.rates or asked.centres):
+    if not (asked.answers or asked.rates or asked.centres or asked.in_motion):
         return out, None
     rubs = asked.answers and refusals.rubs(scene.case)
-    found = statics(scene, asked.rates or bool(asked.centres) or rubs)
+    everything = asked.rates or bool(asked.centres) or rubs or asked.in_motion
+    found = statics(scene, everything, asked.dynamic)
     for name, value in found.answers.items():
         if asked.answers and not rubs:
             out["answers", name] = (value,)
@@ -431,6 +437,14 @@ def _outputs(
         out |= {("terms", w.load.name): (factor * w.measure,) for w, factor in pairs}
     if asked.rates:
         out |= {("rates", link): (rate,) for link, rate in rates(scene, found.motions).items()}
+    if asked.velocities:
+        out |= {("velocities", f"{p} on {link}"): v for (p, link), v in velocities(scene, found.motions)}
+    if asked.accelerations and found.moves is not None:
+        moves = found.moves
+        told = point_accelerations(scene, moves)
+        out |= {("accelerations", f"{p} on {link}"): a for (p, link), a in told}
+        links = (link for link in scene.case.links if link not in moves.open)
+        out |= {("angular_accelerations", link): (moves.rates[link][2],) for link in links}
     for pair in asked.centres:
         triple = centre(scene, found.motions, pair)
         if triple is not None:

@@ -19,6 +19,7 @@ from icsolve.case import (
     Force,
     ForceVector,
     Guide,
+    Inertia,
     Joint,
     Load,
     Motion,
@@ -28,11 +29,13 @@ from icsolve.case import (
     Slope,
     Spring,
     Weight,
+    is_named,
     ordered_pair,
 )
 from icsolve.case.joints import Guided, Mesh
 from icsolve.errors import SceneError
-from icsolve.kinematics import motion, speeds
+from icsolve.kinematics import accelerations, motion, speeds
+from icsolve.kinematics.accelerations import Moving
 from icsolve.numbers.arithmetic import FLOATS, Scalar, all_vanish, turn_of
 from icsolve.numbers.record import Record, varies
 from icsolve.scene import refusals
@@ -98,6 +101,8 @@ class RecordedStatics(NamedTuple):
     refusal : why there are no answers in any row; None where there are
     balance : factors of the loads
     spent : nodes of what was taken as zero in the sums of power, though doubles do not show it
+    moves : the given motion with its accelerations; None where a scene of its own has to tell it, or it is
+        not asked for
     """
 
     answers: dict[str, Scalar]
@@ -105,6 +110,7 @@ class RecordedStatics(NamedTuple):
     refusal: SceneError | None
     balance: power.Balance
     spent: tuple[int, ...] = ()
+    moves: Moving | None = None
 
     @property
     def cancels(self) -> bool:
@@ -151,6 +157,12 @@ class _Writer:
         key = f"@{spot[1]} on {self.mechanism.top.members[spot[0]][0]}"
         self.points[key] = self.moved.place(spot)
         return key
+
+    def inertia(self, link: str, inertia: Inertia) -> Inertia:
+        """A mass at a point that its link carries."""
+        if inertia.centre is None:
+            return inertia
+        return inertia._replace(centre=self.on((self.body_of[link], inertia.centre)))
 
     def joint(self, index: int, joint: Joint) -> Joint:
         """A joint whose guide is a direction that its link carries."""
@@ -217,9 +229,10 @@ def moved_scene(driven: DrivenMotion) -> RecordedScene:
     write, case = _Writer(mechanism, moved), mechanism.case
     joints = tuple(write.joint(i, joint) for i, joint in enumerate(case.joints))
     loads = tuple(map(write.load, case.loads))
-    rewritten = case
-    if (joints, loads, write.ropes) != (case.joints, case.loads, case.ropes):
-        rewritten = replace(case, joints=joints, loads=loads, ropes=write.ropes)
+    inertia = {link: write.inertia(link, own) for link, own in case.inertia.items()}
+    rewritten, told = case, (joints, loads, write.ropes, inertia)
+    if told != (case.joints, case.loads, case.ropes, case.inertia):
+        rewritten = replace(case, joints=joints, loads=loads, ropes=write.ropes, inertia=inertia)
     scene = RecordedScene(
         rewritten, topology(rewritten), mechanism.frame, mechanism.shape.record, write.points
     )
@@ -330,15 +343,22 @@ def rested(scene: RecordedScene, contacts: Sequence[RestingContact], inputs: dic
 # --- statics --------------------------------------------------------------------------------------
 
 
-def statics(scene: RecordedScene, everything: bool) -> RecordedStatics:
-    """Unknown loads and twists of the scene on the record; with ``everything`` the twist of every link."""
+def statics(scene: RecordedScene, everything: bool, dynamic: bool = False) -> RecordedStatics:
+    """Unknown loads and twists of the scene on the record; with ``everything`` the twist of every link,
+    ``dynamic`` with the inertia forces of the given motion."""
     case, top, place = scene.case, scene.top, scene.place
     unknown = any(power.is_unknown(load) for load in case.loads)
-    some = unknown and not (everything or case.ropes or case.screws)
+    some = unknown and not (everything or dynamic or case.ropes or case.screws)
     wanted = frozenset(top.body_of[link] for link in load_wrenches.moving_links(case)) if some else None
     motions = motions_of(scene, wanted)
+    moves = moving(scene, motions) if dynamic else None
     scene.record.spent.clear()  # of what the motions were found by
+    if moves is not None:
+        loads = (*case.loads, *load_wrenches.inertia_of_one(case))
+        place = place._replace(case=replace(case, loads=loads))
     wrenches = load_wrenches.wrenches(place)
+    if moves is not None:
+        wrenches = load_wrenches.exactly(place, moves, wrenches)
     balance = power.balance(wrenches, motions.twists, motions.mobility)
     solution = power.solve_balance(balance, scene.record)
     spent = tuple(scene.record.spent)
@@ -346,9 +366,9 @@ def statics(scene: RecordedScene, everything: bool) -> RecordedStatics:
         floats = place._replace(arithmetic=FLOATS)
         refusals.refuse_unbalanced(power.Outcome(floats, motions, balance, solution))
     except SceneError as error:
-        return RecordedStatics({}, motions, error, balance)
+        return RecordedStatics({}, motions, error, balance, moves=moves)
     answers = {w.load.name: w.ratio * solution.values[w.root] for w in wrenches if w.root in solution.values}
-    return RecordedStatics(answers, motions, None, balance, spent)
+    return RecordedStatics(answers, motions, None, balance, spent, moves)
 
 
 def motions_of(scene: RecordedScene, wanted: Collection[int] | None = None) -> motion.Motions:
@@ -361,6 +381,37 @@ def motions_of(scene: RecordedScene, wanted: Collection[int] | None = None) -> m
     if found is None:
         found = motion.by_loops(scene.place)
     return motion.with_ends(found, scene.place)
+
+
+def moving(scene: RecordedScene, found: motion.Motions) -> Moving | None:
+    """The given motion of every row with its accelerations, as one scene has them; None where that takes a
+    scene of its own: where a given speed or an acceleration is open in a row, or joints are redundant."""
+    given, top, record = scene.case.motion, scene.top, scene.record
+    if len(given) != found.mobility or found.redundant or found.slack or any(m.speed is None for m in given):
+        return None
+    try:
+        if len(given) > 1:
+            open_ = any(m.point is not None for m in given)
+            moves = None if open_ else accelerations.moving(scene.place, found.twists)
+        else:
+            per, links = _in_time(scene, found), (link for link in found.twists if link in top.body_of)
+            twists = {link: per(found.twists[link][0]) for link in links}
+            more = record.given(given[0].acceleration) if given[0].acceleration is not None else 0.0
+            moves = accelerations.accelerated(scene.place, twists, [_driven(scene, twists, more)])
+    except SceneError:
+        return None
+    return None if moves is None or moves.open & scene.case.inertia.keys() else moves
+
+
+def _driven(scene: RecordedScene, twists: Mapping[str, Triple], more: Scalar) -> accelerations.Drive:
+    """What the one given motion accelerates, the way it goes in each row."""
+    (given,) = scene.case.motion
+    assert given.speed is not None
+    if given.point is None:
+        return given, None, -more if (given.turns == "cw") != (given.speed.value < 0.0) else more
+    x, y = velocity(twists[given.link], scene.points[given.point])
+    size = scene.record.sqrt(x * x + y * y)
+    return given, (x / size, y / size), more * scene.frame.scale
 
 
 def pressing(
@@ -406,13 +457,49 @@ def rates(scene: RecordedScene, found: motion.Motions) -> dict[str, Scalar]:
         speed = speeds.speed_of(scene.place, found.twists)
         told = speeds.link_rates(scene.case, found.twists, speed)
         return {link: rate for link, rate in told.items() if not isinstance(rate, str)}
-    divisor, target = _scale(scene, found.twists)
-    largest = speeds.fastest(found.twists)
+    per, largest = _in_time(scene, found), speeds.fastest(found.twists)
     shown = {}
     for link in scene.case.links:
-        rate = found.twists[link][0][2]
-        shown[link] = 0.0 if scene.record.vanishes(rate, largest) else rate * target / divisor
+        x, y, rate = found.twists[link][0]
+        shown[link] = 0.0 if scene.record.vanishes(rate, largest) else per((x, y, rate))[2]
     return shown
+
+
+def velocities(scene: RecordedScene, found: motion.Motions) -> Iterator[tuple[tuple[str, str], Point]]:
+    """Velocities of points on the links that carry them, by point and link [case length/s]; those left open
+    are not there."""
+    if found.mobility > 1:
+        speed = speeds.speed_of(scene.place, found.twists)
+        for spot, told in speeds.point_velocities(scene.place, found.twists, speed).items():
+            if not isinstance(told, str):
+                yield spot, told
+        return
+    per = _in_time(scene, found)
+    for point, link in _carried(scene):
+        x, y = velocity(per(found.twists[link][0]), scene.points[point])
+        yield (point, link), (x / scene.frame.scale, y / scene.frame.scale)
+
+
+def point_accelerations(scene: RecordedScene, moves: Moving) -> Iterator[tuple[tuple[str, str], Point]]:
+    """The same of their accelerations [case length/s^2]."""
+    for point, link in _carried(scene):
+        if link not in moves.open:
+            x, y = moves.acceleration(link, scene.points[point])
+            yield (point, link), (x / scene.frame.scale, y / scene.frame.scale)
+
+
+def _carried(scene: RecordedScene) -> Iterator[tuple[str, str]]:
+    """The points that have a name, and links that carry them."""
+    for link in scene.case.links:
+        for point in speeds.moving_points(scene.case, link):
+            if is_named(point) and point in scene.points:
+                yield point, link
+
+
+def _in_time(scene: RecordedScene, found: motion.Motions) -> Callable[[Triple], Triple]:
+    """What makes of a twist of the one freedom that of the motion of a row, scaled as in one scene."""
+    divisor, target = _scale(scene, found.twists)
+    return lambda t: (t[0] * target / divisor, t[1] * target / divisor, t[2] * target / divisor)
 
 
 def _scale(scene: RecordedScene, twists: Mapping[str, tuple[Triple, ...]]) -> tuple[Scalar, float]:

@@ -27,6 +27,9 @@ SHALLOW = 1e-9
 SMALL = 1e-7
 """Below this fraction of the terms that it is summed from (where the record was made) a divisor or an answer
 makes its row doubtful, and so does an answer that many times larger than there."""
+STEEP = 1e-2
+"""The same of a divisor with inertia forces, and its square of a radicand: beside a singular position
+accelerations grow, and what rounds them, as the third power of what is divided by."""
 CLOSE = 1e-7
 """Below this a margin of the figure makes its row doubtful (normalised)."""
 AGREED = 1e-9
@@ -75,9 +78,10 @@ class Runner:
         alive = [k for k in live(record.nodes, [*wanted, *self.rubs]) if nodes[k].op != Op.INPUT]
         answers = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
         self.roots = [record.roots[k] for k in alive if k in record.roots]
+        shallow, divisor = (STEEP * STEEP, STEEP) if compiled.dynamic else (SHALLOW, SMALL)
         self.watched = [
-            *(Watched(root.radicand, SHALLOW * _size_of(record, root)) for root in self.roots),
-            *(Watched(k, SMALL * terms_of(nodes, k), sized=True) for k in _divisors(nodes, alive)),
+            *(Watched(root.radicand, shallow * _size_of(record, root)) for root in self.roots),
+            *(Watched(k, divisor * terms_of(nodes, k), sized=True) for k in _divisors(nodes, alive)),
             *(Watched(k, CLOSE) for k in (*compiled.margins, *compiled.fits)),
             *(Watched(k, -math.inf, AGREED, True) for k in _living(compiled, alive)),
         ]

@@ -63,7 +63,8 @@ def _one(table: Table, row: int, case_of: Callable[[int], Case], missing: bool) 
         case = case_of(row)
         if missing:
             centres = table.lacks(row, "centres")
-            answer = solve_scene(case, rates=table.lacks(row), all_centres=centres, alone=True)
+            rates, dynamic = table.lacks(row), asked.dynamic
+            answer = solve_scene(case, rates=rates, all_centres=centres, dynamic=dynamic, alone=True)
         else:
             answer = solve_scene(
                 case,

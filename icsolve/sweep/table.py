@@ -299,7 +299,7 @@ class Table:
         """Whether a row lacks a number of what moves in it (or of some kinds of these), as where what scales
         the others stands still, or where the record divides by what is zero there; or a centre, where it has
         lines that coincide meet."""
-        kinds = kinds or ("rates", "centres")
+        kinds = kinds or ("rates", "centres", *KINDS[4:7])
         some = [(kind, array[row]) for (kind, _), array in self.values.items() if kind in kinds]
         return any(np.isnan(at).any() or (kind == "centres" and not at.any()) for kind, at in some)
 
