@@ -238,8 +238,8 @@ def motion_of(known: Known, pairs: Sequence[Pair]) -> PageMotion | None:
     if known.answer is None or known.case.space is not None:
         return None
     case = as_given(known.answer.case)
-    want = ["answers", "status", "points", "rates", "terms"]
-    want += ["velocities", "accelerations"] if case.dynamic else []
+    want = ["answers", "status", "points", "rates"]
+    want += ["velocities", "accelerations"] if case.dynamic else ["terms"]
     want += [f"centres.{pair_name(case, pair)}" for pair in pairs]
     slides = sliding(known)
     if slides is not None:
@@ -293,7 +293,7 @@ def _dead(case: Case, by: PageInput, degrees: Array, reach: tuple[float, float],
         return []
     alone = len(found.answers) == 1
     smooth = _smooth(case) if alone else case
-    some = None if by.slides or case.dynamic else dead_centres(smooth, by.driven(degrees))
+    some = None if by.slides else dead_centres(smooth, by.driven(degrees))
     if some is None:
         x = degrees.tolist()
         some = [at for at, word in zip(x, found.status, strict=True) if word in DEAD]
@@ -360,7 +360,7 @@ def _widest(known: Known, want: Sequence[str]) -> tuple[PageInput, Array, Sweep]
 
 
 def _one_by_one(case: Case) -> bool:
-    """Whether a sweep solves each position as a scene of its own, which takes its time."""
+    """Whether each position, or its free bodies, is solved as a scene of its own, which takes its time."""
     return rubs(case) or case.dynamic or bool(case.ropes)
 
 

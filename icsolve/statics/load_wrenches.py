@@ -388,9 +388,7 @@ def inertia_of_one(case: Case) -> Iterator[Load]:
             yield Torque(COUPLE.format(link), link, one)
 
 
-def exactly(
-    place: PlacedCase, moves: accelerations.Moving, wrenches: Sequence[Wrench]
-) -> tuple[Wrench, ...]:
+def exactly(place: PlacedCase, moves: accelerations.Moving, wrenches: Sequence[Wrench]) -> tuple[Wrench, ...]:
     """The wrenches with those of the inertia forces as this arithmetic has them; the loads are rounded.
 
     D'Alembert's principle: ``-m a`` at the centre of mass and the couple ``-I alpha``, in case units.

@@ -31,9 +31,9 @@ from icsolve.sweep.exact import hides
 from icsolve.sweep.numbers import find_number, numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of
 from icsolve.sweep.request import RequestError, SweepRequest, array_of, names_in, request_of, told
-from icsolve.sweep.runner import Key, Rows, column, usual_and_terms
+from icsolve.sweep.runner import STEEP, Key, Rows, column, usual_and_terms
 from icsolve.sweep.start import is_hard
-from icsolve.sweep.table import CODE, WORDS, Table, by_kind
+from icsolve.sweep.table import CODE, KINDS, WORDS, Table, by_kind
 from icsolve.tuples import NamedTuple, dataclass, field, replace
 
 FEW = 24
@@ -46,7 +46,6 @@ FINE = np.array((str(Status.OK),), dtype="<U24")
 
 Gradients = dict[str, dict[str, Array]]
 """By answer, then by input."""
-EVALUATED = ("answers", "points", "centres", "rates", "terms")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -60,6 +59,7 @@ class Evaluated:
     points : places by name, (n, 2) [case length]
     centres : relative centres by pair, homogeneous (x, y, w), (n, 3)
     rates : angular velocities by link, (n,) [rad/s, or scaled as in one scene]
+    velocities, accelerations, angular_accelerations : as those of `Sweep`
     terms : by load, the power of a unit of it, (n,); only their ratios in a row tell something
     gradients : by answer, then by input as it was asked for: derivative [case units; per degree by an angle],
         (n,); not a number in rows that were solved as scenes of their own
@@ -70,6 +70,9 @@ class Evaluated:
     points: dict[str, Array] = field(default_factory=dict)
     centres: dict[str, Array] = field(default_factory=dict)
     rates: dict[str, Array] = field(default_factory=dict)
+    velocities: dict[str, Array] = field(default_factory=dict)
+    accelerations: dict[str, Array] = field(default_factory=dict)
+    angular_accelerations: dict[str, Array] = field(default_factory=dict)
     terms: dict[str, Array] = field(default_factory=dict)
     gradients: Gradients = field(default_factory=dict)
 
@@ -102,7 +105,7 @@ def evaluator(
     ----------
     case : as `icsolve.load` returns it
     inputs : paths of numbers as in sweeps (``lengths.BC``, ``angles.AB``, ``loads.P``, ``points.D.x``)
-    want : ``answers``, ``status``, ``points``, ``centres``, ``rates``; or single ones, ``points.C``
+    want : as of `icsolve.sweep`, but ``error``
     gradient : whether each call also gives the derivative of every answer by every input
 
     Returns
@@ -121,8 +124,8 @@ def evaluator(
         Where the case as written has no figure, or lies in space.
     ValueError
         For words that can't be wanted, no inputs, or one twice; gradients where rows are solved one by one
-        (friction, profiles, ropes, screws, inertia forces, numbers of a motion, groups that Newton's method
-        places).
+        (friction, profiles, ropes, screws, numbers of a motion, groups that Newton's method places, inertia
+        forces where joints are redundant or several points have given motions).
     """
     refuse_no_case(case)
     paths = names_in(inputs, "inputs=('angles.AB', 'lengths.BC')")
@@ -131,7 +134,7 @@ def evaluator(
         raise RequestError("nothing is varied: give inputs=('lengths.BC',)")
     if len(set(own)) < len(own):
         raise RequestError("an input is named twice")
-    wanted = request_of(case, names_in(want, "want=('answers', 'points.C')"))
+    wanted = request_of(case, names_in(want, "want=('answers', 'points.C')"), case.dynamic)
     if case.space is not None:
         raise SceneError(Status.UNSUPPORTED, "an evaluator is for the plane, and this case is in space.")
     return Evaluator(case, dict(zip(paths, own, strict=True)), wanted, gradient)
@@ -155,8 +158,9 @@ class Evaluator:
         if self.compiled is None and gradients:
             raise RequestError(
                 "there are no gradients where each row is solved as a scene of its own: with friction, "
-                "profiles, ropes, screws or inertia forces, by numbers of a motion, or where points can be "
-                "placed only together or nothing moves beside the case as written"
+                "profiles, ropes or screws, by numbers of a motion, with inertia forces where joints are "
+                "redundant or several points have given motions, or where points can be placed only together "
+                "or nothing moves beside the case as written"
             )
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -202,7 +206,7 @@ class Evaluator:
             array[again] = np.nan
         kinds = by_kind(table.values)
         status = np.array(WORDS if table.codes.any() else WORDS[:1], FINE.dtype)[table.codes]
-        return Evaluated(status, gradients=slopes, **{kind: kinds[kind] for kind in EVALUATED})
+        return Evaluated(status, gradients=slopes, **kinds)
 
     def recorded(self, *columns: Array) -> RecordedRows | None:
         """What the record says of every row, (n,) each column; None where there is no record. No scene is
@@ -246,8 +250,9 @@ class Evaluator:
         if self.compiled is not None:
             case = self.compiled.on_its_branch(case, given, row)
         centres = bool(table.asked.centres)
+        rates = table.asked.rates or table.asked.velocities or centres
         try:
-            answer = solve_scene(case, rates=table.asked.rates or centres, all_centres=centres)
+            answer = solve_scene(case, rates=rates, all_centres=centres)
         except SceneError as refusal:
             table.refuse(row, refusal)
             return
@@ -262,7 +267,7 @@ def limits_of(case: Case, own: Sequence[str]) -> list[tuple[int, NumberLimit]]:
 
 def _one_by_one(case: Case) -> bool:
     """Whether more is in the case than the record of a figure and its loads tells."""
-    bound = bool(case.ropes or case.screws or case.dynamic)
+    bound = bool(case.ropes or case.screws)
     return bound or rubs(case) or (case.profiles is not None and bool(case.profiles.touches))
 
 
@@ -300,12 +305,15 @@ class _Compiled:
         self.positive = [r.radicand for k, r in record.roots.items() if k in set(alive)]
         self.positive += [*compiled.margins, *compiled.fits]
         divided = {record.nodes[k].b for k in alive if record.nodes[k].op == Op.DIV}
-        self.apart = sorted(k for k in divided if record.nodes[k].row)
-        self.apart += [v.index for v in answers.values() if varies(v)]
+        divided = {k for k in divided if record.nodes[k].row}
+        answers = {name: v for name, v in answers.items() if varies(v)}
+        self.apart = [*sorted(divided), *(v.index for v in answers.values())]
         watched = [*self.positive, *self.apart]
-        terms = {v.index: usual_and_terms(record, v.index)[1] for v in answers.values() if varies(v)}
+        terms = {v.index: usual_and_terms(record, v.index)[1] for v in answers.values()}
         sizes = [terms.get(k) or abs(record.nodes[k].value) or 1.0 for k in watched]
-        self.limits = NEAR * np.array(sizes)
+        near = [STEEP * STEEP, STEEP, NEAR] if compiled.dynamic else [NEAR] * 3
+        counts = [len(self.positive), len(divided), len(answers)]
+        self.limits = np.repeat(near, counts) * np.array(sizes)
         self.code = Code(record, [*self.shown, *watched])
         self.one = self._python()
 
@@ -342,7 +350,7 @@ class _Compiled:
             return None
         if found is None:
             return None
-        kinds: dict[str, dict[str, Array]] = {kind: {} for kind in EVALUATED}
+        kinds: dict[str, dict[str, Array]] = {kind: {} for kind in KINDS}
         start = 0
         for (kind, name), count in self.parts.items():
             part = found[start : start + count]
@@ -432,6 +440,7 @@ def _compiled(case: Case, names: Mapping[str, str], asked: RowRequest, gradients
     except SceneError:  # beside the case as written nothing moves: it does so by exact data alone
         return None
     alone = compiled.refusal is not None or compiled.delicate or compiled.idle or hides(compiled)
+    alone |= compiled.dynamic < asked.dynamic or (asked.dynamic and asked.terms)
     return None if alone else _Compiled(compiled, asked, names, gradients)
 
 

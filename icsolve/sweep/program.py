@@ -44,6 +44,7 @@ from icsolve.sweep.recorded_scene import (
     RecordedStatics,
     RestingContact,
     centre,
+    link_accelerations,
     motion_fits,
     moved_scene,
     point_accelerations,
@@ -412,6 +413,23 @@ def _not_together(path: str, paths: Sequence[str]) -> SceneError:
     return SceneError(Status.UNSUPPORTED, f"{only}: vary one at a time.")
 
 
+def _in_motion(
+    scene: RecordedScene, asked: RowRequest, found: RecordedStatics
+) -> dict[tuple[str, str], tuple[Scalar, ...]]:
+    """Rates, velocities and accelerations, where they are asked for."""
+    out: dict[tuple[str, str], tuple[Scalar, ...]] = {}
+    if asked.rates:
+        out |= {("rates", link): (rate,) for link, rate in rates(scene, found.motions).items()}
+    if asked.velocities:
+        out |= {("velocities", f"{p} on {link}"): v for (p, link), v in velocities(scene, found.motions)}
+    if asked.accelerations and found.moves is not None:
+        told = point_accelerations(scene, found.moves)
+        out |= {("accelerations", f"{p} on {link}"): a for (p, link), a in told}
+        turning = link_accelerations(scene, found.moves)
+        out |= {("angular_accelerations", link): (rate,) for link, rate in turning}
+    return out
+
+
 def _outputs(
     scene: RecordedScene, asked: RowRequest
 ) -> tuple[dict[tuple[str, str], tuple[Scalar, ...]], RecordedStatics | None]:
@@ -435,16 +453,7 @@ def _outputs(
         row = max(found.balance.factors, key=lambda row: sum(abs(float(row[n])) for n in unknown))
         pairs = zip(found.balance.wrenches, row, strict=True)
         out |= {("terms", w.load.name): (factor * w.measure,) for w, factor in pairs}
-    if asked.rates:
-        out |= {("rates", link): (rate,) for link, rate in rates(scene, found.motions).items()}
-    if asked.velocities:
-        out |= {("velocities", f"{p} on {link}"): v for (p, link), v in velocities(scene, found.motions)}
-    if asked.accelerations and found.moves is not None:
-        moves = found.moves
-        told = point_accelerations(scene, moves)
-        out |= {("accelerations", f"{p} on {link}"): a for (p, link), a in told}
-        links = (link for link in scene.case.links if link not in moves.open)
-        out |= {("angular_accelerations", link): (moves.rates[link][2],) for link in links}
+    out |= _in_motion(scene, asked, found)
     for pair in asked.centres:
         triple = centre(scene, found.motions, pair)
         if triple is not None:

@@ -36,7 +36,7 @@ from icsolve.case.joints import Guided, Mesh
 from icsolve.errors import SceneError
 from icsolve.kinematics import accelerations, motion, speeds
 from icsolve.kinematics.accelerations import Moving
-from icsolve.numbers.arithmetic import FLOATS, Scalar, all_vanish, turn_of
+from icsolve.numbers.arithmetic import FLOATS, Scalar, all_vanish, largest_of, turn_of
 from icsolve.numbers.record import Record, varies
 from icsolve.scene import refusals
 from icsolve.screws.joints import freedoms, pitch_point
@@ -474,18 +474,31 @@ def velocities(scene: RecordedScene, found: motion.Motions) -> Iterator[tuple[tu
             if not isinstance(told, str):
                 yield spot, told
         return
-    per = _in_time(scene, found)
+    twists = {link: _in_time(scene, found)(t) for link, (t,) in found.twists.items()}
+    largest = largest_of([x for t in twists.values() for x in t])
     for point, link in _carried(scene):
-        x, y = velocity(per(found.twists[link][0]), scene.points[point])
-        yield (point, link), (x / scene.frame.scale, y / scene.frame.scale)
+        yield (point, link), _shown(scene, velocity(twists[link], scene.points[point]), largest)
 
 
 def point_accelerations(scene: RecordedScene, moves: Moving) -> Iterator[tuple[tuple[str, str], Point]]:
     """The same of their accelerations [case length/s^2]."""
     for point, link in _carried(scene):
         if link not in moves.open:
-            x, y = moves.acceleration(link, scene.points[point])
-            yield (point, link), (x / scene.frame.scale, y / scene.frame.scale)
+            yield (point, link), _shown(scene, moves.acceleration(link, scene.points[point]), moves.size)
+
+
+def link_accelerations(scene: RecordedScene, moves: Moving) -> Iterator[tuple[str, Scalar]]:
+    """Angular accelerations of the links [rad/s^2]; those left open are not there."""
+    for link in scene.case.links:
+        if link not in moves.open:
+            rate = moves.rates[link][2]
+            yield link, 0.0 if scene.record.vanishes(rate, moves.size) else rate
+
+
+def _shown(scene: RecordedScene, v: Point, size: float) -> Point:
+    """A vector [case units], of which what is zero in every row is that."""
+    x, y = (0.0 if scene.record.vanishes(part, size) else part / scene.frame.scale for part in v)
+    return x, y
 
 
 def _carried(scene: RecordedScene) -> Iterator[tuple[str, str]]:

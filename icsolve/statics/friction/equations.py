@@ -375,9 +375,7 @@ def reduced_workless(statics: Statics, senses: Sequence[float]) -> Reduced | Non
         return tuple(total)
 
     vectors = tuple(tuple(form(row) for row in rows) for rows in forces_of(statics))
-    return Reduced(
-        Lengths(lengths, vectors, touching_of(statics)), (_alone(most, n, 1.0),), tuple(gains)
-    )
+    return Reduced(Lengths(lengths, vectors, touching_of(statics)), (_alone(most, n, 1.0),), tuple(gains))
 
 
 def contracted(equations: Lengths) -> Y:
