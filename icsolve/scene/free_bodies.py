@@ -17,7 +17,8 @@ from icsolve.statics.reaction_basis import Position, rope_ties
 
 if TYPE_CHECKING:
     from icsolve.statics.friction.enclosure import SceneOnBalls
-    from icsolve.statics.friction.scene import Enclose
+    from icsolve.statics.friction.scene import Enclose, FrictionScene
+    from icsolve.statics.friction.standing import Standing
 
 T = TypeVar("T")
 
@@ -37,19 +38,35 @@ def _bodies(found: Evaluation, power: Mapping[str, tuple[float, float]]) -> Free
 
 def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     """The answer with friction, from free bodies; its motion or the range in which it holds."""
-    from icsolve.statics.friction.scene import FrictionScene, solved
+    from icsolve.statics.friction.scene import solved
 
     def answer_with(values: Mapping[str, Value]) -> Answer:
         own = copy(parts)  # the ends of a range have values of their own
         own.given = dict(values)
         return own.answer()
 
+    return solved(_rough(parts), answer_with, reactions)
+
+
+def standing(parts: AnswerBuilder) -> Standing:
+    """How far known loads are from slipping, friction counted.
+
+    Raises SceneError where that is open.
+    """
+    from icsolve.statics.friction.standing import standing as found
+
+    return found(_rough(parts))
+
+
+def _rough(parts: AnswerBuilder) -> FrictionScene:
+    """A scene before its friction."""
+    from icsolve.statics.friction.scene import FrictionScene
+
     outcome = parts.outcome
     position = _position(parts.first._replace(outcome=outcome, arithmetic=FLOATS))
     enclose, alone = _enclose(parts) if parts.scene.certain else None, parts.program.want.alone
     place = position, outcome.balance, outcome.solution, parts.speed
-    scene = FrictionScene(*place, lambda: parts.traced, enclose, alone)
-    return solved(scene, answer_with, reactions)
+    return FrictionScene(*place, lambda: parts.traced, enclose, alone)
 
 
 def _enclose(parts: AnswerBuilder) -> Enclose:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import lru_cache
 
 from icsolve.answer import Answer
@@ -13,12 +14,11 @@ from icsolve.case.joints import without_friction
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.arithmetic import largest_of
-from icsolve.scene import solve_scene
+from icsolve.scene import solve_scene, standing
 from icsolve.solve.rest import PROBE, probes
 from icsolve.statics.power import has_friction
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.senses import reach_of, unit_of
-from icsolve.wording.sentences import plural
 
 
 class Held(NamedTuple):
@@ -85,11 +85,14 @@ def moving_loads(case: Case, path: str = "") -> Held:
     """From what load to what load more a mechanism under known loads holds still as written [case units]:
     infinite where none would move it, or where any does (turned about).
 
-    Parameters as of `asked_of`. Raises SceneError where no load says, as where it has several freedoms.
+    Parameters as of `asked_of`. Where no one load says, as of several freedoms, it is so many shares of the
+    forces that bound friction. Raises SceneError where it is open.
     """
-    found = asked_of(case, path)
+    found = None
+    with suppress(SceneError):
+        found = asked_of(case, path)
     if found is None:
-        return _of_structure(replace(case, motion=(), expect=()))
+        return _of_all(replace(case, motion=(), expect=()))
     return Held(found.held.low - found.value, found.held.high - found.value, found.held.error)
 
 
@@ -168,19 +171,20 @@ def _pulls(answer: Answer) -> bool:
     return any(normal < 0.0 for normal in normals)
 
 
-def _of_structure(case: Case) -> Held:
-    """The same of what nothing moves: turned about where it does not assemble, or a contact parts.
+def _of_all(case: Case) -> Held:
+    """The same by all loads at once; of what nothing moves turned about where a contact parts.
 
-    Raises SceneError where it moves in several ways.
+    Raises SceneError where it is open.
     """
     try:
-        answer = solve_scene(smooth(case))
-    except SceneError:
-        return NOWHERE
-    if answer.mobility and answer.mobility > 1:
-        said = f"of {plural(answer.mobility, 'degree')} of freedom no one load says whether it holds still."
-        raise SceneError(Status.MOBILITY, said)
-    return NOWHERE if answer.mobility or _pulls(answer) else Held(-math.inf, math.inf)
+        depth, error, _ = standing(case)
+    except SceneError as refusal:
+        if refusal.status == Status.UNSUPPORTED:
+            raise
+        if refusal.status != Status.STRUCTURE:
+            return NOWHERE
+        return NOWHERE if _pulls(solve_scene(smooth(case))) else Held(-math.inf, math.inf)
+    return Held(-depth, depth, error)
 
 
 def smooth(case: Case) -> Case:
@@ -193,6 +197,7 @@ def smooth(case: Case) -> Case:
 
 HOLDS = "friction is enough: under the known loads the mechanism holds still."
 SLIPS = "friction is not enough: under the known loads the mechanism moves."
+SHARED = "So it does as its joints share the load, which equilibrium leaves open, in one way at least."
 OPEN = "whether friction is enough for the known loads is open: {}"
 KEPT_UP = "friction counted, the known loads keep up this motion."
 
@@ -213,9 +218,14 @@ def judged(answer: Answer, case: Case) -> Answer:
 
 def _at_rest(case: Case) -> tuple[bool | None, str]:
     """Whether it holds still, None where that is open; and the sentence on it."""
-    found = asked_of(case)
+    found = None
+    with suppress(SceneError):
+        found = asked_of(case)
     if found is None:
-        return None, OPEN.format("no load does work.")
+        depth, _, shared = standing(replace(case, expect=()))
+        if depth < 0.0:
+            return False, SLIPS
+        return True, f"{HOLDS} {SHARED}" if shared else HOLDS
     low, high, _, again = found.held
     reach = reach_of((low, high), unit_of(found.load, case), lambda end: f"{end + 0.0:.6g}", None)
     what = f"{_named(found.load)} {reach}"

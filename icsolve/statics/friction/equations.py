@@ -258,11 +258,17 @@ def forces_of(statics: Statics) -> tuple[tuple[Row, ...], ...]:
     return tuple(tuple(_force(statics, rub.tie, row) for row in rub.normal) for rub in statics.rubs)
 
 
-def _force(statics: Statics, tie: int, shares: Sequence[float]) -> Row:
+def combined(statics: Statics, tie: int, shares: Sequence[float]) -> Row:
+    """A combination of what a tie transmits, by the parameters and what equilibrium leaves open."""
     total: Row = {}
     for n, share in enumerate(shares):
         for c, a in statics.general.of(statics.first[tie] + n).items():
             total[c] = total.get(c, 0.0) + share * a
+    return total
+
+
+def _force(statics: Statics, tie: int, shares: Sequence[float]) -> Row:
+    total = combined(statics, tie, shares)
     largest = largest_of(total.values())
     if any(abs(a) > OPEN * max(largest, 1.0) for c, a in total.items() if c < statics.known):
         raise LookupError(tie)
@@ -375,9 +381,7 @@ def reduced_workless(statics: Statics, senses: Sequence[float]) -> Reduced | Non
         return tuple(total)
 
     vectors = tuple(tuple(form(row) for row in rows) for rows in forces_of(statics))
-    return Reduced(
-        Lengths(lengths, vectors, touching_of(statics)), (_alone(most, n, 1.0),), tuple(gains)
-    )
+    return Reduced(Lengths(lengths, vectors, touching_of(statics)), (_alone(most, n, 1.0),), tuple(gains))
 
 
 def contracted(equations: Lengths) -> Y:

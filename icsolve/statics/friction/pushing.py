@@ -80,7 +80,7 @@ class RopeSlip(NamedTuple):
 
     before: tuple[int, ...]
     column: int
-    grown: float
+    grown: Scalar
 
 
 def with_slips(
@@ -100,7 +100,7 @@ def with_slips(
             for j, part in enumerate(tie.parts[k:], start=k):
                 on, by = part.links[0], part.links[1] or tie.rope.end
                 actions.append(Action(column, on, by, *tie.unit(j)))
-            slips.append(RopeSlip(tuple(before), column, float(grown)))
+            slips.append(RopeSlip(tuple(before), column, grown))
             before.append(column)
     return solve_statics(bare, actions, position.case.ground), tuple(slips)
 
@@ -207,9 +207,9 @@ def _limits(statics: Statics, slips: Sequence[RopeSlip]) -> Limits | None:
     presses = tuple(tuple(map(form, rows)) for rows in forces_of(statics))
     frictions = tuple(form({statics.rub(k): 1.0 / rub.limit}) for k, rub in enumerate(statics.rubs))
     kept = tuple([k for k in range(count) if fixed or k != gone - 2])
-    between = [row for slip in slips for row in _between_pulls(statics, slip)]
+    between = [row for slip in slips for row in between_pulls(statics, slip)]
     between += [left, {c: -a for c, a in left.items()}] if fixed else []  # without friction in it
-    smooth = tuple(map(form, (*smooth_normals(statics), *_pulls(statics), *between)))
+    smooth = tuple(map(form, (*smooth_normals(statics), *pulls_of(statics), *between)))
     return Limits(load, presses, frictions, smooth, kept)
 
 
@@ -305,7 +305,7 @@ def exactly(statics: Statics, vertex: Vertex) -> Scalar | None:
 
 def _inequalities(statics: Statics, senses: Sequence[float]) -> list[Row]:
     """The inequalities in the order of `Limits.forms`, as combinations of the parameters."""
-    found = [*smooth_normals(statics), *_pulls(statics)]
+    found = [*smooth_normals(statics), *pulls_of(statics)]
     for k, (forces, sense) in enumerate(zip(forces_of(statics), senses, strict=True)):
         most = statics.rubs[k].limit * sense
         for side in (1.0, -1.0):
@@ -315,11 +315,12 @@ def _inequalities(statics: Statics, senses: Sequence[float]) -> list[Row]:
     return found
 
 
-def _pulls(statics: Statics) -> list[Row]:
+def pulls_of(statics: Statics) -> list[Row]:
+    """The pulls of ropes, as combinations of the parameters."""
     return [statics.general.of(statics.tension(n)) for n in range(len(statics.ropes))]
 
 
-def _between_pulls(statics: Statics, slip: RopeSlip) -> tuple[Row, Row]:
+def between_pulls(statics: Statics, slip: RopeSlip) -> tuple[Row, Row]:
     """How much less than it may be each of the pulls beside a place is, as combinations of the parameters."""
     rows = [statics.general.of(column) for column in slip.before]
     before = {c: sum(row.get(c, 0.0) for row in rows) for row in rows for c in row}

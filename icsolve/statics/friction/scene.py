@@ -37,6 +37,7 @@ from icsolve.statics.friction.interface import (
     place_of,
     rubbing_rates,
     rubs_of,
+    shared,
     unknowns_by_power,
 )
 from icsolve.statics.friction.limits import Slid, slid
@@ -385,7 +386,7 @@ def _statics(scene: FrictionScene, ties: Sequence[Tie], flanks: Mapping[int, flo
         forces_of(statics)
     except LookupError as error:
         tie = ties[error.args[0]]
-        raise SceneError(Status.UNSUPPORTED, _shared(tie, ties)) from None
+        raise SceneError(Status.UNSUPPORTED, shared(tie, ties)) from None
     return statics
 
 
@@ -398,21 +399,6 @@ def _asked(
 
 def _floats(row: Row) -> Row:
     return {c: float(a) for c, a in row.items()}
-
-
-def _shared(tie: Tie, ties: Sequence[Tie]) -> str:
-    remedy = "Take out `mu` there, or make the joints fewer (a pin in a slot in place of a slide)."
-    cause = "the joints are redundant and share the load by their fit"
-    meshes = [other.joint for other in ties if other.pivots]
-    if any(not mesh.pulls and mesh.pressure_angle is None for mesh in meshes):
-        cause, remedy = "it hangs on how hard teeth push apart", "Give the gears their `pressure angle`."
-    elif any(mesh.pulls for mesh in meshes):
-        cause = "it hangs on the initial tension of the belt"
-        remedy = "Take out `mu` there, or in place of the belt put its two pulls on the pulleys as loads."
-    return (
-        f"the friction of links {tie.by} and {tie.on}{place_of(tie)} depends on a force that equilibrium "
-        f"leaves open: {cause}. {remedy}"
-    )
 
 
 def _bodies(
