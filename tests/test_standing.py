@@ -157,3 +157,74 @@ def test_a_crate_on_three_legs_tips_where_its_weight_is_beyond_them(reach: float
     answer = icsolve.solve(icsolve.load(text))
     assert answer.holds_still is holds
     assert any("share the load" in note for note in answer.notes) is holds
+
+
+def table(dice: Random, joints: str, load: str) -> tuple[str, float, float]:
+    """A table on three to five smooth legs, in any order, and from where to where they reach."""
+    legs = [round(dice.uniform(-2.0, 2.0), 2) for _ in range(dice.randint(3, 5))]
+    points = "".join(f", L{n}: [{x}, 0]" for n, x in enumerate(legs))
+    contacts = "".join(f"  - {{contact: [1, 2], at: L{n}, normal: 90}}\n" for n in range(len(legs)))
+    text = (
+        f"icsolve: 1\npoints: {{G: [WEIGHT, 0.5], O: [0, 0], Q: [5, 0]{points}}}\n"
+        f"joints:\n{contacts}{joints}loads:\n  W: {{weight: 100, link: 2, at: G}}\n{load}"
+    )
+    return text, min(legs), max(legs)
+
+
+SLED = """  - {slot: [2, 3], at: O, along: 90}
+  - {slide: [3, 1], at: Q, along: 0, mu: 0.2}
+"""
+PULL = """  V: {weight: 50, link: 3, at: Q}
+  F: {force: PULLED, link: 3, at: Q, angle: 0}
+"""
+
+
+@pytest.mark.parametrize("seed", range(40 if FULL else 8))
+def test_a_table_that_a_sled_holds_tips_at_no_value_of_the_pull(seed: int) -> None:
+    """The sled rubs by its own weight: it holds 0.2 x 50 either way where the legs can carry the table, and
+    no value holds where one would have to pull, however they share the load. The legs' ends are found to
+    1e-12, as forces below 1e-13 of the largest count as none."""
+    dice = Random(f"sled {seed}")
+    text, low, high = table(dice, SLED, PULL)
+    for at in (low - 0.05, low + 0.02, 0.5 * (low + high), high - 0.02, high + 0.05):
+        case = icsolve.load(text.replace("WEIGHT", f"{at:.6f}").replace("PULLED", "unknown"))
+        if low < at < high:
+            assert icsolve.solve(case).answers["F"].holds == (-10.0, 10.0)
+        else:
+            with pytest.raises(icsolve.SceneError, match="no value of F holds: a contact is lost") as refusal:
+                icsolve.solve(case)
+            assert refusal.value.status == "no-value"
+        for pull, holds in ((9.0, low < at < high), (11.0, False)):
+            given = icsolve.load(text.replace("WEIGHT", f"{at:.6f}").replace("PULLED", str(pull)))
+            assert icsolve.solve(given).holds_still is holds
+    case = icsolve.load(text.replace("WEIGHT", "0").replace("PULLED", "3"))
+    found = holding_values(case, "points.G.x", -3.0, 3.0)
+    assert [one.value for one in found] == pytest.approx([low, high], abs=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(40 if FULL else 8))
+@pytest.mark.parametrize("pinned", [False, True], ids=["mechanism", "structure"])
+def test_smooth_legs_hold_a_table_as_far_as_they_reach(pinned: bool, seed: int) -> None:
+    """Also where nothing rubs, and where a pin beyond them on the left leaves nothing to move: then it lifts
+    off its legs from the pin on. To 1e-12."""
+    text, low, high = table(Random(f"legs {seed}"), "  - {pin: [1, 2], at: P}\n" if pinned else "", "")
+    text = text.replace("points: {", "points: {P: [-2.5, 0], ")
+    found = holding_values(icsolve.load(text.replace("WEIGHT", "0")), "points.G.x", -3.0, 3.0)
+    assert [one.value for one in found] == pytest.approx([-2.5] if pinned else [low, high], abs=1e-12)
+    assert [one.after for one in found] == ["holds", "slips"][: len(found)]
+
+
+@pytest.mark.parametrize("count", [3, 6, 10, 14])
+@pytest.mark.parametrize(("reach", "lost"), [(1.0, False), (0.5, False), (1.01, True), (-0.01, True)])
+def test_of_however_many_legs_one_is_lost_where_the_weight_is_beyond_them(
+    count: int, reach: float, lost: bool
+) -> None:
+    """Fourteen legs leave twelve forces open; at the last of them all is on that one."""
+    points = "".join(f", L{n}: [{n / (count - 1)!r}, 0]" for n in range(count))
+    legs = "".join(f"  - {{contact: [1, 2], at: L{n}, normal: 90}}\n" for n in range(count))
+    case = icsolve.load(
+        f"icsolve: 1\npoints: {{G: [{reach}, 1]{points}}}\njoints:\n{legs}"
+        "loads: {W: {weight: 9, link: 2, at: G}}\n"
+    )
+    notes = icsolve.solve(case, reactions=True).notes
+    assert any("the normal force of one would have to pull" in note for note in notes) is lost

@@ -20,7 +20,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.balls import is_long
 from icsolve.scene import refusals
 from icsolve.scene.parts import AnswerBuilder
-from icsolve.scene.program import EvaluatedScene, Want, prepare
+from icsolve.scene.program import EvaluatedScene, Want, evaluate_still, prepare
 from icsolve.statics.power import has_friction, is_unknown
 from icsolve.tuples import replace
 
@@ -142,16 +142,23 @@ def _solved(case: Case, want: Want, bound: bool, reactions: bool) -> Answer:
 
 
 def standing(case: Case) -> Standing:
-    """How far a case whose loads are all known is from slipping at rest, friction counted.
+    """How far a case whose loads are all known is from slipping at rest, friction counted, and its contacts
+    from parting; a structure too.
 
     Raises SceneError where the scene can't be built, and where that is open.
     """
     from icsolve.cams.solving import placed
-    from icsolve.scene.free_bodies import standing as of_scene
+    from icsolve.scene import free_bodies
 
     case = placed(case)
     program = prepare(case, wanted(case, Want(bodies=True)))
-    return of_scene(balanced(AnswerBuilder(EvaluatedScene(program, certain=True))))
+    try:
+        scene = balanced(AnswerBuilder(EvaluatedScene(program, certain=True))).scene
+    except SceneError as refusal:
+        if refusal.status != Status.STRUCTURE:
+            raise
+        scene = EvaluatedScene(program, True, run=evaluate_still)
+    return free_bodies.standing(scene)
 
 
 INEXACT = (Status.STRUCTURE, Status.MOBILITY, Status.NEAR_SINGULAR, Status.CONTRADICTORY)

@@ -16,7 +16,6 @@ from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.arithmetic import largest_of
 from icsolve.scene import solve_scene, standing
 from icsolve.solve.rest import PROBE, probes
-from icsolve.statics.power import has_friction
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.senses import reach_of, unit_of
 
@@ -152,27 +151,34 @@ def _held(said: SaidCase, load: str, alone: bool) -> Held:
     """Where it holds still; with ``alone`` it is not told where it holds again beyond a range without end."""
     case = said.case
     try:
-        answer = solve_scene(case, alone=alone, reactions=not has_friction(case))
+        answer = solve_scene(case, alone=alone)
     except SceneError as refusal:
         if refusal.status in (Status.NO_VALUE, Status.SLACK):
             return NOWHERE
         raise
     found, friction = answer.answers[load], answer.friction
     if found.holds is None:
-        return NOWHERE if _pulls(answer) else Held(found.value, found.value, found.error or 0.0)
+        parts = _parts(case, load, found.value)
+        return NOWHERE if parts else Held(found.value, found.value, found.error or 0.0)
     largest = largest_of([end for end in found.holds if math.isfinite(end)])
     error = UNPROVEN * largest if found.error is None else found.error
     return Held(*found.holds, error, () if friction is None else friction.again)
 
 
-def _pulls(answer: Answer) -> bool:
-    """Whether a contact would have to pull."""
-    normals = (dict(reaction.parts).get("normal", 0.0) for reaction in (answer.reactions or {}).values())
-    return any(normal < 0.0 for normal in normals)
+def _parts(case: Case, load: str, value: float) -> bool:
+    """Whether a contact parts under an unknown load of this value."""
+    if not any(joint.only_pushes for joint in case.joints):
+        return False
+    number = Number(value, 0.0, f"loads.{load}", repr(value))
+    loads = [
+        one._replace(value=number) if one.name == load and not isinstance(one, ForceVector) else one
+        for one in case.loads
+    ]
+    return standing(replace(case, loads=tuple(loads))).depth < 0.0
 
 
 def _of_all(case: Case) -> Held:
-    """The same by all loads at once; of what nothing moves turned about where a contact parts.
+    """The same by all loads at once.
 
     Raises SceneError where it is open.
     """
@@ -181,9 +187,7 @@ def _of_all(case: Case) -> Held:
     except SceneError as refusal:
         if refusal.status == Status.UNSUPPORTED:
             raise
-        if refusal.status != Status.STRUCTURE:
-            return NOWHERE
-        return NOWHERE if _pulls(solve_scene(smooth(case))) else Held(-math.inf, math.inf)
+        return NOWHERE
     return Held(-depth, depth, error)
 
 

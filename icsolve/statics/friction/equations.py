@@ -345,12 +345,28 @@ def touching_of(statics: Statics) -> tuple[bool, ...]:
 
 
 def smooth_normals(statics: Statics) -> Iterator[Row]:
-    """The normal forces of contacts without friction, as combinations of the parameters."""
+    """The normal forces of contacts without friction, as combinations of the parameters; those that
+    equilibrium determines."""
+    for t in _smooth_contacts(statics):
+        with suppress(LookupError):
+            yield _force(statics, t, (1.0,))
+
+
+def shared_normals(statics: Statics) -> list[Row]:
+    """The same of those contacts of which equilibrium leaves open how they share the load, as combinations of
+    the parameters and of what is open."""
+    found = []
+    for t in _smooth_contacts(statics):
+        try:
+            _force(statics, t, (1.0,))
+        except LookupError:
+            found.append(combined(statics, t, (1.0,)))
+    return found
+
+
+def _smooth_contacts(statics: Statics) -> Iterator[int]:
     rough = {rub.tie for rub in statics.rubs}
-    for t, tie in enumerate(statics.ties):
-        if tie.joint.only_pushes and t not in rough:
-            with suppress(LookupError):  # of how the links share a load equilibrium says nothing
-                yield _force(statics, t, (1.0,))
+    return (t for t, tie in enumerate(statics.ties) if tie.joint.only_pushes and t not in rough)
 
 
 def reduced_workless(statics: Statics, senses: Sequence[float]) -> Reduced | None:

@@ -19,7 +19,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TypeVar
 
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Showing, decider, largest_of
@@ -31,10 +31,25 @@ from icsolve.statics.friction.pushing import between_pulls, pulls_of, with_slips
 from icsolve.statics.power import Balance
 from icsolve.statics.reaction_basis import Position, meshes, slipping, ties_of, with_flanks
 from icsolve.statics.witness import refuse_doubt
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, Protocol
 
-if TYPE_CHECKING:
-    from icsolve.statics.friction.scene import FrictionScene
+T = TypeVar("T")
+
+
+class AsksStatics(Protocol):
+    """Asks a question of a scene in the numbers that settle it."""
+
+    def __call__(self, question: Callable[[Position, Balance, Showing], T]) -> T:
+        """The answer; SceneError where no digits do."""
+
+
+class RestingScene(NamedTuple):
+    """A scene whose loads are all known: in floats, and what asks the same in numbers that settle it."""
+
+    position: Position
+    balance: Balance
+    ask: AsksStatics
+
 
 MOST_FLANKS = 6
 """More meshes have too many combinations of flanks."""
@@ -140,7 +155,7 @@ class Pressed(NamedTuple):
     contacts: tuple[int, ...]
 
 
-def standing(scene: FrictionScene) -> Standing:
+def standing(scene: RestingScene) -> Standing:
     """How far loads that are all known are from slipping.
 
     Raises SceneError where that hangs on how hard the fit of the joints presses them together, and where it
@@ -165,27 +180,26 @@ def standing(scene: FrictionScene) -> Standing:
 TOO_MANY = "too many joints rub in which more than one sense of what presses would have to be tried."
 
 
-def _limits(scene: FrictionScene, flanks: Mapping[int, float]) -> FrictionLimits:
-    """In floats: those of balls, rounded, where bounds are asked for."""
-    if scene.enclose is not None:
-        with suppress(SceneError):  # what no digits decide is left to rounding
-            exact = scene.enclose(lambda placed: limits_of(placed.position, placed.balance, flanks))
-            return exact.each(lambda row: {c: float(a) for c, a in row.items()})
+def _limits(scene: RestingScene, flanks: Mapping[int, float]) -> FrictionLimits:
+    """In floats: those of balls, rounded."""
+    with suppress(SceneError):  # what no digits decide is left to rounding
+        exact = scene.ask(lambda position, balance, _: limits_of(position, balance, flanks))
+        return exact.each(lambda row: {c: float(a) for c, a in row.items()})
     return limits_of(scene.position, scene.balance, flanks)
 
 
 def _standing(
-    scene: FrictionScene, flanks: Mapping[int, float], limits: FrictionLimits, lost: frozenset[int]
+    scene: RestingScene, flanks: Mapping[int, float], limits: FrictionLimits, lost: frozenset[int]
 ) -> Standing | Pressed:
     """With some contacts lost; where it holds only as the fit of the others presses them together, these."""
     own = limits.without(lost)
     part, open_ = _deepest_part(own), _is_shared(own)
     depth, error = (part.depth, ROUNDED) if part.depth < 0.0 else (part.sure, part.depth - part.sure)
-    if part.of and (depth == part.depth) and scene.enclose is not None:
+    if part.of and depth == part.depth:
         with suppress(SceneError):
-            depth, error = scene.enclose(
-                lambda placed: _exactly(
-                    limits_of(placed.position, placed.balance, flanks).without(lost), part, placed.arithmetic
+            depth, error = scene.ask(
+                lambda position, balance, a: _exactly(
+                    limits_of(position, balance, flanks).without(lost), part, a
                 )
             )
     found = Standing(depth, error, open_)

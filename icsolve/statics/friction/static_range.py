@@ -33,6 +33,7 @@ from icsolve.statics.friction.equations import (
     loads_from_power,
     reduced,
     reduced_workless,
+    shared_normals,
     without_friction,
 )
 from icsolve.statics.friction.interface import place_of
@@ -115,6 +116,7 @@ def static_range(statics: Statics, senses: Sequence[float], alone: bool) -> Stat
     ends = [end for d in (1.0, -1.0) if (end := _end(statics, [d * s for s in senses])) is not None]
     locks = all(math.isinf(end.value) for end in ends)  # where contacts push, one way at most
     parts = _may_part(statics) and (locks or not all(end.pushes for end in ends))
+    parts = parts or bool(shared_normals(statics))
     if parts or _nothing_presses(statics, senses):
         starts = [(end.value * statics.scale, *end.friction) for end in ends if end.friction]
         within = limited.held(statics, starts)
@@ -184,7 +186,8 @@ def _lost(statics: Statics, smooth: float) -> str:
     pulling = [
         f"of links {tie.by} and {tie.on}{place_of(tie)}"
         for tie, column in zip(statics.ties, statics.first, strict=True)
-        if tie.joint.only_pushes and statics.value(column, parameters) < 0.0
+        if tie.joint.only_pushes and not statics.general.of(column).keys() & set(statics.general.free)
+        if statics.value(column, parameters) < 0.0
     ]
     what = f"the contact {listed(pulling)}" if pulling else "a contact"
     return (
