@@ -22,12 +22,13 @@ from icsolve.wording.senses import reach_of, unit_of
 
 class Held(NamedTuple):
     """From what to what value of a load it holds still, turned about where nowhere; how far off these may be;
-    beyond what values it may hold again."""
+    beyond what values it may hold again; what is to be said where that is a jam."""
 
     low: float
     high: float
     error: float = 0.0
     again: tuple[float, ...] = ()
+    jams: str = ""
 
 
 NOWHERE = Held(math.inf, -math.inf)
@@ -162,7 +163,7 @@ def _held(said: SaidCase, load: str, alone: bool) -> Held:
         return NOWHERE if parts else Held(found.value, found.value, found.error or 0.0)
     largest = largest_of([end for end in found.holds if math.isfinite(end)])
     error = UNPROVEN * largest if found.error is None else found.error
-    return Held(*found.holds, error, () if friction is None else friction.again)
+    return Held(*found.holds, error, *((friction.again, friction.jams) if friction else ()))
 
 
 def _parts(case: Case, load: str, value: float) -> bool:
@@ -230,11 +231,11 @@ def _at_rest(case: Case) -> tuple[bool | None, str]:
         if depth < 0.0:
             return False, SLIPS
         return True, f"{HOLDS} {SHARED}" if shared else HOLDS
-    low, high, _, again = found.held
+    low, high, _, again, jams = found.held
     reach = reach_of((low, high), unit_of(found.load, case), lambda end: f"{end + 0.0:.6g}", None)
     what = f"{_named(found.load)} {reach}"
     if low <= found.value <= high:
-        return True, f"{HOLDS} So it does with {what}."
+        return True, f"{HOLDS} So it does with {what}.{jams and ' But '}{jams}"
     if again:
         return None, OPEN.format(f"it holds with {what}, and may beyond.")
     return False, f"{SLIPS} It would hold with {what}." if low <= high else SLIPS
