@@ -19,7 +19,7 @@ import pytest
 from icsolve.assembly.exclusion import _Link, _narrow_length
 from icsolve.numbers.arithmetic import ZERO
 from icsolve.numbers.balls import INEXACT, Ball, Balls, MoreDigits
-from icsolve.numbers.inequalities import region
+from icsolve.numbers.inequalities import deepest, region
 from icsolve.numbers.linear import (
     SINGULAR,
     SPENT,
@@ -31,6 +31,7 @@ from icsolve.numbers.linear import (
 )
 from icsolve.numbers.quadratics import Quadratics, every_zero
 from icsolve.numbers.roots import below_zero, last_that_holds, zero_between
+from sizes import FULL
 
 Matrix = list[list[float]]
 
@@ -470,3 +471,32 @@ def test_a_region_without_a_wall_goes_to_infinity() -> None:
     assert region(walls).first == (-math.inf, math.inf)
     assert region([*walls, (-2.0, 1.0, 0.0)]).first == (2.0, math.inf)
     assert region([*walls, (-2.0, 0.0, -1.0)]).first is None
+
+
+@pytest.mark.parametrize("seed", range(400 if FULL else 60))
+def test_the_deepest_point_of_inequalities_is_proven_by_their_shares(seed: int) -> None:
+    """No form is less there than the depth, and shares of the forms, 1 in all and none negative, add up to
+    the depth without variables: so no point is deeper (weak duality). To 1e-9, as numbers are about 1; two in
+    five with small whole numbers, where many corners coincide."""
+    dice = Random(f"deepest {seed}")
+    count, whole = dice.randint(0, 8), dice.random() < 0.4
+    forms = []
+    for _ in range(dice.randint(1, 25)):
+        form = [dice.uniform(-1.0, 1.0) * (dice.random() < 0.6) for _ in range(count + 1)]
+        forms.append(tuple([float(round(2.0 * a)) for a in form] if whole else form))
+    found = deepest(forms)
+    values = [form[0] + sum(a * x for a, x in zip(form[1:], found.point, strict=True)) for form in forms]
+    assert min(values) >= found.depth - 1e-9
+    sums = [
+        sum(s * forms[k][j] for k, s in zip(found.of, found.shares, strict=True)) for j in range(count + 1)
+    ]
+    rest = 1.0 - sum(found.shares)
+    assert min(found.shares, default=0.0) >= -1e-9 and rest >= -1e-9
+    assert sums[1:] == pytest.approx([0.0] * count, abs=1e-9)
+    assert sums[0] + rest == pytest.approx(found.depth, abs=1e-9)
+
+
+@pytest.mark.parametrize(("least", "depth"), [(-1.0, 1.0), (0.5, 0.25), (2.0, -math.inf)])
+def test_forms_that_do_not_count_may_leave_no_point(least: float, depth: float) -> None:
+    """x from ``least`` to 1, whatever the depth, that is (1 - x) / 2: without a point where least is more."""
+    assert deepest([(1.0, -1.0), (-least, 1.0), (0.5, -0.5)], [0.0, 0.0, 1.0]).depth == depth

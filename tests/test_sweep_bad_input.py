@@ -156,8 +156,9 @@ def test_what_makes_no_sense_is_refused_in_one_line(
 def test_a_case_in_space_is_refused_by_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "space.yaml"
     path.write_text(IN_SPACE)
-    assert exit_status("sweep", str(path), "--vary", "gravity=1:9:1") == 1
-    assert refused("unsupported", "in space", "--set")(capsys.readouterr().err)
+    for words in (["sweep", str(path), "--vary", "gravity=1:9:1"], ["solve", str(path), "--stability", "2"]):
+        assert exit_status(*words) == 1
+        assert refused("unsupported", "in space", "--set")(capsys.readouterr().err)
 
 
 def test_a_case_without_an_unknown_has_rows_but_nothing_to_find(

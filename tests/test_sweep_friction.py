@@ -219,3 +219,36 @@ def test_rows_with_friction_go_straight_on_through_change_points(motion: str, wa
         right = scene.holds or (scene.value, scene.value)
         row = found.holds["T"][n] if scene.holds else [found.answers["T"][n]] * 2
         assert row == pytest.approx(right, rel=1e-7)
+
+
+LADDER = """icsolve: 1
+points: {{A: [0, 0], G: {{centroid: [A, B]}}}}
+lengths: {{AB: 5}}
+angles: {{AB: 60}}
+{named}joints:
+  - {{contact: [1, 2], at: A, normal: 90, mu: 0.3}}
+  - {{contact: [1, 2], at: B, normal: 180, mu: 0.2}}
+loads:
+  W: {{weight: 200, link: 2, at: {weight}}}
+  U: {{force: unknown, link: 2, at: {push}, angle: 0}}
+"""
+
+
+@pytest.mark.parametrize("weight", "GAB")
+@pytest.mark.parametrize("push", "AB")
+@pytest.mark.parametrize("named", ["", "links: {2: [A, B]}\n"], ids=["", "named"])
+@pytest.mark.parametrize(("path", "values"), [("angles.AB", (50, 60, 65)), ("lengths.AB", (4, 5, 5.5))])
+def test_a_number_that_puts_contacts_elsewhere_gives_figures_written_so(
+    weight: str, push: str, named: str, path: str, values: tuple[float, ...]
+) -> None:
+    """A ladder whose foot is elsewhere on the floor, wherever its loads act and whatever points are named of
+    it: each row is its scene."""
+    if (weight, push) == ("A", "B"):  # it does no work, and nothing drives
+        return
+    text = LADDER.format(named=named, weight=weight, push=push)
+    sweep = icsolve.sweep(icsolve.load(text), vary={path: values})
+    for row, value in enumerate(values):
+        was = {"angles.AB": "AB: 60", "lengths.AB": "AB: 5"}[path]
+        scene = icsolve.solve(icsolve.load(text.replace(was, f"AB: {value}")))
+        assert sweep.status[row] == "holds"
+        assert tuple(sweep.holds["U"][row]) == scene.answers["U"].holds

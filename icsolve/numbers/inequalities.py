@@ -9,8 +9,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from operator import mul
+from typing import Any
 
 from icsolve.numbers.arithmetic import largest_of
+from icsolve.numbers.linear import SPENT, eliminate
 from icsolve.tuples import NamedTuple
 
 Form = tuple[float, ...]
@@ -113,3 +116,112 @@ def _between(given: Sequence[Inequality], known: Sequence[float]) -> tuple[float
         elif rest < 0.0 and not known:
             return math.inf, -math.inf
     return low, high
+
+
+class Deepest(NamedTuple):
+    """Where the least of some forms is greatest.
+
+    Attributes
+    ----------
+    depth : that least, at most 1; negative where no point has all of them not less than zero, infinite where
+        those that do not count are the cause
+    of : the places of the forms that set it, each as deep as the others at the point
+    point : (n,), one of those
+    shares : of those forms, in the sum that shows that no point is deeper
+    """
+
+    depth: Any
+    of: tuple[int, ...]
+    point: tuple[Any, ...]
+    shares: tuple[Any, ...]
+
+    def is_proven(self, forms: Sequence[Form], counts: Sequence[float]) -> bool:
+        """Whether no form is less than it is to be at the point, and the shares of forms leave no variable,
+        but for rounding."""
+        if math.isinf(self.depth):
+            return False
+        for form, many in zip(forms, counts, strict=True):
+            terms = [form[0], *map(mul, form[1:], self.point), -many * self.depth]
+            if sum(terms) < -CLOSE * largest_of(terms):
+                return False
+        columns = zip(*(forms[k] for k in self.of), strict=True)
+        left = [abs(sum(map(mul, column, self.shares))) for column in columns][1:]
+        return max(left, default=0.0) <= CLOSE and min(self.shares, default=0.0) >= -CLOSE
+
+
+def deepest(forms: Sequence[Form], counts: Sequence[float] | None = None) -> Deepest:
+    """Where the least of some forms, (1 + n,) each, is greatest.
+
+    By the simplex method (G. Dantzig, 1947; ties by the first place, R. Bland, 1977) on the dual: of the
+    shares, 1 in all, with which the forms add up to one without variables, those that make it least.
+
+    Parameters
+    ----------
+    counts : by how many times the depth each form is to exceed zero; without them all by it once
+    """
+    counts = [1.0] * len(forms) if counts is None else counts
+    found = _simplex(forms, counts)
+    if not found.is_proven(forms, counts):  # rounding led to rows that hang on each other
+        from fractions import Fraction
+
+        exact = [tuple(map(Fraction, form)) for form in forms]
+        found = _simplex(exact, list(map(Fraction, counts)))
+    point, shares = (tuple(map(float, own)) for own in (found.point, found.shares))
+    return Deepest(float(found.depth), found.of, point, shares)
+
+
+def _simplex(forms: Sequence[Sequence[Any]], counts: Sequence[Any]) -> Deepest:
+    """`deepest` in floats or in fractions."""
+    count, last = len(forms[0]) - 1 if forms else 0, len(forms)
+    zero, one = (counts[0] * 0, counts[0] * 0 + 1) if counts else (0.0, 1.0)
+    nothing = CLOSE if isinstance(one, float) else 0
+    table = [[form[j] for form in forms] + [zero, zero] for j in range(1, count + 1)]
+    table.append([*counts, one, one])  # the last form is 1, wherever it is asked
+    costs = [*(form[0] for form in forms), one]
+    basis = [-1] * count + [last]
+    for r in range(count):  # nothing has a share yet: any place will do
+        c = max(range(last), key=lambda k: abs(table[r][k]), default=last)
+        if abs(table[r][c]) > nothing:
+            _pivot(table, basis, r, c, nothing)
+    rows = [r for r, c in enumerate(basis) if c >= 0]
+    for _ in range(MOST_PIVOTS):
+        prices = [costs[basis[r]] for r in rows]
+        taken = ([table[r][c] for r in rows] for c in range(last + 1))
+        worth = (costs[c] - sum(map(mul, prices, own)) for c, own in enumerate(taken))
+        enters = next((c for c, w in enumerate(worth) if w < -nothing and c not in basis), None)
+        ratios = (
+            []
+            if enters is None
+            else [(table[r][-1] / table[r][enters], basis[r], r) for r in rows if table[r][enters] > nothing]
+        )
+        if enters is None:
+            break
+        if not ratios:
+            return Deepest(-math.inf, (), (0.0,) * count, ())
+        _pivot(table, basis, min(ratios)[2], enters, nothing)
+    depth = sum(costs[basis[r]] * table[r][-1] for r in rows)
+    shares = {basis[r]: table[r][-1] for r in rows if basis[r] < last}
+    of = tuple(sorted(shares))
+    ends = [dict(enumerate((*forms[k][1:], forms[k][0] - counts[k] * depth))) for k in of]
+    point = eliminate(ends, count, SPENT if nothing else 0.0).solved
+    at = tuple([point.get(j, {}).get(count, zero) for j in range(count)])
+    return Deepest(depth, of, at, tuple([shares[k] for k in of]))
+
+
+MOST_PIVOTS = 10_000
+"""Rounding may lead around in a circle."""
+
+
+def _pivot(table: list[list[Any]], basis: list[int], r: int, c: int, nothing: float) -> None:
+    """Take a place into the basis, in the row of another."""
+    table[r] = [a / table[r][c] for a in table[r]]
+    for k, row in enumerate(table):
+        if k != r and row[c]:
+            table[k] = [_difference(a, row[c] * b, nothing) for a, b in zip(row, table[r], strict=True)]
+    basis[r] = c
+
+
+def _difference(a: Any, b: Any, nothing: float) -> Any:
+    """A difference, zero where that is rounding."""
+    total = a - b
+    return total if not nothing or abs(total) > NOTHING * max(abs(a), abs(b)) else 0.0

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from icsolve.answer import Answer
 from icsolve.case import Case
@@ -19,9 +20,12 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.balls import is_long
 from icsolve.scene import refusals
 from icsolve.scene.parts import AnswerBuilder
-from icsolve.scene.program import EvaluatedScene, Want, prepare
+from icsolve.scene.program import EvaluatedScene, Want, evaluate_still, prepare
 from icsolve.statics.power import has_friction, is_unknown
 from icsolve.tuples import replace
+
+if TYPE_CHECKING:
+    from icsolve.statics.friction.standing import Standing
 
 
 def solve_scene(
@@ -135,6 +139,26 @@ def _solved(case: Case, want: Want, bound: bool, reactions: bool) -> Answer:
 
             return structure(prepare(case, want._replace(bodies=True)), bound, refusal)
         raise
+
+
+def standing(case: Case) -> Standing:
+    """How far a case whose loads are all known is from slipping at rest, friction counted, and its contacts
+    from parting; a structure too.
+
+    Raises SceneError where the scene can't be built, and where that is open.
+    """
+    from icsolve.cams.solving import placed
+    from icsolve.scene import free_bodies
+
+    case = placed(case)
+    program = prepare(case, wanted(case, Want(bodies=True)))
+    try:
+        scene = balanced(AnswerBuilder(EvaluatedScene(program, certain=True))).scene
+    except SceneError as refusal:
+        if refusal.status != Status.STRUCTURE:
+            raise
+        scene = EvaluatedScene(program, True, run=evaluate_still)
+    return free_bodies.standing(scene)
 
 
 INEXACT = (Status.STRUCTURE, Status.MOBILITY, Status.NEAR_SINGULAR, Status.CONTRADICTORY)

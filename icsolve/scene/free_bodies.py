@@ -8,16 +8,17 @@ from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.answer import Answer
 from icsolve.errors import SceneError
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers.arithmetic import FLOATS, Showing
 from icsolve.scene.parts import AnswerBuilder, speed_of
 from icsolve.scene.program import EvaluatedScene, Evaluation, Program, evaluate_still, plain, points_shown
 from icsolve.statics.free_bodies import FreeBodies, free_bodies
-from icsolve.statics.power import Value, has_friction, is_unknown
+from icsolve.statics.power import Balance, Value, has_friction, is_unknown
 from icsolve.statics.reaction_basis import Position, rope_ties
 
 if TYPE_CHECKING:
     from icsolve.statics.friction.enclosure import SceneOnBalls
     from icsolve.statics.friction.scene import Enclose
+    from icsolve.statics.friction.standing import Standing
 
 T = TypeVar("T")
 
@@ -50,6 +51,21 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     place = position, outcome.balance, outcome.solution, parts.speed
     scene = FrictionScene(*place, lambda: parts.traced, enclose, alone)
     return solved(scene, answer_with, reactions)
+
+
+def standing(scene: EvaluatedScene) -> Standing:
+    """How far known loads are from slipping, friction counted, and contacts from parting.
+
+    Raises SceneError where that is open.
+    """
+    from icsolve.statics.friction.standing import RestingScene
+    from icsolve.statics.friction.standing import standing as found
+
+    def ask(question: Callable[[Position, Balance, Showing], T]) -> T:
+        return scene.ask(lambda one: question(_position(one), one.outcome.balance, one.arithmetic))
+
+    first = scene.ask(lambda one: one._replace(outcome=plain(one.outcome), arithmetic=FLOATS))
+    return found(RestingScene(_position(first), first.outcome.balance, ask))
 
 
 def _enclose(parts: AnswerBuilder) -> Enclose:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import lru_cache
 
 from icsolve.answer import Answer
@@ -13,22 +14,21 @@ from icsolve.case.joints import without_friction
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.arithmetic import largest_of
-from icsolve.scene import solve_scene
+from icsolve.scene import solve_scene, standing
 from icsolve.solve.rest import PROBE, probes
-from icsolve.statics.power import has_friction
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.senses import reach_of, unit_of
-from icsolve.wording.sentences import plural
 
 
 class Held(NamedTuple):
     """From what to what value of a load it holds still, turned about where nowhere; how far off these may be;
-    beyond what values it may hold again."""
+    beyond what values it may hold again; what is to be said where that is a jam."""
 
     low: float
     high: float
     error: float = 0.0
     again: tuple[float, ...] = ()
+    jams: str = ""
 
 
 NOWHERE = Held(math.inf, -math.inf)
@@ -85,11 +85,14 @@ def moving_loads(case: Case, path: str = "") -> Held:
     """From what load to what load more a mechanism under known loads holds still as written [case units]:
     infinite where none would move it, or where any does (turned about).
 
-    Parameters as of `asked_of`. Raises SceneError where no load says, as where it has several freedoms.
+    Parameters as of `asked_of`. Where no one load says, as of several freedoms, it is so many shares of the
+    forces that bound friction. Raises SceneError where it is open.
     """
-    found = asked_of(case, path)
+    found = None
+    with suppress(SceneError):
+        found = asked_of(case, path)
     if found is None:
-        return _of_structure(replace(case, motion=(), expect=()))
+        return _of_all(replace(case, motion=(), expect=()))
     return Held(found.held.low - found.value, found.held.high - found.value, found.held.error)
 
 
@@ -149,38 +152,44 @@ def _held(said: SaidCase, load: str, alone: bool) -> Held:
     """Where it holds still; with ``alone`` it is not told where it holds again beyond a range without end."""
     case = said.case
     try:
-        answer = solve_scene(case, alone=alone, reactions=not has_friction(case))
+        answer = solve_scene(case, alone=alone)
     except SceneError as refusal:
         if refusal.status in (Status.NO_VALUE, Status.SLACK):
             return NOWHERE
         raise
     found, friction = answer.answers[load], answer.friction
     if found.holds is None:
-        return NOWHERE if _pulls(answer) else Held(found.value, found.value, found.error or 0.0)
+        parts = _parts(case, load, found.value)
+        return NOWHERE if parts else Held(found.value, found.value, found.error or 0.0)
     largest = largest_of([end for end in found.holds if math.isfinite(end)])
     error = UNPROVEN * largest if found.error is None else found.error
-    return Held(*found.holds, error, () if friction is None else friction.again)
+    return Held(*found.holds, error, *((friction.again, friction.jams) if friction else ()))
 
 
-def _pulls(answer: Answer) -> bool:
-    """Whether a contact would have to pull."""
-    normals = (dict(reaction.parts).get("normal", 0.0) for reaction in (answer.reactions or {}).values())
-    return any(normal < 0.0 for normal in normals)
+def _parts(case: Case, load: str, value: float) -> bool:
+    """Whether a contact parts under an unknown load of this value."""
+    if not any(joint.only_pushes for joint in case.joints):
+        return False
+    number = Number(value, 0.0, f"loads.{load}", repr(value))
+    loads = [
+        one._replace(value=number) if one.name == load and not isinstance(one, ForceVector) else one
+        for one in case.loads
+    ]
+    return standing(replace(case, loads=tuple(loads))).depth < 0.0
 
 
-def _of_structure(case: Case) -> Held:
-    """The same of what nothing moves: turned about where it does not assemble, or a contact parts.
+def _of_all(case: Case) -> Held:
+    """The same by all loads at once.
 
-    Raises SceneError where it moves in several ways.
+    Raises SceneError where it is open.
     """
     try:
-        answer = solve_scene(smooth(case))
-    except SceneError:
+        depth, error, _ = standing(case)
+    except SceneError as refusal:
+        if refusal.status == Status.UNSUPPORTED:
+            raise
         return NOWHERE
-    if answer.mobility and answer.mobility > 1:
-        said = f"of {plural(answer.mobility, 'degree')} of freedom no one load says whether it holds still."
-        raise SceneError(Status.MOBILITY, said)
-    return NOWHERE if answer.mobility or _pulls(answer) else Held(-math.inf, math.inf)
+    return Held(-depth, depth, error)
 
 
 def smooth(case: Case) -> Case:
@@ -193,6 +202,7 @@ def smooth(case: Case) -> Case:
 
 HOLDS = "friction is enough: under the known loads the mechanism holds still."
 SLIPS = "friction is not enough: under the known loads the mechanism moves."
+SHARED = "So it does as its joints share the load, which equilibrium leaves open, in one way at least."
 OPEN = "whether friction is enough for the known loads is open: {}"
 KEPT_UP = "friction counted, the known loads keep up this motion."
 
@@ -213,14 +223,19 @@ def judged(answer: Answer, case: Case) -> Answer:
 
 def _at_rest(case: Case) -> tuple[bool | None, str]:
     """Whether it holds still, None where that is open; and the sentence on it."""
-    found = asked_of(case)
+    found = None
+    with suppress(SceneError):
+        found = asked_of(case)
     if found is None:
-        return None, OPEN.format("no load does work.")
-    low, high, _, again = found.held
+        depth, _, shared = standing(replace(case, expect=()))
+        if depth < 0.0:
+            return False, SLIPS
+        return True, f"{HOLDS} {SHARED}" if shared else HOLDS
+    low, high, _, again, jams = found.held
     reach = reach_of((low, high), unit_of(found.load, case), lambda end: f"{end + 0.0:.6g}", None)
     what = f"{_named(found.load)} {reach}"
     if low <= found.value <= high:
-        return True, f"{HOLDS} So it does with {what}."
+        return True, f"{HOLDS} So it does with {what}.{jams and ' But '}{jams}"
     if again:
         return None, OPEN.format(f"it holds with {what}, and may beyond.")
     return False, f"{SLIPS} It would hold with {what}." if low <= high else SLIPS

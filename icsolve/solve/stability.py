@@ -18,7 +18,7 @@ from icsolve.scene import solve_scene
 from icsolve.solve.positions import led_rest, moved_by, refuse_motion, rest_of
 from icsolve.solve.rest import Rest, balances
 from icsolve.statics.power import has_friction, is_unknown
-from icsolve.sweep.numbers import find_number, with_numbers
+from icsolve.sweep.numbers import find_number, refuse_space, with_numbers
 from icsolve.tuples import NamedTuple, replace
 
 CUTS = 32
@@ -32,6 +32,7 @@ def with_stability(case: Case, answer: Answer, of: str) -> Answer:
     """
     if answer.positions is not None:  # each has its own
         return answer
+    refuse_space(case)
     _refuse_unknown(case, of)
     held = holding(case, answer)
     rest = rest_as_written(held, of)

@@ -14,7 +14,7 @@ from icsolve.case import Case, Rope, is_link, ordered_pair
 from icsolve.case.joints import Mesh, Sliding
 from icsolve.errors import SceneError, Status, refuse_overflow
 from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, largest_of, size_of, zero_of
-from icsolve.numbers.inequalities import region
+from icsolve.numbers.inequalities import NOTHING, deepest
 from icsolve.numbers.linear import Row
 from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Equilibrium, Statics, T, Transmits, value_of
@@ -109,12 +109,11 @@ def can_share(statics: Statics, parameters: Mapping[int, Scalar], rows: Sequence
         shares = [0.0 if statics.determines(row, {c: size}) else float(row[c]) for c, size in sizes.items()]
         if any(shares):
             value = value_of(row, parameters)
-            forms.append((0.0 if a.vanishes(value, largest) else float(value), *shares))
-    return not forms or len(sizes) > MOST_OPEN or region(forms).first is not None
+            form = (0.0 if a.vanishes(value, largest) else float(value), *shares)
+            forms.append(tuple([part / largest_of(form) for part in form]))
+    return not forms or deepest(forms).depth >= -NOTHING
 
 
-MOST_OPEN = 8
-"""Inequalities in more variables are too many to eliminate them one by one."""
 SHARED = "the joints share the load in a way that equilibrium alone does not determine"
 
 

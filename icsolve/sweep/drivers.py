@@ -208,8 +208,11 @@ def pose_of(mechanism: Mechanism, path: str) -> Pose | None:
 
 def posing(mechanism: Mechanism, datum: Datum) -> Pose | None:
     """A datum with the spots of its points; None where they are all of one link (of the frame, for a
-    direction or a coordinate)."""
+    direction or a coordinate), and where it puts a contact in another place, which is known as written alone:
+    each value then is a figure written so."""
     ground = mechanism.top.ground
+    if any(c.only_pushes and not c.stays_known and c.at in datum.points for c in mechanism.case.joints):
+        return None
     carriers = [_carriers(mechanism, name) for name in datum.points]
     if not all(carriers):
         return None

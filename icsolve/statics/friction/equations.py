@@ -258,11 +258,17 @@ def forces_of(statics: Statics) -> tuple[tuple[Row, ...], ...]:
     return tuple(tuple(_force(statics, rub.tie, row) for row in rub.normal) for rub in statics.rubs)
 
 
-def _force(statics: Statics, tie: int, shares: Sequence[float]) -> Row:
+def combined(statics: Statics, tie: int, shares: Sequence[float]) -> Row:
+    """A combination of what a tie transmits, by the parameters and what equilibrium leaves open."""
     total: Row = {}
     for n, share in enumerate(shares):
         for c, a in statics.general.of(statics.first[tie] + n).items():
             total[c] = total.get(c, 0.0) + share * a
+    return total
+
+
+def _force(statics: Statics, tie: int, shares: Sequence[float]) -> Row:
+    total = combined(statics, tie, shares)
     largest = largest_of(total.values())
     if any(abs(a) > OPEN * max(largest, 1.0) for c, a in total.items() if c < statics.known):
         raise LookupError(tie)
@@ -339,12 +345,28 @@ def touching_of(statics: Statics) -> tuple[bool, ...]:
 
 
 def smooth_normals(statics: Statics) -> Iterator[Row]:
-    """The normal forces of contacts without friction, as combinations of the parameters."""
+    """The normal forces of contacts without friction, as combinations of the parameters; those that
+    equilibrium determines."""
+    for t in _smooth_contacts(statics):
+        with suppress(LookupError):
+            yield _force(statics, t, (1.0,))
+
+
+def shared_normals(statics: Statics) -> list[Row]:
+    """The same of those contacts of which equilibrium leaves open how they share the load, as combinations of
+    the parameters and of what is open."""
+    found = []
+    for t in _smooth_contacts(statics):
+        try:
+            _force(statics, t, (1.0,))
+        except LookupError:
+            found.append(combined(statics, t, (1.0,)))
+    return found
+
+
+def _smooth_contacts(statics: Statics) -> Iterator[int]:
     rough = {rub.tie for rub in statics.rubs}
-    for t, tie in enumerate(statics.ties):
-        if tie.joint.only_pushes and t not in rough:
-            with suppress(LookupError):  # of how the links share a load equilibrium says nothing
-                yield _force(statics, t, (1.0,))
+    return (t for t, tie in enumerate(statics.ties) if tie.joint.only_pushes and t not in rough)
 
 
 def reduced_workless(statics: Statics, senses: Sequence[float]) -> Reduced | None:

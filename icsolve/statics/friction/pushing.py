@@ -20,7 +20,7 @@ from icsolve.numbers.arithmetic import Scalar, all_vanish, decider, largest_of, 
 from icsolve.numbers.inequalities import Form, region
 from icsolve.numbers.linear import Row, eliminate
 from icsolve.statics.equilibrium import Action, Rub, Statics, actions_of, columns_of, solve_statics
-from icsolve.statics.friction.equations import at, forces_of, smooth_normals
+from icsolve.statics.friction.equations import at, forces_of, shared_normals, smooth_normals
 from icsolve.statics.power import Balance
 from icsolve.statics.reaction_basis import Position, Tie
 from icsolve.tuples import LateModule, NamedTuple
@@ -80,7 +80,7 @@ class RopeSlip(NamedTuple):
 
     before: tuple[int, ...]
     column: int
-    grown: float
+    grown: Scalar
 
 
 def with_slips(
@@ -100,7 +100,7 @@ def with_slips(
             for j, part in enumerate(tie.parts[k:], start=k):
                 on, by = part.links[0], part.links[1] or tie.rope.end
                 actions.append(Action(column, on, by, *tie.unit(j)))
-            slips.append(RopeSlip(tuple(before), column, float(grown)))
+            slips.append(RopeSlip(tuple(before), column, grown))
             before.append(column)
     return solve_statics(bare, actions, position.case.ground), tuple(slips)
 
@@ -116,7 +116,8 @@ class Limits(NamedTuple):
     frictions : of each rub
     smooth : the normal forces of contacts without friction, the pulls of ropes, and what these leave one
         another where they slip
-    kept : the places of the rubs, and after them of the slips, whose frictions are variables
+    kept : the places of the rubs, and after them of the slips, whose frictions are variables; last those of
+        what equilibrium leaves open of contacts that share a load
     """
 
     load: float
@@ -179,11 +180,13 @@ def _limits(statics: Statics, slips: Sequence[RopeSlip]) -> Limits | None:
         return None
 
     count += len(slips)
-    columns = (statics.known, statics.root(0), *map(statics.rub, range(count)))
+    shared = shared_normals(statics)
+    free = [c for c in statics.general.free if any(row.get(c) for row in shared)]
+    columns = (statics.known, statics.root(0), *map(statics.rub, range(count)), *free)
     sizes = [largest_of([row.get(c, 0.0) for row in statics.general.solved.values()]) for c in columns]
     load = 1.0 / (sizes[1] or 1.0)
     pulls = (1.0 / (size or 1.0) for size in sizes[2 + len(statics.rubs) :])
-    units = (1.0, load, *(rub.limit for rub in statics.rubs), *pulls)
+    units = (1.0, load, *(rub.limit for rub in statics.rubs), *pulls)  # the last of slips, and of shares
 
     def whole(row: Row) -> Form:
         three = zip(columns, sizes, units, strict=True)
@@ -206,10 +209,10 @@ def _limits(statics: Statics, slips: Sequence[RopeSlip]) -> Limits | None:
 
     presses = tuple(tuple(map(form, rows)) for rows in forces_of(statics))
     frictions = tuple(form({statics.rub(k): 1.0 / rub.limit}) for k, rub in enumerate(statics.rubs))
-    kept = tuple([k for k in range(count) if fixed or k != gone - 2])
-    between = [row for slip in slips for row in _between_pulls(statics, slip)]
+    kept = tuple([k for k in range(count + len(free)) if fixed or k != gone - 2])
+    between = [row for slip in slips for row in between_pulls(statics, slip)]
     between += [left, {c: -a for c, a in left.items()}] if fixed else []  # without friction in it
-    smooth = tuple(map(form, (*smooth_normals(statics), *_pulls(statics), *between)))
+    smooth = tuple(map(form, (*smooth_normals(statics), *shared, *pulls_of(statics), *between)))
     return Limits(load, presses, frictions, smooth, kept)
 
 
@@ -286,8 +289,9 @@ def exactly(statics: Statics, vertex: Vertex) -> Scalar | None:
 
     Raises MoreDigits where the balls leave that open.
     """
-    count, found = len(statics.rubs), []
-    place = {statics.rub(k): k for k in range(count)} | {statics.root(0): count, statics.known: count + 1}
+    open_ = [*map(statics.rub, range(len(statics.rubs))), *statics.general.free]
+    count, found = len(open_), []
+    place = {c: n for n, c in enumerate([*open_, statics.root(0), statics.known])}
     inequalities = _inequalities(statics, vertex.senses)
     for of in vertex.of:
         rows = [statics.general.left[0], *(inequalities[n] for n in of)]
@@ -305,7 +309,7 @@ def exactly(statics: Statics, vertex: Vertex) -> Scalar | None:
 
 def _inequalities(statics: Statics, senses: Sequence[float]) -> list[Row]:
     """The inequalities in the order of `Limits.forms`, as combinations of the parameters."""
-    found = [*smooth_normals(statics), *_pulls(statics)]
+    found = [*smooth_normals(statics), *shared_normals(statics), *pulls_of(statics)]
     for k, (forces, sense) in enumerate(zip(forces_of(statics), senses, strict=True)):
         most = statics.rubs[k].limit * sense
         for side in (1.0, -1.0):
@@ -315,11 +319,12 @@ def _inequalities(statics: Statics, senses: Sequence[float]) -> list[Row]:
     return found
 
 
-def _pulls(statics: Statics) -> list[Row]:
+def pulls_of(statics: Statics) -> list[Row]:
+    """The pulls of ropes, as combinations of the parameters."""
     return [statics.general.of(statics.tension(n)) for n in range(len(statics.ropes))]
 
 
-def _between_pulls(statics: Statics, slip: RopeSlip) -> tuple[Row, Row]:
+def between_pulls(statics: Statics, slip: RopeSlip) -> tuple[Row, Row]:
     """How much less than it may be each of the pulls beside a place is, as combinations of the parameters."""
     rows = [statics.general.of(column) for column in slip.before]
     before = {c: sum(row.get(c, 0.0) for row in rows) for row in rows for c in row}

@@ -37,6 +37,7 @@ from icsolve.statics.friction.interface import (
     place_of,
     rubbing_rates,
     rubs_of,
+    shared,
     unknowns_by_power,
 )
 from icsolve.statics.friction.limits import Slid, slid
@@ -273,6 +274,8 @@ def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[Static
     if len(moving) == 2:
         ends, told = [one.end for one in moving], True
     found = range_of(ends)._replace(possible=possible, how=limited.how(bare.statics))
+    if smooth_load(bare.statics) is None:
+        found = found._replace(presses=True, self_locking=False)
     return found, moving, "" if told else BY_LIMITS
 
 
@@ -385,7 +388,7 @@ def _statics(scene: FrictionScene, ties: Sequence[Tie], flanks: Mapping[int, flo
         forces_of(statics)
     except LookupError as error:
         tie = ties[error.args[0]]
-        raise SceneError(Status.UNSUPPORTED, _shared(tie, ties)) from None
+        raise SceneError(Status.UNSUPPORTED, shared(tie, ties)) from None
     return statics
 
 
@@ -398,21 +401,6 @@ def _asked(
 
 def _floats(row: Row) -> Row:
     return {c: float(a) for c, a in row.items()}
-
-
-def _shared(tie: Tie, ties: Sequence[Tie]) -> str:
-    remedy = "Take out `mu` there, or make the joints fewer (a pin in a slot in place of a slide)."
-    cause = "the joints are redundant and share the load by their fit"
-    meshes = [other.joint for other in ties if other.pivots]
-    if any(not mesh.pulls and mesh.pressure_angle is None for mesh in meshes):
-        cause, remedy = "it hangs on how hard teeth push apart", "Give the gears their `pressure angle`."
-    elif any(mesh.pulls for mesh in meshes):
-        cause = "it hangs on the initial tension of the belt"
-        remedy = "Take out `mu` there, or in place of the belt put its two pulls on the pulleys as loads."
-    return (
-        f"the friction of links {tie.by} and {tie.on}{place_of(tie)} depends on a force that equilibrium "
-        f"leaves open: {cause}. {remedy}"
-    )
 
 
 def _bodies(
@@ -469,8 +457,9 @@ def solved(
     found, (root,) = rest.range, (w.load.name for w in scene.balance.wrenches if is_unknown(w.load))
     answer = answer_with({root: Value(0.0, rest.bound, rest.why)})
     answers = {name: _held(scene, name, found, shown) for name, shown in answer.answers.items()}
-    notes = (*answer.notes, *notes_at_rest(root, found))
-    friction = FrictionFound((), 0.0, 0.0, found.how, possible=found.possible, again=found.again)
+    jams = LIFTED.format(listed(found.lifted)) if found.lifted else ""
+    notes = (*answer.notes, *notes_at_rest(root, found), *([jams] if jams else ()))
+    friction = FrictionFound((), 0.0, 0.0, found.how, possible=found.possible, again=found.again, jams=jams)
     bare = replace(answer, answers=answers, terms=(), advantage=None, sensitivities=Deferred(_no_slopes))
     ends = Later(lambda: list(_about_to_move(rest, answer_with)))
     return replace(bare, notes=notes, friction=friction, about_to_move=ends)
@@ -605,6 +594,12 @@ def notes_in_motion(statics: Statics, found: Slid, rates: Sequence[float]) -> Se
     return notes
 
 
+LIFTED = (
+    "it holds as a jam: the contact {} pushes by friction alone, and would have to pull without it. Loads "
+    "that grow from nothing lift it off; it holds where it was pressed together before."
+)
+
+
 def notes_at_rest(root: str, found: StaticRange) -> Sequence[str]:
     """Sentences about the range."""
     notes = [
@@ -621,10 +616,10 @@ def notes_at_rest(root: str, found: StaticRange) -> Sequence[str]:
         )
     elif math.isinf(found.least) and math.isinf(found.most):
         notes.append(f"no value of {root}, however large, moves it either way.")
-    elif math.isinf(found.most):
-        notes.append(f"no value of {root} above the range moves it, however large: it locks that way.")
-    elif math.isinf(found.least):
-        notes.append(f"no value of {root} below the range moves it, however large: it locks that way.")
+    elif math.isinf(found.most) or math.isinf(found.least):
+        side = "above" if math.isinf(found.most) else "below"
+        why = "the harder it presses, the more it holds" if found.presses else "it locks that way"
+        notes.append(f"no value of {root} {side} the range moves it, however large: {why}.")
     for value in found.again:
         notes.append(f"beyond {root} = {value:.6g}, where it is about to move too, it may hold again.")
     for end, more in zip((found.least, found.most), found.possible, strict=True):

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING
 
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import largest_of
+from icsolve.numbers.linear import Row
 from icsolve.numbers.roots import zero_between
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.friction.equations import (
@@ -33,6 +34,7 @@ from icsolve.statics.friction.equations import (
     loads_from_power,
     reduced,
     reduced_workless,
+    shared_normals,
     without_friction,
 )
 from icsolve.statics.friction.interface import place_of
@@ -86,6 +88,9 @@ class StaticRange(NamedTuple):
     ends : those ends at which it is about to move
     again : values outside of the interval at which it is so too
     parts : at which ends a contact would have to pull: there it parts, before the end
+    lifted : where nothing holds without the unknown load, contacts that push by friction alone: without it
+        they would have to pull
+    presses : the load does no work: it holds by what it presses
     """
 
     least: float
@@ -96,6 +101,8 @@ class StaticRange(NamedTuple):
     ends: tuple[End, ...] = ()
     again: tuple[float, ...] = ()
     parts: tuple[float, ...] = ()
+    lifted: tuple[str, ...] = ()
+    presses: bool = False
 
 
 def static_range(statics: Statics, senses: Sequence[float], alone: bool) -> StaticRange:
@@ -115,6 +122,7 @@ def static_range(statics: Statics, senses: Sequence[float], alone: bool) -> Stat
     ends = [end for d in (1.0, -1.0) if (end := _end(statics, [d * s for s in senses])) is not None]
     locks = all(math.isinf(end.value) for end in ends)  # where contacts push, one way at most
     parts = _may_part(statics) and (locks or not all(end.pushes for end in ends))
+    parts = parts or bool(shared_normals(statics))
     if parts or _nothing_presses(statics, senses):
         starts = [(end.value * statics.scale, *end.friction) for end in ends if end.friction]
         within = limited.held(statics, starts)
@@ -164,7 +172,9 @@ def _of_limits(
         same = (end for end in moving if abs(end.value - value) <= room)
         parts = End(value, tuple(senses), pushes=math.isinf(value), vertex=vertex)
         ends.append(next(same, parts))
-    return range_of(ends)._replace(how=limited.how(statics), again=tuple(again))
+    jams = loads_from_power(statics) is not None and not own.low <= 0.0 <= own.high
+    lifted = _pulling(statics, smooth) if jams else ()
+    return range_of(ends)._replace(how=limited.how(statics), again=tuple(again), lifted=lifted)
 
 
 SAME = 1e-9
@@ -177,19 +187,30 @@ def smooth_load(statics: Statics) -> float | None:
     return None if loads is None else loads[0].get(statics.known, 0.0) / statics.scale
 
 
-def _lost(statics: Statics, smooth: float) -> str:
-    """Which contacts would have to pull, at the load without friction."""
+def _pulling(statics: Statics, load: float) -> tuple[str, ...]:
+    """The contacts that would have to pull without friction at a load."""
     (root,) = statics.roots
-    parameters = statics.parameters({root: smooth})
-    pulling = [
+    parameters, free = statics.parameters({root: load}), set(statics.general.free)
+    return tuple(
         f"of links {tie.by} and {tie.on}{place_of(tie)}"
         for tie, column in zip(statics.ties, statics.first, strict=True)
-        if tie.joint.only_pushes and statics.value(column, parameters) < 0.0
-    ]
+        if tie.joint.only_pushes and not statics.general.of(column).keys() & free
+        if statics.value(column, parameters) < -ROUNDED * _size_of(statics, column, parameters)
+    )
+
+
+def _size_of(statics: Statics, column: int, parameters: Row) -> float:
+    """The largest term of a column."""
+    return largest_of([a * parameters.get(c, 0.0) for c, a in statics.general.of(column).items()])
+
+
+def _lost(statics: Statics, smooth: float) -> str:
+    """Which contacts would have to pull, at the load without friction."""
+    pulling = _pulling(statics, smooth)
     what = f"the contact {listed(pulling)}" if pulling else "a contact"
     return (
-        f"no value of {root} holds: {what} is lost, its normal force would have to pull. The links "
-        "part there, and tip or lift off."
+        f"no value of {statics.roots[0]} holds: {what} is lost, its normal force would have to pull. The "
+        "links part there, and tip or lift off."
     )
 
 
@@ -389,7 +410,8 @@ def pressed(statics: Statics, senses: Sequence[float], driven: bool) -> StaticRa
     if _may_part(statics):
         within = limited.held(statics)
         if within is not None and (driven or all(math.isfinite(one.high - one.low) for one in within)):
-            return _of_limits(statics, senses, within, False)
+            found = _of_limits(statics, senses, within, False)
+            return found._replace(presses=True, self_locking=False)
     (left,) = statics.general.left
     powers = [left.get(statics.rub(k), 0.0) for k in range(len(senses))]
     drive = left.get(statics.known, 0.0)
@@ -423,7 +445,7 @@ def pressed(statics: Statics, senses: Sequence[float], driven: bool) -> StaticRa
     again = sorted(end for end in others if math.isfinite(end) and end not in both)
     own = [end for end in (least, most) if math.isfinite(end)]
     about_to_move = tuple(End(end / statics.scale, senses, moving[end]) for end in own)
-    return StaticRange(*both, both, SAID, ends=about_to_move, again=tuple(again))
+    return StaticRange(*both, both, SAID, ends=about_to_move, again=tuple(again), presses=True)
 
 
 def _value_inside(a: float, b: float) -> float:

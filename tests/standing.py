@@ -1,0 +1,207 @@
+"""Structures of several freedoms that friction holds or does not: crates stacked, bricks in a wall, blocks
+joined by bars; and a witness that knows nothing of motions: whether their loads lie in the cone that the
+forces of their joints span."""
+
+from __future__ import annotations
+
+import math
+from itertools import product
+from random import Random
+from typing import Any
+
+import numpy as np
+
+import equilibrium
+import rubbing
+from icsolve import case as c
+from reference import frame_of, points_of
+
+
+def _text(points: dict[str, tuple[float, float]], joints: list[str], loads: list[str]) -> str:
+    at = ", ".join(f"{name}: [{x:g}, {y:g}]" for name, (x, y) in points.items())
+    listed = "".join(f"  - {{{joint}}}\n" for joint in joints)
+    named = "".join(f"  L{n}: {{{load}}}\n" for n, load in enumerate(loads))
+    return f"icsolve: 1\npoints: {{{at}}}\njoints:\n{listed}loads:\n{named}"
+
+
+def _mu(dice: Random) -> str:
+    return f"mu: {dice.uniform(0.05, 0.9):.2f}"
+
+
+def crates(dice: Random) -> str:
+    """Up to four crates, each on the one below with two or three of its points, pushed at one or two; the
+    floor may slope."""
+    tilt = dice.choice([0.0, 0.0, round(dice.uniform(-30, 30), 1)])
+    turn = math.radians(tilt)
+    points, joints, loads = dict[str, tuple[float, float]](), [], []
+
+    def put(name: str, x: float, y: float) -> str:
+        cos, sin = math.cos(turn), math.sin(turn)
+        points[name] = (round(x * cos - y * sin, 4), round(x * sin + y * cos, 4))
+        return name
+
+    left, right, up = 0.0, round(dice.uniform(0.8, 2.0), 2), 0.0
+    for k in range(dice.randint(1, 4)):
+        legs = [left, right] + ([round(dice.uniform(left, right), 3)] if dice.random() < 0.3 else [])
+        for n, x in enumerate(legs):
+            rough = "" if dice.random() < 0.15 else f", {_mu(dice)}"
+            at = put(f"F{k}{n}", x, up)
+            joints.append(f"contact: [{k + 1}, {k + 2}], at: {at}, normal: {90 + tilt}{rough}")
+        high = round(dice.uniform(0.2, 0.8), 2)
+        middle = put(f"G{k}", dice.uniform(left - 0.1, right + 0.1), up + high / 2)
+        loads.append(f"weight: {dice.randint(20, 200)}, link: {k + 2}, at: {middle}")
+        if dice.random() < 0.6:
+            at = put(f"P{k}", left, up + dice.uniform(0.0, high))
+            toward = dice.choice([0, round(dice.uniform(-60, 60), 1), 180])
+            loads.append(f"force: {dice.uniform(1, 60):.1f}, link: {k + 2}, at: {at}, angle: {toward}")
+        up += high
+        left, right = (round(end + dice.uniform(-0.2, 0.2), 3) for end in (left, right))
+        if right - left < 0.3:
+            break
+    return _text(points, joints, loads)
+
+
+def bricks(dice: Random) -> str:
+    """Two or three bricks on the floor with one or two across them: how the lower ones share what lies on
+    them is open where they have more than two contacts."""
+    points, joints, loads, count = dict[str, tuple[float, float]](), [], [], dice.randint(2, 3)
+    high = round(dice.uniform(0.2, 0.6), 2)
+
+    def contact(by: int, on: int, name: str, x: float, y: float) -> None:
+        points[name] = (round(x, 4), y)
+        joints.append(f"contact: [{by}, {on}], at: {name}, normal: 90, {_mu(dice)}")
+
+    for k in range(count):
+        contact(1, 2 + k, f"A{k}", 1.1 * k, 0)
+        contact(1, 2 + k, f"B{k}", 1.1 * k + 1.0, 0)
+        points[f"G{k}"] = (1.1 * k + 0.5, high / 2)
+        loads.append(f"weight: {dice.randint(20, 100)}, link: {2 + k}, at: G{k}")
+    for k in range(count - 1):
+        on = 2 + count + k
+        contact(2 + k, on, f"C{k}", 1.1 * k + dice.uniform(0.55, 0.95), high)
+        contact(3 + k, on, f"D{k}", 1.1 * k + dice.uniform(1.15, 1.55), high)
+        points[f"H{k}"] = (1.1 * k + dice.uniform(0.8, 1.4), 1.5 * high)
+        loads.append(f"weight: {dice.randint(20, 100)}, link: {on}, at: H{k}")
+    link = dice.randint(2, count + 1)
+    points["P"] = (1.1 * (link - 2), dice.uniform(0.0, high))
+    loads.append(f"force: {dice.uniform(1, 60):.1f}, link: {link}, at: P, angle: {dice.choice((0, 180, 30))}")
+    return _text(points, joints, loads)
+
+
+def joined(dice: Random) -> str:
+    """Two blocks on slopes, joined by a bar on smooth pins; a third may stand on one of them."""
+    points, joints, loads = {"A": (0.0, 0.0)}, [], []
+    points["B"] = (round(dice.uniform(1, 3), 2), round(dice.uniform(-1, 1), 2))
+    slopes = [dice.choice([0, dice.randint(-50, 50)]) for _ in range(2)]
+    for k, (name, slope) in enumerate(zip("AB", slopes, strict=True)):
+        joints.append(f"slide: [{2 + k}, 1], at: {name}, along: {slope}, {_mu(dice)}")
+        joints.append(f"pin: [{2 + k}, 4], at: {name}")
+        loads.append(f"weight: {dice.randint(20, 200)}, link: {2 + k}, at: {name}")
+    if dice.random() < 0.5:
+        x, y = points["A"]
+        points["C"] = (x, round(y + 0.4, 2))
+        joints.append(f"slide: [5, 2], at: C, along: {slopes[0] + dice.randint(-20, 20)}, {_mu(dice)}")
+        loads.append(f"weight: {dice.randint(20, 100)}, link: 5, at: C")
+    link, at = dice.choice([(2, "A"), (3, "B")])
+    loads.append(f"force: {dice.uniform(1, 150):.1f}, link: {link}, at: {at}, angle: {dice.randint(0, 359)}")
+    return _text(points, joints, loads)
+
+
+KINDS = (crates, bricks, joined)
+
+
+def off_the_cone(generators: Any, right: Any) -> float:
+    """How far a vector is from the cone of some others, as a share of its length: non-negative least squares
+    (C. Lawson and R. Hanson, Solving Least Squares Problems, 1974, ch. 23)."""
+    count = generators.shape[1]
+    x, used = np.zeros(count), np.zeros(count, dtype=bool)
+    for _ in range(30 * count):
+        slope = generators.T @ (right - generators @ x)
+        slope[used] = -1.0
+        best = int(np.argmax(slope))
+        if slope[best] <= 1e-11 * np.linalg.norm(right):
+            break
+        used[best] = True
+        while True:
+            own = np.zeros(count)
+            own[used] = np.linalg.lstsq(generators[:, used], right, rcond=1e-13)[0]
+            if own[used].min() > 0.0:
+                x = own
+                break
+            below = used & (own <= 0.0)
+            step = np.min(x[below] / (x[below] - own[below]))
+            x = x + step * (own - x)
+            used &= x > 1e-13 * np.abs(x).max()
+            x[~used] = 0.0
+            if not used.any():
+                break
+    return float(np.linalg.norm(right - generators @ x) / np.linalg.norm(right))
+
+
+def off(case: c.Case, grown: float = 1.0) -> float:
+    """How far the loads are from those that the joints can balance, friction within ``grown`` times its
+    limits: of contacts, guides (either sense of each) and smooth pins."""
+    points = points_of(case)
+    frame, places = frame_of(case, points), rubbing.places_of(case, points)
+    a, b, _ = equilibrium.equations(case, points)
+    row = {link: 3 * k for k, link in enumerate(link for link in case.links if link != case.ground)}
+    friction = np.zeros((len(b), len(places)))
+    for k, place in enumerate(places):
+        for link, sign in ((place.on, 1.0), (place.by, -1.0)):
+            if link in row:
+                friction[row[link] : row[link] + 3, k] += sign * place.wrench
+    rough = {int(np.flatnonzero(place.force[0])[0]): k for k, place in enumerate(places)}
+    pushing, column = set(), 0
+    for joint in case.joints:
+        if isinstance(joint, c.Contact):
+            pushing.add(column)
+        column += len(equilibrium.transmitted(case, joint, points, frame))
+    guides = [n for n in rough if n not in pushing]
+    found = []
+    for senses in product((1.0, -1.0), repeat=len(guides)):
+        by, columns = dict(zip(guides, senses, strict=True)), []
+        for n in range(a.shape[1]):
+            sense = by.get(n, 1.0)
+            if n in rough:
+                k = rough[n]
+                most = grown * places[k].limit
+                columns += [sense * a[:, n] + side * most * friction[:, k] for side in (1.0, -1.0)]
+            else:
+                columns += [a[:, n]] if n in pushing else [a[:, n], -a[:, n]]
+        found.append(off_the_cone(np.array(columns).T, b))
+    return min(found)
+
+
+def hung(dice: Random) -> tuple[str, float]:
+    """Bars that hang in a row on rough pins, the first on a block that rubs on a slope; and how far the worst
+    of the rubs is from its limit, as a share of it (negative beyond): what every joint carries follows from
+    what hangs on it."""
+    slope, rough = dice.choice([0, dice.randint(-35, 35)]), round(dice.uniform(0.1, 0.9), 2)
+    at, points, joints, loads = (0.0, 0.0), {"P0": (0.0, 0.0)}, [], []
+    joints.append(f"slide: [2, 1], at: P0, along: {slope}, mu: {rough}")
+    bars, own = dice.randint(1, 3), dice.randint(10, 100)
+    loads.append(f"weight: {own}, link: 2, at: P0")
+    placed, forces, limits = list[tuple[float, float]](), list[tuple[float, float]](), list[float]()
+    for k in range(1, bars + 1):
+        turn = math.radians(-90 + dice.uniform(-8, 8))
+        at = (round(at[0] + math.cos(turn), 4), round(at[1] + math.sin(turn), 4))
+        points[f"P{k}"] = at
+        radius, mu = round(dice.uniform(0.05, 0.3), 3), round(dice.uniform(0.1, 0.8), 2)
+        joints.append(f"pin: [{k + 1}, {k + 2}], at: P{k - 1}, mu: {mu}, radius: {radius}")
+        limits.append(radius * math.sin(math.atan(mu)))
+        weight, push = dice.randint(10, 100), round(dice.uniform(-5, 5), 1)
+        loads.append(f"weight: {weight}, link: {k + 2}, at: P{k}")
+        loads.append(f"force: {push}, link: {k + 2}, at: P{k}, angle: 0")
+        placed.append(at)
+        forces.append((push, -weight))
+    spare = []
+    for k in range(bars):
+        px, py = points[f"P{k}"]
+        below = list(zip(placed, forces, strict=True))[k:]
+        moment = sum((x - px) * fy - (y - py) * fx for (x, y), (fx, fy) in below)
+        most = limits[k] * math.hypot(*(sum(f[n] for f in forces[k:]) for n in (0, 1)))
+        spare.append(1.0 - abs(moment) / most)
+    fx, fy = sum(f[0] for f in forces), sum(f[1] for f in forces) - own
+    c, s = math.cos(math.radians(slope)), math.sin(math.radians(slope))
+    spare.append(1.0 - abs(fx * c + fy * s) / (rough * abs(fy * c - fx * s)))
+    return _text(points, joints, loads), min(spare)

@@ -1,0 +1,230 @@
+"""Loads that are all known on mechanisms of several freedoms, and on redundant contacts: friction holds them
+where some friction within its limits balances them, and contacts push."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from itertools import pairwise
+from pathlib import Path
+from random import Random
+
+import pytest
+
+import icsolve
+import standing
+from icsolve.solve.stability import holding_values
+from icsolve.sweep.numbers import find_number, with_numbers
+from shell import Shell
+from sizes import FULL
+
+NEAR = 0.01
+"""Scenes that hold with coefficients so much larger and not with such smaller ones are not compared."""
+
+
+@pytest.mark.parametrize("kind", standing.KINDS)
+@pytest.mark.parametrize("part", range(20 if FULL else 2))
+def test_known_loads_hold_where_the_joints_can_balance_them(kind: Callable[[Random], str], part: int) -> None:
+    """Crates, bricks in a wall, blocks joined by bars, of one to five freedoms: none is left open, and all
+    hold or slip as the cone of what their joints can do has their loads in it (to 1e-9 of them) or not."""
+    dice, seen = Random(f"{kind.__name__} {part}"), set()
+    for _ in range(12):
+        text = kind(dice)
+        case = icsolve.load(text)
+        more, less = standing.off(case, 1.0 + NEAR) <= 1e-9, standing.off(case, 1.0 - NEAR) <= 1e-9
+        if more == less:
+            assert icsolve.solve(case).holds_still is more, text
+            seen.add(more)
+    assert seen == {True, False}
+
+
+@pytest.mark.parametrize("part", range(20 if FULL else 2))
+def test_bars_hang_askew_as_far_as_their_pins_rub(part: int) -> None:
+    """On a block that rubs too: of two to four freedoms, whether each joint rubs within its limit follows
+    from what hangs on it. Scenes within a millionth of the limit are not compared."""
+    dice, seen = Random(f"hung {part}"), list[bool]()
+    for _ in range(15):
+        text, spare = standing.hung(dice)
+        if abs(spare) > 1e-6:
+            assert icsolve.solve(icsolve.load(text)).holds_still is (spare > 0.0), (text, spare)
+            seen.append(spare > 0.0)
+    assert {True, False} == set(seen)
+
+
+@pytest.mark.parametrize("kind", [standing.crates, standing.bricks])
+@pytest.mark.parametrize("seed", range(12 if FULL else 1))
+def test_where_a_load_on_several_freedoms_begins_or_ceases_to_hold(
+    kind: Callable[[Random], str], seed: int
+) -> None:
+    """Of the last load's number: a thousandth of the span to both sides of each value that is found it holds
+    on the one side and not on the other, as the cone of what the joints can do says; and in between nothing
+    changes."""
+    dice = Random(f"{kind.__name__} held {seed}")
+    case = icsolve.load(kind(dice))
+    path = find_number(case, f"loads.{case.loads[-1].name}").path
+
+    def held(value: float) -> bool:
+        return standing.off(with_numbers(case, {path: value})) <= 1e-9
+
+    low, high = 0.0, 300.0
+    found = holding_values(case, path, low, high)
+    near = 1e-3 * (high - low)
+    for one in found:
+        assert held(one.value - near) is (one.before == "holds")
+        assert held(one.value + near) is (one.after == "holds")
+    ends = [low, *(one.value for one in found), high]
+    middles = [0.5 * (a + b) for a, b in pairwise(ends)]
+    told = [one.before == "holds" for one in found] + [one.after == "holds" for one in found[-1:]]
+    assert [held(value) for value in middles] == (told or [held(0.5 * (low + high))])
+
+
+STACK = """icsolve: 1
+points: {A: [0, 0], B: [1, 0], C: [0.1, 0.5], D: [0.9, 0.5], G: [0.5, 0.25], H: [0.5, 0.75], K: [0.2, 0.6]}
+joints:
+  - {contact: [1, 2], at: A, normal: 90, mu: 0.5}
+  - {contact: [1, 2], at: B, normal: 90, mu: 0.5}
+  - {contact: [2, 3], at: C, normal: 90, mu: 0.25}
+  - {contact: [2, 3], at: D, normal: 90, mu: 0.25}
+loads:
+  W: {weight: 100, link: 2, at: G}
+  V: {weight: 80, link: 3, at: H}
+  P: {force: PUSH, link: 3, at: K, angle: 0}
+"""
+
+
+@pytest.mark.parametrize(
+    ("push", "holds"),
+    [(20, True), (math.nextafter(20, 0), True), (math.nextafter(20, 40), False), (-20, True)],
+)
+def test_a_crate_on_a_crate_slides_at_the_last_digit(push: float, holds: bool) -> None:
+    """A quarter of 80 holds, the next double does not."""
+    answer = icsolve.solve(icsolve.load(STACK.replace("PUSH", repr(push))))
+    assert answer.mobility == 2
+    assert answer.to_dict()["holds_still"] is holds
+    said = "friction is enough" if holds else "friction is not enough"
+    assert any(said in note for note in answer.notes)
+
+
+def test_the_push_that_a_stack_holds_is_found_to_the_last_digit(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case = tmp_path / "stack.yaml"
+    case.write_text(STACK.replace("PUSH", "5"))
+    (found,) = Shell(capsys)("sweep", case, "--vary", "loads.P=0:60:5", "--find", "hold", "--json").objects()
+    (one,) = found["found"]
+    assert (one["from"], one["to"]) == ("holds", "slips")
+    assert abs(one["at"]["loads.P"] - 20.0) <= one["error"]["loads.P"] <= 1e-14
+
+
+BETWEEN = """icsolve: 1
+points: {A: [0, 0], B: [1, 0], C: [0.5, -0.5]}
+joints:
+  - {contact: [1, 2], at: A, normal: 0, mu: 0.3}
+  - {contact: [1, 2], at: B, normal: 180, mu: 0.3}
+FLOOR
+loads:
+  W: {weight: 10, link: 2, at: [0.5, 0]}
+"""
+
+
+def test_a_block_between_two_walls_holds_as_hard_as_its_fit_presses_it() -> None:
+    """Nothing else does: whether it holds is open, and the reason is told. On a floor it holds without."""
+    answer = icsolve.solve(icsolve.load(BETWEEN.replace("FLOOR\n", "")))
+    assert answer.holds_still is None
+    (said,) = [note for note in answer.notes if "open" in note and "friction" in note]
+    assert "redundant and share the load by their fit" in said
+    floor = "  - {contact: [1, 2], at: C, normal: 90}"
+    assert icsolve.solve(icsolve.load(BETWEEN.replace("FLOOR", floor))).holds_still is True
+
+
+LEGS = """icsolve: 1
+points: {A: [0, 0], B: [1, 0], C: [2, 0], G: [REACH, 0.5], K: [0, 0.3]}
+joints:
+  - {contact: [1, 2], at: A, normal: 90MU}
+  - {contact: [1, 2], at: B, normal: 90MU}
+  - {contact: [1, 2], at: C, normal: 90MU}
+loads:
+  W: {weight: 100, link: 2, at: G}
+  P: {force: 10, link: 2, at: K, angle: 0}
+"""
+
+
+@pytest.mark.parametrize(("reach", "holds"), [(0.3, True), (1.9, True), (2.2, False), (-0.2, False)])
+def test_a_crate_on_three_legs_tips_where_its_weight_is_beyond_them(reach: float, holds: bool) -> None:
+    """How the legs share the load is open; that none pulls is not. The push moves the limits by 10 x 0.3 over
+    100 only."""
+    text = LEGS.replace("MU", ", mu: 0.4").replace("REACH", str(reach))
+    answer = icsolve.solve(icsolve.load(text))
+    assert answer.holds_still is holds
+    assert any("share the load" in note for note in answer.notes) is holds
+
+
+def table(dice: Random, joints: str, load: str) -> tuple[str, float, float]:
+    """A table on three to five smooth legs, in any order, and from where to where they reach."""
+    legs = [round(dice.uniform(-2.0, 2.0), 2) for _ in range(dice.randint(3, 5))]
+    points = "".join(f", L{n}: [{x}, 0]" for n, x in enumerate(legs))
+    contacts = "".join(f"  - {{contact: [1, 2], at: L{n}, normal: 90}}\n" for n in range(len(legs)))
+    text = (
+        f"icsolve: 1\npoints: {{G: [WEIGHT, 0.5], O: [0, 0], Q: [5, 0]{points}}}\n"
+        f"joints:\n{contacts}{joints}loads:\n  W: {{weight: 100, link: 2, at: G}}\n{load}"
+    )
+    return text, min(legs), max(legs)
+
+
+SLED = """  - {slot: [2, 3], at: O, along: 90}
+  - {slide: [3, 1], at: Q, along: 0, mu: 0.2}
+"""
+PULL = """  V: {weight: 50, link: 3, at: Q}
+  F: {force: PULLED, link: 3, at: Q, angle: 0}
+"""
+
+
+@pytest.mark.parametrize("seed", range(40 if FULL else 8))
+def test_a_table_that_a_sled_holds_tips_at_no_value_of_the_pull(seed: int) -> None:
+    """The sled rubs by its own weight: it holds 0.2 x 50 either way where the legs can carry the table, and
+    no value holds where one would have to pull, however they share the load. The legs' ends are found to
+    1e-12, as forces below 1e-13 of the largest count as none."""
+    dice = Random(f"sled {seed}")
+    text, low, high = table(dice, SLED, PULL)
+    for at in (low - 0.05, low + 0.02, 0.5 * (low + high), high - 0.02, high + 0.05):
+        case = icsolve.load(text.replace("WEIGHT", f"{at:.6f}").replace("PULLED", "unknown"))
+        if low < at < high:
+            assert icsolve.solve(case).answers["F"].holds == (-10.0, 10.0)
+        else:
+            with pytest.raises(icsolve.SceneError, match="no value of F holds: a contact is lost") as refusal:
+                icsolve.solve(case)
+            assert refusal.value.status == "no-value"
+        for pull, holds in ((9.0, low < at < high), (11.0, False)):
+            given = icsolve.load(text.replace("WEIGHT", f"{at:.6f}").replace("PULLED", str(pull)))
+            assert icsolve.solve(given).holds_still is holds
+    case = icsolve.load(text.replace("WEIGHT", "0").replace("PULLED", "3"))
+    found = holding_values(case, "points.G.x", -3.0, 3.0)
+    assert [one.value for one in found] == pytest.approx([low, high], abs=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(40 if FULL else 8))
+@pytest.mark.parametrize("pinned", [False, True], ids=["mechanism", "structure"])
+def test_smooth_legs_hold_a_table_as_far_as_they_reach(pinned: bool, seed: int) -> None:
+    """Also where nothing rubs, and where a pin beyond them on the left leaves nothing to move: then it lifts
+    off its legs from the pin on. To 1e-12."""
+    text, low, high = table(Random(f"legs {seed}"), "  - {pin: [1, 2], at: P}\n" if pinned else "", "")
+    text = text.replace("points: {", "points: {P: [-2.5, 0], ")
+    found = holding_values(icsolve.load(text.replace("WEIGHT", "0")), "points.G.x", -3.0, 3.0)
+    assert [one.value for one in found] == pytest.approx([-2.5] if pinned else [low, high], abs=1e-12)
+    assert [one.after for one in found] == ["holds", "slips"][: len(found)]
+
+
+@pytest.mark.parametrize("count", [3, 6, 10, 14])
+@pytest.mark.parametrize(("reach", "lost"), [(1.0, False), (0.5, False), (1.01, True), (-0.01, True)])
+def test_of_however_many_legs_one_is_lost_where_the_weight_is_beyond_them(
+    count: int, reach: float, lost: bool
+) -> None:
+    """Fourteen legs leave twelve forces open; at the last of them all is on that one."""
+    points = "".join(f", L{n}: [{n / (count - 1)!r}, 0]" for n in range(count))
+    legs = "".join(f"  - {{contact: [1, 2], at: L{n}, normal: 90}}\n" for n in range(count))
+    case = icsolve.load(
+        f"icsolve: 1\npoints: {{G: [{reach}, 1]{points}}}\njoints:\n{legs}"
+        "loads: {W: {weight: 9, link: 2, at: G}}\n"
+    )
+    notes = icsolve.solve(case, reactions=True).notes
+    assert any("the normal force of one would have to pull" in note for note in notes) is lost

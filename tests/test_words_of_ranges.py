@@ -1,0 +1,129 @@
+"""What is said of a range without end: a load that drives against friction that it makes itself locks; one
+that presses, as on a brake, holds the more the harder it presses; what friction alone presses is a jam."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from random import Random
+
+import pytest
+
+import icsolve
+from sizes import FULL
+
+LOCKS, PRESSES, JAMS = "it locks that way", "the harder it presses, the more it holds", "it holds as a jam"
+
+
+def shoe(dice: Random) -> str:
+    """A lever whose pad lies on a drum, pulled so that it does."""
+    return f"""icsolve: 1
+units: {{length: mm, force: N, torque: N*m}}
+points: {{O: [0, 0], S: [-150, 0], D: [{-dice.randint(160, 260)}, -250], E: [-200, 350]}}
+joints:
+  - {{pin: [1, drum], at: O}}
+  - {{pin: [1, lever], at: D}}
+  - {{contact: [drum, lever], at: S, normal: 180, mu: {dice.uniform(0.1, 0.6):.2f}}}
+loads:
+  T: {{torque: {dice.choice((-60, -5, 20, 200))}, link: drum}}
+  F: {{force: unknown, link: lever, at: E, angle: {dice.choice((0, 180))}}}
+"""
+
+
+def band(dice: Random) -> str:
+    """A lever that draws a band round a drum."""
+    return f"""icsolve: 1
+units: {{length: cm, force: N}}
+points: {{O: [0, 0], D: [30, -5], A: [20, -5], B: [10, -20], E: [60, -5]}}
+joints:
+  - {{pin: [1, drum], at: O}}
+  - {{pin: [1, lever], at: D}}
+  - rope: [A, O, B]
+    on: [lever, drum, 1]
+    radii: {{O: 15}}
+    wraps: {{O: ccw}}
+    mu: {{O: {dice.uniform(0.1, 0.5):.2f}}}
+loads:
+  F: {{force: unknown, link: lever, at: E, angle: {dice.choice((90, -90))}}}
+  T: {{torque: {dice.choice((-500, 200, 900))}, link: drum}}
+"""
+
+
+def wall(dice: Random) -> str:
+    """A block pressed square to a wall."""
+    return f"""icsolve: 1
+points: {{A: [0, 0]}}
+joints:
+  - {{slide: [2, 1], at: A, along: {(tilt := dice.randint(0, 179))}, mu: {dice.uniform(0.1, 0.9):.2f}}}
+loads:
+  W: {{force: 100, link: 2, at: A, angle: {tilt}}}
+  F: {{force: unknown, link: 2, at: A, angle: {tilt + 90}}}
+"""
+
+
+@pytest.mark.parametrize("kind", [shoe, band, wall])
+@pytest.mark.parametrize("seed", range(20 if FULL else 4))
+def test_what_presses_is_not_said_to_lock(kind: Callable[[Random], str], seed: int) -> None:
+    """The load does no work as the drum turns: however large, it could not drive it."""
+    answer = icsolve.solve(icsolve.load(kind(Random(f"{kind.__name__} {seed}"))))
+    found = answer.answers["F"]
+    assert math.isinf(found.holds[1] - found.holds[0])
+    assert not found.self_locking
+    assert any(PRESSES in note for note in answer.notes)
+    assert not any(LOCKS in note for note in answer.notes)
+
+
+@pytest.mark.parametrize("seed", range(20 if FULL else 6))
+def test_what_drives_against_its_own_friction_locks(seed: int) -> None:
+    """A block pushed at an angle steeper than that of friction: no push of that sense moves it along."""
+    dice = Random(f"pushed {seed}")
+    mu = dice.uniform(0.1, 0.9)
+    steep = dice.uniform(math.degrees(math.atan(1.0 / mu)) * 0.2, math.degrees(math.atan(mu)) * 0.95)
+    text = f"""icsolve: 1
+points: {{A: [0, 0]}}
+joints: [{{slide: [2, 1], at: A, along: 0, mu: {mu!r}}}]
+loads: {{W: {{weight: 100, link: 2, at: A}}, F: {{force: unknown, link: 2, at: A, angle: {steep - 90.0!r}}}}}
+"""
+    answer = icsolve.solve(icsolve.load(text))
+    locks = math.tan(math.radians(steep)) < mu
+    assert answer.answers["F"].self_locking
+    assert any(LOCKS in note for note in answer.notes) is locks
+    assert math.isinf(answer.answers["F"].holds[1]) is locks
+    assert not any(PRESSES in note for note in answer.notes)
+
+
+@pytest.mark.parametrize("seed", range(60 if FULL else 20))
+def test_a_cam_that_its_spring_lifts_holds_only_as_a_jam(seed: int) -> None:
+    """A bar drawn under a cam on a pin at height h: moments about the pin, S + x N + h f = 0, and f = -F at
+    the contact at x give N = (h F - S) / x. Without F the spring lifts the cam where S / x is positive: what
+    holds then was jammed before, and is said to be; where the spring presses it is not."""
+    dice = Random(f"cam {seed}")
+    x, h, mu = dice.choice((-1, 1)) * dice.randint(3, 20), dice.randint(20, 40), dice.randint(10, 60) / 100
+    spring = dice.choice((-1, 1)) * dice.randint(1, 30)
+    text = f"""icsolve: 1
+units: {{length: mm, force: N}}
+points: {{D: [0, {h}], P: [{x}, 0], B: [60, -5]}}
+joints:
+  - {{pin: [1, cam], at: D}}
+  - {{contact: [cam, bar], at: P, normal: -90, mu: {mu}}}
+  - {{slide: [bar, 1], at: B, along: 0}}
+loads:
+  F: {{force: PULL, link: bar, at: B, angle: 180}}
+  S: {{torque: {spring}, link: cam}}
+"""
+    lifts = spring / x > 0.0
+    case = icsolve.load(text.replace("PULL", "unknown"))
+    if lifts and mu * h <= abs(x):
+        with pytest.raises(icsolve.SceneError, match="is lost"):
+            icsolve.solve(case)
+        return
+    answer = icsolve.solve(case)
+    low, high = answer.answers["F"].holds
+    assert (low <= 0.0 <= high) is not lifts
+    assert any(JAMS in note for note in answer.notes) is lifts
+    inside = (low if math.isfinite(low) else high - 1.0) + 0.5 * min(
+        high - low, 2.0 if math.isfinite(low) else 0.0
+    )
+    given = icsolve.solve(icsolve.load(text.replace("PULL", repr(inside))))
+    assert given.holds_still is True
+    assert any(JAMS in note for note in given.notes) is lifts
