@@ -143,6 +143,25 @@ def idle_load(load: str, links: Sequence[str], couple: bool, slack: bool) -> str
     return f"{load} does no work on {here}: where it acts, its line is square to {motion}"
 
 
+def uncarried(case: Case, points: Iterable[str]) -> str:
+    """Of the points to which an unknown is measured those that are of no link, and how they become one's."""
+    told = {*case.points}.union(*case.carries.values())
+    links = [link for link in case.links if link != case.ground]
+    found: dict[str, list[str]] = {}
+    for point in points:
+        data = [{one for one in datum if isinstance(one, str)} for datum in (*case.lengths, *case.angles)]
+        beside = set().union(*(names for names in data if point in names))
+        link = max(links, key=lambda link: len(beside & {*case.carries.get(link, ())}), default="2")
+        if point not in told:
+            found.setdefault(link, []).append(point)
+    entries = ", ".join(f"{link}: [{', '.join(names)}]" for link, names in found.items())
+    names = [name for some in found.values() for name in some]
+    goes = "it goes" if len(names) == 1 else "they go"
+    with_ = f"link {listed(found)}" if len(found) == 1 else f"links {listed(found)}"
+    said = f"no link carries {listed(names)}: if {goes} with {with_}, write `links: {{{entries}}}`."
+    return said if found else ""
+
+
 def free_ends(top: Topology, case: Case) -> str:
     """Which links beside the frame have a free end: ``link 4 has a free end (its only joint is at C)``."""
     roped = {top.body_of[link] for rope in case.ropes for link in rope.links} - {top.ground}
