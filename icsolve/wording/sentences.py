@@ -162,6 +162,11 @@ def uncarried(case: Case, points: Iterable[str]) -> str:
     return said if found else ""
 
 
+def left_out(at: str, slack: str) -> str:
+    """A position that is not told as it is asked for one, with the refusal of what it would ask of a rope."""
+    return f"left out is {at}, where {slack.partition('. ')[0]}."
+
+
 def free_ends(top: Topology, case: Case) -> str:
     """Which links beside the frame have a free end: ``link 4 has a free end (its only joint is at C)``."""
     roped = {top.body_of[link] for rope in case.ropes for link in rope.links} - {top.ground}
