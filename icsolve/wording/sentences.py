@@ -217,21 +217,27 @@ def nothing_asked(mobility: int, balanced: bool) -> str:
 
 
 def redundant(
-    count: int, goes_on: bool | None, bodies: bool, wedges: int = 0, held: Sequence[str] = ()
+    count: int,
+    goes_on: bool | None,
+    bodies: bool,
+    wedges: int,
+    exact: tuple[int, int] | None,
+    on: Sequence[str],
 ) -> str:
     """Redundant constraints, and whether the motion is more than a moment's (None: not known).
 
     Without ``bodies`` nobody looked which reactions are unique. ``wedges`` further constraints are those of
-    rings of links that only slide on each other, which keep their directions whatever the numbers. ``held``
-    are the links on which the others are, where these do not move against one another.
+    rings of links that only slide on each other, which keep their directions whatever the numbers. ``exact``:
+    how many freedoms of how many there are only because the figure is as it is; None where the links on which
+    the constraints are do not move against one another.
     """
     cause = f"the joints have {plural(count + wedges, 'redundant constraint')}"
     end = "." if bodies else "; reactions that share a load are not unique (`--reactions` tells which)."
     slides = "links that only slide keep their direction by each of their guides, as wedges do"
     if not count:
         return f"{cause}: {slides}{end}"
-    if held:
-        told = f"links {listed(held)} are held together by more than they need"
+    if exact is None:
+        told = f"links {listed(on)} are held together by more than they need"
         told = f"{told}; {slides}" if wedges else told
         return f"{cause}: {told}; the motion does not depend on it{end}"
     if goes_on is False:
@@ -239,6 +245,9 @@ def redundant(
             f"{cause}: the links yield only for an instant, then they bind (second order), so the answer is "
             f"for this position alone{end}"
         )
+    some, freedoms = exact
+    if some < freedoms:
+        return f"{cause}: {some} of its {freedoms} freedoms it has only because the figure is exact{end}"
     onward = ", and it goes on moving to second order" if goes_on else ""
     return f"{cause}: it moves only because the figure is exact{onward}{end}"
 
