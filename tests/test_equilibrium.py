@@ -2031,3 +2031,54 @@ loads: {{S: {{spring: 10 N*m/rad, corner: AB, free: {free}, link: 2}}, U: {{torq
     rows = icsolve.sweep(case, {"loads.S.free": [free] * 4, "angles.AB": turned}).answers["U"]
     stretched = [true + 10.0 * math.radians(at - 30.0) for at in turned]
     assert rows.tolist() == pytest.approx(stretched, rel=1e-12)
+
+
+CARRIERS = {
+    "a lever": ("D: [2, 0]", "AG: 1", "", "{pin: [1, 2], at: A}", "AG", "link: 2, at: G"),
+    "a four-bar": (
+        "D: [4, 0]",
+        "AB: 1, BC: 3.5, CD: 2.5",
+        "near: {C: [3.5, 2.4]}",
+        "{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}",
+        "AB",
+        "link: 4, at: C",
+    ),
+    "a slider-crank": (
+        "C: [unknown, 0]",
+        "AB: 1, BC: 3.5",
+        "near: {C: [4, 0]}",
+        "{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {slide: [4, 1], at: C, along: 0}",
+        "AB",
+        "link: 4, at: C",
+    ),
+}
+LOOSE = {
+    "a direction": ("AK: {unknown: [0, 80]}", ""),
+    "a direction of a known arm": ("AK: {unknown: [0, 80]}", "AK: 0.7"),
+    "a direction beside that of the link": ("AK: {unknown: [0, 80]}, OWN: 25", "AK: 0.7"),
+    "an angle with the link": ("OWNK: {unknown: [0, 80]}", "AK: 0.7"),
+    "an angle with the link that has a direction": ("OWNK: {unknown: [0, 80]}, OWN: 25", "AK: 0.7"),
+    "a length": ("OWN: 25", "AK: {unknown: [0.2, 2]}"),
+    "a length on a known direction": ("OWN: 25, AK: 50", "AK: {unknown: [0.2, 2]}"),
+    "an angle between two": ("HAK: {unknown: [0, 80]}, AK: 12", "HK: 0.8, HA: 1"),
+}
+
+
+@pytest.mark.parametrize("carrier", CARRIERS)
+@pytest.mark.parametrize("loose", LOOSE)
+def test_an_unknown_at_a_point_that_no_link_carries_is_told_what_to_write(carrier: str, loose: str) -> None:
+    """Whatever else is missing: K is no point of any link, and under `links` it becomes one."""
+    points, lengths, near, joints, own, load = CARRIERS[carrier]
+    angles, more = (text.replace("OWN", own) for text in LOOSE[loose])
+    if own[1] + "K" in angles:
+        angles = angles.replace(f"{own}K", f"{own[1]}AK")
+    text = (
+        f"icsolve: 1\npoints: {{A: [0, 0], {points}}}\nlengths: {{{lengths}{', ' * bool(more)}{more}}}\n"
+        f"angles: {{{angles}}}\n{near}\njoints: [{joints}]\nloads:\n"
+        f"  W: {{force: 30, {load}, angle: -70}}\n  T: {{torque: 4, link: 2}}\n"
+    )
+    with pytest.raises(SceneError) as refused:
+        icsolve.solve(icsolve.load(text))
+    names = "H and K" if "H" in angles else "K"
+    assert f"No link carries {names}" in refused.value.message
+    assert f"`links: {{2: [{names.replace(' and', ',')}]}}`" in refused.value.message

@@ -23,6 +23,7 @@ from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.ropes import rope_parts
 from icsolve.solve.positions import find_along
 from icsolve.sweep.exact import decimal_of
+from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.path_tracking import PathTracker
 from sizes import MORE
 
@@ -672,12 +673,21 @@ def test_positions_in_which_a_rope_would_have_to_push_are_left_out_and_named() -
         assert at == pytest.approx(pulls, abs=1e-6), text
         named = re.findall(r"left out is angles.AB = (\S*), where the rope B-P-Q would", " ".join(notes))
         assert [float(one) for one in named] == pytest.approx(pushes, abs=1e-3), text  # told in six digits
-        written = icsolve.load("icsolve: 1\n" + re.sub(r"{unknown: .*, from: (.*)}}", r"\1}", text))
+        written_text = "icsolve: 1\n" + re.sub(r"{unknown: .*, from: (.*)}}", r"\1}", text)
+        written = icsolve.load(written_text)
         rests, left_out = find_along(written, "angles.AB", 0.0, 360.0)
         assert ([rest.value for rest in rests], len(left_out)) == (
             pytest.approx(pulls, abs=1e-6),
             len(pushes),
         )
+        asked = re.search(r"T: {torque: (.*), link", text)
+        assert asked
+        open_load = written_text.replace(asked[0], "T: {torque: unknown, link")
+        query = Query("value", "T", float(asked[1]))
+        places = find(icsolve.load(open_load), {"angles.AB": np.array([0.0, 360.0])}, query)
+        named = re.findall(r"left out is angles.AB = (\S*), where the rope", " ".join(places.notes))
+        assert [one.at for one in places] == pytest.approx(pulls, abs=1e-6), text
+        assert all(min(abs(float(one) - at) for one in named) <= 1e-3 for at in pushes), text
         met = [a + bool(b) for a, b in zip(met, (pulls, pushes, pulls and pushes), strict=True)]
     assert min(met) >= 5
 

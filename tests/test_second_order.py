@@ -173,3 +173,15 @@ def test_wedges_and_a_part_that_is_held_twice_are_told_apart() -> None:
     assert "2 redundant constraints" in said
     assert EXACT not in said
     assert HELD in said
+
+
+@pytest.mark.parametrize("lengths", ["AB: 1, BC: 3.5, CD: 2.5", "AB: 3, BC: 4, CD: 3", "AB: 3, BC: 2, CD: 1"])
+def test_a_four_bar_at_a_change_point_moves_elsewhere_too(lengths: str) -> None:
+    """All its links in one line: one freedom it has whatever its lengths, another one here."""
+    said = note(
+        f"icsolve: 1\npoints: {{A: [0, 0], D: [2, 0]}}\nlengths: {{{lengths}}}\nangles: {{AB: 0}}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}]\n"
+        "loads: {P: {force: 30, link: 4, at: C, angle: 180}, T: {torque: unknown, link: 2}}\n"
+    )
+    assert "1 of its 2 freedoms it has only because the figure is exact" in said
+    assert "it moves only" not in said

@@ -428,7 +428,10 @@ def _meant(text: str, dimension: str, path: str) -> str:
         return "; write the number that it comes to"
     if text.startswith("like ") and path.startswith("loads."):
         return f"; write {{like: {text[5:].strip()}}}"
-    if (_is_of_load(path, dimension) or path.startswith("points.")) and is_name(text.lstrip("-")):
+    if path.startswith("loads.") and path.endswith(".angle") and not text.strip("?"):
+        return "; a force of unknown direction is 'force: [unknown, unknown]'"
+    may_be_open = _is_of_load(path, dimension) or path.startswith(("points.", "lengths.", "angles."))
+    if may_be_open and (is_name(text.lstrip("-")) or not text.strip("?")):
         return "; write a number, or 'unknown' for what is to find"
     if path.endswith(".along") and is_name(text):
         two = text if len(text) == 2 else ("B" if text == "A" else "A") + text[:1]

@@ -467,11 +467,12 @@ def _redundancy(found: Evaluation) -> Iterable[str]:
 
     place, motions, wedges = found.outcome.place, found.outcome.motions, found.program.top.wedges
     onward, stress = None, self_stress(place)
-    if motions.mobility == 1 and stress.moves:
+    if motions.mobility == 1 and stress.moving:
         onward = goes_on(place, {link: one for link, (one,) in motions.twists.items()})
     if stress.ways + wedges:
-        held = () if stress.moves else stress.links
-        yield sentences.redundant(stress.ways, onward, found.program.want.bodies, wedges, held)
+        lost = (stress.moving, motions.mobility) if stress.moving else None
+        told = found.program.want.bodies, wedges, lost, stress.links
+        yield sentences.redundant(stress.ways, onward, *told)
 
 
 def _skipped(program: Program, outcome: Outcome) -> tuple[str, ...]:

@@ -11,7 +11,7 @@ from icsolve.assembly import solve_figure
 from icsolve.case import Case, Coordinates, Unknown
 from icsolve.errors import SceneError, Status
 from icsolve.scene import solve_scene
-from icsolve.solve.load_function import given_at
+from icsolve.solve.load_function import given_at, naming_uncarried
 from icsolve.solve.positions import Search, find_positions
 from icsolve.solve.rest import with_scene
 from icsolve.solve.resting import find_ranges
@@ -29,6 +29,11 @@ def solve_positions(case: Case, **asked: bool) -> Answer:
     the JSON object shows besides.
     """
     case = case if case.unknowns else replace(case, unknowns=(free_coordinate(case) or Unknown(""),))
+    with naming_uncarried(case, [one.path for one in case.unknowns]):
+        return _answered(case, asked)
+
+
+def _answered(case: Case, asked: Mapping[str, bool]) -> Answer:
     if len(case.unknowns) == 2:
         return _two(case, asked)
     unknown = _unknown(case)

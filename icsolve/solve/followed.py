@@ -223,6 +223,8 @@ def converted(rests: Sequence[Rest], path: str, span: tuple[float, float], other
     found = []
     turns = is_angle(path)
     for rest in rests:
+        if not rest.answer.points.keys() >= {*points_of(path)}:
+            raise SceneError(Status.UNSUPPORTED, f"{path} does not pose the figure: it moves nothing.")
         own, by = rate_of(rest.answer, path), rate_of(rest.answer, other)
         value = value_of(rest.answer, path)
         size = max(abs(c) for at in rest.answer.points.values() for c in at)

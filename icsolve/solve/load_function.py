@@ -10,7 +10,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from functools import partial
 
 import numpy as np
@@ -36,7 +36,7 @@ from icsolve.statics import load_wrenches, power
 from icsolve.structure.topology import topology
 from icsolve.sweep.branches import may_vanish
 from icsolve.sweep.drivers import Drive
-from icsolve.sweep.numbers import with_numbers
+from icsolve.sweep.numbers import points_of, with_numbers
 from icsolve.sweep.program import (
     CompiledSweep,
     RowRequest,
@@ -49,6 +49,7 @@ from icsolve.sweep.program import (
 )
 from icsolve.sweep.recorded_scene import RecordedScene, motions_of
 from icsolve.tuples import NamedTuple, replace
+from icsolve.wording import sentences
 from icsolve.wording.joints import why_not_moved
 
 Steps = tuple[Step, ...]
@@ -403,6 +404,21 @@ def _turns(
         turned = np.unwrap(np.broadcast_to(here, values.shape), period=360.0)
         found[guess.index] = turned + (guess.value - turned[own])
     return values, found
+
+
+@contextmanager
+def naming_uncarried(case: Case, paths: Sequence[str]) -> Iterator[None]:
+    """Refusals of data that pose nothing say which of their points are of no link."""
+    try:
+        yield
+    except SceneError as refusal:
+        figure = (path for path in paths if path.startswith(("angles.", "lengths.", "points.")))
+        points = dict.fromkeys(point for path in figure for point in points_of(path))
+        said = sentences.uncarried(case, points)
+        if not said or refusal.status not in (Status.UNSUPPORTED, Status.UNDERDETERMINED):
+            raise
+        message = f"{refusal.message.rstrip('.')}. {said[0].upper()}{said[1:]}"
+        raise SceneError(refusal.status, message, refusal.more) from None
 
 
 def refuse_unposed(function: LoadFunction) -> None:

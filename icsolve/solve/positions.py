@@ -29,6 +29,7 @@ from icsolve.solve.load_function import (
     given_at,
     load_functions,
     moving_function,
+    naming_uncarried,
     refuse_unposed,
     with_other_ways,
     written_function,
@@ -235,7 +236,8 @@ def _balanced(some: int, of: int) -> str:
 def find_along(case: Case, along: str, low: float, high: float) -> tuple[list[Rest], list[str]]:
     """The positions of equilibrium along a sweep of an ordinary case, by a datum that poses it or by turning
     a link from the position as written (degrees); and sentences on those that were left out."""
-    rests = _along(case, along, low, high)
+    with naming_uncarried(case, () if along in case.links else (along,)):
+        rests = _along(case, along, low, high)
     return taut(distinct(sorted(rests, key=lambda rest: rest.value)), along)
 
 

@@ -12,6 +12,7 @@ from icsolve.case import Case, Force, Number, Torque
 from icsolve.errors import SceneError, Status
 from icsolve.scene import solve_by_power, solve_scene
 from icsolve.tuples import NamedTuple, replace
+from icsolve.wording.sentences import left_out
 
 PROBE = "@equilibrium"
 """The name of the unknown load by which `icsolve.solve` tells how far a position is from equilibrium."""
@@ -72,13 +73,10 @@ def taut(rests: Sequence[Rest], path: str) -> tuple[list[Rest], list[str]]:
     for rest in rests:
         slack = why_slack(rest.case, rest.links)
         if slack:
-            notes.append(LEFT_OUT.format(at=f"{path} = {rest.value:.6g}", slack=slack))
+            notes.append(left_out(f"{path} = {rest.value:.6g}", slack))
         else:
             found.append(rest)
     return found, notes
-
-
-LEFT_OUT = "left out is {at}, where {slack}."
 
 
 def why_slack(case: Case, links: Sequence[str], freedoms: int = 1) -> str:
@@ -88,7 +86,7 @@ def why_slack(case: Case, links: Sequence[str], freedoms: int = 1) -> str:
             held(case, links, freedoms)
     except SceneError as refusal:
         if refusal.status == Status.SLACK:
-            return refusal.message.partition(". ")[0]
+            return refusal.message
     return ""
 
 

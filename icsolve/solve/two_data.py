@@ -42,13 +42,14 @@ from icsolve.solve.load_function import (
     refuse_together,
 )
 from icsolve.solve.positions import refuse_ropes, refuse_unwritten, whole_range
-from icsolve.solve.rest import LEFT_OUT, why_slack, with_scene
+from icsolve.solve.rest import why_slack, with_scene
 from icsolve.solve.settled import CLOSED, NEAR, rounded, scene_in, within_a_turn
 from icsolve.statics import load_wrenches, power
 from icsolve.sweep.exact import CONTEXT, VANISHED, as_written, decimal_ratio, exact_record
 from icsolve.sweep.program import CompiledSweep, setting_of, spring_angles
 from icsolve.sweep.recorded_scene import motions_of
 from icsolve.tuples import NamedTuple, replace
+from icsolve.wording.sentences import left_out
 
 GRID = 48
 FINE = 257
@@ -563,7 +564,7 @@ def _described(
     scene = solve_scene(_scene(surface, paths, (x, y)))
     if slack := why_slack(scene.case, surface.links, 2):
         there = " and ".join(f"{p} = {v:.6g}" for p, v in zip(paths, (x, y), strict=True))
-        return LEFT_OUT.format(at=there, slack=slack)
+        return left_out(there, slack)
     shown = with_scene(scene, surface.links, 2, **asked)
     at, error_of = (dict(zip(paths, pair, strict=True)) for pair in ((x, y), off))
     stiffness = _stiffness(surface, paths, slopes)

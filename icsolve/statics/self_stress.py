@@ -24,12 +24,13 @@ class SelfStress(NamedTuple):
     ----------
     ways : how many independent ones there are
     links : those at the stressed joints
-    moves : whether these links move against one another where they have the stressed joints alone
+    moving : how many of the ways are among links that move against one another where they have the stressed
+        joints alone
     """
 
     ways: int
     links: tuple[str, ...]
-    moves: bool
+    moving: int
 
 
 def self_stress(place: PlacedCase) -> SelfStress:
@@ -65,12 +66,19 @@ def self_stress(place: PlacedCase) -> SelfStress:
         for column, (n, _) in enumerate(columns)
         if any(not arithmetic.vanishes(share, 1.0) for share in general.of(column).values())
     }
-    bodies = [{body for pushes in joints[n] for body, _, _ in pushes} for n in sorted(stressed)]
-    on = set().union(*bodies)
-    apart = {min(reached((one,), lambda b: [c for some in bodies if b in some for c in some])) for one in on}
-    rank = sum(len(joints[n]) for n in stressed) - len(general.free)
-    links = tuple(link for link in place.case.links if top.body_of[link] in on)
-    return SelfStress(len(general.free), links, 3 * (len(on) - len(apart)) > rank)
+    beside: dict[int, set[int]] = {}  # the bodies that a stressed joint ties to each
+    for n in stressed:
+        ends_of = {body for pushes in joints[n] for body, _, _ in pushes}
+        for body in ends_of:
+            beside.setdefault(body, set()).update(ends_of)
+    links = tuple(link for link in place.case.links if top.body_of[link] in beside)
+    moving = 0
+    for some in {frozenset(reached((body,), beside.__getitem__)) for body in beside}:
+        own = {n for n in stressed if joints[n][0][0][0] in some}
+        ways = sum(columns[column][0] in own for column in general.free)
+        rank = sum(len(joints[n]) for n in own) - ways
+        moving += ways if 3 * (len(some) - 1) > rank else 0
+    return SelfStress(len(general.free), links, moving)
 
 
 def _constraints(place: PlacedCase, bond: Bond) -> tuple[Triple, ...]:

@@ -39,6 +39,7 @@ from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recheck import Recheck
 from icsolve.sweep.request import RequestError, along_of, columns_of
 from icsolve.sweep.start import start_of
+from icsolve.wording.sentences import left_out
 
 __all__ = ["FoundPosition", "FoundPositions", "Query", "find"]
 
@@ -291,7 +292,7 @@ class RangeSearch:
                 solve_scene(self.scene(s))
             except SceneError as refusal:
                 if refusal.status == Status.SLACK:
-                    self.notes[PUSHED] = None
+                    self.notes[left_out(f"{self.name} = {float(s):.6g}", refusal.message)] = None
                     return
         yield self._spot(s, kind, load)
 
@@ -502,7 +503,6 @@ ROUGH = 1e-12
 """So much farther than the span is searched, of its values: more than doubles round."""
 BETWEEN = 18
 """Places up to a limit at which it is looked whether the links reach one another all the way."""
-PUSHED = "positions in which a rope would have to push are left out."
 UNSHOWN = (
     "{count} parts of the range are left undecided: there the bounds are too wide to show what is there."
 )

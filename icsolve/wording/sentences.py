@@ -143,6 +143,30 @@ def idle_load(load: str, links: Sequence[str], couple: bool, slack: bool) -> str
     return f"{load} does no work on {here}: where it acts, its line is square to {motion}"
 
 
+def uncarried(case: Case, points: Iterable[str]) -> str:
+    """Of the points to which an unknown is measured those that are of no link, and how they become one's."""
+    told = {*case.points}.union(*case.carries.values())
+    links = [link for link in case.links if link != case.ground]
+    found: dict[str, list[str]] = {}
+    for point in points:
+        data = [{one for one in datum if isinstance(one, str)} for datum in (*case.lengths, *case.angles)]
+        beside = set().union(*(names for names in data if point in names))
+        link = max(links, key=lambda link: len(beside & {*case.carries.get(link, ())}), default="2")
+        if point not in told:
+            found.setdefault(link, []).append(point)
+    entries = ", ".join(f"{link}: [{', '.join(names)}]" for link, names in found.items())
+    names = [name for some in found.values() for name in some]
+    goes = "it goes" if len(names) == 1 else "they go"
+    with_ = f"link {listed(found)}" if len(found) == 1 else f"links {listed(found)}"
+    said = f"no link carries {listed(names)}: if {goes} with {with_}, write `links: {{{entries}}}`."
+    return said if found else ""
+
+
+def left_out(at: str, slack: str) -> str:
+    """A position that is not told as it is asked for one, with the refusal of what it would ask of a rope."""
+    return f"left out is {at}, where {slack.partition('. ')[0]}."
+
+
 def free_ends(top: Topology, case: Case) -> str:
     """Which links beside the frame have a free end: ``link 4 has a free end (its only joint is at C)``."""
     roped = {top.body_of[link] for rope in case.ropes for link in rope.links} - {top.ground}
@@ -193,21 +217,27 @@ def nothing_asked(mobility: int, balanced: bool) -> str:
 
 
 def redundant(
-    count: int, goes_on: bool | None, bodies: bool, wedges: int = 0, held: Sequence[str] = ()
+    count: int,
+    goes_on: bool | None,
+    bodies: bool,
+    wedges: int,
+    exact: tuple[int, int] | None,
+    on: Sequence[str],
 ) -> str:
     """Redundant constraints, and whether the motion is more than a moment's (None: not known).
 
     Without ``bodies`` nobody looked which reactions are unique. ``wedges`` further constraints are those of
-    rings of links that only slide on each other, which keep their directions whatever the numbers. ``held``
-    are the links on which the others are, where these do not move against one another.
+    rings of links that only slide on each other, which keep their directions whatever the numbers. ``exact``:
+    how many freedoms of how many there are only because the figure is as it is; None where the links on which
+    the constraints are do not move against one another.
     """
     cause = f"the joints have {plural(count + wedges, 'redundant constraint')}"
     end = "." if bodies else "; reactions that share a load are not unique (`--reactions` tells which)."
     slides = "links that only slide keep their direction by each of their guides, as wedges do"
     if not count:
         return f"{cause}: {slides}{end}"
-    if held:
-        told = f"links {listed(held)} are held together by more than they need"
+    if exact is None:
+        told = f"links {listed(on)} are held together by more than they need"
         told = f"{told}; {slides}" if wedges else told
         return f"{cause}: {told}; the motion does not depend on it{end}"
     if goes_on is False:
@@ -215,6 +245,9 @@ def redundant(
             f"{cause}: the links yield only for an instant, then they bind (second order), so the answer is "
             f"for this position alone{end}"
         )
+    some, freedoms = exact
+    if some < freedoms:
+        return f"{cause}: {some} of its {freedoms} freedoms it has only because the figure is exact{end}"
     onward = ", and it goes on moving to second order" if goes_on else ""
     return f"{cause}: it moves only because the figure is exact{onward}{end}"
 

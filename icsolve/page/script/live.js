@@ -158,8 +158,9 @@ function fillAnswers(solved) {
     const n = live.loads.findIndex((load) => load.name === term.name);
     const exerts = (k) => (live.loads[k].kind === "Torque" ? 1 : solved.loads[k][3]);
     const share = solved && (solved.power[n][0] * live.loads[n].measure) / (solved.power[root][0] * live.loads[root].measure);
+    const ratio = solved && (share * data.root.sign * exerts(root)) / (term.sign * exerts(n));
     term.size.v[LIVE] = solved ? exerts(n) * solved.values[n] : null;
-    term.ratio.v[LIVE] = solved ? (share * data.root.sign * exerts(root)) / (term.sign * exerts(n)) : null;
+    term.ratio.v[LIVE] = solved && Number.isFinite(ratio) ? ratio : null; // none where a change point has more motions
   });
 }
 /* The scene for the present numbers: as they are typed, or on from where it is. */

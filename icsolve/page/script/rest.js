@@ -1,5 +1,5 @@
 /* Positions of equilibrium: from where the mechanism is to the nearest value of the datum that is asked for at
-   which the loads do no work in the motion that the joints allow. */
+   which the loads do no work in the motion that the joints allow, and no rope would have to push. */
 const SCANNED = 72;
 const FEWER = 256;
 /* The power of all loads at a value, over the size of the twists, in the sense of those before. */
@@ -36,7 +36,7 @@ function restOf(told, x, figure) {
     for (const value of [first + k * pace, first - k * pace]) if (!start && value >= low && value <= high) start = at(value, null);
   start = start || powerAt(told, x, figure, first, null);
   const sides = [1, -1].map((way) => ({ way, last: start, pace, going: true }));
-  let moving = false;
+  let [moving, slack] = [false, false];
   for (let k = 0; k < 3 * SCANNED && sides.some((side) => side.going); k++)
     for (const side of sides) {
       if (!side.going) continue;
@@ -50,12 +50,24 @@ function restOf(told, x, figure) {
       moving = moving || abs(next.power) > 1e-12 * next.terms;
       if (next.power > 0 !== side.last.power > 0) {
         const found = zeroBetween(at, side.last, next, 1e-3);
-        if (found) return restAt(told, x, figure, found, [side.last, next], at, 1e-3 * pace);
+        const stability = found && restAt(told, x, figure, found, [side.last, next], at, 1e-3 * pace);
+        if (found && isTaut(told, x, figure)) return stability;
+        slack ||= Boolean(found);
       }
       side.last = next;
       if (abs(next.value - start.value) >= (turns ? 180 : SCANNED * pace)) side.going = false;
     }
-  refuse(moving ? "no-value" : "any-value");
+  refuse(slack ? "slack" : moving ? "no-value" : "any-value");
+}
+/* Whether no rope would have to push where the figure stands. */
+function isTaut(told, x, figure) {
+  try {
+    if (told.ropes.length) sceneAsPlaced(told, x, figure);
+  } catch (refusal) {
+    refused(refusal);
+    return refusal.status !== "slack";
+  }
+  return true;
 }
 /* Where the power vanishes between two values, by false position and halving; null where it jumps there. */
 function zeroBetween(at, a, b, jump) {

@@ -388,6 +388,19 @@ function figureOf(program, told, x) {
     every.forEach((n) => run(n));
     if (list !== every) for (const n of every.filter((k) => !list.includes(k))) for (const k of told.steps[n].p) points[k] = [NaN, NaN];
   }
+  /* Of all numbers the one whose last digits part two loci the farthest, and its value then. */
+  function parting(n) {
+    const before = every.slice(0, n);
+    const some = x.flatMap((written, k) => [1, -1].map((side) => {
+      x[k] = written * (1 + 4 * side * UNIT);
+      before.forEach(run);
+      const found = [k, x[k], min(...run(n).gaps)];
+      x[k] = written;
+      return found;
+    }));
+    before.forEach(run);
+    return some.reduce((best, one) => (one[2] > best[2] ? one : best));
+  }
   /* Turns of torsion springs: as typed, or on from where they are. */
   const wind = (k) => told.wound[0] && scene()[6].forEach((one, n) => (w[n] = one[k]));
   return {
@@ -417,15 +430,21 @@ function figureOf(program, told, x) {
       wind(0);
     },
     /* The figure as rounding may have it where two loci all but touch: with a longer half of their chord, or
-       with one where they were taken to touch; one such step a time, and at last as it is. */
+       with one where they were taken to touch, as long as a last digit of a number makes it; one such step a
+       time, and at last as it is. */
     *shaken() {
       const again = () => every.forEach(run);
       for (const n of every) {
         const [k, { gaps }] = [told.steps[n].p[0], run(n)];
         const own = s[k];
         const left = (2 * UNIT * max(1, largest(gaps))) / abs(min(...gaps));
-        if (told.steps[n].sign !== undefined && left > LEAST_TRUST)
+        if (told.steps[n].sign !== undefined && left > LEAST_TRUST) {
+          const [number, value] = own ? [0, x[0]] : parting(n);
+          const written = x[number];
+          x[number] = value;
           for (s[k] of own ? [own + own * left] : [1, -1]) yield again();
+          x[number] = written;
+        }
         s[k] = own;
       }
       again();
