@@ -692,6 +692,35 @@ def test_positions_in_which_a_rope_would_have_to_push_are_left_out_and_named() -
     assert min(met) >= 5
 
 
+def test_a_rope_that_has_run_out_lets_a_mechanism_go_no_further() -> None:
+    """The block of a crank and block is drawn to its pulley: there the motion ends, and beyond it no row
+    assembles, no load is largest and none takes a value. Limits by the closed form to 1e-9 degree."""
+    met = 0
+    for seed in range(60 * MORE):
+        text, _, _ = crank_and_block(seed)
+        px, py, qy = (float(x) for x in re.findall(r"P: \[(.*), (.*)\], Q: \[.*, (.*)\], S", text)[0])
+        r, start = float(re.findall("AB: (.*)}", text)[0]), float(re.findall("from: (.*)}}", text)[0])
+        heading, far = math.atan2(py, px), math.hypot(px, py)
+        spare = math.hypot(r * math.cos(math.radians(start)) - px, r * math.sin(math.radians(start)) - py)
+        ends = (r * r + far * far - (spare + py - qy) ** 2) / (2.0 * r * far)
+        if ends <= -1.0:
+            continue  # it turns all round
+        met += 1
+        text = re.sub(r"{unknown: .*, from: (.*)}}", r"\1}", text)
+        text = re.sub(r"torque: [-.0-9]*", "torque: unknown", text)
+        case, at = icsolve.load("icsolve: 1\n" + text), np.arange(0.0, 360.0, 7.5)
+        within = np.cos(np.radians(at) - heading) > ends
+        rows = icsolve.sweep(case, {"angles.AB": at}, want=("answers", "status"))
+        assert [status in ("ok", "slack") for status in rows.status] == within.tolist(), text
+        turn, half = {"angles.AB": np.array([0.0, 360.0])}, math.degrees(math.acos(ends))
+        limits = [one.at for one in find(case, turn, Query("dead")) if one.kind == "limit"]
+        meant = [(math.degrees(heading) + side * half) % 360.0 for side in (-1, 1)]
+        assert limits == pytest.approx(sorted(meant), abs=1e-9), text
+        peaks = find(case, turn, Query("max"))
+        assert all(math.cos(math.radians(one.at) - heading) > ends for one in peaks), text
+    assert met >= 3
+
+
 @pytest.mark.parametrize("name", ["O", "A-O-C"])
 def test_numbers_of_a_rope_are_set_and_varied_by_its_point(name: str) -> None:
     path = "joints.O.mu" if name == "O" else f"joints.{name}.mu.O"

@@ -107,6 +107,8 @@ def _rest_at_limit(one: LoadFunction, two: LoadFunction, limit: Limit) -> list[R
         if (p > 0.0) == (q > 0.0) and p != 0.0 and q != 0.0:
             return []
         far, away = balancing_torque(one, here, link), balancing_torque(two, here, link)
+        if abs(p - q) > abs(far - away) * (abs(limit.value - last) / step) ** 0.25:
+            return []  # one position, but not one motion: a corner, as where a rope runs out
         way = _swing(one, two, link, here)
     except SceneError:
         return []

@@ -149,7 +149,7 @@ class Radicands:
         nodes = [n for r in before for margin in r.margins for n in margin]
         radicand, *margins = self.values([root.radicand, *nodes], at)
         for margin, size in zip(margins[::2], margins[1::2], strict=True):
-            radicand[margin < -TOUCH * size] = np.nan
+            radicand[margin < -TOUCH * np.abs(size)] = np.nan
         return radicand
 
     def limits(self) -> tuple[float, float]:
@@ -186,7 +186,7 @@ class Radicands:
 
 def _share(margin: Array, size: Array) -> Array:
     """A margin over its size; 0 where loci of no size touch."""
-    return np.divide(margin, size, out=np.zeros_like(margin), where=size != 0.0)
+    return np.divide(margin, np.abs(size), out=np.zeros_like(margin), where=size != 0.0)
 
 
 def may_vanish(radicand: Array) -> bool:

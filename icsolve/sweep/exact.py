@@ -332,8 +332,8 @@ def _pair(node: Traced) -> tuple[int, int]:
 
 
 def _over(value: Decimal, size: Decimal) -> Decimal:
-    """A value as a fraction of its terms."""
-    return value / size if size else Decimal("NaN")
+    """A value as a fraction of its terms, whose size may have either sign."""
+    return value / abs(size) if size else Decimal("NaN")
 
 
 def as_written(value: float) -> Decimal:

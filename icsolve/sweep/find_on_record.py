@@ -249,7 +249,9 @@ class RangeSearch:
 
     def _assembles(self, s: Decimal) -> bool:
         try:
-            margins = self.exact.margins(self.roots, self.along.at(self.name, s))
+            given = self.along.at(self.name, s)
+            margins = self.exact.margins(self.roots, given)
+            margins += self.exact.values([self.record.nodes[k] for k in self.compiled.margins], given)
         except Unreached:
             return False
         return all(m.is_nan() or m >= 0 for m in margins)
@@ -286,7 +288,10 @@ class RangeSearch:
         return [low + Decimal(k) * (high - low) for k in PROBES]
 
     def _pulling(self, s: Decimal, kind: str, load: str) -> Iterator[FoundPosition]:
-        """The position at a value; none, and a note, where a rope would have to push there."""
+        """The position at a value; none where the links do not assemble, and none, and a note, where a rope
+        would have to push there."""
+        if not (self._assembles(s - NEAR) or self._assembles(s + NEAR)):
+            return
         if self.compiled.scene.case.ropes:
             try:
                 solve_scene(self.scene(s))
@@ -361,7 +366,7 @@ class RangeSearch:
         if given is None:
             return
         main = self.compiled.inputs[self.name]
-        radicands = [root.radicand for root in self.roots]
+        radicands = [*(root.radicand for root in self.roots), *self.compiled.margins]
         nodes = [self.record.lifted(v).index for v in wanted]
         inputs = {k: float(v) for k, v in given.items()}
         cells = Cells(self.record, [*nodes, *radicands], main, inputs)

@@ -125,7 +125,7 @@ class CompiledSweep(NamedTuple):
     springs: dict[str, Scalar]
     refusal: SceneError | None
     margins: tuple[int, ...] = ()
-    """of the figure as written, where it is another in each row: none may be negative"""
+    """of the figure as written, where it is another in each row, and of ropes: none may be negative"""
     fits: tuple[int, ...] = ()
     """of the teeth of a pitch that vary, or whose pivots do, of angles that repeat other data, and of given
     motions: where one is negative they may not fit"""
@@ -334,6 +334,7 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
             scene = RecordedScene(case, setting.top, frame, record, names)
     if motion is not None:
         scene = moved_scene(motion)
+        margins += motion.margins
     scene = rested(scene, asked.contacts, inputs)
     outputs, found = _outputs(scene, asked)
     compiled = CompiledSweep(

@@ -145,7 +145,7 @@ class Runner:
         out = np.zeros(rows, dtype=bool)
         found = self.reaching.run(given, rows) if self.reaching.wanted else ()
         for margin, size in zip(found[::2], found[1::2], strict=True):
-            out |= margin < -SHALLOW * size
+            out |= margin < -SHALLOW * np.abs(size)
         return out
 
     @cached_property

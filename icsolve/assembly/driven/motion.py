@@ -10,6 +10,7 @@ from icsolve.assembly.driven.constraints import (
     Constraint,
     Immovable,
     Pointed,
+    Roped,
     Spinning,
     Turning,
     spun,
@@ -34,10 +35,10 @@ from icsolve.assembly.driven.order import (
     rotation_to_line,
 )
 from icsolve.assembly.driven.poses import Arm, Moved, Rotation, Spot, dot, minus, rotated, square
-from icsolve.assembly.loci import PlacedLocus, crossing_sine, intersection, side
+from icsolve.assembly.loci import PlacedCircle, PlacedLocus, crossing_sine, intersection, side
 from icsolve.assembly.workspace import Workspace
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.record import Traced
+from icsolve.numbers.record import Traced, varies
 from icsolve.screws.plane import Point, Triple, velocity
 from icsolve.tuples import NamedTuple
 
@@ -64,6 +65,8 @@ class DrivenMotion(NamedTuple):
     groups: tuple[NewtonGroup, ...]
     checks: tuple[int, ...]
     """what the conditions leave that were not needed: it is to vanish"""
+    margins: tuple[int, ...]
+    """what ropes leave for their last parts [frame]: it is not to be negative"""
     driver: Constraint
 
 
@@ -124,6 +127,7 @@ def set_moving(mechanism: Mechanism, closing: Closing, signs: Mapping[str, Scala
         run.written,
         tuple(run.groups),
         tuple(run.checked(c for c in closing.constraints if id(c) not in closing.used)),
+        tuple(left.index for left in run.left if varies(left)),
         closing.constraints[0],
     )
 
@@ -151,6 +155,7 @@ class _Placing:
         self.written: dict[str, float] = {}
         self.groups: list[NewtonGroup] = []
         self.spare: list[Scalar] = []
+        self.left: list[Scalar] = []
         ground = self.shape.ground
         self._locate((ground, name) for _, name in mechanism.spots[ground])
 
@@ -215,6 +220,10 @@ class _Placing:
 
     def _meet(self, step: PlaceAtIntersection) -> None:
         one, two = (locus(self.shape, self.moved, by) for by in step.loci)
+        for by, there in zip(step.loci, (one, two), strict=True):
+            if isinstance(by, ThroughTurned) and isinstance(by.by, Roped):
+                assert isinstance(there, PlacedCircle)
+                self.left.append(there.radius)
         first, second = (reference(self.shape, by) for by in step.loci)
         written = side(first, second, self._written(step.spot[1], first, second))
         name = f"branch {step.spot[0]} {step.spot[1]}"
