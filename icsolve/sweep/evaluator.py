@@ -434,13 +434,12 @@ def _compiled(case: Case, names: Mapping[str, str], asked: RowRequest, gradients
     setting = setting._replace(paths=tuple(names.values()), drive=Drive((), (), ()))
     if is_hard(setting) or any(isinstance(s, PointGroup) for s in setting.figure.steps):
         return None
-    asked = told(case, asked)
+    asked = told(case, asked)._replace(dynamic=case.dynamic)
     try:
         compiled = compile_sweep(setting, asked)
     except SceneError:  # beside the case as written nothing moves: it does so by exact data alone
         return None
     alone = compiled.refusal is not None or compiled.delicate or compiled.idle or hides(compiled)
-    alone |= compiled.dynamic < asked.dynamic or (asked.dynamic and asked.terms)
     return None if alone else _Compiled(compiled, asked, names, gradients)
 
 

@@ -358,8 +358,10 @@ def decimal_ratio(exact: ExactRatio) -> Decimal:
 
 
 def hides(compiled: CompiledSweep) -> bool:
-    """Whether doubles lose what is asked of the rows: known loads all but cancel, or something that was taken
-    as zero in every row is none."""
+    """Whether the record does not tell what is asked of the rows, or doubles lose it: known loads all but
+    cancel, or something that was taken as zero in every row is none."""
+    if compiled.untold:
+        return True
     if compiled.cancels and any(map(float, _answers(compiled))):
         return True
     if not compiled.spent:

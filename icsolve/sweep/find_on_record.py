@@ -93,7 +93,7 @@ def find(
         raise RequestError(f"{query.load} is no unknown load of this case ({known or 'which has none'})")
     by_itself = rubs(case) or (case.profiles is not None and bool(case.profiles.touches))
     start = None if by_itself else start_of(case, columns, RowRequest(dynamic=case.dynamic))
-    if start is None or start.one_by_one or start.hides or start.compiled().dynamic < case.dynamic:
+    if start is None or start.one_by_one or start.hides:
         return Scenes(case, columns, along, query).spots()
     spots, refusal = FoundPositions(), start.compiled().refusal
     if refusal is not None and refusal.status == Status.MOBILITY:

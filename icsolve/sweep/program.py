@@ -144,8 +144,9 @@ class CompiledSweep(NamedTuple):
     spent: tuple[int, ...] = ()
     """what was taken as zero in the sums of power, though doubles do not show it"""
     dynamic: bool = False
-    """whether inertia forces are among the loads; where they are asked for and are not, a scene of its own
-    has to tell them"""
+    """whether inertia forces are among the loads"""
+    untold: bool = False
+    """whether they are asked for, and only a scene of its own tells them, or what is asked beside"""
 
 
 def live_roots(compiled: CompiledSweep) -> list[Root]:
@@ -356,8 +357,12 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
     fits += motion_fits(scene, found, sense=asked.rates and not setting.moves)
     compiled = compiled._replace(
         delicate=found.delicate, idle=found.idle, cancels=found.cancels, spent=found.spent, fits=fits
-    )._replace(dynamic=found.moves is not None)
-    if not (asked.answers and refusals.rubs(case)):
+    )
+    rubs = asked.answers and refusals.rubs(case)
+    if asked.dynamic:
+        untold = found.moves is None or asked.terms or rubs
+        compiled = compiled._replace(dynamic=found.moves is not None, untold=untold)
+    if not rubs:
         return compiled._replace(refusal=found.refusal)
     return (
         compiled if found.refusal else compiled._replace(rubbing=rubbing(scene, found.motions, found.balance))

@@ -102,7 +102,8 @@ class Start(NamedTuple):
 
     @property
     def hides(self) -> bool:
-        """Whether doubles lose what is asked: each row is then a scene in its position."""
+        """Whether the record does not tell what is asked, or doubles lose it: each row is then a scene in its
+        position."""
         return hides(self.compiled())
 
     def compiled(self, signs: Signs = ()) -> CompiledSweep:

@@ -92,15 +92,10 @@ def sweep(
     start = start_of(case, columns, told(case, wanted.asked))
     if start.one_by_one:
         return _family(start, columns, wanted, progress)
-    alone = case.ropes or start.hides or _moves_alone(start, wanted.asked)
+    alone = case.ropes or start.hides
     if alone or (_rubs(case) and not _rubs_at_once(start, wanted)):
         return _by_scenes(start, columns, wanted, progress)
     return _together(start, columns, wanted, progress)
-
-
-def _moves_alone(start: Start, asked: RowRequest) -> bool:
-    """Whether only a scene of its own tells of a row's motion what is asked."""
-    return asked.dynamic and (asked.terms or _rubs(start.case) or not start.compiled().dynamic)
 
 
 def _together(start: Start, columns: Columns, wanted: SweepRequest, progress: Progress | None) -> Sweep:
