@@ -124,8 +124,8 @@ def evaluator(
         Where the case as written has no figure, or lies in space.
     ValueError
         For words that can't be wanted, no inputs, or one twice; gradients where rows are solved one by one
-        (friction, profiles, ropes, screws, numbers of a motion, groups that Newton's method places, inertia
-        forces where joints are redundant or several points have given motions).
+        (friction, profiles, ropes, screws, the direction of a motion, groups that Newton's method places,
+        inertia forces where joints are redundant or several points have given motions).
     """
     refuse_no_case(case)
     paths = names_in(inputs, "inputs=('angles.AB', 'lengths.BC')")
@@ -158,9 +158,9 @@ class Evaluator:
         if self.compiled is None and gradients:
             raise RequestError(
                 "there are no gradients where each row is solved as a scene of its own: with friction, "
-                "profiles, ropes or screws, by numbers of a motion, with inertia forces where joints are "
-                "redundant or several points have given motions, or where points can be placed only together "
-                "or nothing moves beside the case as written"
+                "profiles, ropes or screws, by the direction of a motion, with inertia forces where joints "
+                "are redundant or several points have given motions, or where points can be placed only "
+                "together or nothing moves beside the case as written"
             )
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 
@@ -391,7 +392,8 @@ def moving(scene: RecordedScene, found: motion.Motions) -> Moving | None:
         return None
     try:
         if len(given) > 1:
-            open_ = any(m.point is not None for m in given)
+            speeds_vary = any(varies(record.given(m.speed)) for m in given if m.speed is not None)
+            open_ = speeds_vary or any(m.point is not None for m in given)
             moves = None if open_ else accelerations.moving(scene.place, found.twists)
         else:
             per, links = _in_time(scene, found), (link for link in found.twists if link in top.body_of)
@@ -405,12 +407,14 @@ def moving(scene: RecordedScene, found: motion.Motions) -> Moving | None:
 
 def _driven(scene: RecordedScene, twists: Mapping[str, Triple], more: Scalar) -> accelerations.Drive:
     """What the one given motion accelerates, the way it goes in each row."""
-    (given,) = scene.case.motion
+    (given,), record = scene.case.motion, scene.record
     assert given.speed is not None
     if given.point is None:
-        return given, None, -more if (given.turns == "cw") != (given.speed.value < 0.0) else more
+        speed = record.given(given.speed)
+        sense = speed / record.sqrt(speed * speed) if varies(speed) else math.copysign(1.0, given.speed.value)
+        return given, None, -(sense * more) if given.turns == "cw" else sense * more
     x, y = velocity(twists[given.link], scene.points[given.point])
-    size = scene.record.sqrt(x * x + y * y)
+    size = record.sqrt(x * x + y * y)
     return given, (x / size, y / size), more * scene.frame.scale
 
 

@@ -58,8 +58,8 @@ def is_hard(setting: Setting) -> bool:
 
 
 def drives(path: str) -> bool:
-    """Whether a number is one of a given motion, of which no record tells."""
-    return path.startswith("motion.")
+    """Whether a number is the direction of a given motion, of which no record tells."""
+    return path.startswith("motion.") and path.rsplit(".", 1)[-1] not in ("speed", "acceleration")
 
 
 NUDGED = 1e-3
