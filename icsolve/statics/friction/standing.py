@@ -262,7 +262,7 @@ def _deepest_part(limits: FrictionLimits) -> ForcePart:
     parts = [(-one.depth, 0, one) for one in [reduced.part(tuple(pushes))]]
     for made in range(MOST_PARTS):
         _, _, part = heapq.heappop(parts)
-        if part.worst is None or part.depth < 0.0:
+        if part.worst is None or part.depth < -ROUNDED:
             return part
         k, to = part.worst, part.toward[part.worst]
         whole = SENSES if len(limits.rubs[k].forces) == 1 else CIRCLE
