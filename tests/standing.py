@@ -88,6 +88,30 @@ def bricks(dice: Random) -> str:
     return _text(points, joints, loads)
 
 
+def rod(dice: Random) -> str:
+    """A rod whose two pins rub in slots, loaded beside them; the last load at any angle."""
+    points = {"A": (0.0, 0.0), "B": (round(dice.uniform(1, 2), 2), round(dice.uniform(0.5, 1.5), 2))}
+    points["G"] = (round(dice.uniform(0.2, 1.5), 2), round(dice.uniform(0.3, 1.5), 2))
+    joints = [f"slot: [2, 1], at: {name}, along: {dice.randint(0, 179)}, {_mu(dice)}" for name in "AB"]
+    push = f"[{dice.uniform(-20, 20):.2f}, {dice.uniform(-20, 20):.2f}]"
+    loads = [f"force: {push}, link: 2, at: G", f"torque: {dice.uniform(-5, 5):.2f}, link: 2"]
+    loads.append(f"force: 1, link: 2, at: {dice.choice('ABG')}, angle: {dice.randint(0, 359)}")
+    return _text(points, joints, loads)
+
+
+def barred(dice: Random) -> str:
+    """Two blocks on slopes, joined by a bar on smooth pins; the last load on one at any angle."""
+    points = {"A": (0.0, 0.0), "B": (round(dice.uniform(1, 2), 2), round(dice.uniform(-0.5, 0.5), 2))}
+    joints, loads = [], []
+    for k, name in enumerate("AB"):
+        joints.append(f"slide: [{2 + k}, 1], at: {name}, along: {dice.randint(-50, 50)}, {_mu(dice)}")
+        joints.append(f"pin: [{2 + k}, 4], at: {name}")
+        loads.append(f"weight: {dice.randint(10, 100)}, link: {2 + k}, at: {name}")
+    link, at = dice.choice([(2, "A"), (3, "B")])
+    loads.append(f"force: 1, link: {link}, at: {at}, angle: {dice.randint(0, 359)}")
+    return _text(points, joints, loads)
+
+
 def joined(dice: Random) -> str:
     """Two blocks on slopes, joined by a bar on smooth pins; a third may stand on one of them."""
     points, joints, loads = {"A": (0.0, 0.0)}, [], []
