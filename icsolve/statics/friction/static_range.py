@@ -290,6 +290,18 @@ def range_of(ends: Sequence[End]) -> StaticRange:
     return StaticRange(least, most, (least, most), IMPENDING, locks, about_to_move, parts=parts)
 
 
+def without_ends(found: StaticRange, ends: Sequence[End]) -> StaticRange:
+    """A range that goes on without end where it has these."""
+
+    def beyond(value: float) -> float:
+        return math.copysign(math.inf, value) if any(value == end.value for end in ends) else value
+
+    least, most, *possible = map(beyond, (found.least, found.most, *found.possible))
+    left = tuple(end for end in found.ends if end not in ends)
+    wider = found._replace(least=least, most=most, possible=(possible[0], possible[1]), ends=left)
+    return wider._replace(self_locking=found.self_locking or (bool(ends) and not found.presses))
+
+
 def _again(statics: Statics, senses: Sequence[float], least: float, most: float) -> tuple[float, ...]:
     """Values outside of a range without end at which the mechanism is about to move too.
 
