@@ -88,6 +88,30 @@ def bricks(dice: Random) -> str:
     return _text(points, joints, loads)
 
 
+def rod(dice: Random) -> str:
+    """A rod whose two pins rub in slots, loaded beside them; the last load at any angle."""
+    points = {"A": (0.0, 0.0), "B": (round(dice.uniform(1, 2), 2), round(dice.uniform(0.5, 1.5), 2))}
+    points["G"] = (round(dice.uniform(0.2, 1.5), 2), round(dice.uniform(0.3, 1.5), 2))
+    joints = [f"slot: [2, 1], at: {name}, along: {dice.randint(0, 179)}, {_mu(dice)}" for name in "AB"]
+    push = f"[{dice.uniform(-20, 20):.2f}, {dice.uniform(-20, 20):.2f}]"
+    loads = [f"force: {push}, link: 2, at: G", f"torque: {dice.uniform(-5, 5):.2f}, link: 2"]
+    loads.append(f"force: 1, link: 2, at: {dice.choice('ABG')}, angle: {dice.randint(0, 359)}")
+    return _text(points, joints, loads)
+
+
+def barred(dice: Random) -> str:
+    """Two blocks on slopes, joined by a bar on smooth pins; the last load on one at any angle."""
+    points = {"A": (0.0, 0.0), "B": (round(dice.uniform(1, 2), 2), round(dice.uniform(-0.5, 0.5), 2))}
+    joints, loads = [], []
+    for k, name in enumerate("AB"):
+        joints.append(f"slide: [{2 + k}, 1], at: {name}, along: {dice.randint(-50, 50)}, {_mu(dice)}")
+        joints.append(f"pin: [{2 + k}, 4], at: {name}")
+        loads.append(f"weight: {dice.randint(10, 100)}, link: {2 + k}, at: {name}")
+    link, at = dice.choice([(2, "A"), (3, "B")])
+    loads.append(f"force: 1, link: {link}, at: {at}, angle: {dice.randint(0, 359)}")
+    return _text(points, joints, loads)
+
+
 def joined(dice: Random) -> str:
     """Two blocks on slopes, joined by a bar on smooth pins; a third may stand on one of them."""
     points, joints, loads = {"A": (0.0, 0.0)}, [], []
@@ -205,3 +229,62 @@ def hung(dice: Random) -> tuple[str, float]:
     c, s = math.cos(math.radians(slope)), math.sin(math.radians(slope))
     spare.append(1.0 - abs(fx * c + fy * s) / (rough * abs(fy * c - fx * s)))
     return _text(points, joints, loads), min(spare)
+
+
+def five_bar(dice: Random) -> str:
+    """A five-bar of two freedoms with four rough pins, some large beside the links, and one smooth one."""
+    at = {name: (dice.uniform(*x), dice.uniform(*y)) for name, x, y in PLACES}
+    points = {name: (round(x, 2), round(y, 2)) for name, (x, y) in at.items()}
+    joints, loads = [], []
+    for k, (by, on, name) in enumerate(((1, 2, "A"), (2, 3, "B"), (3, 4, "C"), (4, 5, "D"), (5, 1, "E"))):
+        rough = (
+            f", {_mu(dice)}, radius: {dice.choice((1, 10)) * dice.uniform(0.05, 0.4):.2f}" if k < 4 else ""
+        )
+        joints.append(f"pin: [{by}, {on}], at: {name}{rough}")
+    for link, names in ((2, "AB"), (3, "BC"), (4, "CD"), (5, "DE")):
+        if dice.random() < 0.3:
+            continue
+        push = f"[{dice.uniform(-30, 30):.1f}, {dice.uniform(-30, 30):.1f}]"
+        loads.append(f"force: {push}, link: {link}, at: {dice.choice(names)}")
+    return _text(points, joints, loads or ["force: [3, 4], link: 3, at: B"])
+
+
+PLACES = (
+    ("A", (0, 0), (0, 0)),
+    ("B", (-1, 0.5), (1, 2)),
+    ("C", (1, 2.5), (1.5, 3)),
+    ("D", (3, 5), (0.8, 2)),
+    ("E", (2, 4), (-0.5, 0.5)),
+)
+
+
+def most_spare(case: c.Case, cuts: int = 121, zooms: int = 12) -> float:
+    """How far the worst friction of a case of rough pins is from its limit where it is farthest, over the
+    largest load: the two frictions that equilibrium leaves open are tried on grids, each about the best place
+    of the one before."""
+    points = points_of(case)
+    frame, places = frame_of(case, points), rubbing.places_of(case, points)
+    a, b, _ = equilibrium.equations(case, points)
+    row = {link: 3 * k for k, link in enumerate(link for link in case.links if link != case.ground)}
+    friction = np.zeros((len(b), len(places)))
+    for k, place in enumerate(places):
+        for link, sign in ((place.on, 1.0), (place.by, -1.0)):
+            if link in row:
+                friction[row[link] : row[link] + 3, k] += sign * place.wrench
+    whole = np.hstack([a, friction])
+    first = np.linalg.lstsq(whole, b, rcond=1e-12)[0]
+    assert np.allclose(whole @ first, b, atol=1e-9 * np.abs(b).max())
+    _, sizes, turns = np.linalg.svd(whole)
+    open_ = turns[len(sizes) :].T
+    assert open_.shape[1] == 2 and frame.size > 0.0
+    middle, reach, best = np.zeros(2), 30.0 * np.abs(b).max(), -math.inf
+    for _ in range(zooms):
+        steps = np.linspace(-reach, reach, cuts)
+        grid = np.stack(np.meshgrid(*(x + steps for x in middle)), axis=-1).reshape(-1, 2)
+        forces = first + grid @ open_.T
+        spare = np.full(len(grid), math.inf)
+        for k, place in enumerate(places):
+            pressing = np.linalg.norm(forces[:, : a.shape[1]] @ place.force.T, axis=1)
+            spare = np.minimum(spare, place.limit * pressing - np.abs(forces[:, a.shape[1] + k]))
+        middle, best, reach = grid[int(spare.argmax())], max(best, float(spare.max())), 0.4 * reach
+    return best / float(np.abs(b).max())

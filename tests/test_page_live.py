@@ -886,8 +886,10 @@ near: {{C: [{near}]}}
 joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
 loads: {{P: {{force: {p}, link: 4, at: C, angle: 180}}, T: {{torque: {t}, link: 2}}}}
 """
-BLOCK = BAR.replace("D: [{d}, 0]", "C: [unknown, {d}]").replace(", CD: {c}", "").replace(
-    "pin: [4, 1], at: D", "slide: [4, 1], at: C, along: 0"
+BLOCK = (
+    BAR.replace("D: [{d}, 0]", "C: [unknown, {d}]")
+    .replace(", CD: {c}", "")
+    .replace("pin: [4, 1], at: D", "slide: [4, 1], at: C, along: 0")
 )
 FOLDING = math.degrees(math.acos((4.5**2 + 16.0 - 2.5**2) / 36.0))
 STRETCHING = math.degrees(math.acos((9.0 + 16.0 - 4.5**2) / 24.0))

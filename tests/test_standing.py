@@ -51,6 +51,21 @@ def test_bars_hang_askew_as_far_as_their_pins_rub(part: int) -> None:
     assert {True, False} == set(seen)
 
 
+@pytest.mark.parametrize("part", range(20 if FULL else 2))
+def test_a_five_bar_stands_where_its_rough_pins_can_hold_it(part: int) -> None:
+    """What its joints carry hangs on the frictions themselves: two of the four are open, and the forces of
+    the pins turn with them. Scenes within 2e-3 of the largest load are not compared, for the grid."""
+    dice, seen = Random(f"five-bar {part}"), list[bool]()
+    for _ in range(14):
+        text = standing.five_bar(dice)
+        case = icsolve.load(text)
+        spare = standing.most_spare(case)
+        if abs(spare) > 2e-3:
+            assert icsolve.solve(case).holds_still is (spare > 0.0), (text, spare)
+            seen.append(spare > 0.0)
+    assert len(seen) > 10
+
+
 @pytest.mark.parametrize("kind", [standing.crates, standing.bricks])
 @pytest.mark.parametrize("seed", range(12 if FULL else 1))
 def test_where_a_load_on_several_freedoms_begins_or_ceases_to_hold(
@@ -228,3 +243,55 @@ def test_of_however_many_legs_one_is_lost_where_the_weight_is_beyond_them(
     )
     notes = icsolve.solve(case, reactions=True).notes
     assert any("the normal force of one would have to pull" in note for note in notes) is lost
+
+
+@pytest.mark.parametrize("kind", [standing.rod, standing.barred])
+@pytest.mark.parametrize("part", range(20 if FULL else 3))
+def test_a_range_of_rubbing_guides_has_no_gap_in_it_and_is_told_whole(
+    kind: Callable[[Random], str], part: int
+) -> None:
+    """Where much friction locks a load both ways it holds over several ranges, and guides press in either
+    sense: all values of that which is told hold, up to 1e-6 of its ends, and 1e-6 beyond the last that may
+    hold none does, but beyond a value that is told. The cone of what the joints can do says so."""
+    dice = Random(f"{kind.__name__} range {part}")
+    for _ in range(25):
+        text = kind(dice)
+        last = text.rindex("force: 1,")
+        try:
+            answer = icsolve.solve(icsolve.load(text[:last] + "force: unknown," + text[last + 9 :]))
+        except icsolve.SceneError:  # it does no work, and nothing drives or holds
+            continue
+        (found,) = answer.answers.values()
+        ends = [*found.holds, *answer.friction.possible, *answer.friction.again]
+        size = max([1.0, *(abs(end) for end in ends if math.isfinite(end))])
+        marks = sorted({-100.0 * size, 100.0 * size, *(end for end in ends if math.isfinite(end))})
+        inside = [0.5 * (a + b) for a, b in pairwise(marks) if b - a > 1e-5 * size]
+        beside = [end + side * 1e-6 * size for end in marks for side in (-1.0, 1.0)]
+        low, high = found.holds
+        least, most = answer.friction.possible
+        room = 1e-7 * size
+        for value in (*inside, *beside):
+            case = icsolve.load(text[:last] + f"force: {value!r}," + text[last + 9 :])
+            if low + room < value < high - room or least + room < value < most - room:
+                assert standing.off(case) <= 1e-9, (text, value, answer.answers)
+            elif not least - room <= value <= most + room and standing.off(case) <= 1e-9:
+                end = least if value < least else most
+                between = [one for one in answer.friction.again if min(end, value) <= one <= max(end, value)]
+                assert between, (text, value, answer.answers)
+
+
+@pytest.mark.parametrize("angle", [90, -90])
+def test_a_load_that_does_no_work_may_lift_what_it_presses(angle: int) -> None:
+    """A crate of 100, drawn up or pressed down: it holds as long as it is not lifted, not at any value."""
+    case = icsolve.load(f"""icsolve: 1
+points: {{A: [0, 0], B: [1, 0], G: [0.5, 0.4]}}
+joints:
+  - {{contact: [1, 2], at: A, normal: 90, mu: 0.3}}
+  - {{contact: [1, 2], at: B, normal: 90, mu: 0.5}}
+loads:
+  W: {{weight: 100, link: 2, at: G}}
+  F: {{force: unknown, link: 2, at: G, angle: {angle}}}
+""")
+    found = icsolve.solve(case).answers["F"]
+    assert found.holds == pytest.approx((-math.inf, 100.0) if angle > 0 else (-100.0, math.inf), rel=1e-15)
+    assert not found.self_locking

@@ -127,3 +127,35 @@ loads:
     given = icsolve.solve(icsolve.load(text.replace("PULL", repr(inside))))
     assert given.holds_still is True
     assert any(JAMS in note for note in given.notes) is lifts
+
+
+PYTHAGOREAN = [(3, 4, 0.75), (1, 2, 0.5), (1, 1, 1.0), (5, 4, 1.25), (1, 8, 0.125), (3, 10, 0.3)]
+
+
+@pytest.mark.parametrize(("run", "rise", "mu"), PYTHAGOREAN)
+@pytest.mark.parametrize("where", ["block", "cam"])
+def test_a_load_at_just_the_angle_of_friction_locks(where: str, run: int, rise: int, mu: float) -> None:
+    """A block pushed along that angle, and a bar under a cam whose pin lies on it: the friction grows as fast
+    as the push, and what else presses makes it more, so no push moves it."""
+    block = f"""points: {{A: [0, 0]}}
+joints: [{{slide: [2, 1], at: A, along: 0, mu: {mu}}}]
+loads: {{W: {{weight: 100, link: 2, at: A}}, F: {{force: unknown, link: 2, at: A, slope: [{run}, {-rise}]}}}}
+motion: {{point: A, link: 2, speed: 1, angle: 0}}
+"""
+    cam = f"""points: {{D: [0, {10 * rise}], P: [{10 * run}, 0], B: [60, -5]}}
+joints:
+  - {{pin: [1, cam], at: D}}
+  - {{contact: [cam, bar], at: P, normal: -90, mu: {mu}}}
+  - {{slide: [bar, 1], at: B, along: 0}}
+loads: {{S: {{torque: -20, link: cam}}, F: {{force: unknown, link: bar, at: B, angle: 180}}}}
+motion: {{point: B, link: bar, speed: 1, angle: 180}}
+"""
+    rest, _, motion = ("icsolve: 1\n" + {"block": block, "cam": cam}[where]).partition("motion")
+    answer = icsolve.solve(icsolve.load(rest))
+    found = answer.answers["F"]
+    assert found.holds[0] < 0.0 and found.holds[1] == math.inf
+    assert found.self_locking and found.error is not None
+    assert any(LOCKS in note for note in answer.notes)
+    with pytest.raises(icsolve.SceneError, match="the forces grow without bound") as refusal:
+        icsolve.solve(icsolve.load(f"{rest}motion{motion}"))
+    assert refusal.value.status == "jam"

@@ -170,6 +170,11 @@ def _several(statics: Statics, scaled: Sequence[float]) -> str:
     )
 
 
+def jams_at_last(statics: Statics) -> str:
+    """That the forces grow without bound with the whole of the friction."""
+    return _jam(statics, Solutions(None, "", 1.0, True), CONTRACTS)
+
+
 def _jam(statics: Statics, found: Solutions, unique: str) -> str:
     way = "the forces grow without bound" if found.grows else "its equilibrium ends"
     sure = "" if unique else " (more solutions than could be counted were not looked for)"

@@ -15,7 +15,7 @@ from icsolve.answer import AboutToMove, Answer, Deferred, Found, Later
 from icsolve.answer.bodies import FrictionFound, Rubbing, Tension
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import Speed, fastest
-from icsolve.numbers.arithmetic import FLOATS, Showing
+from icsolve.numbers.arithmetic import FLOATS, Showing, largest_of
 from icsolve.numbers.linear import General, Row
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import Statics, equilibrium
@@ -40,8 +40,9 @@ from icsolve.statics.friction.interface import (
     shared,
     unknowns_by_power,
 )
-from icsolve.statics.friction.limits import Slid, slid
+from icsolve.statics.friction.limits import Slid, jams_at_last, slid
 from icsolve.statics.friction.static_range import (
+    ROUNDED,
     SAME,
     End,
     StaticRange,
@@ -50,6 +51,7 @@ from icsolve.statics.friction.static_range import (
     range_of,
     smooth_load,
     static_range,
+    without_ends,
 )
 from icsolve.statics.power import Balance, Bounded, Solution, Value, is_unknown
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
@@ -101,7 +103,10 @@ def in_motion(scene: FrictionScene, reactions: bool = False) -> Slipping:
         return Solved(statics, slides[-1].unknowns, slides[-1].friction)
 
     rough = on_flanks(_flanks(scene, ties, workless), solve)
-    return _with_bodies(scene, rough, senses, slides[-1], rates, reactions)
+    found = _with_bodies(scene, rough, senses, slides[-1], rates, reactions)
+    if found.proven.why and any(_is_beyond(rough.statics, load) for load in rough.unknowns.values()):
+        raise SceneError(Status.JAM, jams_at_last(rough.statics))
+    return found
 
 
 def _with_bodies(
@@ -212,6 +217,9 @@ def at_rest(scene: FrictionScene) -> AtRest:
             EndOfRange(way, scene, statics, end, _proven_end(scene, statics, end))
             for way, end in zip(ways, found.ends, strict=True)
         ]
+    lost = [one for one in ends if one.proven.why and _is_beyond(one.statics, one.end.value)]
+    ends = [one for one in ends if one not in lost]
+    found = without_ends(found, [one.end for one in lost])
     proven = [one.proven for one in ends]
     bounds = [bound for each in proven for bound in each.bounds.values()]
     why = next((each.why for each in proven if each.why), unproven or ("" if bounds else UNENDING))
@@ -219,6 +227,14 @@ def at_rest(scene: FrictionScene) -> AtRest:
     least, most, *possible = (exact.get(v, v) for v in (found.least, found.most, *found.possible))
     found = found._replace(least=least, most=most, possible=(possible[0], possible[1]))
     return AtRest(found, None if why else max(bounds), why, ends, rates)
+
+
+def _is_beyond(statics: Statics, load: float) -> bool:
+    """Whether the known loads are rounding beside a load [case units]: where nothing is proven of it the
+    forces grow without bound, as with friction at just the angle of the load."""
+    rows = (*statics.general.solved.values(), *statics.general.left)
+    known = largest_of([row.get(statics.known, 0.0) for row in rows])
+    return abs(load) * statics.scale * ROUNDED > known
 
 
 def _slipping(scene: FrictionScene, rates: RubbingRates, direction: float = 1.0) -> FrictionScene:

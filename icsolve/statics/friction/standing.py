@@ -202,6 +202,8 @@ def _standing(
                     limits_of(position, balance, flanks).without(lost), part, a
                 )
             )
+    if abs(depth) <= error:  # no digits tell it from the limit
+        depth = 0.0
     found = Standing(depth, error, open_)
     pressed = _pressed_by_fit(own) if depth >= 0.0 and open_ else None
     if pressed is None:
@@ -227,6 +229,8 @@ class Pointing(NamedTuple):
         return Pointing(self.middle - quarter, quarter), Pointing(self.middle + quarter, quarter)
 
 
+LAPPED = 1.01
+"""Angles lap over one another, so that rounding loses no force that points along an end of two."""
 SENSES = (Pointing(1.0), Pointing(-1.0))
 CIRCLE = tuple([Pointing(2.0 * math.pi * k / 3.0, math.pi / 3.0) for k in range(3)])
 
@@ -262,7 +266,7 @@ def _deepest_part(limits: FrictionLimits) -> ForcePart:
     parts = [(-one.depth, 0, one) for one in [reduced.part(tuple(pushes))]]
     for made in range(MOST_PARTS):
         _, _, part = heapq.heappop(parts)
-        if part.worst is None or part.depth < 0.0:
+        if part.worst is None or part.depth < -ROUNDED:
             return part
         k, to = part.worst, part.toward[part.worst]
         whole = SENSES if len(limits.rubs[k].forces) == 1 else CIRCLE
@@ -362,9 +366,10 @@ def _rows(
             continue
         shares = [to.middle]
         if to.half:
-            far = math.cos(to.half)
+            wide = LAPPED * to.half
+            far = math.cos(wide)
             shares = [math.cos(to.middle) / far, math.sin(to.middle) / far]
-            for end, side in ((to.middle - to.half, 1.0), (to.middle + to.half, -1.0)):
+            for end, side in ((to.middle - wide, 1.0), (to.middle + wide, -1.0)):
                 yield _summed(forces, (-side * math.sin(end), side * math.cos(end))), 0.0, None
         for side in (1.0, -1.0):
             yield _summed((*forces, friction), (*shares, side)), 1.0, k
@@ -390,17 +395,14 @@ def _exactly(limits: FrictionLimits, part: ForcePart, a: Showing) -> tuple[float
     whole = [{place[c]: x for c, x in row.items()} for row in limits.equations]
     for n in part.of:
         whole.append({**{place[c]: x for c, x in rows[n].items()}, depth: 0.0 - part.sizes[n]})
-    left = eliminate(whole, known, vanishes=decider(a)).left
-    size = largest_of([row.get(known, 0.0) for row in whole])
-    for row in left:
-        count = row.get(depth, 0.0)
-        if getattr(count, "is_certain", bool(count)):
-            value = row.get(known, 0.0) / (0.0 - count)
-            if a.vanishes(value, size):
-                return 0.0, 0.0
-            found, error = a.rounded(value)
-            return found, error
-    return part.depth, ROUNDED
+    left = [row for row in eliminate(whole, known, vanishes=decider(a)).left if row]
+    count = left[0].get(depth, 0.0) if len(left) == 1 else 0.0  # several: the rows hang on each other
+    if not getattr(count, "is_certain", bool(count)):
+        return part.depth, ROUNDED
+    value = left[0].get(known, 0.0) / (0.0 - count)
+    if a.vanishes(value, largest_of([row.get(known, 0.0) for row in whole])):
+        return 0.0, 0.0
+    return a.rounded(value)
 
 
 # --- what redundant joints share --------------------------------------------------------------------

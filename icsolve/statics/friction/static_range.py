@@ -128,13 +128,68 @@ def static_range(statics: Statics, senses: Sequence[float], alone: bool) -> Stat
         within = limited.held(statics, starts)
         if within is not None:
             return _of_limits(statics, senses, within, alone)
+    one_way = _contracts(statics, senses)  # then friction leads from any equilibrium to any other
+    if alone and one_way:
+        return range_of(ends)
+    within = _within(statics)
+    own, others = _nearest(within, smooth_load(statics) or 0.0) if within else (None, [])
+    if own is not None and not one_way:
+        ends = [_kept(own, end, senses) for end in ends]
     found = range_of(ends)
     if alone:
         return found
-    possible, how = _possible(statics, senses, (found.least, found.most))
+    if own is None or _is_proven(statics, senses):
+        possible, how = _possible(statics, senses, (found.least, found.most))
+    else:
+        possible, how = _same_ends((own.low, own.high), (found.least, found.most)), PROVEN
     unbounded = math.isinf(found.least) or math.isinf(found.most)
-    again = _again(statics, senses, found.least, found.most) if unbounded else ()
-    return found._replace(possible=possible, how=how, again=again)
+    beyond = _again(statics, senses, found.least, found.most) if unbounded else ()
+    again = [end for one in others for end in (one.low, one.high) if math.isfinite(end)]
+    known = [*again, *possible]
+    again += [end for end in beyond if not possible[0] <= end <= possible[1] and not _is_among(end, known)]
+    return found._replace(possible=possible, how=how, again=tuple(sorted(again)))
+
+
+def _contracts(statics: Statics, senses: Sequence[float]) -> bool:
+    """Whether frictions of any senses have one equilibrium, which changes continuously with them."""
+    equations = reduced(statics, senses)
+    return equations is not None and contraction(equations.equations) is not None
+
+
+def _within(statics: Statics) -> list[limited.HeldRange] | None:
+    """The ranges in which friction within its limits holds; None where pins rub, or guides in too many
+    places."""
+    return None if any(len(rub.normal) > 1 for rub in statics.rubs) else limited.held(statics)
+
+
+def _nearest(
+    within: Sequence[limited.HeldRange], load: float
+) -> tuple[limited.HeldRange, list[limited.HeldRange]]:
+    """The range that is nearest to a load, and the others."""
+    own = min(within, key=lambda one: max(one.low - load, load - one.high))
+    return own, [one for one in within if one is not own]
+
+
+def _kept(own: limited.HeldRange, end: End, senses: Sequence[float]) -> End:
+    """An end within a range; where it lies in another one, the end of that range toward it."""
+    for value, side, vertex in zip((own.low, own.high), (-1.0, 1.0), own.vertices, strict=True):
+        if side * (end.value - value) > SAME * abs(value):
+            return End(value, tuple(senses), vertex=vertex)
+    return end
+
+
+def _is_among(value: float, others: Sequence[float]) -> bool:
+    """Whether a value is one of some, but for rounding."""
+    return any(abs(value - other) <= SAME * abs(value) for other in others if math.isfinite(other))
+
+
+def _same_ends(values: tuple[float, float], ends: tuple[float, float]) -> tuple[float, float]:
+    """Two ends, each as it is told already where that is the same."""
+    low, high = (
+        told if value == told or abs(value - told) <= SAME * abs(told) else value
+        for value, told in zip(values, ends, strict=True)
+    )
+    return low, high
 
 
 def _may_part(statics: Statics) -> bool:
@@ -162,8 +217,7 @@ def _of_limits(
     smooth = smooth_load(statics) or 0.0
     if not within:
         raise SceneError(Status.NO_VALUE, _lost(statics, smooth))
-    own = min(within, key=lambda one: max(one.low - smooth, smooth - one.high))
-    others = [one for one in within if one is not own]
+    own, others = _nearest(within, smooth)
     again = sorted(end for one in others for end in (one.low, one.high) if math.isfinite(end))
     moving = [] if alone else _about_to_move(statics, senses)
     ends = []
@@ -234,6 +288,18 @@ def range_of(ends: Sequence[End]) -> StaticRange:
     about_to_move = tuple(end for end in ends if math.isfinite(end.value))
     parts = tuple(sorted(end.value for end in ends if not end.pushes))
     return StaticRange(least, most, (least, most), IMPENDING, locks, about_to_move, parts=parts)
+
+
+def without_ends(found: StaticRange, ends: Sequence[End]) -> StaticRange:
+    """A range that goes on without end where it has these."""
+
+    def beyond(value: float) -> float:
+        return math.copysign(math.inf, value) if any(value == end.value for end in ends) else value
+
+    least, most, *possible = map(beyond, (found.least, found.most, *found.possible))
+    left = tuple(end for end in found.ends if end not in ends)
+    wider = found._replace(least=least, most=most, possible=(possible[0], possible[1]), ends=left)
+    return wider._replace(self_locking=found.self_locking or (bool(ends) and not found.presses))
 
 
 def _again(statics: Statics, senses: Sequence[float], least: float, most: float) -> tuple[float, ...]:
@@ -409,7 +475,8 @@ def pressed(statics: Statics, senses: Sequence[float], driven: bool) -> StaticRa
     name = statics.roots[0]
     if _may_part(statics):
         within = limited.held(statics)
-        if within is not None and (driven or all(math.isfinite(one.high - one.low) for one in within)):
+        ends = [end for one in within or () for end in (one.low, one.high)]
+        if within is not None and (driven or any(map(math.isfinite, ends))):
             found = _of_limits(statics, senses, within, False)
             return found._replace(presses=True, self_locking=False)
     (left,) = statics.general.left
