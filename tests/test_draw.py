@@ -6,6 +6,7 @@ fonts need; `test_page.py` measures them again in a browser.
 
 from __future__ import annotations
 
+import cmath
 import math
 import os
 import re
@@ -505,3 +506,50 @@ loads:
     assert not any("= 0" in text for text in texts), texts
     assert sum(text.endswith("= ?") for text in texts) == len(texts)
     assert any("= 3 N, " in text for text in texts)
+
+
+@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("told", ["pawl", "ratchet", "title"])
+def test_a_ratchet_is_a_toothed_wheel_and_a_finger(seed: int, told: str) -> None:
+    """Its pawl is no disc, wherever its pin lies, on the line of the force too: the teeth are alike round the
+    wheel, the face at the contact is square to the normal, and the finger reaches it beside the wheel."""
+    draw_, turn = Random(seed), 2.0 * math.pi * seed / 12
+    r, side, off = draw_.uniform(20, 90), draw_.choice([-1, 1]), draw_.choice([0.0, draw_.uniform(-8, 8)])
+    at = complex(r * math.cos(turn), r * math.sin(turn))
+    push = side * 1j * at / abs(at) * cmath.exp(1j * math.radians(draw_.uniform(-12, 12)))
+    pin = at + draw_.uniform(0.6, 1.5) * r * push * cmath.exp(1j * math.radians(off))
+    wheel, pawl = {"pawl": ("2", "pawl"), "ratchet": ("Ratchet_wheel", "3"), "title": ("2", "3")}[told]
+    (a, b), out = draw_.choice([((wheel, pawl), push), ((pawl, wheel), -push)])
+    known = known_of(
+        icsolve.load(
+            f"icsolve: 1\ntitle: {'Winch with a ratchet' if told == 'title' else 'Winch'}\n"
+            f"points: {{O: [0, 0], P: [{at.real}, {at.imag}], D: [{pin.real}, {pin.imag}]}}\n"
+            f"joints: [{{pin: [1, {wheel}], at: O}}, {{pin: [1, {pawl}], at: D}}, "
+            f"{{contact: [{a}, {b}], at: P, normal: {math.degrees(cmath.phase(out))}}}]\n"
+            f"loads: {{M: {{torque: 50, link: {wheel}}}, S: {{torque: unknown, link: {pawl}}}}}\n"
+        )
+    )
+    scene = scene_of(known)
+    bodies = [body_of(scene, link) for link in (wheel, pawl)]
+    assert not any(body.wheels for body in bodies)
+    teeth, finger = (body.shape for body in bodies)
+    assert teeth is not None and finger is not None
+    turned = shapely.affinity.rotate(teeth, 360.0 / 16, origin=scene.at["O"])
+    assert shapely.symmetric_difference(turned, teeth).area < 0.01 * teeth.area
+    x, y = scene.at["P"]
+    for along, inside in ((3.0, False), (-3.0, True)):
+        spot = shapely.Point(x + along * push.real, y - along * push.imag)
+        assert bool(shapely.contains(teeth, spot)) == inside
+    for along in (-2.0, 2.0):  # along the face, whose line the push crosses at a right angle
+        spot = shapely.Point(x + along * push.imag, y + along * push.real)
+        assert shapely.distance(teeth.boundary, spot) < 0.05
+    assert shapely.distance(finger, shapely.Point(x, y)) < 0.05
+    assert shapely.contains(finger, shapely.Point(scene.at["D"]))
+    length = math.dist(scene.at["D"], (x, y))
+    assert finger.area < 14.0 * length + 300.0
+
+
+def test_a_drum_under_a_brake_shoe_stays_round() -> None:
+    """Its pin lies on the normal as that of a pawl may."""
+    scene = scene_of(known_of(icsolve.load(FILES["tools/short_shoe_brake.yaml"])))
+    assert not scene.round.ratchets and body_of(scene, "2").wheels
