@@ -352,7 +352,8 @@ def test_an_answer_to_the_numbers_of_another_group_is_still_a_neighbours(a_class
     mine, theirs = (key.value for key in keys if isinstance(key, NumberKey))
     rows = a_group(a_class, [["a", "b"], ["c", "d"]], [f"press: {theirs:.6g}", f"press: {theirs:.6g}"])
     assert mine != pytest.approx(theirs, rel=0.05)
-    assert [(row["verdict"], row["code"]) for row in rows] == [("wrong", "neighbour")] * 2 + [("right", "")] * 2
+    told = [(row["verdict"], row["code"]) for row in rows]
+    assert told == [("wrong", "neighbour")] * 2 + [("right", "")] * 2
 
 
 def test_the_autograder_takes_the_numbers_of_any_who_hand_in_together(a_class: Class) -> None:
