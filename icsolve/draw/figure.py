@@ -145,10 +145,11 @@ def figure_marks(scene: Scene, steps: Sequence[Step], *, velocities: bool) -> li
     """The whole figure: mechanism, centres, loads, and all labels."""
     mechanism = mechanism_of(scene)
     speeds = velocity_parts(scene) if velocities else []
+    filled = joined([mechanism.filled, *(soft.geometry for p in speeds for soft in p.soft)])
     parts = [
         *mechanism.parts,
         *centre_parts(scene, steps),
-        *load_parts(scene, joined([mechanism.filled, *(soft.geometry for p in speeds for soft in p.soft)])),
+        *load_parts(scene, filled, whole=True),
         *_supports(scene, mechanism.filled),
         *speeds,
         *point_parts(scene),
