@@ -10,6 +10,7 @@ Below that, work in processes that share what was read and solved; where systems
 from __future__ import annotations
 
 import os
+import signal
 import stat
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -25,6 +26,10 @@ class KeptError(OSError):
     """A file that stays as it is; the message is a sentence with the way out."""
 
 
+_Waiting = tuple[str, str, bool]
+"""A draft that is written: its name, that of its file as it was given, and whether it goes over another."""
+
+
 class _Call:
     """What one call has read, and what it would leave behind if it ended now."""
 
@@ -35,10 +40,13 @@ class _Call:
         self.drafts: set[str] = set()
         self.scratch: set[str] = set()
         self.made: list[str] = []
+        self.waiting: dict[str, _Waiting] | None = None
+        """by name, what takes its name together with others"""
 
     def forget_others(self) -> None:
         """In a process split off: drafts and folders are the parent's to remove."""
         self.drafts, self.scratch, self.made = set(), set(), []
+        self.waiting = None if self.waiting is None else {}
 
 
 _call = _Call()
@@ -114,7 +122,7 @@ def check_free(path: str, force: bool) -> None:
     if _call.runs and (found.st_dev, found.st_ino) in _call.read:
         raise KeptError(f"{path} is one of the files read here, and is left as it is; choose another name")
     if _call.runs and (found.st_dev, found.st_ino) in _call.written:
-        raise KeptError(f"{path} is written by this call already; give each output its own name")
+        raise _twice(path)
     if not force:
         raise KeptError(f"{path} is there already, and is left as it is; --force writes over it")
 
@@ -148,16 +156,62 @@ def whole_file(path: str, force: bool = True, binary: bool = False) -> Iterator[
                 _keep_mode(file.fileno(), found)
             yield file
         check_free(path, force)
-        _take_name(draft, real, path, force)
-        _remember(real, _call.written)
+        if _call.waiting is None:
+            _take_name(draft, real, path, force)
+        elif _call.waiting.setdefault(real, (draft, path, force))[0] != draft:
+            raise _twice(path)
     except OSError as error:
         if error.filename == draft:
             error.filename = path
         raise
     finally:
-        with suppress(OSError):
-            os.unlink(draft)
-        _call.drafts.discard(draft)
+        if draft not in {one for one, _, _ in (_call.waiting or {}).values()}:
+            _drop(draft)
+
+
+@contextmanager
+def together() -> Iterator[None]:
+    """Files that are written within take their names at its end, all of them: a call that fails or is ended
+    before leaves none."""
+    _call.waiting = {}
+    try:
+        yield
+        for _, path, force in _call.waiting.values():
+            check_free(path, force)
+        with _undisturbed():
+            for real, (draft, path, force) in _call.waiting.items():
+                _take_name(draft, real, path, force)
+        _call.made = []
+    finally:
+        drafts = [draft for draft, _, _ in _call.waiting.values()]
+        _call.waiting = None
+        for draft in drafts:
+            _drop(draft)
+        _remove_empty(_call.made)
+        _call.made = []
+
+
+@contextmanager
+def _undisturbed() -> Iterator[None]:
+    """Signals to end wait until it is over."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    held = signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT, signal.SIGTERM, signal.SIGHUP))
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, held)
+
+
+def _drop(draft: str) -> None:
+    with suppress(OSError):
+        os.unlink(draft)
+    _call.drafts.discard(draft)
+
+
+def _twice(path: str) -> KeptError:
+    return KeptError(f"{path} is written by this call already; give each output its own name")
 
 
 def write_whole(path: str, data: str | bytes | Iterable[str | bytes], force: bool = True) -> None:
@@ -193,7 +247,8 @@ def folder_of(path: str) -> Iterator[None]:
         _remove_empty(missing)
         raise
     finally:
-        _call.made = [folder for folder in _call.made if folder not in missing]
+        if _call.waiting is None:
+            _call.made = [folder for folder in _call.made if folder not in missing]
 
 
 @contextmanager
@@ -263,15 +318,19 @@ def _keep_mode(draft: int, found: os.stat_result) -> None:
 
 def _take_name(draft: str, real: str, path: str, force: bool) -> None:
     """The draft becomes the file; without ``force`` never over one that came meanwhile."""
-    if not force:
-        try:
+    try:
+        if force:
+            os.replace(draft, real)
+        else:
             os.link(draft, real)
-            return
-        except FileExistsError:
-            raise KeptError(f"{path} is there already, and is left as it is") from None
-        except OSError:  # a file system without links
-            check_free(path, force)
-    os.replace(draft, real)
+    except FileExistsError:
+        raise KeptError(f"{path} is there already, and is left as it is") from None
+    except OSError:
+        if force:
+            raise
+        check_free(path, force)  # a file system without links
+        os.replace(draft, real)
+    _remember(real, _call.written)
 
 
 def _remove(folder: str) -> None:
@@ -282,7 +341,7 @@ def _remove(folder: str) -> None:
 
 
 def _remove_empty(folders: Iterable[str]) -> None:
-    for folder in folders:
+    for folder in sorted(folders, key=len, reverse=True):
         with suppress(OSError):
             os.rmdir(folder)
 
@@ -320,20 +379,26 @@ def started(calls: Sequence[tuple[Callable[..., Any], tuple[Any, ...]]]) -> Iter
 
 
 def _run(function: Callable[..., Any], arguments: tuple[Any, ...], sender: Any) -> None:
-    """In the new process: the result, or what went wrong."""
+    """In the new process: the result, or what went wrong; and what waits for its name, with its folders."""
     try:
-        sender.send((True, function(*arguments)))
+        good, result = True, function(*arguments)
     except BaseException as error:
-        sender.send((False, f"{type(error).__name__}: {error}"))
+        good, result = False, f"{type(error).__name__}: {error}"
+    try:
+        sender.send((good, result, _call.waiting or {}, _call.made))
     finally:
         sender.close()
 
 
 def _received(receiver: Any) -> Any:
     try:
-        good, result = receiver.recv()
+        good, result, waiting, made = receiver.recv()
     except EOFError:
-        good, result = False, "it ended early"
+        good, result, waiting, made = False, "it ended early", {}, []
+    if _call.waiting is not None:
+        _call.waiting |= waiting
+        _call.drafts |= {draft for draft, _, _ in waiting.values()}
+        _call.made += made
     if not good:
         raise RuntimeError(f"a process failed: {result}")
     return result

@@ -6,6 +6,7 @@ fonts need; `test_page.py` measures them again in a browser.
 
 from __future__ import annotations
 
+import cmath
 import math
 import os
 import re
@@ -32,8 +33,10 @@ from icsolve.draw.links import body_of
 from icsolve.draw.scene import geneva_of
 from icsolve.draw.words import figure_number
 from icsolve.errors import SceneError
+from icsolve.explain import explain
 from icsolve.report.derivation.known import Known, known_of
 from icsolve.report.derivation.ratios import needed_steps
+from icsolve.report.text import answer_text
 from library import FILES, LIBRARY, sample
 from pictures import Picture, on_arrows, outside, overlaps, parsed, shapes
 from sizes import FULL
@@ -505,3 +508,108 @@ loads:
     assert not any("= 0" in text for text in texts), texts
     assert sum(text.endswith("= ?") for text in texts) == len(texts)
     assert any("= 3 N, " in text for text in texts)
+
+
+@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("told", ["pawl", "ratchet", "title"])
+def test_a_ratchet_is_a_toothed_wheel_and_a_finger(seed: int, told: str) -> None:
+    """Its pawl is no disc, wherever its pin lies, on the line of the force too: the teeth are alike round the
+    wheel, the face at the contact is square to the normal, and the finger reaches it beside the wheel."""
+    draw_, turn = Random(seed), 2.0 * math.pi * seed / 12
+    r, side, off = draw_.uniform(20, 90), draw_.choice([-1, 1]), draw_.choice([0.0, draw_.uniform(-8, 8)])
+    at = complex(r * math.cos(turn), r * math.sin(turn))
+    push = side * 1j * at / abs(at) * cmath.exp(1j * math.radians(draw_.uniform(-12, 12)))
+    pin = at + draw_.uniform(0.6, 1.5) * r * push * cmath.exp(1j * math.radians(off))
+    wheel, pawl = {"pawl": ("2", "pawl"), "ratchet": ("Ratchet_wheel", "3"), "title": ("2", "3")}[told]
+    (a, b), out = draw_.choice([((wheel, pawl), push), ((pawl, wheel), -push)])
+    known = known_of(
+        icsolve.load(
+            f"icsolve: 1\ntitle: {'Winch with a ratchet' if told == 'title' else 'Winch'}\n"
+            f"points: {{O: [0, 0], P: [{at.real}, {at.imag}], D: [{pin.real}, {pin.imag}]}}\n"
+            f"joints: [{{pin: [1, {wheel}], at: O}}, {{pin: [1, {pawl}], at: D}}, "
+            f"{{contact: [{a}, {b}], at: P, normal: {math.degrees(cmath.phase(out))}}}]\n"
+            f"loads: {{M: {{torque: 50, link: {wheel}}}, S: {{torque: unknown, link: {pawl}}}}}\n"
+        )
+    )
+    scene = scene_of(known)
+    bodies = [body_of(scene, link) for link in (wheel, pawl)]
+    assert not any(body.wheels for body in bodies)
+    teeth, finger = (body.shape for body in bodies)
+    assert teeth is not None and finger is not None
+    turned = shapely.affinity.rotate(teeth, 360.0 / 16, origin=scene.at["O"])
+    assert shapely.symmetric_difference(turned, teeth).area < 0.01 * teeth.area
+    x, y = scene.at["P"]
+    for along, inside in ((3.0, False), (-3.0, True)):
+        spot = shapely.Point(x + along * push.real, y - along * push.imag)
+        assert bool(shapely.contains(teeth, spot)) == inside
+    for along in (-2.0, 2.0):  # along the face, whose line the push crosses at a right angle
+        spot = shapely.Point(x + along * push.imag, y + along * push.real)
+        assert shapely.distance(teeth.boundary, spot) < 0.05
+    assert shapely.distance(finger, shapely.Point(x, y)) < 0.05
+    assert shapely.contains(finger, shapely.Point(scene.at["D"]))
+    length = math.dist(scene.at["D"], (x, y))
+    assert finger.area < 14.0 * length + 300.0
+
+
+def test_a_drum_under_a_brake_shoe_stays_round() -> None:
+    """Its pin lies on the normal as that of a pawl may."""
+    scene = scene_of(known_of(icsolve.load(FILES["tools/short_shoe_brake.yaml"])))
+    assert not scene.round.ratchets and body_of(scene, "2").wheels
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_force_of_unknown_direction_is_one_arrow_once_it_is_found(seed: int) -> None:
+    """A pantograph of random arms: the arrow is along the force, as the sentence has it, and no component
+    stands beside it; where the force is asked for both stand."""
+    dice = Random(seed)
+    (ax, ay), (bx, by), times = (dice.uniform(1, 2), 2), (dice.uniform(1, 2), -2), dice.choice([2, 3])
+    case = icsolve.load(
+        f"icsolve: 1\npoints: {{O: [0, 0], A: [{ax}, {ay}], B: [{times * ax}, {times * ay}], "
+        f"C: [{times * ax + bx}, {times * ay + by}], D: [{ax + bx}, {ay + by}], "
+        f"E: [{times * (ax + bx)}, {times * (ay + by)}]}}\n"
+        "joints: [{pin: [1, 2], at: O}, {pin: [2, 3], at: B}, {pin: [2, 4], at: A}, {pin: [3, 5], at: C},\n"
+        "  {pin: [4, 5], at: D}]\n"
+        f"loads: {{P: {{force: [{dice.uniform(3, 9)}, {dice.choice([0, 4])}], link: 4, at: D}},\n"
+        "  Q: {force: [unknown, unknown], link: 3, at: E}}\n"
+    )
+    known = known_of(case)
+    marks = draw(case)
+    size = icsolve.solve(case).answers["Q"].value
+    assert f"Q = {figure_number(size, 4)} N" in marks
+    assert "Q.x" not in marks and "Q.y" not in marks
+    asked = draw(case, known=known.as_asked)
+    assert asked.count("Q.") >= 2
+
+
+def test_centres_in_one_place_are_told_so() -> None:
+    """Sun, ring and arm of a differential about one axle: any line goes through."""
+    case = icsolve.load(
+        """icsolve: 1
+points: {O: [0, 0], P: [3, 0]}
+joints: [{pin: [1, sun], at: O}, {pin: [1, ring], at: O}, {pin: [1, arm], at: O}, {pin: [arm, p1], at: P},
+  {gears: [sun, p1], teeth: [20, 20], carrier: arm}, {gears: [p1, ring], teeth: [20, -60], carrier: arm}]
+loads: {T: {torque: 100, link: arm}, L: {torque: unknown, link: sun}, R: {torque: unknown, link: ring}}
+"""
+    )
+    assert "in the place of I1-sun and I1-ring" in answer_text(icsolve.solve(case))
+    assert "I1-ring and I1-sun lie in one place" in " ".join(explain(case).split())
+    assert "Isun-ring is in the place of I1-ring and I1-sun." in draw(case, Drawing(step=1))
+
+
+def test_units_of_a_figure_have_dots_and_raised_numbers() -> None:
+    """In the sentence of a range that friction holds, and of a pressure."""
+    jack = icsolve.load(
+        "icsolve: 1\nunits: {length: m, force: kN}\npoints: {B: [0, 0]}\n"
+        "joints: [{screw: [1, 2], at: B, along: 90, lead: 0.006, radius: 0.015, mu: 0.12}]\n"
+        "loads: {W: {weight: 20, link: 2, at: B}, T: {torque: unknown, screw: 1-2}}\n"
+    )
+    piston = icsolve.load(
+        "icsolve: 1\nunits: {length: m, force: kN}\npoints: {B: [0, 0]}\n"
+        "joints: [{slide: [2, 1], at: B, along: 0}]\n"
+        "loads: {W: {force: 20, link: 2, at: B, angle: 180},\n"
+        "  p: {pressure: unknown, area: 0.01, link: 2, at: B, angle: 0}}\n"
+    )
+    for case, unit in ((jack, "kN·m"), (piston, "kN/m²")):
+        svg = draw(case)
+        assert unit in svg
+        assert not re.search(r"kN\*m|m\^2", svg)

@@ -911,3 +911,28 @@ def begun(answer: icsolve.Answer, end: AboutToMove) -> tuple[Motion, ...]:
     angle = math.degrees(math.atan2(y * end.way, x * end.way))
     speed, toward = (Number(v, 0.0, "motion", repr(v)) for v in (1.0, round(angle, 9)))
     return (Motion(link, speed, point=answer.case.carries[link][0], angle=toward),)
+
+
+def test_no_name_of_the_program_stands_in_a_solution() -> None:
+    """The end of a rope that stands still is told as such, and a component beside the name of its link."""
+    told = explain(
+        icsolve.load("""icsolve: 1
+points: {O: [0, 0], A: [-3, 0.2], B: [2, -2]}
+joints:
+  - {pin: [1, drum], at: O}
+  - {rope: [A, O, B], on: [1, drum], radii: {O: 0.2}, wraps: {O: cw}, mu: {O: 0.3}}
+motion: {link: drum, turns: ccw}
+loads: {F: {force: 20, at: B}, T: {torque: unknown, link: drum}}
+"""),
+        bodies=True,
+    )
+    assert "@" not in told
+    assert "The end of the rope A-O-B stands still: F does no work on it." in told
+    assert "F1-drum,x + T1x + T2x = " in told
+
+
+@pytest.mark.parametrize("name", sample(FILES, 6, "own names"))
+def test_no_name_of_the_program_stands_in_the_solution_of_a_case(name: str) -> None:
+    """Hidden points and links begin with a sign that no name of a file has; `F12@A` is a reaction's."""
+    told = explain(icsolve.load(FILES[name]), bodies=True)
+    assert not re.search(r"(?<![\w'])@", told), re.findall(r".*(?<![\w'])@.*", told)

@@ -379,6 +379,40 @@ def test_a_signal_leaves_nothing_half_done_at_any_moment(number: signal.Signals,
         assert not [name for name in _tree(here / "out") if ".part" in name]
 
 
+@pytest.mark.parametrize("command", FOLDERS)
+def test_a_folder_is_written_whole_or_not_at_all(command: str, here: Path) -> None:
+    """Ended as any of its files is drafted: each takes a random name then."""
+    line = FOLDERS[command].format("out/made")
+    assert exit_status(*line.split()) == 0
+    whole = {*_tree(here / "out")}
+    assert len(whole) > 3
+    shutil.rmtree("out")
+    Path("out").mkdir()
+    begun = (
+        "import os, signal, sys, icsolve.cli as c\n"
+        "last, keep, made = int(sys.argv.pop(1)), os.urandom, []\n"
+        "def urandom(n):\n"
+        "    made.append(n)\n"
+        "    if n == 8 and made.count(8) == last:\n"
+        "        os.kill(os.getpid(), signal.SIGTERM)\n"
+        "    return keep(n)\n"
+        "os.urandom = urandom\n"
+        "c.entry()\n"
+    )
+    env, met = {**os.environ, "PYTHONPATH": ROOT}, set()
+    for n in sorted({1, 2, 3, len(whole) - 1, len(whole), len(whole) + 1, 1000}):
+        call = [sys.executable, "-c", begun, str(n), *line.split()]
+        ran = subprocess.run(call, env=env, capture_output=True, check=False)
+        there = {*_tree(here / "out")}
+        assert ran.returncode in (0, -signal.SIGTERM), ran.stderr
+        assert there == (set() if ran.returncode else whole)
+        assert ran.returncode == 0 or not os.path.exists("out/made")
+        met.add(ran.returncode)
+        shutil.rmtree("out")
+        Path("out").mkdir()
+    assert met == {0, -signal.SIGTERM}
+
+
 def _started(line: str) -> subprocess.Popen[bytes]:
     """A command that has come as far as heeding signals."""
     begun = "import signal, icsolve.cli as c, sys, os\n" + (

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 from pathlib import Path
+from random import Random
 
 import pytest
 
 import icsolve
-from grade_shell import CASES, PRESS, Class
+from grade_shell import CASES, LEVER, PRESS, Class
 from icsolve.case.expected import Variable
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course, Person
@@ -298,3 +300,73 @@ def test_a_case_that_can_not_be_read_is_told_and_nothing_else_of_it(a_class: Cla
         "variants", a_class.path("cases/short.yaml"), "--roster", roster, "-o", a_class.path("o")
     )
     assert ran.code == 2 and "can't be read" in ran.err and "no case has variables" not in ran.err
+
+
+def a_group(a_class: Class, groups: list[list[str]], handed: list[str]) -> list[dict[str, str]]:
+    """The results of an export of Gradescope with a file for each group."""
+    export = a_class.path("assignment_77_export")
+    export.mkdir()
+    who = ""
+    for n, (members, text) in enumerate(zip(groups, handed, strict=True)):
+        (export / f"submission_{n}").mkdir()
+        (export / f"submission_{n}" / "answers.txt").write_text(text)
+        who += f"submission_{n}:\n  :submitters:\n" + "".join(f"  - :sid: '{m}'\n" for m in members)
+    (export / "submission_metadata.yml").write_text(who)
+    ran = a_class.run("grade", str(export), "--cases", str(a_class.path("cases")), "-o", "-", "-q")
+    assert ran.code == 0, ran.err
+    return ran.rows()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_group_is_judged_by_the_numbers_of_the_member_whose_variant_it_hands_in(
+    seed: int, a_class: Class
+) -> None:
+    """Any of them: right answers are right for each, a known mistake is known for each, and each has the
+    variant that the answers are to; a case with the same numbers for all is judged as ever."""
+    a_class.case("lever", LEVER)
+    dice, store = Random(seed), CaseStore(a_class.path("cases"), Course())
+    names = iter(f"{n:03d}" for n in range(40))
+    groups = [[next(names) for _ in range(size)] for size in (1, 2, 3, 2, 3)]
+    meant = [dice.choice(group) for group in groups]
+    keys = [store.key("press", member) for member in meant]
+    values = [key.value for key in keys if isinstance(key, NumberKey)]
+    made = [1.0, 1.0, 0.5, 1.0, 3.33]
+    handed = [f"press: {v * times:.6g}\nlever: 200\n" for v, times in zip(values, made, strict=True)]
+    rows = a_group(a_class, groups, handed)
+    for group, member, value, times in zip(groups, meant, values, made, strict=True):
+        theirs = [key.value for key in (store.key("press", m) for m in group) if isinstance(key, NumberKey)]
+        if times != 1.0 and min(abs(times * value / other - 1.0) for other in theirs) < 0.05:
+            continue  # what is wrong for one is right for another
+        own = [row for row in rows if row["student_id"] in group and row["case"] == "press"]
+        assert len(own) == len(group)
+        assert {row["verdict"] for row in own} == {"right" if times == 1.0 else "wrong"}
+        assert len({(row["score"], row["variant"], row["feedback"]) for row in own}) == 1
+        assert times == 3.33 or {row["variant"] for row in own} == {store.variant_of("press", member)}
+        assert times != 0.5 or all("half" in row["code"] for row in own)
+    assert {row["verdict"] for row in rows if row["case"] == "lever"} == {"right"}
+
+
+def test_an_answer_to_the_numbers_of_another_group_is_still_a_neighbours(a_class: Class) -> None:
+    store = CaseStore(a_class.path("cases"), Course())
+    keys = [store.key("press", student) for student in ("a", "c")]
+    mine, theirs = (key.value for key in keys if isinstance(key, NumberKey))
+    rows = a_group(a_class, [["a", "b"], ["c", "d"]], [f"press: {theirs:.6g}", f"press: {theirs:.6g}"])
+    assert mine != pytest.approx(theirs, rel=0.05)
+    told = [(row["verdict"], row["code"]) for row in rows]
+    assert told == [("wrong", "neighbour")] * 2 + [("right", "")] * 2
+
+
+def test_the_autograder_takes_the_numbers_of_any_who_hand_in_together(a_class: Class) -> None:
+    """Gradescope names all of a group; the marks are those of the first, which it gives to all."""
+    store = CaseStore(a_class.path("cases"), Course())
+    key = store.key("press", "b@x.test")
+    assert isinstance(key, NumberKey)
+    answers = a_class.file("answers.csv", f"case,answer\npress,{key.value:.6g}\n")
+    users = [{"email": f"{name}@x.test"} for name in "abc"]
+    metadata = a_class.file("metadata.json", json.dumps({"users": users}))
+    ran = a_class.run(
+        "grade", answers, "--cases", str(a_class.path("cases")), "--metadata", metadata, "-o", "-", "-q"
+    )
+    (row,) = ran.rows()
+    assert (row["student_id"], row["verdict"]) == ("a@x.test", "right")
+    assert row["variant"] == store.variant_of("press", "b@x.test")

@@ -968,3 +968,20 @@ def test_a_page_goes_on_past_a_position_in_which_a_rope_would_push(shown: Any, t
         met["slack"] += not rests and left_out
     assert min(met.values()) >= 1, met
     assert missed <= len(changes) // 20
+
+
+def test_a_force_of_unknown_direction_has_no_numbers_to_type(shown: Any) -> None:
+    """Its components are found along the axes: the file has no number for either; other numbers are solved as
+    `solve` does."""
+    case = """icsolve: 1
+points: {O: [0, 0], A: [1, 2], B: [2, 4], C: [4, 2], D: [3, 0], E: [6, 0]}
+joints: [{pin: [1, 2], at: O}, {pin: [2, 3], at: B}, {pin: [2, 4], at: A}, {pin: [3, 5], at: C},
+  {pin: [4, 5], at: D}]
+loads: {P: {force: 10, link: 4, at: D, angle: 0}, Q: {force: [unknown, unknown], link: 3, at: E}}
+"""
+    page = shown(case)
+    assert not [path for path in page.run(FIELDS)[0] if path.startswith("loads.Q")]
+    seen = compare(page, case, [{"loads.P": "4"}, {"loads.P.angle": "35"}, {"points.D.x": "3.1"}])
+    assert seen == ["ok"] * 3
+    with pytest.raises(CaseError, match="cannot vary"):
+        icsolve.sweep(icsolve.load(case), {"loads.Q.x.angle": [0.0, 10.0]})

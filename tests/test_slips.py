@@ -810,6 +810,12 @@ SCENES = {
     "a place far off": ([("[3.5, 2.4]", "[350, 240]")], "", "from where the data put it"),
     "the corner's letters exchanged": ([("CDE: 0", "DCE: 0")], "ambiguous", "add near: {E: ["),
     "radians": ([("angle: 180", "angle: 3.1416")], "", "if radians are meant, write 3.1416 rad"),
+    "all angles in radians": (
+        [("AB: 60, CDE: 0}", "AB: 1.05, CDE: 0.01}")], "", "if radians are meant, write each with its unit"
+    ),
+    "what was noticed, behind a full stop": (
+        [("AB: 1,", "ab: 1,")], "underdetermined", "coordinate is needed. Noticed: nothing but lengths.ab"
+    ),
     "the unknown torque on the frame": ([("link: 2}", "link: 1}")], "no-value", "Put it on a moving link"),
     "a length left out": ([("CD: 2.5, ", "")], "underdetermined", "one more length, angle or coordinate"),
     "near left out": ([("near: {C: [3.5, 2.4]}\n", "")], "ambiguous", "add near: {C: [3.61106, 2.46956]}"),

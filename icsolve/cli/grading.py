@@ -98,15 +98,16 @@ def _job(options: dict[str, Any]) -> Job:
     seeds = (course.seed, "0")
     if options["seed"] is not None:
         course = course._replace(seed=options["seed"])
-    student = options["student"] or ""
+    student, group = options["student"] or "", tuple[str, ...]()
     if options["metadata"]:
-        from icsolve.grade.tables.platforms import student_of
+        from icsolve.grade.tables.platforms import students_of
 
-        student = student or student_of(options["metadata"])
+        group = students_of(options["metadata"])
+        student = student or group[0]
     submissions = tuple(options["submissions"])
     roster, variants = options["roster"] or "", tuple(options["variants"])
     overrides = tuple(options["overrides"])
-    extra = (variants, seeds, overrides, options["dates"] or "")
+    extra = (variants, seeds, overrides, options["dates"] or "", group)
     return Job(submissions, options["cases"], course, roster, student, *extra)
 
 

@@ -22,8 +22,10 @@ from icsolve.cli.run import (
     for_each,
     on_stderr,
     outcome,
+    refusing,
     sources,
 )
+from icsolve.files import together
 from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
@@ -289,7 +291,12 @@ def gallery_command(
         more = f" (and {len(taken) - 1} more)" if len(taken) > 1 else ""
         complain(f"icsolve gallery: {taken[0]}{more} is there already; --force writes over what is there")
         return UNREADABLE
-    return _write(items, output, title or _title(cases), exercises)
+
+    def write() -> int:
+        with together():
+            return _write(items, output, title or _title(cases), exercises)
+
+    return refusing("gallery", write)
 
 
 def _items(arguments: Iterable[str]) -> Iterator[Item]:
@@ -340,12 +347,12 @@ def _write(items: list[Item], output: str, title: str, exercises: bool) -> int:
         one, code = _shown(item, exercises)
         if one is None:
             continue
-        if not all(_put(output, item.name + ending, text) for ending, text in one.files.items()):
-            return UNREADABLE
+        for ending, text in one.files.items():
+            _put(output, item.name + ending, text)
         worst = max(worst, code)
         exhibits.append(one._replace(files={}))
-    done = _put(output, f"{INDEX}.html", index_html(exhibits, title))
-    return worst if done else UNREADABLE
+    _put(output, f"{INDEX}.html", index_html(exhibits, title))
+    return worst
 
 
 def _shown(item: Item, exercises: bool) -> tuple[Exhibit | None, int]:
@@ -373,6 +380,7 @@ def _shown(item: Item, exercises: bool) -> tuple[Exhibit | None, int]:
     return what, NO_ANSWER if what.reason else DONE
 
 
-def _put(output: str, name: str, text: str) -> bool:
-    """Write a file of the gallery; whether that was done."""
-    return write_output("gallery", text, os.path.join(output, *name.split("/")), folders=True) == DONE
+def _put(output: str, name: str, text: str) -> None:
+    """Write a file of the gallery. Raises Exit where that can't be done, as is then said."""
+    if write_output("gallery", text, os.path.join(output, *name.split("/")), folders=True) != DONE:
+        raise click.exceptions.Exit(UNREADABLE)

@@ -11,7 +11,7 @@ import click
 from icsolve.cli.commands import FORCE, Verb
 from icsolve.cli.output import watched
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, refusing
-from icsolve.files import can_fork, check_free, started, write_whole
+from icsolve.files import can_fork, check_free, started, together, write_whole
 from icsolve.wording.sentences import plural
 
 if TYPE_CHECKING:
@@ -59,7 +59,8 @@ def variants_command(
         case_store = CaseStore(existing(cases), course_of(course, cases, quiet, {"seed": seed}))
         case_store.check_course()
         people = read_roster(roster, lambda line, why: complain(f"{roster}:{line}: {why}"))
-        return _all(case_store, list(people.people.values()), output, figures, force, quiet)
+        with together():
+            return _all(case_store, list(people.people.values()), output, figures, force, quiet)
 
     return refusing("variants", work)
 
@@ -215,7 +216,8 @@ def _exported(kind: str, cases: str, output: str, options: dict[str, Any]) -> in
     own = options["course"] or course_file(cases)
     drawn = (options["force"], options["figures"], options["count"])
     order = ExportOrder(case_store, output, *drawn, own, options["roster"] or "")
-    made = export(kind, order._replace(records=tuple(options["variants"])), problems.append)
+    with together():
+        made = export(kind, order._replace(records=tuple(options["variants"])), problems.append)
     for problem in problems:
         complain(problem)
     what = "case" if kind == "gradescope-zip" else "question"

@@ -83,6 +83,7 @@ def scene_over(
     shapes = round_things(case, points)
     boxes = [around(points[p], 0.0) for p in used_points(case) & points.keys()]
     boxes += [swept(wheel.link, wheel.centre, wheel.radius) for wheel in shapes.wheels]
+    boxes += [swept(one.wheel, one.centre, 1.05 * math.dist(one.centre, one.at)) for one in shapes.ratchets]
     boxes += [swept(link, corner, 0.0) for link, corners in outlines(case, points) for corner in corners[::6]]
     boxes += [
         swept(link, points[p], radius.value)
@@ -144,10 +145,11 @@ def figure_marks(scene: Scene, steps: Sequence[Step], *, velocities: bool) -> li
     """The whole figure: mechanism, centres, loads, and all labels."""
     mechanism = mechanism_of(scene)
     speeds = velocity_parts(scene) if velocities else []
+    filled = joined([mechanism.filled, *(soft.geometry for p in speeds for soft in p.soft)])
     parts = [
         *mechanism.parts,
         *centre_parts(scene, steps),
-        *load_parts(scene, joined([mechanism.filled, *(soft.geometry for p in speeds for soft in p.soft)])),
+        *load_parts(scene, filled, whole=True),
         *_supports(scene, mechanism.filled),
         *speeds,
         *point_parts(scene),

@@ -11,7 +11,19 @@ from icsolve.case import Weight
 from icsolve.case.joints import Guided
 from icsolve.draw.marks import Disc, Follows, Mark, MarkGroup, Point, Stroke, TextRun, along, unit
 from icsolve.draw.place import Label, Soft, area, bar, joined, nearest, plate, tilted
-from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene, geneva_of, normal_of, outlines
+from icsolve.draw.scene import (
+    BLOCK,
+    HALF,
+    PIN,
+    RAIL,
+    SLOT,
+    Part,
+    Ratchet,
+    Scene,
+    geneva_of,
+    normal_of,
+    outlines,
+)
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.joints import guide_direction
 from icsolve.tuples import NamedTuple
@@ -54,7 +66,9 @@ def body_of(scene: Scene, link: str) -> DrawnBody:
     levers = list(_lines(scene, link, SLOT, turns=True))
     rods = list(_lines(scene, link, RAIL, turns=False))
     crates = dict(_crates(scene, link, [*levers, *rods]))
-    points = [p for p in points if p not in crates]
+    ratchets = [one for one in scene.round.ratchets if link in (one.wheel, one.pawl)]
+    toothed = {scene.view.at(one.at) for one in ratchets}
+    points = [p for p in points if p not in crates and p not in toothed]
     sliding = list(_guided(scene, link, 0, turns=False))
     blocks = [tilted(block_place(scene, j), guide_in_picture(scene, j), *BLOCK) for j in sliding]
     blocks += crates.values()
@@ -70,6 +84,7 @@ def body_of(scene: Scene, link: str) -> DrawnBody:
     parts += [bar(ends, HALF) for ends in stems if ends[0] != ends[1]]
     given = (corners for own, corners in outlines(scene.case, scene.known.points) if own == link)
     parts += _cams(scene, link)
+    parts += [_ratchet(scene, one) if one.wheel == link else _pawl(scene, one) for one in ratchets]
     parts += [shapely.Polygon(map(scene.view.at, corners)) for corners in given]
     parts += _edges(scene, link, points, square=square)
     dashed = bool(points) and all(j.stands_in for j in scene.case.joints if link in j.links)
@@ -298,6 +313,40 @@ def _cams(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
         radius = min(max(0.4 * gap, 6.0), 34.0)
         nose = bar([(at[0] - n[0] * radius, at[1] + n[1] * radius)], radius)
         yield shapely.convex_hull(joined([nose, *(bar([p], 13.0) for p in points)]))
+
+
+TEETH, DEEP = 16, 0.16
+"""Of a ratchet wheel, and how deep they are, of its radius."""
+
+
+def _ratchet(scene: Scene, one: Ratchet) -> shapely.Geometry:
+    """A wheel with saw teeth, each with a steep face square to the push on the pawl."""
+    centre, at = scene.view.at(one.centre), scene.view.at(one.at)
+    radius = math.dist(centre, at)
+    out, push = unit(at[0] - centre[0], at[1] - centre[1]), (one.push[0], -one.push[1])
+    way = 1.0 if out[0] * push[1] - out[1] * push[0] >= 0.0 else -1.0
+    face = (way * push[1], -way * push[0])  # outward, as far as the push goes by the centre
+    steep = face if face[0] * out[0] + face[1] * out[1] > 0.5 else out
+    tooth = [along(at, steep, share * DEEP * radius) for share in (-0.75, 0.25)]
+    corners = [turned(p, centre, -way * 2.0 * math.pi * n / TEETH) for n in range(TEETH) for p in tooth]
+    return shapely.Polygon(corners)
+
+
+def turned(p: Point, centre: Point, angle: float) -> Point:
+    """A point turned about another by an angle [rad], in the picture."""
+    (dx, dy), c, s = (p[0] - centre[0], p[1] - centre[1]), math.cos(angle), math.sin(angle)
+    return (centre[0] + c * dx - s * dy, centre[1] + s * dx + c * dy)
+
+
+def _pawl(scene: Scene, one: Ratchet) -> shapely.Geometry:
+    """A finger from its pin to the tooth."""
+    pivot, at = scene.view.at(one.pivot), scene.view.at(one.at)
+    tip = along(at, (one.push[0], -one.push[1]), TIP)
+    return shapely.convex_hull(joined([bar([pivot], HALF + 2.5), bar([tip], TIP)]))
+
+
+TIP = 3.0
+"""Half the width of a pawl where it meets the tooth."""
 
 
 def _edges(scene: Scene, link: str, points: list[Point], *, square: bool) -> Iterable[shapely.Geometry]:

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 import shapely
 
 from icsolve.case import Area as Face
-from icsolve.case import Load, Number, Screw, Spring, Stretch, TorsionSpring, Weight, is_link
+from icsolve.case import Force, Load, Number, Screw, Spring, Stretch, TorsionSpring, Weight, is_link
 from icsolve.draw.links import guide_in_picture
 from icsolve.draw.marks import (
     AreaMark,
@@ -43,11 +43,11 @@ SPIRAL = 24.0
 DOWN = (0.0, 1.0)
 
 
-def load_parts(scene: Scene, links: shapely.Geometry) -> list[Part]:
-    """Every load whose place is known."""
+def load_parts(scene: Scene, links: shapely.Geometry, *, whole: bool = False) -> list[Part]:
+    """Every load whose place is known; ``whole``: one of unknown direction, once found, by one arrow."""
     parts = []
     turned: dict[Point, int] = {}
-    for acting in acting_loads(scene.known):
+    for acting in _whole(scene) if whole else acting_loads(scene.known):
         if isinstance(acting.load, TorsionSpring):
             part = _spiral(scene, acting, acting.load)
         elif acting.at is None:
@@ -60,6 +60,21 @@ def load_parts(scene: Scene, links: shapely.Geometry) -> list[Part]:
             parts.append(part)
             links = joined([links, *(soft.geometry for soft in part.soft)])  # arrows keep off each other
     return parts
+
+
+def _whole(scene: Scene) -> list[Acting]:
+    """The loads, with a force in place of its two components."""
+    loads = {acting.load.name: acting for acting in acting_loads(scene.known)}
+    for name in scene.case.directed:
+        x, y = (loads.get(f"{name}.{axis}") for axis in "xy")
+        size = math.hypot(x.value or 0.0, y.value or 0.0) if x is not None and y is not None else 0.0
+        if x is None or y is None or not size:
+            continue
+        way = ((x.value or 0.0) / size, (y.value or 0.0) / size)
+        load = x.load._replace(name=name) if isinstance(x.load, Force) else x.load
+        loads[x.load.name] = x._replace(load=load, direction=way, value=size)
+        del loads[y.load.name]
+    return list(loads.values())
 
 
 def kind_of(acting: Acting) -> str:

@@ -6,6 +6,7 @@ Gear wheels, pulleys, rolling wheels, cams and racks are found in case units; ro
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 
@@ -51,6 +52,18 @@ class BeltLoop(NamedTuple):
     crossed: bool
 
 
+class Ratchet(NamedTuple):
+    """A toothed wheel about ``centre`` that pushes a pawl on a pin at ``pivot``: by the face of a tooth at
+    ``at``, along the unit vector ``push``. Case units."""
+
+    wheel: str
+    centre: Point
+    pawl: str
+    pivot: Point
+    at: Point
+    push: Point
+
+
 class Round(NamedTuple):
     """All of them in one mechanism; ``cams`` are contacts whose first link has no circle to draw, ``feet``
     the points with which links stand on the frame."""
@@ -60,6 +73,7 @@ class Round(NamedTuple):
     loops: tuple[BeltLoop, ...]
     cams: tuple[Sliding, ...]
     feet: tuple[tuple[str, str], ...] = ()
+    ratchets: tuple[Ratchet, ...] = ()
 
 
 def round_things(case: Case, points: Mapping[str, Point]) -> Round:
@@ -68,6 +82,7 @@ def round_things(case: Case, points: Mapping[str, Point]) -> Round:
     loops: list[BeltLoop] = []
     cams: list[Sliding] = []
     feet: list[tuple[str, str]] = []
+    ratchets: list[Ratchet] = []
     for bond in _meshes(case):
         if set(bond.pivots) <= set(points):
             both = _mesh(bond, points)
@@ -81,6 +96,10 @@ def round_things(case: Case, points: Mapping[str, Point]) -> Round:
             if case.profiles is not None and {*joint.links} <= case.profiles.shapes.keys():
                 things += surfaces(case, joint, points)
                 continue
+            ratchet = _ratchet(case, joint, points)
+            if ratchet is not None:
+                ratchets.append(ratchet)
+                continue
             first, second = _touching(case, joint, points)
             if case.ground in joint.links and not isinstance(first, Wheel) and not isinstance(second, Wheel):
                 feet += [(link, joint.at) for link in joint.links if link != case.ground]
@@ -93,7 +112,7 @@ def round_things(case: Case, points: Mapping[str, Point]) -> Round:
     things += _drums(case, points)
     wheels = _once([thing for thing in things if isinstance(thing, Wheel)])
     edges = tuple(thing for thing in things if isinstance(thing, Edge))
-    return Round(tuple(wheels), edges, tuple(loops), tuple(cams), tuple(feet))
+    return Round(tuple(wheels), edges, tuple(loops), tuple(cams), tuple(feet), tuple(ratchets))
 
 
 def _drums(case: Case, points: Mapping[str, Point]) -> Iterable[Wheel]:
@@ -192,6 +211,26 @@ def _touching(
     if first is None and joint.links[0] == case.ground:
         return Edge(joint.links[0], at, n), second or Edge(joint.links[1], at, back)
     return first, second or Edge(joint.links[1], at, back)
+
+
+PAWL, RATCHET = re.compile(r"pawl|click", re.IGNORECASE), re.compile(r"ratchet", re.IGNORECASE)
+"""What links of a ratchet are called; no geometry tells them from a lever on a drum."""
+
+
+def _ratchet(case: Case, joint: Sliding, points: Mapping[str, Point]) -> Ratchet | None:
+    """A contact of a ratchet wheel and its pawl, as the names of its links say, or the title: the pawl is
+    then the link whose pin the force goes by the nearer."""
+    at, (x, y) = points[joint.at], normal_of(joint)
+    told = [*joint.links, case.title or ""]
+    pins = [[points[p] for p in case.pivots(link) if points.get(p, at) != at] for link in joint.links]
+    if not all(pins) or not any(word.search(name) for word in (PAWL, RATCHET) for name in told):
+        return None
+    one, two = (some[0] for some in pins)
+    sines = [abs((px - at[0]) * y - (py - at[1]) * x) / math.dist((px, py), at) for px, py in (one, two)]
+    named = [bool(PAWL.search(link)) - bool(RATCHET.search(link)) for link in joint.links]
+    second = named[1] > named[0] if named[0] != named[1] else sines[1] < sines[0]
+    (a, b), push = joint.links, (x, y) if second else (-x, -y)
+    return Ratchet(a, one, b, two, at, push) if second else Ratchet(b, two, a, one, at, push)
 
 
 def _disc(

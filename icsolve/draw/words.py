@@ -44,8 +44,8 @@ _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def unit_word(unit: str) -> str:
-    """``lbf*in`` with a dot between."""
-    return unit.replace("*", "·")
+    """``lbf*in`` with a dot between, ``m^2`` with a raised number."""
+    return unit.replace("*", "·").replace("^2", "²").replace("^4", "⁴")
 
 
 def quantity(value: float, unit: str, digits: int = DIGITS) -> str:
@@ -160,7 +160,7 @@ def answer_sentences(known: Known) -> list[str]:
     found = []
     for name, value in known.answer.answers.items():
         if value.holds is not None:
-            found.append(f"{name} {holding(value, figure_number)}")
+            found.append(f"{name} {holding(value._replace(unit=unit_word(value.unit)), figure_number)}")
             continue
         sense = spelt(value.sense, figure_number)
         found.append(f"{name} = {quantity(abs(value.value), value.unit)}" + (f", {sense}" if sense else ""))
@@ -206,6 +206,9 @@ def step_sentence(known: Known, steps: Sequence[Step], number: int) -> str:
     name = f"I{pair_name(known.case, last.centre.pair)}"
     if not last.centre.lines:
         return f"Step {number}: {name} from the loop equations of the whole mechanism."
+    if len(last.centre.lines) == 1 and len(last.centre.lines[0]) > 1:
+        both = line_words(known, last.centre.lines[0]).removeprefix("the line ").replace(" ", " and ")
+        return f"Step {number}: {name} is in the place of {both}."
     lines = " meets ".join(line_words(known, line) for line in last.centre.lines)
     return f"Step {number}: {name} is where {lines}."
 

@@ -113,7 +113,8 @@ def _reaction(known: Known, name: str, r: Reaction | SpatialReaction) -> On | No
     if x is None or y is None or z is None or mx is None or my is None or mz is None:
         return None
     low = r.by + r.on if len(r.by) == len(r.on) == 1 else f"{r.by}-{r.on}"
-    low, per = f"{low}@{r.where}," if "@" in name else low, known.case.units.torque_per_force_length
+    low += f"@{r.where}" if "@" in name else ""
+    low, per = low if len(low) == 2 else f"{low},", known.case.units.torque_per_force_length
     rounding = None
     if r.bounds is not None:
         force, (ex, ey, ez) = ((a or 0.0, b or 0.0, c or 0.0) for a, b, c in r.bounds)

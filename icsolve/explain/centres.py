@@ -85,6 +85,10 @@ def _constructed(work: Worked, centre: Centre) -> Iterable[Inline]:
         yield ", from the loop equations of the whole mechanism"
         return
     lines = ordered_lines(work.known, centre)
+    if len(lines) == 1 and len(lines[0]) > 1:
+        one, other = map(work.centre_name, lines[0])
+        yield from (": ", one, " and ", other, " lie in one place, and it does with them")
+        return
     for n, line in enumerate(lines):
         yield ": on " if n == 0 else ", and on "
         if len(line) == 1:

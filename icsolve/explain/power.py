@@ -26,6 +26,7 @@ from icsolve.report.derivation.ratios import OneMotion, Ratios, independent_moti
 from icsolve.screws.plane import velocity
 from icsolve.tuples import NamedTuple
 from icsolve.wording.senses import NOTHING, plain_vector
+from icsolve.wording.sentences import link_words
 
 
 class TermEnd(NamedTuple):
@@ -75,12 +76,12 @@ def term_of(work: Worked, ratios: Ratios, acting: Acting) -> tuple[ShownTerm | N
     for sign, link in links_of(work.known, acting):
         if work.known.rests(link):
             said.append(
-                words(f"Link {link} stands still: ", load_name(acting.load.name), " does no work on it.")
+                words(f"{_begun(link)} stands still: ", load_name(acting.load.name), " does no work on it.")
             )
             continue
         if acting.at is None and work.known.slides(link):
             name = load_name(acting.load.name)
-            said.append(words(f"Link {link} does not turn: ", name, " does no work on it."))
+            said.append(words(f"{_begun(link)} does not turn: ", name, " does no work on it."))
             continue
         end, more = _end(work, ratios, acting, sign, link)
         ends.append(end)
@@ -99,6 +100,12 @@ def term_of(work: Worked, ratios: Ratios, acting: Acting) -> tuple[ShownTerm | N
     sign = ends[0].sign if len(ends) == 1 else 1
     total = sum(end.sign * end.value * ratios.rates[end.link] for end in ends)
     return ShownTerm(acting, tuple(ends), gain, numbers, sign * total * value * scale, name), [*said, *more]
+
+
+def _begun(link: str) -> str:
+    """A link at the beginning of a sentence."""
+    said = link_words(link)
+    return f"{said[0].upper()}{said[1:]}"
 
 
 def sprung(work: Worked, acting: Acting, value: float) -> tuple[Name, Acting, list[Block]]:

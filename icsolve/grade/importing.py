@@ -85,20 +85,20 @@ class Import:
         except ValueError as error:
             if not student:
                 return self._unusable(path, str(error), student, HeaderError(f"{path}: {error}"))
-            self._matched((student,))
+            self.matched((student,))
             self.issues.note(path, 0, f"what {student} handed in can't be used: {error}", serious=True)
         return None
 
     def _unusable(self, path: str, why: str, student: str, error: Exception) -> Exception:
         self.issues.note(path, 0, why, serious=True)
-        whose = self._matched((student,)) if student else ""
+        whose = self.matched((student,)) if student else ""
         self.store.add([StoredAnswer(whose, "", 0, trouble=f"{os.path.basename(path)}: {why}")])
         return error
 
     def _read(self, path: str, mapping: Iterable[tuple[str, str]], student: str) -> None:
         self._path = path
         if student and os.path.isdir(path):
-            self._matched((student,))
+            self.matched((student,))
             self.issues.note(path, 0, f"{student} handed in no file of answers")
             return
         with io.BytesIO(sys.stdin.buffer.read()) if path == "-" else reading(path) as file:
@@ -151,7 +151,7 @@ class Import:
     def _entry(self, submission: Submission) -> StoredAnswer:
         """Of a student or question that is met for the first time, or of a row that is in trouble."""
         ids, s = submission
-        student = self._people.get(ids) or self._matched(ids)
+        student = self._people.get(ids) or self.matched(ids)
         item, why = self._items.get(s.item) or self._item(s.item)
         unknown = self._troubles.get(ids, "this row has no student's id")
         trouble = s.trouble or why or ("" if student else unknown)
@@ -165,7 +165,7 @@ class Import:
         texts = [text[:_LONGEST] for text in (s.unit, s.direction, s.attempt, s.variant, time)]
         return StoredAnswer._make((student, item, s.line, answer, *texts, trouble))
 
-    def _matched(self, ids: tuple[str, ...]) -> str:
+    def matched(self, ids: tuple[str, ...]) -> str:
         """The student whose ids these are: by the roster, else the first id as it is written."""
         known = self.roster.people if self.roster is not None else {}
         good = tuple(name for name in ids if name in known or not is_spoilt(name))

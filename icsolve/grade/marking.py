@@ -6,10 +6,11 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import reduce
 from itertools import chain, groupby, islice, pairwise
 from operator import itemgetter
+from types import MappingProxyType
 
 from icsolve.grade.carried_forward import carried_forward
 from icsolve.grade.case_store import CaseStore
@@ -130,7 +131,8 @@ class Tally:
 
 class Marker:
     """Judges entries; ``case_store`` has the keys, ``neighbours`` the right answers of the whole class, where
-    they differ, ``overrides`` the marks given by hand. ``path`` is the file of answers, for what is noted."""
+    they differ, ``overrides`` the marks given by hand. ``path`` is the file of answers, for what is noted;
+    ``groups`` has the members with whom each student handed in, if any."""
 
     def __init__(
         self,
@@ -140,6 +142,7 @@ class Marker:
         questions: Iterable[str],
         neighbours: Neighbours | None = None,
         overrides: Overrides | None = None,
+        groups: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
     ) -> None:
         self.case_store, self.course = case_store, case_store.course
         self.issues = issues
@@ -148,6 +151,7 @@ class Marker:
         """values given to questions with variables, of the first students"""
         self._neighbours = neighbours
         self._overrides = overrides or {}
+        self._groups = groups if case_store.varied else {}
         self.overruled: set[tuple[str, str]] = set()
         """students and questions whose marks were given by hand"""
         self.questions = frozenset(questions)
@@ -183,10 +187,24 @@ class Marker:
         chosen = list(islice(entries, _AT_ONCE))
         if len(chosen) == _AT_ONCE:
             return self._endless(chain(chosen, entries))
+        if student in self._groups:
+            chosen = self._by_one_of_group(chosen, self._groups[student])
         if len({entry.item for entry in chosen}) < len(chosen):
             groups = groupby(chosen, key=itemgetter(1))
             chosen = [self._chosen(list(attempts)) for _, attempts in groups]
         return self._student(student, chosen)
+
+    def _by_one_of_group(
+        self, entries: list[StoredAnswer], members: tuple[str, ...]
+    ) -> list[StoredAnswer]:
+        """A group hands in one solution, to the numbers of one of them: the answers to each case as of the
+        member to whose numbers they fit best, the same for all members."""
+        found: list[StoredAnswer] = []
+        for _, same_case in groupby(entries, key=lambda entry: entry.item.partition(":")[0]):
+            own = list(same_case)
+            ways = [[entry._replace(student=member) for entry in own] for member in members]
+            found += max(ways, key=lambda way: sum(self._marked(entry).judged.share for entry in way))
+        return found
 
     def _endless(self, entries: Iterator[StoredAnswer]) -> Iterator[Result]:
         """Question by question, without what looks at all of them together."""
@@ -204,7 +222,7 @@ class Marker:
             self._add_missing(student, found)
         for entry, judged in found:
             variant = self._variant(entry) if self.case_store.varied else ""
-            yield self._result(entry, judged, variant)
+            yield self._result(entry._replace(student=student), judged, variant)
 
     def _add_missing(self, student: str, found: list[tuple[StoredAnswer, Marked]]) -> None:
         """What the student owes and did not answer; an answer under a name that is nearly that of a case

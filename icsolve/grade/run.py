@@ -38,6 +38,8 @@ class Job(NamedTuple):
     """files of marks given by hand"""
     dates: str = ""
     """``day`` or ``month``: which comes first in dates with slashes"""
+    group: tuple[str, ...] = ()
+    """those who handed in together with the student whose all answers are"""
 
 
 class Graded(NamedTuple):
@@ -121,9 +123,10 @@ def grade(
             raise ValueError(f"there is no table of answers in {', '.join(job.submissions)}")
         if csv is not None:
             csv.write(HEADER + "\n")
-        case_store.ready(students)
+        groups = _groups(paths, job.group, imported)
+        case_store.ready(sorted({*students, *(member for some in groups.values() for member in some)}))
         neighbours = Neighbours(case_store, students) if case_store.varied else None
-        marker = Marker(case_store, _shown(paths), issues, questions, neighbours, overrides)
+        marker = Marker(case_store, _shown(paths), issues, questions, neighbours, overrides, groups)
         for n, result in enumerate(marker.results(store.sorted(), students), 1):
             if not n % _STEP:
                 progress("judging", n / imported.count)
@@ -138,6 +141,21 @@ def grade(
         _note_other_seeds(job, case_store, marker.given, issues)
     people = roster.people if roster is not None else {}
     return _graded(marker, issues, case_store, imported.count, len(students), people)
+
+
+def _groups(
+    paths: list[tuple[str, str]], group: tuple[str, ...], imported: Import
+) -> dict[str, tuple[str, ...]]:
+    """Of each student who handed in with others all of these, in one order."""
+    together: dict[str, list[str]] = {"": [imported.matched((who,)) for who in group]}
+    for path, who in paths:
+        if who:
+            together.setdefault(path, []).append(imported.matched((who,)))
+    groups: dict[str, dict[str, None]] = {}
+    for members in together.values():
+        for member in members if len(members) > 1 else ():
+            groups.setdefault(member, {}).update(dict.fromkeys(members))
+    return {member: tuple(others) for member, others in groups.items()}
 
 
 def _note_unmet(overrides: Overrides, marker: Marker, job: Job, issues: Issues) -> None:

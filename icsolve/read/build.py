@@ -15,6 +15,7 @@ from icsolve.read.figure import (
     read_links,
     read_near,
     read_points,
+    small_angles,
     stray_points,
 )
 from icsolve.read.joints import JOINTS, mention_links, read_joints
@@ -57,7 +58,7 @@ def build(root: Mapping, problems: Problems, name: str, units: Units) -> Case:
         if not reading.problems.found:
             given = (loads, motion, parts["inertia"], parts["expect"])
             reading.noticed += check_loads(reading, root, figure, *given, ground)
-            reading.noticed += (*check_guides(figure), *stray_points(reading, figure))
+            reading.noticed += (*check_guides(figure), *stray_points(reading, figure), *small_angles(figure))
     links = tuple(reading.links or ())
     return Case(
         **told_of_itself(reading, root, name, units, ground),

@@ -336,6 +336,18 @@ def stray_points(reading: Reading, figure: FigureData) -> list[str]:
     return said
 
 
+def small_angles(figure: FigureData) -> list[str]:
+    """A sentence where all angles may be radians: each has decimals, and none is more than a turn of them."""
+    angles = [datum.value for datum in figure.angles if datum.value.factor == 1.0]
+    small = [one for one in angles if 0.0 < abs(one.value) <= 2.0 * math.pi and not one.value.is_integer()]
+    if len(small) < 2 or len(small) < len(figure.angles):
+        return []
+    return [
+        "all angles of the figure are of a few degrees; if radians are meant, write each with its unit, as "
+        f"in {small[0].digits} rad."
+    ]
+
+
 def _never_given(reading: Reading, name: str, given: set[str]) -> str:
     if name in COMPASS:
         meant = f"for a direction write 'angle: {COMPASS[name]}'"

@@ -215,6 +215,8 @@ def _place(centre: Centre, digits: int) -> str:
 
 def _how(case: Case, centre: Centre) -> str:
     """How a centre was found, in words."""
+    if len(centre.lines) == 1 and len(centre.lines[0]) > 1:  # a line through one place is any
+        return f"in the place of {_line(case, centre.lines[0]).removeprefix('line ').replace(' ', ' and ')}"
     if centre.lines:
         return "where " + " meets ".join(_line(case, line) for line in centre.lines)
     return {"inspection": "a joint", "given": "given by the case"}.get(centre.by, centre.by)

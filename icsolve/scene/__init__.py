@@ -74,7 +74,7 @@ def solve_scene(
     except SceneError as refusal:
         if not case.noticed or refusal.status not in MISTAKEN or NOTICED in refusal.message:
             raise
-        said = f"{refusal.message}{NOTICED}{' '.join(case.noticed)}"
+        said = f"{refusal.message.rstrip('.')}.{NOTICED}{' '.join(case.noticed)}"
         raise SceneError(refusal.status, said, refusal.more) from None
 
 

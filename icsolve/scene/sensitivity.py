@@ -171,7 +171,8 @@ def parts_of(case: Case) -> Mapping[str, Mapping[str, Number]]:
 
 @lru_cache(maxsize=64 * len(NUMBERED))
 def _held_by(case: Case, part: str) -> Mapping[str, Number]:
-    return {number.path: number for number in numbers_in(getattr(case, part))}
+    own = {f"loads.{name}.{axis}.angle" for name in case.directed for axis in "xy"}  # no file has these
+    return {number.path: number for number in numbers_in(getattr(case, part)) if number.path not in own}
 
 
 def _lengths(case: Case) -> set[str]:

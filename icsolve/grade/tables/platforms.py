@@ -371,8 +371,9 @@ def _of_line(line: int, text: str, who: tuple[str, ...]) -> Submission:
     return who, StoredAnswer("", found.group(1).strip(), line, found.group(2) or "")
 
 
-def student_of(metadata: str) -> str:
-    """The student of a Gradescope ``submission_metadata.json``: the email, or the id, of its first user.
+def students_of(metadata: str) -> tuple[str, ...]:
+    """The students of a Gradescope ``submission_metadata.json``, of a group several: the email, or the id, of
+    each user.
 
     Raises ValueError, with a sentence; OSError.
     """
@@ -382,11 +383,12 @@ def student_of(metadata: str) -> str:
         except (ValueError, RecursionError):
             found = None
     users = found.get("users") if isinstance(found, dict) else None
-    first = users[0] if isinstance(users, list) and users and isinstance(users[0], dict) else {}
-    for key in ("email", "sid", "id", "name"):
-        if first.get(key):
-            return str(first[key])
-    raise ValueError(f"{os.fspath(metadata)} names no user")
+    known = [user for user in users if isinstance(user, dict)] if isinstance(users, list) else []
+    ids = ([str(user[key]) for key in ("email", "sid", "id", "name") if user.get(key)] for user in known)
+    students = tuple(own[0] for own in ids if own)
+    if not students:
+        raise ValueError(f"{os.fspath(metadata)} names no user")
+    return students
 
 
 METADATA = "submission_metadata.yml"
