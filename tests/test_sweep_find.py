@@ -280,6 +280,20 @@ def test_the_limit_of_a_group_is_told_to_the_last_digit(x: int, y: int, bars: An
         assert abs(limit.at - 90.0) <= limit.error <= 2e-14, (span, limit)
 
 
+@pytest.mark.parametrize("link", [5, 6])
+@pytest.mark.parametrize("beside", [0.03, 1e-3, 1e-5, 1e-8])
+def test_a_value_beside_the_limit_of_a_group_is_found(link: int, beside: float) -> None:
+    """A rocker that a group of three bars and a plate turns: however near to its limit, where all runs like
+    the root of the distance, a load that it has there is found there."""
+    starts = zip(((0, 0), (3, 0), (0, 4)), (-3, 5, -1), strict=True)
+    b, d, e = ((px - n * 3, py - n * 4) for (px, py), n in starts)
+    text = PLATE.format(b=b, low=b[1] - 5, d=d, e=e, bars=[15, 25, 5], turned=88.0)
+    case = icsolve.load(text.replace("unknown, link: 2", f"unknown, link: {link}"))
+    value = icsolve.sweep(case, {"angles.AB": [90.0 - beside]}).answers["T"][0]
+    spots = find(case, {"angles.AB": np.array([85.3, 94.1])}, Query("value", "T", value))
+    assert 90.0 - beside in [pytest.approx(spot.at, abs=1e-12) for spot in spots]
+
+
 @pytest.mark.parametrize("side", [2.0, -0.5])
 def test_a_change_point_of_a_group_is_told_as_the_rows_tell_it(side: float) -> None:
     """A plate whose bars let it go on through the position in which they are parallel."""
