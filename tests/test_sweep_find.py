@@ -292,6 +292,8 @@ def test_a_value_beside_the_limit_of_a_group_is_found(link: int, beside: float) 
     value = icsolve.sweep(case, {"angles.AB": [90.0 - beside]}).answers["T"][0]
     spots = find(case, {"angles.AB": np.array([85.3, 94.1])}, Query("value", "T", value))
     assert 90.0 - beside in [pytest.approx(spot.at, abs=1e-12) for spot in spots]
+    peaks = [find(case, {"angles.AB": np.array([30.0, end])}, Query("max", "T")) for end in (89.9, 94.1)]
+    assert [spot.at for spot in peaks[0]] == [pytest.approx(spot.at, rel=1e-12) for spot in peaks[1]]
 
 
 @pytest.mark.parametrize("side", [2.0, -0.5])

@@ -435,7 +435,7 @@ class RangeSearch:
         values, slopes = zip(*(self._sampled(v, at) for v in wanted), strict=True)
         if peaks:
             f = slopes[0] * values[1] - values[0] * slopes[1]
-            turns = np.zeros(PLACES, dtype=bool)
+            turns = np.zeros(len(at) - 1, dtype=bool)
         else:
             f = values[0]
             turns = _may_touch(f, slopes[0], np.diff(at))
