@@ -16,6 +16,7 @@ from mpmath import mp, mpf
 import icsolve
 from icsolve.assembly import newton
 from icsolve.bench.full_turn import FOUR_BAR_CASE
+from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
 from icsolve.numbers.roots import closed_in
@@ -693,3 +694,39 @@ def test_loads_that_all_but_cancel_hide_no_position(large: int, monkeypatch: pyt
         assert len(got) == len(wanted) > 0
         for one, other in zip(got, wanted, strict=True):
             assert abs(one.at - other.at) <= one.error + other.error
+
+
+def told(text: str, path: str, value: float) -> str:
+    """The status of a scene of its own."""
+    try:
+        return str(icsolve.solve(icsolve.load(text, {path: value})).status)
+    except SceneError as refused:
+        return str(refused.status)
+
+
+@pytest.mark.parametrize("angle", ["OP", "QOP"])
+def test_a_direction_that_goes_through_infinity_is_not_taken_for_its_opposite(angle: str) -> None:
+    """The angle under which a block on a guide is seen, by its direction and from another line: where it is
+    parallel to the guide the block is at infinity, and beyond it lies behind who looks at it."""
+    for seed in range(6):
+        dice = Random(f"seen {seed}")
+        spans = ((-1, 1), (2, 5), (-40, 40), (60, 120))
+        x, y, along, start = (round(dice.uniform(*span), 2) for span in spans)
+        turned = dice.choice((0, -90)) if angle == "QOP" else 0
+        case = f"""icsolve: 1
+points: {{O: [0, 0], Q: {[0, -1] if turned else [1, 0]}, G: [{x}, {y}]}}
+angles: {{{angle}: {start - turned}}}
+joints: [{{slide: [2, 1], at: P, along: {along}, through: G}}]
+loads: {{F: {{force: 7, link: 2, at: P, toward: O}}, U: {{force: unknown, link: 2, at: P, angle: 130}}}}
+links: {{1: [O, Q, G]}}
+"""
+        path = f"angles.{angle}"
+        gaps = (-170, -90, -30, -1e-9, 1e-9, 30, 90, 150, 180 - 1e-9, 180 + 1e-9)
+        at = [along - turned + gap for gap in gaps]
+        rows = icsolve.sweep(icsolve.load(case), {path: np.array(at)}, want=("status",)).status.tolist()
+        assert rows == [told(case, path, one) for one in at], case
+        assert {"ok", "cannot-assemble"} <= {*rows}
+        whole = {path: np.array([along - turned - 170.0, along - turned + 190.0])}
+        for query in (Query("value", "U", 1e3), Query("max"), Query("dead")):
+            spots = find(icsolve.load(case), whole, query)
+            assert all(-1e-6 < spot.at - (along - turned) < 180.0 + 1e-6 for spot in spots), (case, query)
