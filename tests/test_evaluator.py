@@ -130,6 +130,8 @@ def test_with_friction_rows_are_solved_one_by_one_and_have_no_gradient() -> None
         (("lengths.BC", "lengths.CB"), (), "named twice"),
         (("lengths.BC",), (1.0, 2.0), "1 numbers are varied"),
         (("lengths.BC", "loads.P"), ([1.0, 2.0], [1.0, 2.0, 3.0]), "shape"),
+        (("angles.AB",), (1e8,), "take turns off"),
+        (("angles.AB", "lengths.BC"), ([60.0, -1e300], 3.5), "take turns off"),
     ],
 )
 def test_what_makes_no_sense_is_refused(

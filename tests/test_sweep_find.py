@@ -17,6 +17,7 @@ from mpmath import mp, mpf
 import icsolve
 from icsolve.assembly import newton
 from icsolve.bench.full_turn import FOUR_BAR_CASE
+from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
 from icsolve.numbers.roots import closed_in
@@ -279,6 +280,22 @@ def test_the_limit_of_a_group_is_told_to_the_last_digit(x: int, y: int, bars: An
         spots = find(icsolve.load(text), {"angles.AB": np.array(span)}, Query("dead"))
         (limit,) = (spot for spot in spots if spot.kind == "limit")
         assert abs(limit.at - 90.0) <= limit.error <= 2e-14, (span, limit)
+
+
+@pytest.mark.parametrize("link", [5, 6])
+@pytest.mark.parametrize("beside", [0.03, 1e-3, 1e-5, 1e-8])
+def test_a_value_beside_the_limit_of_a_group_is_found(link: int, beside: float) -> None:
+    """A rocker that a group of three bars and a plate turns: however near to its limit, where all runs like
+    the root of the distance, a load that it has there is found there."""
+    starts = zip(((0, 0), (3, 0), (0, 4)), (-3, 5, -1), strict=True)
+    b, d, e = ((px - n * 3, py - n * 4) for (px, py), n in starts)
+    text = PLATE.format(b=b, low=b[1] - 5, d=d, e=e, bars=[15, 25, 5], turned=88.0)
+    case = icsolve.load(text.replace("unknown, link: 2", f"unknown, link: {link}"))
+    value = icsolve.sweep(case, {"angles.AB": [90.0 - beside]}).answers["T"][0]
+    spots = find(case, {"angles.AB": np.array([85.3, 94.1])}, Query("value", "T", value))
+    assert 90.0 - beside in [pytest.approx(spot.at, abs=1e-12) for spot in spots]
+    peaks = [find(case, {"angles.AB": np.array([30.0, end])}, Query("max", "T")) for end in (89.9, 94.1)]
+    assert [spot.at for spot in peaks[0]] == [pytest.approx(spot.at, rel=1e-12) for spot in peaks[1]]
 
 
 @pytest.mark.parametrize("side", [2.0, -0.5])
@@ -680,3 +697,39 @@ def test_loads_that_all_but_cancel_hide_no_position(large: int, monkeypatch: pyt
         assert len(got) == len(wanted) > 0
         for one, other in zip(got, wanted, strict=True):
             assert abs(one.at - other.at) <= one.error + other.error
+
+
+def told(text: str, path: str, value: float) -> str:
+    """The status of a scene of its own."""
+    try:
+        return str(icsolve.solve(icsolve.load(text, {path: value})).status)
+    except SceneError as refused:
+        return str(refused.status)
+
+
+@pytest.mark.parametrize("angle", ["OP", "QOP"])
+def test_a_direction_that_goes_through_infinity_is_not_taken_for_its_opposite(angle: str) -> None:
+    """The angle under which a block on a guide is seen, by its direction and from another line: where it is
+    parallel to the guide the block is at infinity, and beyond it lies behind who looks at it."""
+    for seed in range(6):
+        dice = Random(f"seen {seed}")
+        spans = ((-1, 1), (2, 5), (-40, 40), (60, 120))
+        x, y, along, start = (round(dice.uniform(*span), 2) for span in spans)
+        turned = dice.choice((0, -90)) if angle == "QOP" else 0
+        case = f"""icsolve: 1
+points: {{O: [0, 0], Q: {[0, -1] if turned else [1, 0]}, G: [{x}, {y}]}}
+angles: {{{angle}: {start - turned}}}
+joints: [{{slide: [2, 1], at: P, along: {along}, through: G}}]
+loads: {{F: {{force: 7, link: 2, at: P, toward: O}}, U: {{force: unknown, link: 2, at: P, angle: 130}}}}
+links: {{1: [O, Q, G]}}
+"""
+        path = f"angles.{angle}"
+        gaps = (-170, -90, -30, -1e-9, 1e-9, 30, 90, 150, 180 - 1e-9, 180 + 1e-9)
+        at = [along - turned + gap for gap in gaps]
+        rows = icsolve.sweep(icsolve.load(case), {path: np.array(at)}, want=("status",)).status.tolist()
+        assert rows == [told(case, path, one) for one in at], case
+        assert {"ok", "cannot-assemble"} <= {*rows}
+        whole = {path: np.array([along - turned - 170.0, along - turned + 190.0])}
+        for query in (Query("value", "U", 1e3), Query("max"), Query("dead")):
+            spots = find(icsolve.load(case), whole, query)
+            assert all(-1e-6 < spot.at - (along - turned) < 180.0 + 1e-6 for spot in spots), (case, query)

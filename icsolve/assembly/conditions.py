@@ -9,7 +9,7 @@ a value.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -218,8 +218,13 @@ def residual(workspace: Workspace, datum: Datum) -> Residual:
 def ahead(workspace: Workspace, datum: Datum) -> Scalar:
     """How far a ray, or the far arm of a corner, goes the way of its angle: negative where it points against
     it [frame, of a corner frame squared]."""
-    (ax, ay), *vertex, (bx, by) = (workspace.points[p] for p in datum.points)
-    c, s = workspace.turn(datum)
+    return ahead_of([workspace.points[p] for p in datum.points], workspace.turn(datum))
+
+
+def ahead_of(at: Sequence[Point], turn: Point) -> Scalar:
+    """The same of the places of its points, and the cosine and sine of its angle."""
+    (ax, ay), *vertex, (bx, by) = at
+    c, s = turn
     if not vertex:
         return c * (bx - ax) + s * (by - ay)
     ((vx, vy),) = vertex

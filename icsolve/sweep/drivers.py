@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 
 from icsolve.assembly import case_point, solve_figure
+from icsolve.assembly.conditions import ahead_of
 from icsolve.assembly.driven.constraints import (
     BodyLine,
     Constraint,
@@ -32,7 +33,7 @@ from icsolve.assembly.driven.order import (
     PlaceByTwoPoints,
     RotateWith,
 )
-from icsolve.assembly.driven.poses import Arm, Rotation, Spot, minus
+from icsolve.assembly.driven.poses import Arm, Rotation, Spot, minus, product
 from icsolve.assembly.driven.poses import Places as Still
 from icsolve.assembly.workspace import CORNER, LENGTH, RAY, Datum, X, Y, data_of, normalised, number_of
 from icsolve.case import Case, Coordinates, Number, is_named
@@ -254,10 +255,39 @@ def condition(mechanism: Mechanism, pose: Pose, value: Scalar) -> Constraint:
         if arms is not None:
             written = mechanism.shape.record.written(number_of(mechanism.case, datum))
             return Turning(((arms[1], 1.0), (arms[0], -1.0)), value - written)
+        seen = _seen_from(mechanism, pose, value)
+        if seen is not None:
+            return seen
     if datum.kind == RAY and spots[0][0] == mechanism.top.ground:
         line = BodyLine(mechanism.top.ground, mechanism.shape.ref[datum.points[0]], _turned(mechanism, value))
         return OnLine(spots[1], line)
     return Drawn(datum, spots)
+
+
+def _seen_from(mechanism: Mechanism, pose: Pose, value: Scalar) -> OnLine | None:
+    """The end of a corner's arm on a line of the body that carries the corner and its other arm, if one
+    does."""
+    shape, (a, at, b) = mechanism.shape, pose.datum.points
+    for near, far, sign in ((a, pose.spots[2], 1.0), (b, pose.spots[0], -1.0)):
+        common = _carriers(mechanism, near) & _carriers(mechanism, at)
+        if common:
+            body = min(common, key=lambda body: body != mechanism.top.ground)
+            x, y = minus(shape.ref[near], shape.ref[at])
+            span = shape.span((body, at), (body, near))
+            along = product((x / span, y / span), _turned(mechanism, sign * value))
+            return OnLine(far, BodyLine(body, shape.ref[at], along))
+    return None
+
+
+def ahead_on(mechanism: Mechanism, pose: Pose, value: Scalar, places: Still) -> Scalar:
+    """How far an angle between points of several links goes its way, which as a condition it has both ways;
+    1 of any other datum."""
+    datum, spots = pose.datum, pose.spots
+    if datum.kind not in (RAY, CORNER) or len({spot[0] for spot in spots}) == 1:
+        return 1.0
+    if datum.kind == CORNER and _arms(mechanism, datum) is not None:
+        return 1.0
+    return ahead_of([places.place(spot) for spot in spots], _turned(mechanism, value))
 
 
 def _turned(mechanism: Mechanism, value: Scalar) -> Point:

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.assembly.steps import PointGroup
-from icsolve.case import Case, refuse_no_case
+from icsolve.case import Case, is_angle, refuse_no_case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.arithmetic import turn_of
@@ -30,7 +30,16 @@ from icsolve.sweep.drivers import Drive
 from icsolve.sweep.exact import hides
 from icsolve.sweep.numbers import find_number, numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of
-from icsolve.sweep.request import RequestError, SweepRequest, array_of, names_in, request_of, told
+from icsolve.sweep.request import (
+    FARTHEST,
+    RequestError,
+    SweepRequest,
+    array_of,
+    names_in,
+    refuse_far,
+    request_of,
+    told,
+)
 from icsolve.sweep.runner import STEEP, Key, Rows, column, usual_and_terms
 from icsolve.sweep.start import is_hard
 from icsolve.sweep.table import CODE, KINDS, WORDS, Table, by_kind
@@ -41,6 +50,9 @@ FEW = 24
 NEAR = 1e-7
 """A divisor, radicand, margin or answer below this fraction of what it is as written makes its row one that
 is solved as a scene: that decides nothing, it only looks closer."""
+
+COUNTED = (NumberLimit("<", FARTHEST, ""), NumberLimit(">", -FARTHEST, ""))
+"""Angles of more turns are refused."""
 
 FINE = np.array((str(Status.OK),), dtype="<U24")
 
@@ -185,7 +197,8 @@ class Evaluator:
         Raises
         ------
         ValueError
-            For columns whose number or lengths do not fit, or with more than one dimension.
+            For columns whose number or lengths do not fit, or with more than one dimension, and for angles
+            of more than 10,000,000 degrees.
         """
         if len(columns) != len(self.inputs):
             names = ", ".join(self.inputs)
@@ -195,6 +208,9 @@ class Evaluator:
             if found is not None:
                 return found
         given, rows = _columns(self.inputs, columns)
+        for name, own, array in zip(self.inputs, self.own, given, strict=True):
+            if is_angle(own):
+                refuse_far(name, array)
         table = self._empty(rows)
         if self.compiled is None:
             again, slopes = np.arange(rows), Gradients()
@@ -290,6 +306,8 @@ class _Compiled:
         record = compiled.record
         self.compiled, self.asked, self.names = compiled, asked, tuple(names)
         self.bounds = limits_of(compiled.scene.case, tuple(names.values()))
+        turned = [n for n, own in enumerate(names.values()) if is_angle(own)]
+        self.bounds += [(n, one) for n in turned for one in COUNTED]
         self.nodes = [compiled.inputs[own] for own in names.values()]
         self.parts = {key: len(values) for key, values in compiled.outputs.items()}
         values = [(key, part, v) for key, some in compiled.outputs.items() for part, v in enumerate(some)]

@@ -13,8 +13,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from decimal import Decimal, localcontext
-from functools import partial
-from itertools import pairwise
+from functools import cached_property, partial
+from itertools import pairwise, product
 
 import numpy as np
 import numpy.typing as npt
@@ -238,7 +238,7 @@ class RangeSearch:
     def _limits(self) -> Iterator[tuple[Decimal, float | None]]:
         """Where the links assemble on one side only; with the error, where it is more than the last digit."""
         if self._follows_groups:
-            yield from ((s, error) for s, error in self._ends_of_groups())
+            yield from self._ends
         seen: list[Decimal] = []
         for node in dict.fromkeys(node for root in self.roots for node, _ in root.margins):
             for s in self._zeros(self.record.nodes[node]):
@@ -426,19 +426,30 @@ class RangeSearch:
     def _by_places(
         self, wanted: Sequence[Scalar], peaks: bool, first: float, last: float
     ) -> Iterator[tuple[Decimal, Decimal, int]]:
-        """By the function and its slope at many places."""
-        at = np.linspace(first, last, PLACES + 1)
+        """By the function and its slope at many places, toward a limit each half as far from it."""
+        limits = [s for s, _ in self._ends if first < s < last]
+        rings = (last - first) / PLACES * 0.5 ** np.arange(RINGS)
+        beside = [float(limit) + np.r_[-rings, rings] for limit in limits]
+        at = np.unique(np.concatenate([np.linspace(first, last, PLACES + 1), *beside]))
+        at = at[(first <= at) & (at <= last)]
         self.notes[SEARCHED.format(count=PLACES)] = None
         values, slopes = zip(*(self._sampled(v, at) for v in wanted), strict=True)
         if peaks:
             f = slopes[0] * values[1] - values[0] * slopes[1]
-            turns = np.zeros(PLACES, dtype=bool)
+            turns = np.zeros(len(at) - 1, dtype=bool)
         else:
             f = values[0]
             turns = _may_touch(f, slopes[0], np.diff(at))
         changes = f[:-1] * f[1:] <= 0.0
         for k in np.flatnonzero(changes | turns):
             yield as_written(at[k]), as_written(at[k + 1]), 1 + int(turns[k])
+        good = np.isfinite(f)
+        for end, side in product(() if peaks else limits, (-1, 1)):  # doubles stop short of a limit
+            beyond = good & ((at - float(end)) * side > 0.0)
+            if beyond.any():
+                there, k = end + side * NEAR, np.argmin(np.where(beyond, np.abs(at - float(end)), np.inf))
+                if f[k] * float(self._value(wanted[0], there)) <= 0.0:
+                    yield min(as_written(at[k]), there), max(as_written(at[k]), there), 1
 
     def _sampled(self, value: Scalar, at: Array) -> tuple[Array, Array]:
         """A value and its slope at places; not a number where the links do not assemble."""
@@ -453,6 +464,10 @@ class RangeSearch:
             found[here] = np.where(good, passes.value(value.index, len(good)), np.nan)
             slope[here] = np.where(good, passed.by.get(main, np.zeros(len(good))), np.nan)
         return found, slope
+
+    @cached_property
+    def _ends(self) -> list[tuple[Decimal, float]]:
+        return list(self._ends_of_groups())
 
     def _ends_of_groups(self) -> Iterator[tuple[Decimal, float]]:
         """Where groups are followed no further: about where by doubles, which stop short of it and are let on

@@ -29,6 +29,8 @@ from icsolve.statics.load_wrenches import counted_about, points_of, spring_angle
 from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import (
     Drive,
+    Pose,
+    ahead_on,
     closed_drive,
     condition,
     datum_at,
@@ -392,6 +394,7 @@ def _motion(
     case, drive = setting.case, setting.drive
     record = held.shape.record
     drivers: list[Constraint] = []
+    posed: list[tuple[Pose, Scalar]] = []
     for link in setting.links:
         node = record.input(link, 180.0 * _apart(nudge, inputs))
         inputs[link] = node.index
@@ -403,13 +406,15 @@ def _motion(
         pose = pose_of(held, path)
         if pose is None:
             raise _not_together(path, setting.paths)
-        drivers.append(condition(held, pose, node))
-    for pose in drive.held:
-        drivers.append(condition(held, pose, record.given(number_of(case, pose.datum))))
+        posed.append((pose, node))
+    posed += [(pose, record.given(number_of(case, pose.datum))) for pose in drive.held]
+    drivers += [condition(held, pose, value) for pose, value in posed]
     drivers += [Turning(((body, 1.0),), 0.0) for body in drive.locked]
     turns = {name: record.input(name, sign) for name, sign in signs}
     inputs |= {name: node.index for name, node in turns.items()}
-    return set_moving(held, closing_of(held, drivers, drive.closing), turns)
+    motion = set_moving(held, closing_of(held, drivers, drive.closing), turns)
+    ways = (ahead_on(held, pose, value, motion.moved) for pose, value in posed)
+    return motion._replace(margins=(*motion.margins, *(way.index for way in ways if varies(way))))
 
 
 def _not_together(path: str, paths: Sequence[str]) -> SceneError:

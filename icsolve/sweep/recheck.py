@@ -8,7 +8,8 @@ row then has. Nothing here looks at another row.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from decimal import Decimal, localcontext
 
 import numpy as np
@@ -109,18 +110,33 @@ class Recheck:
         if not self.tracker.groups:
             return {}
         if self.solved is not None and abs(self.solved[0] - s) < Decimal(BESIDE * self.tracker.line.widest):
-            return self.solved[1]
+            given = self.tracker.exactly(s) | self._signs(s) | self.solved[1]
+            with suppress(Unreached):  # beside a limit, where two ways meet, it is far all the same
+                self.scenes.exact.solved(given)
+                return self.solved[1]
         if s in self.unreached:
             raise Unreached
-        guess = self._states(float(s))
         columns = [k for group, _ in self.tracker.groups for k in group.equations.solved]
         try:
-            states = self.scenes.exact.states(self.tracker.exactly(s) | guess, columns)
+            states = self._states_at(s, columns)
         except Unreached:
             self.unreached.add(s)
             raise
         self.solved = (s, dict(zip(columns, states, strict=True)))
         return self.solved[1]
+
+    def _states_at(self, s: Decimal, columns: Sequence[int]) -> list[Decimal]:
+        """States of groups from what doubles tell; where these stop short of an end, from their last."""
+        assert self.tracker is not None
+        exact, given = self.scenes.exact, self.tracker.exactly(s)
+        try:
+            return exact.states(given | self._states(float(s)), columns)
+        except Unreached:
+            if not self.tracker.ending(np.array([float(s)]))[0]:
+                raise
+        end = as_written(min(self.tracker.ends, key=lambda end: abs(end - float(s))))
+        last = exact.states(self.tracker.exactly(end), columns)
+        return exact.states(given | dict(zip(columns, last, strict=True)), columns)
 
     def floats(self, name: str, at: Array) -> tuple[dict[int, Array], npt.NDArray[np.bool_]]:
         """As `at`, in doubles, at many values.

@@ -165,7 +165,13 @@ def _refuse_values(name: str, bound: str, array: Array, turns: bool) -> None:
     for limit in BOUNDS[bound]:
         if not np.all(limit.holds(array)):
             raise RequestError(f"the values of {shown(name)} {limit.says}")
-    if turns and np.abs(array).max() > FARTHEST:
+    if turns:
+        refuse_far(name, array)
+
+
+def refuse_far(name: str, degrees: Array) -> None:
+    """Refuse turns that nobody would count, of which doubles leave too few digits to an angle."""
+    if np.any(np.abs(degrees[np.isfinite(degrees)]) > FARTHEST):
         raise RequestError(f"the values of {shown(name)} lie beyond {FARTHEST:.0f} degrees; take turns off")
 
 
