@@ -613,3 +613,23 @@ def test_units_of_a_figure_have_dots_and_raised_numbers() -> None:
         svg = draw(case)
         assert unit in svg
         assert not re.search(r"kN\*m|m\^2", svg)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_handle_reaches_the_point_at_which_it_takes_the_opposite(seed: int) -> None:
+    """Shears squeezed between two points, of which only one is told to be of its link."""
+    dice = Random(seed)
+    x, y = dice.uniform(5, 18), dice.uniform(1, 4)
+    known = known_of(
+        icsolve.load(
+            f"icsolve: 1\npoints: {{A: [0, 0], H: [{x}, {y}], J: [{x}, {-y}], K: [-1, 0.1], L: [-1, -0.1]}}\n"
+            "ground: base\njoints: [{pin: [base, 1], at: A}, {pin: [1, 2], at: A}]\n"
+            "loads: {P: {force: 50, link: 2, at: H, against: 1, toward: J},\n"
+            "  Q: {force: unknown, link: 2, at: L, against: 1, away: K}}\n"
+        )
+    )
+    scene = scene_of(known)
+    for link, names in (("1", "AJK"), ("2", "AHL")):
+        shape = body_of(scene, link).shape
+        assert shape is not None
+        assert all(shapely.contains(shape, shapely.Point(scene.at[name])) for name in names), link

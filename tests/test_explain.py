@@ -936,3 +936,23 @@ def test_no_name_of_the_program_stands_in_the_solution_of_a_case(name: str) -> N
     """Hidden points and links begin with a sign that no name of a file has; `F12@A` is a reaction's."""
     told = explain(icsolve.load(FILES[name]), bodies=True)
     assert not re.search(r"(?<![\w'])@", told), re.findall(r".*(?<![\w'])@.*", told)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_force_of_unknown_direction_is_made_of_its_components(seed: int) -> None:
+    """The end of an arm of two links: both components, then the size, each by numbers that recompute."""
+    draw = Random(seed)
+    x, y, a, b = (round(draw.uniform(1, 4), 3) for _ in range(4))
+    case = icsolve.load(
+        f"icsolve: 1\npoints: {{A: [0, 0], B: [{x}, {y}], C: [{x + a}, {y - b}]}}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}]\n"
+        f"loads: {{M: {{torque: {x}, link: 2}}, W: {{weight: {10 * b}, link: 3, at: B}},\n"
+        "  Q: {force: [unknown, unknown], link: 3, at: C}}\n"
+    )
+    told = explain(case, digits=DIGITS)
+    found = icsolve.solve(case).answers["Q"]
+    assert found.components is not None
+    for axis, value in zip("xy", found.components, strict=True):
+        assert f"    Q.{axis} = {value:.6g} N\n" in told
+    assert re.search(rf"^    Q = sqrt\(Q.x\^2 \+ Q.y\^2\) = sqrt\(.*\) = {found.value:.6g} N$", told, re.M)
+    assert not disagreeing(told)

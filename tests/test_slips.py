@@ -1001,6 +1001,50 @@ def test_of_a_rope_and_the_load_at_its_free_end_each_slip_is_told_alone(
     assert len(told) == 1 and said in told[0], told
 
 
+WOUND = """\
+icsolve: 1
+points: {O: [0, 0], A: [-3, 0.2], B: [2, -2]}
+joints:
+  - {pin: [1, drum], at: O}
+  - {rope: [A, O, B], on: [1, drum], radii: {O: 0.2}, wraps: {O: cw}, mu: {O: 0.3}, turns: {O: 2}}
+motion: {link: drum, turns: ccw}
+loads: {F: {force: 20, at: B}, T: {torque: unknown, link: drum}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("rope: [A, O, B]", "rope: [A, B]", ["does not run through 'O'"]),
+        ("radii: {O", "radi: {O", ["no key 'radi'; did you mean 'radii'?"]),
+        ("radii: {O: 0.2}", "radius: 0.2", ["did you mean 'radii'?", "should be a mapping, as in {P: 0.1}"]),
+        ("wraps: {O: cw}", "wraps: {o: cw}", ["does not run through 'o'; did you mean 'O'?"]),
+        ("wraps: {O: cw}, ", "", ["give its sense, {O: ccw} or cw"]),
+        ("mu: {O: 0.3}", "mu: 0.3", ["'mu' of the rope A-O-B should be a mapping"]),
+    ],
+)
+def test_a_slip_at_a_pulley_is_told_once(old: str, new: str, said: list[str]) -> None:
+    """And not by what would follow from it: a size without a sense, a load that has lost its rope."""
+    icsolve.load(WOUND)
+    told = told_of(WOUND.replace(old, new))
+    assert len(told) == len(said), told
+    assert all(part in text for part, text in zip(said, told, strict=True)), told
+
+
+def test_a_torque_beside_the_screw_that_it_should_turn_is_told() -> None:
+    """All links are locked then, and there is nothing to count."""
+    with pytest.raises(icsolve.SceneError) as refused:
+        icsolve.solve(
+            icsolve.load(
+                "icsolve: 1\npoints: {B: [0, 0]}\n"
+                "joints: [{screw: [1, 2], at: B, along: 90, lead: 0.006, radius: 0.015, mu: 0.12}]\n"
+                "loads: {W: {weight: 20, link: 2, at: B}, T: {torque: unknown, link: 2}}\n"
+            )
+        )
+    assert "no link moves" in refused.value.message and "0 links" not in refused.value.message
+    assert "{torque: unknown, screw: 1-2} would" in refused.value.message
+
+
 @pytest.mark.parametrize("word", ["diameter", "dia", "Diameter"])
 def test_a_diameter_in_place_of_a_radius_is_half_of_it(word: str) -> None:
     pin = ("at: A}", f"at: A, mu: 0.1, {word}: 0.2}}")

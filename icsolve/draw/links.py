@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 import shapely
 
-from icsolve.case import Weight
+from icsolve.case import Force, Toward, Weight
 from icsolve.case.joints import Guided
 from icsolve.draw.marks import Disc, Follows, Mark, MarkGroup, Point, Stroke, TextRun, along, unit
 from icsolve.draw.place import Label, Soft, area, bar, joined, nearest, plate, tilted
@@ -205,8 +205,18 @@ def _own_points(scene: Scene, link: str) -> list[Point]:
     """Where the link has joints, loads and other points; each place once."""
     names = [p for p in scene.case.carries.get(link, ()) if p in scene.at]
     names += [j.at for j in scene.joints() if j.stands_in and link in j.links and j.at]
+    names += [p for p in _taken_at(scene, link) if p in scene.at]
     names += [at for own, at in scene.round.feet if own == link]
     return list(dict.fromkeys(scene.at[p] for p in names))
+
+
+def _taken_at(scene: Scene, link: str) -> Iterable[str]:
+    """The points of no link at which a link takes the opposite of a load toward them."""
+    carried = {name for names in scene.case.carries.values() for name in names}
+    for load in scene.case.loads:
+        heading = load.heading if isinstance(load, Force) and load.against == link else None
+        if isinstance(heading, Toward) and heading.point not in carried and link != scene.case.ground:
+            yield heading.point
 
 
 def guide_in_picture(scene: Scene, joint: Guided) -> Point:

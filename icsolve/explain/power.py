@@ -19,7 +19,19 @@ from icsolve.case import (
 )
 from icsolve.explain.bodies import Rubbed, rubbed
 from icsolve.explain.document import Block, Section, formula, words
-from icsolve.explain.formula import Expr, Name, Num, Quotient, Square, Sum, Trig, product, solved_for, total
+from icsolve.explain.formula import (
+    Expr,
+    Name,
+    Num,
+    Quotient,
+    RootOf,
+    Square,
+    Sum,
+    Trig,
+    product,
+    solved_for,
+    total,
+)
 from icsolve.explain.worked import Worked, exerted_name, gain_names, lever, load_name
 from icsolve.report.derivation.known import Acting, Known
 from icsolve.report.derivation.ratios import OneMotion, Ratios, independent_motions, speed_words
@@ -452,4 +464,11 @@ def _turned(
 def _found(work: Worked) -> Iterable[Block]:
     yield words("So")
     for name, found in work.answer.answers.items():
-        yield formula(load_name(name), work.quantity(found.value, found.unit))
+        sides: tuple[Expr, ...] = ()
+        if found.components:  # a force of unknown direction
+            parts = [load_name(f"{name}.{axis}") for axis in "xy"]
+            numbers = [work.number(abs(part)) for part in found.components]
+            for part, value in zip(parts, found.components, strict=True):
+                yield formula(part, work.quantity(value, found.unit))
+            sides = tuple(RootOf(Sum(tuple((1, Square(one)) for one in some))) for some in (parts, numbers))
+        yield formula(load_name(name), *sides, work.quantity(found.value, found.unit))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from icsolve.case import AlongRope, Force, Joint, Load, Number, Pin, Rope, Weight
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry
@@ -50,7 +52,7 @@ def _rope(reading: Reading, node: Mapping) -> Rope | None:
         entry.refuse(node.items["rope"].mark, said)
         names = None
     v = entry.read("rope")
-    if names is None or v["on"] is None:
+    if names is None or v["on"] is None or not entry.whole:
         return None
     none = (None,) * len(points)
     radii, wraps, mu, turns = (v[key] or none for key in ("radii", "wraps", "mu", "turns"))
@@ -86,8 +88,9 @@ def _by_place(entry: Entry, key: str, node: Node) -> tuple[Number | str | None, 
     if mapping is None:
         return None
     inner = Entry(entry.reading, mapping, f"{entry.path}.{key}", f"'{key}' of {entry.what}")
+    before = {*_places(entry, points, key)}
     for name, mark in mapping.keys.items():
-        if name not in points:
+        if name not in points and name not in before:
             entry.refuse(mark, f"{entry.what} does not run through {shown(name)}{suggestion(name, points)}")
 
     def read(at: str) -> Number | str | None:
@@ -97,6 +100,15 @@ def _by_place(entry: Entry, key: str, node: Node) -> tuple[Number | str | None, 
 
     found = {name: read(name) for name in mapping.items if name in points}
     return tuple(found.get(point) for point in points)
+
+
+def _places(entry: Entry, points: tuple[str, ...], until: str) -> Iterator[str]:
+    """The names in the mappings of a rope that stand before another: of each it is told once."""
+    for key, node in entry.node.items.items():
+        if key == until:
+            return
+        if key in entry.keys and entry.keys[key].form in FORMS and type(node) is Mapping:
+            yield from node.items
 
 
 FORMS = {"links of a rope": _links, "sizes": _by_place, "senses": _by_place, "numbers": _by_place}

@@ -43,6 +43,11 @@ def structure(top: Topology) -> str:
     """No joint lets anything move: moving links, the freedoms that the joints take, and the slides that keep
     a link of several joints from turning, where a roller may be meant."""
     bodies = len(top.members) - 1
+    if not bodies:
+        return (
+            "no link moves: all of them are welded to the frame, or locked. Let a joint turn or slide; or "
+            "give every load a number, and its reactions are found by statics."
+        )
     held = [
         f"The slide at {bond.joint.at} keeps links {listed(bond.links)} from turning against each other: "
         "where a pin or a roller of one runs along the other, it is a `slot`. "
