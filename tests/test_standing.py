@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from itertools import pairwise
 from pathlib import Path
 from random import Random
@@ -12,9 +13,11 @@ from random import Random
 import pytest
 
 import icsolve
+import rough_scenes as rs
 import standing
 from icsolve.solve.stability import holding_values
 from icsolve.sweep.numbers import find_number, with_numbers
+from rough_scenes import Rough
 from shell import Shell
 from sizes import FULL
 
@@ -49,6 +52,39 @@ def test_bars_hang_askew_as_far_as_their_pins_rub(part: int) -> None:
             assert icsolve.solve(icsolve.load(text)).holds_still is (spare > 0.0), (text, spare)
             seen.append(spare > 0.0)
     assert {True, False} == set(seen)
+
+
+ALIKE = [
+    [rs.block, rs.wedge, rs.capstan, rs.ladder, rs.crate, rs.table, rs.crank],
+    *([rs.ratchet, rs.brake], [rs.screw], [rs.band]),
+]
+"""Kinds whose scenes are in the same units."""
+
+
+@pytest.mark.parametrize("kinds", ALIKE, ids=lambda kinds: kinds[0].__name__)
+@pytest.mark.parametrize("part", range(10 if FULL else 1))
+def test_two_scenes_side_by_side_hold_where_both_do(
+    kinds: list[Callable[[Random], Rough]], part: int
+) -> None:
+    """Blocks, ladders, ropes that slip, screws, brakes, cranks on rough pins: of two freedoms together, they
+    hold if each does by the range of its load. Loads are in and beside these ranges."""
+    dice = Random(f"two {kinds[0].__name__} {part}")
+    for _ in range(10):
+        texts, each = [], []
+        for rough in (dice.choice(kinds)(dice) for _ in range(2)):
+            low, high = -100.0, 100.0
+            with suppress(icsolve.SceneError):  # no value holds
+                ends = icsolve.solve(rough.case("unknown")).answers["F"].holds or (0.0, 0.0)
+                low, high = (
+                    end if math.isfinite(end) else side * 100.0
+                    for end, side in zip(ends, (-1, 1), strict=True)
+                )
+            load = f"{low + dice.choice((0.2, 0.5, 0.9, 1.3)) * (high - low):.4f}"
+            each.append(icsolve.solve(rough.case(load)).holds_still)
+            texts.append(rough.text.replace("LOAD", load))
+        answer = icsolve.solve(icsolve.load(standing.side_by_side(texts)))
+        assert None not in each
+        assert answer.holds_still is all(each), texts
 
 
 @pytest.mark.parametrize("part", range(20 if FULL else 2))
