@@ -4,6 +4,7 @@ where some friction within its limits balances them, and contacts push."""
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from contextlib import suppress
 from itertools import pairwise
@@ -314,6 +315,35 @@ def test_a_range_of_rubbing_guides_has_no_gap_in_it_and_is_told_whole(
                 end = least if value < least else most
                 between = [one for one in answer.friction.again if min(end, value) <= one <= max(end, value)]
                 assert between, (text, value, answer.answers)
+
+
+@pytest.mark.parametrize("part", range(20 if FULL else 3))
+def test_known_loads_in_another_range_hold_too(part: int) -> None:
+    """A rod in two slots that much friction holds over several ranges of its one load that has a number: in
+    the middle of each, and 1e-3 within and beyond their ends, what is given holds or slips as the cone of
+    what the joints can do says, but where friction may have been left the other way round."""
+    dice, again = Random(f"again {part}"), 0
+    for _ in range(60):
+        text = re.sub("  L1: .*\n", "", standing.rod(dice))  # a torque
+        last = text.rindex("force: 1,")
+
+        def case(load: str, text: str = text, last: int = last) -> icsolve.Case:
+            return icsolve.load(f"{text[:last]}force: {load},{text[last + 9 :]}")
+
+        answer = icsolve.solve(case("unknown"))
+        if not answer.friction.again:
+            continue
+        (found,) = answer.answers.values()
+        ends = sorted({end for end in (*found.holds, *answer.friction.again) if math.isfinite(end)})
+        size = max(map(abs, ends))
+        least, most = answer.friction.possible
+        values = [end + side * 1e-3 * size for end in (ends[0], *ends, ends[-1]) for side in (-1.0, 1.0)]
+        for value in (*values, *(0.5 * (a + b) for a, b in pairwise(ends))):
+            if found.holds[0] <= value <= found.holds[1] or not least <= value <= most:
+                given = case(repr(value))
+                assert icsolve.solve(given).holds_still is (standing.off(given) <= 1e-9), (text, value)
+                again += 1
+    assert again > 0
 
 
 @pytest.mark.parametrize("angle", [90, -90])
