@@ -10,6 +10,7 @@ from random import Random
 from typing import Any
 
 import numpy as np
+import yaml
 
 import equilibrium
 import rubbing
@@ -288,3 +289,33 @@ def most_spare(case: c.Case, cuts: int = 121, zooms: int = 12) -> float:
             spare = np.minimum(spare, place.limit * pressing - np.abs(forces[:, a.shape[1] + k]))
         middle, best, reach = grid[int(spare.argmax())], max(best, float(spare.max())), 0.4 * reach
     return best / float(np.abs(b).max())
+
+
+def side_by_side(texts: list[str]) -> str:
+    """Several scenes of one kind of units as one case: points, links and loads of each under names of their
+    own, the frame in common."""
+    whole: dict[str, Any] = {"icsolve": 1, "points": {}, "lengths": {}, "angles": {}, "near": {}}
+    whole |= {"joints": [], "loads": {}}
+    for n, text in enumerate(texts):
+        one = yaml.load(text, Loader=yaml.BaseLoader)
+
+        def renamed(value: Any, key: str = "", n: int = n) -> Any:
+            if isinstance(value, dict):
+                named = key in ("radii", "wraps", "turns", "mu")
+                return {f"{k}{n}" if named else k: renamed(v, k) for k, v in value.items()}
+            if isinstance(value, list) and key not in ("at", "slope"):
+                return [renamed(v, key) for v in value]
+            if key in ("link", "on", "pin", "slide", "contact") and value != "1":
+                return f"k{n}{value}"
+            if key == "screw":
+                return value if value == "1" else "-".join(renamed(v, "link") for v in value.split("-"))
+            return f"{value}{n}" if key in ("at", "rope", "centroid", "through") else value
+
+        for section in ("points", "near", "loads"):
+            whole[section] |= {f"{k}{n}": renamed(v) for k, v in one.get(section, {}).items()}
+        for section in ("lengths", "angles"):
+            pairs = one.get(section, {}).items()
+            whole[section] |= {"-".join(f"{p}{n}" for p in k): v for k, v in pairs}
+        whole["joints"] += [renamed(joint) for joint in one["joints"]]
+        whole |= {"units": one["units"]} if "units" in one else {}
+    return str(yaml.dump(whole, sort_keys=False)).replace("'", "")

@@ -4,7 +4,9 @@ where some friction within its limits balances them, and contacts push."""
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
+from contextlib import suppress
 from itertools import pairwise
 from pathlib import Path
 from random import Random
@@ -12,9 +14,11 @@ from random import Random
 import pytest
 
 import icsolve
+import rough_scenes as rs
 import standing
 from icsolve.solve.stability import holding_values
 from icsolve.sweep.numbers import find_number, with_numbers
+from rough_scenes import Rough
 from shell import Shell
 from sizes import FULL
 
@@ -49,6 +53,39 @@ def test_bars_hang_askew_as_far_as_their_pins_rub(part: int) -> None:
             assert icsolve.solve(icsolve.load(text)).holds_still is (spare > 0.0), (text, spare)
             seen.append(spare > 0.0)
     assert {True, False} == set(seen)
+
+
+ALIKE = [
+    [rs.block, rs.wedge, rs.capstan, rs.ladder, rs.crate, rs.table, rs.crank],
+    *([rs.ratchet, rs.brake], [rs.screw], [rs.band]),
+]
+"""Kinds whose scenes are in the same units."""
+
+
+@pytest.mark.parametrize("kinds", ALIKE, ids=lambda kinds: kinds[0].__name__)
+@pytest.mark.parametrize("part", range(10 if FULL else 1))
+def test_two_scenes_side_by_side_hold_where_both_do(
+    kinds: list[Callable[[Random], Rough]], part: int
+) -> None:
+    """Blocks, ladders, ropes that slip, screws, brakes, cranks on rough pins: of two freedoms together, they
+    hold if each does by the range of its load. Loads are in and beside these ranges."""
+    dice = Random(f"two {kinds[0].__name__} {part}")
+    for _ in range(10):
+        texts, each = [], []
+        for rough in (dice.choice(kinds)(dice) for _ in range(2)):
+            low, high = -100.0, 100.0
+            with suppress(icsolve.SceneError):  # no value holds
+                ends = icsolve.solve(rough.case("unknown")).answers["F"].holds or (0.0, 0.0)
+                low, high = (
+                    end if math.isfinite(end) else side * 100.0
+                    for end, side in zip(ends, (-1, 1), strict=True)
+                )
+            load = f"{low + dice.choice((0.2, 0.5, 0.9, 1.3)) * (high - low):.4f}"
+            each.append(icsolve.solve(rough.case(load)).holds_still)
+            texts.append(rough.text.replace("LOAD", load))
+        answer = icsolve.solve(icsolve.load(standing.side_by_side(texts)))
+        assert None not in each
+        assert answer.holds_still is all(each), texts
 
 
 @pytest.mark.parametrize("part", range(20 if FULL else 2))
@@ -278,6 +315,35 @@ def test_a_range_of_rubbing_guides_has_no_gap_in_it_and_is_told_whole(
                 end = least if value < least else most
                 between = [one for one in answer.friction.again if min(end, value) <= one <= max(end, value)]
                 assert between, (text, value, answer.answers)
+
+
+@pytest.mark.parametrize("part", range(20 if FULL else 3))
+def test_known_loads_in_another_range_hold_too(part: int) -> None:
+    """A rod in two slots that much friction holds over several ranges of its one load that has a number: in
+    the middle of each, and 1e-3 within and beyond their ends, what is given holds or slips as the cone of
+    what the joints can do says, but where friction may have been left the other way round."""
+    dice, again = Random(f"again {part}"), 0
+    for _ in range(60):
+        text = re.sub("  L1: .*\n", "", standing.rod(dice))  # a torque
+        last = text.rindex("force: 1,")
+
+        def case(load: str, text: str = text, last: int = last) -> icsolve.Case:
+            return icsolve.load(f"{text[:last]}force: {load},{text[last + 9 :]}")
+
+        answer = icsolve.solve(case("unknown"))
+        if not answer.friction.again:
+            continue
+        (found,) = answer.answers.values()
+        ends = sorted({end for end in (*found.holds, *answer.friction.again) if math.isfinite(end)})
+        size = max(map(abs, ends))
+        least, most = answer.friction.possible
+        values = [end + side * 1e-3 * size for end in (ends[0], *ends, ends[-1]) for side in (-1.0, 1.0)]
+        for value in (*values, *(0.5 * (a + b) for a, b in pairwise(ends))):
+            if found.holds[0] <= value <= found.holds[1] or not least <= value <= most:
+                given = case(repr(value))
+                assert icsolve.solve(given).holds_still is (standing.off(given) <= 1e-9), (text, value)
+                again += 1
+    assert again > 0
 
 
 @pytest.mark.parametrize("angle", [90, -90])

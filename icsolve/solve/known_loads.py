@@ -49,12 +49,11 @@ def asked_of(case: Case, path: str = "") -> AskedLoad | None:
     """Where a mechanism under known loads holds still as written, by one load; None where none does work.
 
     First that whose number has this ``path`` is asked, then the others; where none of its own does work, one
-    more. Where it may hold again beyond the range of one, another is asked.
+    more.
 
     Raises SceneError where no load says.
     """
     case = replace(case, motion=(), expect=())
-    outside: AskedLoad | None = None
     refusal: SceneError | None = None
     for one, load, number in _one_unknown(case, path):
         if not _works(SaidCase(smooth(one))):
@@ -63,18 +62,15 @@ def asked_of(case: Case, path: str = "") -> AskedLoad | None:
         try:
             said = SaidCase(one)
             held = _held(said, load.name, not varied)
-            if not held.low <= value <= held.high and math.isinf(held.high - held.low):
+            if not held.low <= value <= held.high:
                 held = _held(said, load.name, False)
         except SceneError as error:
             refusal = error
             continue
-        found = AskedLoad(load, value, held)
-        if held.low <= value <= held.high or not held.again:
-            return found
-        outside = outside or found
-    if refusal is not None and outside is None:
+        return AskedLoad(load, value, held)
+    if refusal is not None:
         raise refusal
-    return outside
+    return None
 
 
 UNPROVEN = 1e-9
@@ -91,9 +87,15 @@ def moving_loads(case: Case, path: str = "") -> Held:
     found = None
     with suppress(SceneError):
         found = asked_of(case, path)
-    if found is None:
+    if found is None or _beyond(found):
         return _of_all(replace(case, motion=(), expect=()))
     return Held(found.held.low - found.value, found.held.high - found.value, found.held.error)
+
+
+def _beyond(found: AskedLoad) -> bool:
+    """Whether the load is outside of its range and may hold again there: all loads at once say."""
+    low, high, _, again, _ = found.held
+    return bool(again) and not low <= found.value <= high
 
 
 def spare_friction(held: Held) -> Spare:
@@ -236,8 +238,8 @@ def _at_rest(case: Case) -> tuple[bool | None, str]:
     what = f"{_named(found.load)} {reach}"
     if low <= found.value <= high:
         return True, f"{HOLDS} So it does with {what}.{jams and ' But '}{jams}"
-    if again:
-        return None, OPEN.format(f"it holds with {what}, and may beyond.")
+    if again and standing(replace(case, expect=())).depth >= 0.0:
+        return True, f"{HOLDS} So it does with {what}, and here beyond that."
     return False, f"{SLIPS} It would hold with {what}." if low <= high else SLIPS
 
 
