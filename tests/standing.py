@@ -15,6 +15,7 @@ import yaml
 import equilibrium
 import rubbing
 from icsolve import case as c
+from icsolve.numbers.replay import Array
 from reference import frame_of, points_of
 
 
@@ -163,11 +164,11 @@ def off_the_cone(generators: Any, right: Any) -> float:
     return float(np.linalg.norm(right - generators @ x) / np.linalg.norm(right))
 
 
-def off(case: c.Case, grown: float = 1.0) -> float:
-    """How far the loads are from those that the joints can balance, friction within ``grown`` times its
-    limits: of contacts, guides (either sense of each) and smooth pins."""
+def with_friction(case: c.Case) -> tuple[Array, Array, Array, list[rubbing.Place]]:
+    """The equations of the free bodies, (3 bodies, forces), what the frictions add, (3 bodies, rubs), the
+    loads, and the rubs."""
     points = points_of(case)
-    frame, places = frame_of(case, points), rubbing.places_of(case, points)
+    places = rubbing.places_of(case, points)
     a, b, _ = equilibrium.equations(case, points)
     row = {link: 3 * k for k, link in enumerate(link for link in case.links if link != case.ground)}
     friction = np.zeros((len(b), len(places)))
@@ -175,6 +176,14 @@ def off(case: c.Case, grown: float = 1.0) -> float:
         for link, sign in ((place.on, 1.0), (place.by, -1.0)):
             if link in row:
                 friction[row[link] : row[link] + 3, k] += sign * place.wrench
+    return a, friction, b, places
+
+
+def off(case: c.Case, grown: float = 1.0) -> float:
+    """How far the loads are from those that the joints can balance, friction within ``grown`` times its
+    limits: of contacts, guides (either sense of each) and smooth pins."""
+    points = points_of(case)
+    frame, (a, friction, b, places) = frame_of(case, points), with_friction(case)
     rough = {int(np.flatnonzero(place.force[0])[0]): k for k, place in enumerate(places)}
     pushing, column = set(), 0
     for joint in case.joints:
@@ -263,21 +272,13 @@ def most_spare(case: c.Case, cuts: int = 121, zooms: int = 12) -> float:
     """How far the worst friction of a case of rough pins is from its limit where it is farthest, over the
     largest load: the two frictions that equilibrium leaves open are tried on grids, each about the best place
     of the one before."""
-    points = points_of(case)
-    frame, places = frame_of(case, points), rubbing.places_of(case, points)
-    a, b, _ = equilibrium.equations(case, points)
-    row = {link: 3 * k for k, link in enumerate(link for link in case.links if link != case.ground)}
-    friction = np.zeros((len(b), len(places)))
-    for k, place in enumerate(places):
-        for link, sign in ((place.on, 1.0), (place.by, -1.0)):
-            if link in row:
-                friction[row[link] : row[link] + 3, k] += sign * place.wrench
+    a, friction, b, places = with_friction(case)
     whole = np.hstack([a, friction])
     first = np.linalg.lstsq(whole, b, rcond=1e-12)[0]
     assert np.allclose(whole @ first, b, atol=1e-9 * np.abs(b).max())
     _, sizes, turns = np.linalg.svd(whole)
     open_ = turns[len(sizes) :].T
-    assert open_.shape[1] == 2 and frame.size > 0.0
+    assert open_.shape[1] == 2
     middle, reach, best = np.zeros(2), 30.0 * np.abs(b).max(), -math.inf
     for _ in range(zooms):
         steps = np.linspace(-reach, reach, cuts)
