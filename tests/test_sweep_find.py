@@ -297,6 +297,19 @@ def test_a_value_beside_the_limit_of_a_group_is_found(link: int, beside: float) 
     assert [spot.at for spot in peaks[0]] == [pytest.approx(spot.at, rel=1e-12) for spot in peaks[1]]
 
 
+@pytest.mark.parametrize("beside", [0.05, 1e-3, 1e-5])
+def test_a_value_beside_a_limit_is_found_with_friction(beside: float) -> None:
+    """The same of a rocker whose crank rubs, by scenes: at 90 degrees its links are in line."""
+    text = ROCKER.replace("at: A}", "at: A, mu: 0.2, radius: 0.1}") + "motion: {link: 4, turns: ccw}\n"
+    text = text.replace("torque: 5, link: 2", "torque: 5, link: 3").replace(
+        "unknown, link: 4", "unknown, link: 2"
+    )
+    case = icsolve.load(text)
+    value = icsolve.sweep(case, {"angles.DC": [90.0 + beside]}).answers["T"][0]
+    spots = find(case, {"angles.DC": np.array([50.3, 130.0])}, Query("value", "T", value))
+    assert 90.0 + beside in [pytest.approx(spot.at, abs=1e-9) for spot in spots]
+
+
 @pytest.mark.parametrize("side", [2.0, -0.5])
 def test_a_change_point_of_a_group_is_told_as_the_rows_tell_it(side: float) -> None:
     """A plate whose bars let it go on through the position in which they are parallel."""
