@@ -298,6 +298,42 @@ def test_a_value_beside_the_limit_of_a_group_is_found(link: int, beside: float) 
     assert [spot.at for spot in peaks[0]] == [pytest.approx(spot.at, rel=1e-12) for spot in peaks[1]]
 
 
+@pytest.mark.parametrize("beside", [1e-3, 1e-5, 1e-8])
+def test_a_value_beside_the_limit_of_two_rods_behind_a_group_is_found(beside: float) -> None:
+    """Two rods on a plate that three bars hold are in line at 88.3 degrees."""
+    starts = zip(((0, 0), (3, 0), (0, 4)), (-3, 5, -1), strict=True)
+    b, d, e = ((px - n * 3, py - n * 4) for (px, py), n in starts)
+    text = PLATE.format(b=b, low=b[1] - 5, d=d, e=e, bars=[15, 25, 5], turned=88.0)
+    rows = icsolve.sweep(icsolve.load(text), {"angles.AB": [88.0, 88.3]}, want=("points",))
+    away, (x, y) = rows.points["F"][1] - rows.points["F"][0], rows.points["F"][1]
+    far = 10.0 * away / np.hypot(*away)
+    text = text.replace("A: [", f"K: [{x - far[0]}, {y - far[1]}], A: [").replace(
+        "AB: 5", "AB: 5, FH: 4, KH: 6"
+    )
+    near = (x - 0.5 * far[0] - 0.1 * far[1], y - 0.5 * far[1] + 0.1 * far[0])
+    text = text.replace("near: {", f"near: {{H: [{near[0]}, {near[1]}], ")
+    text = text.replace(
+        "at: E}]", "at: E}, {pin: [3, 7], at: F}, {pin: [7, 8], at: H}, {pin: [8, 1], at: K}]"
+    )
+    case = icsolve.load(text.replace("unknown, link: 2", "unknown, link: 8"))
+    value = icsolve.sweep(case, {"angles.AB": [88.3 - beside]}).answers["T"][0]
+    spots = find(case, {"angles.AB": np.array([85.3, 89.1])}, Query("value", "T", value))
+    assert 88.3 - beside in [pytest.approx(spot.at, abs=1e-9) for spot in spots]
+
+
+@pytest.mark.parametrize("beside", [0.05, 1e-3, 1e-5])
+def test_a_value_beside_a_limit_is_found_with_friction(beside: float) -> None:
+    """The same of a rocker whose crank rubs, by scenes: at 90 degrees its links are in line."""
+    text = ROCKER.replace("at: A}", "at: A, mu: 0.2, radius: 0.1}") + "motion: {link: 4, turns: ccw}\n"
+    text = text.replace("torque: 5, link: 2", "torque: 5, link: 3").replace(
+        "unknown, link: 4", "unknown, link: 2"
+    )
+    case = icsolve.load(text)
+    value = icsolve.sweep(case, {"angles.DC": [90.0 + beside]}).answers["T"][0]
+    spots = find(case, {"angles.DC": np.array([50.3, 130.0])}, Query("value", "T", value))
+    assert 90.0 + beside in [pytest.approx(spot.at, abs=1e-9) for spot in spots]
+
+
 @pytest.mark.parametrize("side", [2.0, -0.5])
 def test_a_change_point_of_a_group_is_told_as_the_rows_tell_it(side: float) -> None:
     """A plate whose bars let it go on through the position in which they are parallel."""

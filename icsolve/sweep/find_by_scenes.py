@@ -1,8 +1,9 @@
 """Positions where each row is a scene of its own: with friction, on cam profiles, in families one by one.
 
 There is no record to bound over whole cells: the range is searched at many places, more closely toward its
-ends, each change between two of them is closed in on, and a note says so. What is closed in on counts where
-rows with proven bounds show it: signs on both sides of a value, less on both sides of a peak.
+ends and toward limits, each change between two of them is closed in on, and a note says so. What is closed
+in on counts where rows with proven bounds show it: signs on both sides of a value, less on both sides of a
+peak.
 """
 
 from __future__ import annotations
@@ -34,6 +35,9 @@ ASIDE = math.sqrt(2.0) / 16.0
 instant, the value of neither side: it would make a peak beside it, or hide one."""
 RINGS, CLOSER = 8, 0.125
 """Toward each end so many more, each this many times as far from it as the one before."""
+WITHIN, ROUNDS = 7, 10
+"""Between a place where the links assemble and the next, where they do not, so many more, and so many times
+over between the last such two: beside a limit an answer runs like the root of the distance."""
 SEARCHED, APART = 48, 4
 """The same where points of the figure are searched for at each: every so-manyth first, and those between only
 beside one that assembles."""
@@ -228,8 +232,8 @@ class Scenes:
 
     def _first(self) -> tuple[Array, Codes]:
         """What is seen at the places, which are all, or those that are worth a search, and at rings toward
-        the ends, so that what turns in the first or the last stretch is seen to; where the answer is largest
-        at an end, a step beyond it."""
+        the ends and limits, so that what turns in the first or the last stretch is seen to; where the answer
+        is largest at an end, a step beyond it."""
         kept = np.arange(len(self.places)) % (APART if self.searched else 1) == 0
         found, codes = np.full(len(kept), np.nan), np.zeros(len(kept), dtype=np.int8)
         found[kept], codes[kept] = self._swept(self.places[kept])[:2]
@@ -248,6 +252,18 @@ class Scenes:
             beyond = self._beyond(k, near, found) if self.query.kind == "max" else None
             rings = np.setdiff1d(self.places[k] + inward, self.places)
             more.append((rings, self._swept(rings)) if beyond is None else beyond)
+        found, codes = self._joined(found, codes, more)
+        for _ in range(ROUNDS if self.query.kind != "dead" and not self.searched else 0):
+            gone = np.isin(codes, MISSES)
+            last = np.flatnonzero((gone[1:] != gone[:-1]) & (np.diff(self.places) > self.width))
+            if not last.size or self.scenes > 0.75 * MOST_SCENES:
+                break
+            at = np.linspace(self.places[last], self.places[last + 1], WITHIN + 2)[1:-1].ravel()
+            found, codes = self._joined(found, codes, [(at, self._swept(at))])
+        return found, codes
+
+    def _joined(self, found: Array, codes: Codes, more: list[tuple[Array, SeenRows]]) -> tuple[Array, Codes]:
+        """What is seen at the places and at more, which become places, in order."""
         places = np.concatenate([self.places, *(at for at, _ in more)])
         order = np.argsort(places)
         self.places = places[order]

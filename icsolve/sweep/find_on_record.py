@@ -125,6 +125,7 @@ class RangeSearch:
         self.notes: dict[str, None] = {}
         self.places: dict[Decimal, Values | None] = {}
         """the inputs at every place that was looked at, groups solved; None where these have no solution"""
+        self.edges: list[Decimal] | None = None
         low, high = map(as_written, self.ends)
         self.touches = sorted({s for s in self.along.touching(name) if low <= s <= high})
 
@@ -427,7 +428,7 @@ class RangeSearch:
         self, wanted: Sequence[Scalar], peaks: bool, first: float, last: float
     ) -> Iterator[tuple[Decimal, Decimal, int]]:
         """By the function and its slope at many places, toward a limit each half as far from it."""
-        limits = [s for s, _ in self._ends if first < s < last]
+        limits = [s for s in self._edges() if first < s < last]
         rings = (last - first) / PLACES * 0.5 ** np.arange(RINGS)
         beside = [float(limit) + np.r_[-rings, rings] for limit in limits]
         at = np.unique(np.concatenate([np.linspace(first, last, PLACES + 1), *beside]))
@@ -468,6 +469,13 @@ class RangeSearch:
     @cached_property
     def _ends(self) -> list[tuple[Decimal, float]]:
         return list(self._ends_of_groups())
+
+    def _edges(self) -> list[Decimal]:
+        """All limits; while those beside the ends of groups are looked for, these."""
+        if self.edges is None:
+            self.edges = [s for s, _ in self._ends]
+            self.edges = [s for s, _ in self._limits()]
+        return self.edges
 
     def _ends_of_groups(self) -> Iterator[tuple[Decimal, float]]:
         """Where groups are followed no further: about where by doubles, which stop short of it and are let on
