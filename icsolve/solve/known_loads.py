@@ -93,9 +93,10 @@ def moving_loads(case: Case, path: str = "") -> Held:
 
 
 def _beyond(found: AskedLoad) -> bool:
-    """Whether the load is outside of its range and may hold again there: all loads at once say."""
+    """Whether the load is outside of its range, and past where it may hold again: all loads at once say."""
     low, high, _, again, _ = found.held
-    return bool(again) and not low <= found.value <= high
+    past = (found.value <= a < low or high < a <= found.value for a in again)
+    return low <= high and any(past)
 
 
 def spare_friction(held: Held) -> Spare:
@@ -233,12 +234,12 @@ def _at_rest(case: Case) -> tuple[bool | None, str]:
         if depth < 0.0:
             return False, SLIPS
         return True, f"{HOLDS} {SHARED}" if shared else HOLDS
-    low, high, _, again, jams = found.held
+    low, high, _, _, jams = found.held
     reach = reach_of((low, high), unit_of(found.load, case), lambda end: f"{end + 0.0:.6g}", None)
     what = f"{_named(found.load)} {reach}"
     if low <= found.value <= high:
         return True, f"{HOLDS} So it does with {what}.{jams and ' But '}{jams}"
-    if again and standing(replace(case, expect=())).depth >= 0.0:
+    if _beyond(found) and standing(replace(case, expect=())).depth >= 0.0:
         return True, f"{HOLDS} So it does with {what}, and here beyond that."
     return False, f"{SLIPS} It would hold with {what}." if low <= high else SLIPS
 
