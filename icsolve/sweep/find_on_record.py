@@ -383,7 +383,7 @@ class RangeSearch:
             whole, points = cells.run(mid, half)
             there, inside = np.ones((2, len(mid)), dtype=bool)
             for radicand in whole[len(nodes) :]:
-                there &= ~(radicand.value.mid + radicand.value.rad < 0.0)
+                there &= ~(radicand.value.mid < -radicand.value.rad)
                 inside &= radicand.value.excludes_zero
             for one in whole[: len(nodes)]:
                 inside &= np.isfinite(one.second.mid) & np.isfinite(one.second.rad)
