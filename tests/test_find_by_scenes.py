@@ -243,9 +243,15 @@ motion: {{point: B, link: 2, speed: 1, angle: {way}}}
 
 
 @pytest.mark.parametrize(
-    ("mu", "touches"), [(0.09, True), (0.05, False), *([(0.1, True), (0.3, True)] * FULL)]
+    ("mu", "touches", "way"),
+    [
+        *((0.09, True, 0), (0.05, False, 180)),
+        *(
+            [(0.09, True, 180), (0.05, False, 0), *((mu, True, way) for mu in (0.1, 0.3) for way in (0, 180))]
+            * FULL
+        ),
+    ],
 )
-@pytest.mark.parametrize("way", [0, 180])
 def test_where_a_load_on_a_screw_changes_its_sense_the_torque_is_zero(
     mu: float, touches: bool, way: int
 ) -> None:

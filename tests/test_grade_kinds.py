@@ -22,6 +22,7 @@ from icsolve.grade.platforms.export import ExportOrder, questions
 from icsolve.grade.platforms.questions import rights
 from icsolve.grade.written.answer import Reader
 from icsolve.wording.statement import Statement
+from sizes import FULL
 
 BAR = """\
 icsolve: 1
@@ -276,7 +277,7 @@ STUCK_BY = 0.2 * math.sin(math.atan(0.3))
 """The radius of the friction circle, within which the line of P has to pass."""
 
 
-@pytest.mark.parametrize("degrees", [0, 70, 178, 350])
+@pytest.mark.parametrize("degrees", [70, 178, *([0, 350] * FULL)])
 def test_ranges_of_rest_are_angles_too(a_class: Class, degrees: int) -> None:
     """Either range is right, in any turn and however it is named, and no other arc; so it is asked for."""
     text = STUCK.replace("{unknown: [-179, 179], from: 0}", "unknown")

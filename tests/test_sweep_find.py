@@ -27,6 +27,7 @@ from icsolve.sweep.exact import CONTEXT
 from icsolve.sweep.find_on_record import Query, RangeSearch, find
 from icsolve.sweep.path_tracking import PathTracker
 from library import FILES, sample
+from sizes import FULL
 from test_sweep_status import FOUR_BAR, PARALLELOGRAM, SLIDER_CRANK
 
 mp.dps = 60
@@ -282,8 +283,10 @@ def test_the_limit_of_a_group_is_told_to_the_last_digit(x: int, y: int, bars: An
         assert abs(limit.at - 90.0) <= limit.error <= 2e-14, (span, limit)
 
 
-@pytest.mark.parametrize("link", [5, 6])
-@pytest.mark.parametrize("beside", [0.03, 1e-3, 1e-5, 1e-8])
+@pytest.mark.parametrize(
+    ("link", "beside"),
+    [(5, 0.03), (6, 1e-3), (5, 1e-5), (6, 1e-8), *([(6, 0.03), (5, 1e-3), (6, 1e-5), (5, 1e-8)] * FULL)],
+)
 def test_a_value_beside_the_limit_of_a_group_is_found(link: int, beside: float) -> None:
     """A rocker that a group of three bars and a plate turns: however near to its limit, where all runs like
     the root of the distance, a load that it has there is found there."""
