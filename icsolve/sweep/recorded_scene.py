@@ -478,7 +478,8 @@ def velocities(scene: RecordedScene, found: motion.Motions) -> Iterator[tuple[tu
             if not isinstance(told, str):
                 yield spot, told
         return
-    twists = {link: _in_time(scene, found)(t) for link, (t,) in found.twists.items()}
+    per = _in_time(scene, found)
+    twists = {link: per(t) for link, (t,) in found.twists.items()}
     largest = largest_of([x for t in twists.values() for x in t])
     for point, link in _carried(scene):
         yield (point, link), _shown(scene, velocity(twists[link], scene.points[point]), largest)
