@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -335,6 +336,16 @@ def test_rows_at_once_are_the_scenes_one_by_one(monkeypatch: pytest.MonkeyPatch,
     for key, array in alone.centres.items():
         across = np.cross(together.centres[key], array)
         np.testing.assert_allclose(across, 0.0, atol=1e-9 * np.abs(array).max() ** 2)
+
+
+@pytest.mark.parametrize("name", ROWS)
+def test_a_turn_of_a_cam_is_on_the_record(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    """Scenes are those rows alone in which a follower turns round, or in a dwell: at most 5 of 142."""
+    solved: list[object] = []
+    scenes, one = import_module("icsolve.sweep.scenes"), import_module("icsolve.sweep.scenes")._one
+    monkeypatch.setattr(scenes, "_one", lambda *all: (solved.append(all), one(*all))[1])
+    sweep(ROWS[name], drive={"2": np.arange(-175.0, 180.0, 2.5)})
+    assert len(solved) <= 5
 
 
 def test_rows_of_a_dwell_with_friction_have_their_answers() -> None:

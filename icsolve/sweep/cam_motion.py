@@ -339,8 +339,8 @@ class Rows:
                 normal = (
                     rested.normal if follow.seeking.touch.links[0] == follow.seeking.cam else -rested.normal
                 )
-                columns = np.hstack([rested.point, normal])[part.rows].T
-                by_name |= dict(zip(contact.inputs, columns, strict=True))
+                columns = np.hstack([normal, rested.point])[part.rows].T
+                by_name |= dict(zip(contact.inputs, columns, strict=False))
             found = runner.run({k: by_name[name] for name, k in compiled.inputs.items()}, len(part.rows))
             values = values or runner.blank(len(sure))
             for key, array in found.values.items():

@@ -304,8 +304,8 @@ def _along(v: Point, given: Motion) -> float:
 
 class RestingContact(NamedTuple):
     """A contact whose place and normal every row tells for itself: where it stands among the joints, the
-    contact as written, and its place there (case units); of a roller the centre, and how far the contact is
-    from it along the normal."""
+    contact as written, and its place there (case units); of a roller, of which the normal tells the place,
+    the centre, and how far the contact is from it along the normal."""
 
     place: int
     joint: Contact
@@ -314,8 +314,8 @@ class RestingContact(NamedTuple):
 
     @property
     def inputs(self) -> tuple[str, ...]:
-        """The names of the inputs: x and y, and those of the unit normal."""
-        return tuple(f"{self.joint.at} {part}" for part in ("x", "y", "across", "up"))
+        """The names of the inputs: those of the unit normal, and x and y where it does not tell the place."""
+        return tuple(f"{self.joint.at} {part}" for part in ("across", "up", "x", "y")[: 2 if self.roller else 4])
 
 
 def rested(scene: RecordedScene, contacts: Sequence[RestingContact], inputs: dict[str, int]) -> RecordedScene:
@@ -326,16 +326,16 @@ def rested(scene: RecordedScene, contacts: Sequence[RestingContact], inputs: dic
     ox, oy, scale = scene.frame
     for contact in contacts:
         own = contact.joint
-        c, s = turn_of(own.normal.value + TILT)
-        at = contact.at
-        if contact.roller is not None:  # the record is made beside the position as written
-            (x, y), off = scene.points[contact.roller[0]], contact.roller[1]
-            at = (float(x) / scale + ox + off * c, float(y) / scale + oy + off * s)
-        written = (*at, c, s)
-        nodes = [record.input(name, v) for name, v in zip(contact.inputs, written, strict=True)]
+        written = (*turn_of(own.normal.value + TILT), *contact.at)  # the record is made beside it
+        nodes = [record.input(name, v) for name, v in zip(contact.inputs, written, strict=False)]
         inputs |= {name: node.index for name, node in zip(contact.inputs, nodes, strict=True)}
-        points[own.at] = ((nodes[0] - ox) * scale, (nodes[1] - oy) * scale)
-        normal = record.direct(own.normal, (nodes[2], nodes[3]))
+        c, s, *place = nodes
+        if contact.roller is not None:
+            (x, y), off = scene.points[contact.roller[0]], contact.roller[1] * scale
+            points[own.at] = (x + off * c, y + off * s)
+        else:
+            points[own.at] = ((place[0] - ox) * scale, (place[1] - oy) * scale)
+        normal = record.direct(own.normal, (c, s))
         joints.insert(contact.place, own._replace(normal=normal))
     case = replace(scene.case, joints=tuple(joints))
     return scene._replace(case=case, top=topology(case), points=points)
