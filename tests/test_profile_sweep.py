@@ -11,13 +11,14 @@ import numpy as np
 import pytest
 
 from cams import HEAD, sliding, swinging, table
-from icsolve.case import Case, Motion
+from icsolve.case import Case, Inertia, Motion
 from icsolve.errors import SceneError, Status
 from icsolve.read import load
 from icsolve.solve import solve
 from icsolve.sweep import cam_sweep, sweep
 from icsolve.sweep.cam_sweep import SAID
 from icsolve.sweep.numbers import with_numbers
+from made import number
 from sizes import FULL
 
 E, R, ROLLER = 20.0, 40.0, 10.0
@@ -338,14 +339,44 @@ def test_rows_at_once_are_the_scenes_one_by_one(monkeypatch: pytest.MonkeyPatch,
         np.testing.assert_allclose(across, 0.0, atol=1e-9 * np.abs(array).max() ** 2)
 
 
-@pytest.mark.parametrize("name", ROWS)
-def test_a_turn_of_a_cam_is_on_the_record(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
-    """Scenes are those rows alone in which a follower turns round, or in a dwell: at most 5 of 142."""
-    solved: list[object] = []
+@pytest.fixture
+def solved(monkeypatch: pytest.MonkeyPatch) -> list[object]:
+    """The rows that were solved as scenes."""
+    every: list[object] = []
     scenes, one = import_module("icsolve.sweep.scenes"), import_module("icsolve.sweep.scenes")._one
-    monkeypatch.setattr(scenes, "_one", lambda *all: (solved.append(all), one(*all))[1])
+    monkeypatch.setattr(scenes, "_one", lambda *all: (every.append(all), one(*all))[1])
+    return every
+
+
+@pytest.mark.parametrize("name", ROWS)
+def test_a_turn_of_a_cam_is_on_the_record(solved: list[object], name: str) -> None:
+    """Scenes are those rows alone in which a follower turns round, or in a dwell: at most 5 of 142."""
     sweep(ROWS[name], drive={"2": np.arange(-175.0, 180.0, 2.5)})
     assert len(solved) <= 5
+
+
+@pytest.mark.parametrize("name", ROWS)
+def test_a_turn_of_a_cam_with_inertia_forces_is_on_the_record(
+    monkeypatch: pytest.MonkeyPatch, solved: list[object], name: str
+) -> None:
+    """By the curvature of the cam in each row: velocities, accelerations and answers are those of the scenes,
+    to rounding."""
+    follower = "3" if "B" in ROWS[name].carries["3"] or "arm" in name else "4"
+    given = Motion("2", number("30"), acceleration=number("7"))
+    mass = Inertia(number("2"), point_of(name), number("0.01"))
+    case = replace(ROWS[name], motion=(given,), inertia={follower: mass}, expect=())
+    turn, want = np.arange(-175.0, 180.0, 39.5), ("answers", "velocities", "accelerations", "status")
+    together = sweep(case, drive={"2": turn}, want=want, dynamic=True)
+    assert len(solved) <= 5
+    monkeypatch.setattr(cam_sweep, "_together", lambda _, part, *__: np.zeros(len(part.rows), dtype=bool))
+    alone = sweep(case, drive={"2": turn}, want=want, dynamic=True)
+    assert len(solved) >= len(turn)
+    assert (together.status == alone.status).all() and together.notes == alone.notes
+    for kind in ("answers", "velocities", "accelerations", "angular_accelerations"):
+        assert together.kinds[kind].keys() == alone.kinds[kind].keys()
+        largest = max(np.abs(array).max() for array in alone.kinds[kind].values())
+        for key, array in alone.kinds[kind].items():
+            np.testing.assert_allclose(together.kinds[kind][key], array, rtol=1e-11, atol=1e-12 * largest)
 
 
 def test_rows_of_a_dwell_with_friction_have_their_answers() -> None:

@@ -93,8 +93,8 @@ class JointKind:
         return None
 
     @property
-    def curvature(self) -> tuple[Number | None, Number | None] | None:
-        """The radii of curvature of links that slip on one another, where profiles tell (None: straight)."""
+    def curvature(self) -> tuple[Radius, Radius] | None:
+        """The radii of curvature of links that slip on one another, where profiles tell."""
         return None
 
     @cached_property
@@ -322,12 +322,24 @@ class Slot(_Slot, Guided):
         return CentreAt(self.at, self.links[0]), CentreSquareTo(self.guide, self.links[1])
 
 
+class RadiusOfRow(NamedTuple):
+    """The radius of curvature of a profile where each row of a sweep touches it: ``above / below``, of which
+    ``below`` is 0 where it is straight."""
+
+    above: Number
+    below: Number
+
+
+Radius = Number | RadiusOfRow | None
+"""A radius of curvature (None: straight)."""
+
+
 class _Contact(NamedTuple):
     links: tuple[str, str]
     at: str
     normal: Number
     friction: Friction | None = None
-    radii: tuple[Number | None, Number | None] | None = None
+    radii: tuple[Radius, Radius] | None = None
 
 
 class Contact(_Contact, Sliding):
@@ -343,7 +355,7 @@ class Contact(_Contact, Sliding):
         return CentreAt(self.at), CentreToward(self.normal)
 
     @property
-    def curvature(self) -> tuple[Number | None, Number | None] | None:
+    def curvature(self) -> tuple[Radius, Radius] | None:
         """Where profiles place it."""
         return self.radii
 

@@ -13,8 +13,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from icsolve.assembly.workspace import PlacedCase
-from icsolve.case import Joint, Motion, Number, Rope
-from icsolve.case.joints import CentreAt, JointCentre, JointKind, Mesh, Rolling
+from icsolve.case import Joint, Motion, Rope
+from icsolve.case.joints import CentreAt, JointCentre, JointKind, Mesh, Radius, RadiusOfRow, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import LOOSE, NO_SPEED, fastest, meant, path_of, speed_of
 from icsolve.numbers.arithmetic import Scalar, all_vanish, decider, largest_of
@@ -286,7 +286,7 @@ def _moved(v: Point) -> Triple:
 
 
 def _contact(
-    place: PlacedCase, twists: Twists, joint: Joint, radii: tuple[Number | None, ...], normal: Point
+    place: PlacedCase, twists: Twists, joint: Joint, radii: tuple[Radius, ...], normal: Point
 ) -> tuple[Triple, ...]:
     """How the point and the normal of a contact move, by the radii r, s of curvature of the two links (None:
     straight).
@@ -298,8 +298,7 @@ def _contact(
     """
     assert joint.at is not None
     (one, two), p = joint.links, place.points[joint.at]
-    given, scale = place.arithmetic.given, place.frame.scale
-    (a, b), (c, d) = ((1.0, 0.0) if r is None else (given(r) * scale, 1.0) for r in radii)
+    (a, b), (c, d) = (_fraction(place, radius) for radius in radii)
     nx, ny = normal
     tx, ty = 0.0 - ny, nx
     (vx, vy), (ux, uy) = velocity(twists[one], p), velocity(twists[two], p)
@@ -311,6 +310,16 @@ def _contact(
     turning = (b * d * slip + b * c * o + a * d * w) / whole
     on = (a * d * slip + a * c * (o - w)) / whole
     return (vx + on * tx, vy + on * ty, 0.0), (turning * tx, turning * ty, 0.0)
+
+
+def _fraction(place: PlacedCase, radius: Radius) -> tuple[Scalar, Scalar]:
+    """What a radius of curvature [frame] is the ratio of; the second is 0 where it is straight."""
+    given, scale = place.arithmetic.given, place.frame.scale
+    if radius is None:
+        return 1.0, 0.0
+    if isinstance(radius, RadiusOfRow):
+        return given(radius.above) * scale, given(radius.below)
+    return given(radius) * scale, 1.0
 
 
 def _normal(place: PlacedCase, joint: Rolling) -> Point:

@@ -43,7 +43,7 @@ from icsolve.numbers.replay import Array
 from icsolve.scene.refusals import rubs
 from icsolve.sweep.branches import signs_of
 from icsolve.sweep.exact import CONTEXT, as_written, hides
-from icsolve.sweep.first_contact import FirstContact, FirstContacts, Mask
+from icsolve.sweep.first_contact import FirstContact, FirstContacts, Mask, radius_ratio
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recorded_scene import RestingContact
 from icsolve.sweep.request import Columns
@@ -141,11 +141,16 @@ class Follow(NamedTuple):
         place = whole.points[hidden]
         assert isinstance(place, Coordinates) and place.x is not None and place.y is not None
         touch, follower = self.seeking.touch, self.seeking.follower
+        cam = touch.links.index(self.seeking.cam)
         roller = None
         if isinstance(follower, Roller):
-            off = -1.0 if touch.links[0] == self.seeking.cam else 1.0
+            off = -1.0 if cam == 0 else 1.0
             roller = (follower.at, off * follower.radius.value)
-        return RestingContact(touch.place, joint, (place.x.value, place.y.value), roller)
+        assert joint.radii is not None
+        at, bend = (place.x.value, place.y.value), joint.radii[cam]
+        ends = (bend.value, 1.0) if isinstance(bend, Number) else (1.0, 0.0)
+        above, below = radius_ratio(np.array(ends[0]), np.array(ends[1]), self.curve.size).tolist()
+        return RestingContact(touch.place, joint, at, cam, (above, below), roller)
 
     def contact(self, case: Case, pose: LinkPose, met: Candidate) -> Touching:
         """A row's contact; raises SceneError where there is no one."""
@@ -319,6 +324,8 @@ class Rows:
             the others are to be solved one by one.
         """
         sure = np.logical_and.reduce([one.sure & one.within for one in self.rested]) & (self.codes == 0)
+        if asked.dynamic:
+            sure &= np.logical_and.reduce([np.isfinite(one.radius).all(axis=1) for one in self.rested])
         contacts = tuple(follow.resting(self.course.whole) for follow in self.course.follows)
         start = self.work.start._replace(asked=asked._replace(contacts=contacts))
         values: dict[Key, Array] = {}
@@ -339,7 +346,7 @@ class Rows:
                 normal = (
                     rested.normal if follow.seeking.touch.links[0] == follow.seeking.cam else -rested.normal
                 )
-                columns = np.hstack([normal, rested.point])[part.rows].T
+                columns = np.hstack([normal, rested.radius, rested.point])[part.rows].T
                 by_name |= dict(zip(contact.inputs, columns, strict=False))
             found = runner.run({k: by_name[name] for name, k in compiled.inputs.items()}, len(part.rows))
             values = values or runner.blank(len(sure))

@@ -49,6 +49,8 @@ class FirstContacts(NamedTuple):
     normal : unit normal there, from the cam into the follower, (n, 2)
     sure : in which rows this is decided, (n,); the others are left to `contact_candidates`
     centre : of the arc well within which it touches, (n, 2) [case length]; not a number on other pieces
+    radius : of the curvature of the cam there, as `radius_ratio`, (n, 2); not a number where the next piece
+        has another
     within : in which rows it touches well within a piece, (n,), or the normal is the same on the next
     """
 
@@ -57,6 +59,7 @@ class FirstContacts(NamedTuple):
     normal: Array
     sure: Mask
     centre: Array
+    radius: Array
     within: Mask
 
 
@@ -138,10 +141,10 @@ class FirstContact:
                 return np.asarray((x - px) * dy - (y - py) * dx)
             return np.asarray((x - qx) ** 2 + (y - qy) ** 2 - square)
 
-        x, y, nx, ny, closed, centre, within = line.closed(chord, miss)
+        x, y, nx, ny, closed, centre, radius, within = line.closed(chord, miss)
         by, _ = self._way(at, guide, x, y, nx, ny)
         point = np.stack([x - line.radius * nx, y - line.radius * ny], axis=1)
-        return FirstContacts(by, point, np.stack([nx, ny], axis=1), sure & closed, centre, within)
+        return FirstContacts(by, point, np.stack([nx, ny], axis=1), sure & closed, centre, radius, within)
 
     def _grazed(self, off: Array, guide: Array) -> Mask:
         """Rows in which the way may pass twice through the piece over one chord, whose ends lie to one side
@@ -208,11 +211,12 @@ class FirstContact:
     def _face_shifted(self, at: Array, face: Array, along: Array) -> FirstContacts:
         (px, py), (fx, fy), (dx, dy) = at, face, along
         wx, wy = -self.side * fy, self.side * fx
-        x, y, sure, centre = self.line.farthest(wx, wy)
+        x, y, sure, centre, radius = self.line.farthest(wx, wy)
         rate = wx * dx + wy * dy
         by = -((px - x) * wx + (py - y) * wy) / rate
         sure &= (np.sign(rate) == self.sense) & (np.abs(rate) > CLOSE)
-        return FirstContacts(by, np.stack([x, y], axis=1), np.stack([wx, wy], axis=1), sure, centre, sure)
+        point, normal = np.stack([x, y], axis=1), np.stack([wx, wy], axis=1)
+        return FirstContacts(by, point, normal, sure, centre, radius, sure)
 
     def _face_turned(self, at: Array, face: Array, about: Array) -> FirstContacts:
         """A face on an arm: by the angle of its normal, the gap is the arm's less the profile's reach."""
@@ -230,14 +234,14 @@ class FirstContact:
         angle = angle[chosen] if len(angle) else np.full(rows, np.nan)
         for _ in range(NEWTON):
             c, s = np.cos(angle), np.sin(angle)
-            x, y, smooth, centre = self.line.farthest(c, s)
+            x, y, smooth, centre, radius = self.line.farthest(c, s)
             step = (own + c * (qx - x) + s * (qy - y)) / (c * (qy - y) - s * (qx - x))
             angle = angle - step
             if np.nanmax(np.abs(step), initial=0.0) <= AT_ONE:
                 break
         sure &= (np.abs(step) <= 1e3 * AT_ONE) & smooth
-        normal = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        return FirstContacts(_wrapped(angle - start), np.stack([x, y], axis=1), normal, sure, centre, sure)
+        point, normal = np.stack([x, y], axis=1), np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        return FirstContacts(_wrapped(angle - start), point, normal, sure, centre, radius, sure)
 
 
 def _outer(a: Array, b: Array) -> Array:
@@ -258,6 +262,9 @@ class _Line:
     def __init__(self, curve: Curve, radius: float) -> None:
         self.radius, self.size = radius, curve.size
         self.pieces = list(_pieces(curve, radius > 0.0))
+        # a roller rolls about a corner on a piece of its own
+        corners = [not radius and curve.foot(k, 1.0).is_corner for k in range(len(self.pieces))]
+        self.corners = np.array(corners)
         counts = [piece.chords() for piece in self.pieces]
         self.u = np.concatenate([np.arange(n + 1) / n for n in counts])
         self.piece = np.repeat(np.arange(len(counts)), np.array(counts) + 1)
@@ -288,9 +295,9 @@ class _Line:
 
     def closed(
         self, chord: Which, miss: Callable[[Array, Array], Array]
-    ) -> tuple[Array, Array, Array, Array, Mask, Array, Mask]:
+    ) -> tuple[Array, Array, Array, Array, Mask, Array, Array, Mask]:
         """Where a function of the place vanishes on a chord of each row: x, y, nx, ny, and where it does,
-        (rows,) each [frame]; the centres of the arcs there, (rows, 2); and ``within`` of `FirstContacts`.
+        (rows,) each [frame]; and ``centre``, ``radius`` and ``within`` of `FirstContacts`.
         """
         first = self.first[chord]
         pieces = self.piece[first]
@@ -301,7 +308,7 @@ class _Line:
 
         u, there = _zero(value, self.u[first], self.u[first + 1])
         within = np.asarray(self.whole[pieces] | (self.radius > 0.0) | ((u > AT_END) & (u < 1.0 - AT_END)))
-        return (*self.at(pieces, u), there, self.centres(pieces, u), within)
+        return (*self.at(pieces, u), there, self.centres(pieces, u), self.radii(pieces, u), within)
 
     def centres(self, pieces: Which, u: Array) -> Array:
         """The centres of the arcs well within which places lie, (rows, 2); not a number elsewhere."""
@@ -310,9 +317,20 @@ class _Line:
         found[~((u > AT_END) & (u < 1.0 - AT_END))] = np.nan
         return found
 
-    def farthest(self, wx: Array, wy: Array) -> tuple[Array, Array, Mask, Array]:
+    def radii(self, pieces: Which, u: Array) -> Array:
+        """``radius`` of `FirstContacts` on the profile itself; at a corner 0."""
+        found = np.empty((len(u), 2))
+        for k in np.unique(pieces).tolist():
+            some, piece = pieces == k, self.pieces[k]
+            found[some] = _bend(piece, u[some], self.size)
+        at_end = ~self.whole[pieces] & ((u <= AT_END) | (u >= 1.0 - AT_END))
+        corner = ((u == 0.0) & self.corners[pieces - 1]) | ((u == 1.0) & self.corners[pieces])
+        found[at_end] = np.where(corner[at_end, None], (0.0, 1.0), np.nan)
+        return found
+
+    def farthest(self, wx: Array, wy: Array) -> tuple[Array, Array, Mask, Array, Array]:
         """Where the profile reaches farthest in a direction, x and y [frame], and in which rows at one place
-        only, (rows,) each; and the centres of the arcs there, (rows, 2).
+        only, (rows,) each; and ``centre`` and ``radius`` of `FirstContacts`.
         """
         if not self.whole.any():
             return self._farthest_of_pieces(wx, wy)
@@ -322,9 +340,10 @@ class _Line:
         x, y, _, _ = self.at(self.piece[best], u)
         far = (self.x - x[:, None]) ** 2 + (self.y - y[:, None]) ** 2 > (0.05 * self.size) ** 2
         level = reach > (reach.max(axis=1) - self.rise - CLOSE**1.5 * self.size)[:, None]
-        return x, y, sure & ~(far & level).any(axis=1), self.centres(self.piece[best], u)
+        own = self.piece[best]
+        return x, y, sure & ~(far & level).any(axis=1), self.centres(own, u), self.radii(own, u)
 
-    def _farthest_of_pieces(self, wx: Array, wy: Array) -> tuple[Array, Array, Mask, Array]:
+    def _farthest_of_pieces(self, wx: Array, wy: Array) -> tuple[Array, Array, Mask, Array, Array]:
         """The same for straight lines and arcs, of each the farthest place."""
         every = np.empty((4, len(self.pieces), len(wx)))
         for k, piece in enumerate(self.pieces):
@@ -339,7 +358,7 @@ class _Line:
         x, y, u, reach = every[:, best, rows]
         apart = np.hypot(every[0] - x, every[1] - y) > MEETING * self.size
         level = every[3] > reach - CLOSE**2 * self.size
-        return x, y, ~(apart & level).any(axis=0), self.centres(best, u)
+        return x, y, ~(apart & level).any(axis=0), self.centres(best, u), self.radii(best, u)
 
     def _turned(self, best: Which, wx: Array, wy: Array) -> tuple[Array, Mask]:
         """Where the normal has a direction, near a sample of each row; the sample where it has not."""
@@ -384,7 +403,7 @@ def _at(piece: Piece, u: Array, out: float) -> Array:
             sign * s,
         )
     else:
-        r, slope = _radius(piece.radius, piece.turn * u * TURN)
+        r, slope, _ = _radius(piece.radius, piece.turn * u * TURN)
         slope = slope * piece.turn
         c, s = np.cos(piece.zero + u * TURN), np.sin(piece.zero + u * TURN)
         x, y, size = piece.about[0] + r * c, piece.about[1] + r * s, np.hypot(r, slope)
@@ -392,8 +411,24 @@ def _at(piece: Piece, u: Array, out: float) -> Array:
     return np.stack([x + out * nx, y + out * ny, nx, ny])
 
 
-def _radius(by: Spline, angle: Array) -> Vectors:
-    """Values of a spline and its slopes, as `Spline.at`."""
+def radius_ratio(above: Array, below: Array, size: float) -> Array:
+    """A radius of curvature as the ratio of two numbers, (n, 2) [case length, 1], of which the second is 0
+    where it is straight; neither is large or small beside a size."""
+    pair = np.stack([above, below], axis=-1)
+    return np.asarray(pair * (size / (np.abs(above) + size * np.abs(below)))[..., None])
+
+
+def _bend(piece: Piece, u: Array, size: float) -> Array:
+    """Radii of curvature on a piece, as its ``radius_at``."""
+    if isinstance(piece, PolarPiece):
+        r, slope, bend = _radius(piece.radius, piece.turn * u * TURN)
+        return radius_ratio(np.hypot(r, slope) ** 3, 2.0 * slope**2 + r * (r - bend), size)
+    radius, one = piece.radius_at(0.5), np.ones(len(u))
+    return radius_ratio(one, 0.0 * one, size) if radius is None else radius_ratio(radius * one, one, size)
+
+
+def _radius(by: Spline, angle: Array) -> tuple[Array, Array, Array]:
+    """Values of a spline, its slopes and their slopes, as `Spline.at`."""
     places, values, bends = (np.array(row) for row in (by.places, by.values, by.bends))
     x = places[0] + (angle - places[0]) % by.period
     k = np.minimum(np.searchsorted(places, x, side="right"), len(places)) - 1
@@ -403,7 +438,7 @@ def _radius(by: Spline, angle: Array) -> Vectors:
     a = 1.0 - b
     value = a * values[k] + b * values[n] + ((a**3 - a) * bends[k] + (b**3 - b) * bends[n]) * h * h / 6.0
     bent = (3.0 * b * b - 1.0) * bends[n] - (3.0 * a * a - 1.0) * bends[k]
-    return value, (values[n] - values[k]) / h + bent * h / 6.0
+    return value, (values[n] - values[k]) / h + bent * h / 6.0, a * bends[k] + b * bends[n]
 
 
 def _zero(function: Callable[[Array], Array], low: Array, high: Array) -> tuple[Array, Mask]:

@@ -33,7 +33,7 @@ from icsolve.case import (
     is_named,
     ordered_pair,
 )
-from icsolve.case.joints import Guided, Mesh
+from icsolve.case.joints import Guided, Mesh, Radius, RadiusOfRow
 from icsolve.errors import SceneError
 from icsolve.kinematics import accelerations, motion, speeds
 from icsolve.kinematics.accelerations import Moving
@@ -303,19 +303,35 @@ def _along(v: Point, given: Motion) -> float:
 
 
 class RestingContact(NamedTuple):
-    """A contact whose place and normal every row tells for itself: where it stands among the joints, the
-    contact as written, and its place there (case units); of a roller, of which the normal tells the place,
-    the centre, and how far the contact is from it along the normal."""
+    """A contact whose place and normal every row tells for itself, and the cam's radius of curvature there.
+
+    Attributes
+    ----------
+    place : where it stands among the joints
+    joint, at : the contact as written, and its place there [case units]
+    cam, radius : which of its links is the cam; its radius of curvature there, a ratio
+    roller : of a roller, of which the normal tells the place, the centre, and how far the contact is from it
+        along the normal
+    """
 
     place: int
     joint: Contact
     at: Point
+    cam: int
+    radius: tuple[float, float]
     roller: tuple[str, float] | None = None
 
     @property
     def inputs(self) -> tuple[str, ...]:
-        """The names of the inputs: those of the unit normal, and x and y where it does not tell the place."""
-        return tuple(f"{self.joint.at} {part}" for part in ("across", "up", "x", "y")[: 2 if self.roller else 4])
+        """The names of the inputs: those of the unit normal and of the radius, `RadiusOfRow`; x and y where
+        the normal does not tell the place."""
+        parts = ("across", "up", "above", "below", "x", "y")[: 4 if self.roller else 6]
+        return tuple(f"{self.joint.at} {part}" for part in parts)
+
+    @property
+    def written(self) -> tuple[float, ...]:
+        """Values of the inputs beside the position as written."""
+        return (*turn_of(self.joint.normal.value + TILT), *self.radius, *self.at)
 
 
 def rested(scene: RecordedScene, contacts: Sequence[RestingContact], inputs: dict[str, int]) -> RecordedScene:
@@ -326,17 +342,20 @@ def rested(scene: RecordedScene, contacts: Sequence[RestingContact], inputs: dic
     ox, oy, scale = scene.frame
     for contact in contacts:
         own = contact.joint
-        written = (*turn_of(own.normal.value + TILT), *contact.at)  # the record is made beside it
-        nodes = [record.input(name, v) for name, v in zip(contact.inputs, written, strict=False)]
+        nodes = [record.input(name, v) for name, v in zip(contact.inputs, contact.written, strict=False)]
         inputs |= {name: node.index for name, node in zip(contact.inputs, nodes, strict=True)}
-        c, s, *place = nodes
+        c, s, above, below, *place = nodes
         if contact.roller is not None:
             (x, y), off = scene.points[contact.roller[0]], contact.roller[1] * scale
             points[own.at] = (x + off * c, y + off * s)
         else:
             points[own.at] = ((place[0] - ox) * scale, (place[1] - oy) * scale)
         normal = record.direct(own.normal, (c, s))
-        joints.insert(contact.place, own._replace(normal=normal))
+        assert own.radii is not None
+        radii: list[Radius] = list(own.radii)
+        numbers = (Number(0.0, 0.0, name, "0") for name in contact.inputs[2:4])
+        radii[contact.cam] = RadiusOfRow(*map(record.stand, numbers, (above, below)))
+        joints.insert(contact.place, own._replace(normal=normal, radii=(radii[0], radii[1])))
     case = replace(scene.case, joints=tuple(joints))
     return scene._replace(case=case, top=topology(case), points=points)
 
@@ -386,12 +405,13 @@ def motions_of(scene: RecordedScene, wanted: Collection[int] | None = None) -> m
 
 def moving(scene: RecordedScene, found: motion.Motions) -> Moving | None:
     """The given motion of every row with its accelerations, as one scene has them; None where that takes a
-    scene of its own: where a given speed or an acceleration is open in a row, or joints are redundant."""
+    scene of its own: where a given speed is open in a row, or inertia forces, or joints are redundant."""
     given, top, record = scene.case.motion, scene.top, scene.record
-    if len(given) != found.mobility or found.redundant or found.slack or any(m.speed is None for m in given):
+    within = 0 < len(given) <= found.mobility
+    if not within or found.redundant or found.slack or any(m.speed is None for m in given):
         return None
     try:
-        if len(given) > 1:
+        if found.mobility > 1:
             speeds_vary = any(varies(record.given(m.speed)) for m in given if m.speed is not None)
             open_ = speeds_vary or any(m.point is not None for m in given)
             moves = None if open_ else accelerations.moving(scene.place, found.twists)
