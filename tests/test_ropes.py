@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections import Counter
 from decimal import localcontext
+from importlib import import_module
 from itertools import combinations, pairwise, product
 from pathlib import Path
 from random import Random
@@ -17,7 +19,7 @@ from mpmath import mp, mpf
 
 import icsolve
 from icsolve.answer import Answer
-from icsolve.case import Force, Number, Rope
+from icsolve.case import Case, Force, Number, Rope
 from icsolve.errors import CaseError, SceneError
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.ropes import rope_parts
@@ -751,6 +753,49 @@ def test_a_rope_that_goes_slack_on_the_way_says_so_in_its_rows() -> None:
     rows = icsolve.sweep(case, {"loads.W": np.array([-50.0, 50.0])})
     assert rows.status.tolist() == ["slack", "ok"]
     assert np.isnan(rows.answers["T"][0])
+
+
+def rope_rows(seed: int) -> tuple[Case, list[dict[str, Any]]]:
+    """A case of `roped`, and rows of it: some that move it, ends drawn into their pulleys among them, and
+    some of a load that turns round."""
+    case, rng = icsolve.load("icsolve: 1\n" + roped(seed)), Random(seed)
+    turns = np.array(sorted(rng.uniform(-1, 1) * 10 ** rng.uniform(-4, 1.6) for _ in range(8)))
+    loads = np.array([rng.uniform(-60, 60) for _ in range(6)])
+    return case, [{"drive": {"2": turns}}, {"vary": {f"loads.{case.loads[0].name}": loads}}]
+
+
+WHOLE = ("answers", "status", "points", "rates", "velocities")
+
+
+def test_rows_of_ropes_are_on_the_record_and_are_the_scenes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Rows in which every rope pulls are no scenes of their own; statuses are those of the scenes, numbers to
+    1e-9. A row in which an end has come into its pulley does not assemble."""
+    scenes, start = (import_module(f"icsolve.sweep.{name}") for name in ("scenes", "start"))
+    one, hides, solved_alone = scenes._one, start.Start.hides, []
+    monkeypatch.setattr(scenes, "_one", lambda *all: (solved_alone.append(all), one(*all))[1])
+    told: Counter[str] = Counter()
+    for seed in (*range(20 * MORE), 130, 233):
+        case, every = rope_rows(seed)
+        for rows in every:
+            monkeypatch.setattr(start.Start, "hides", hides)
+            try:
+                found = icsolve.sweep(case, want=WHOLE, **rows)
+            except SceneError:
+                continue
+            assert len(solved_alone) <= (found.status != "ok").sum(), seed
+            monkeypatch.setattr(start.Start, "hides", True)
+            alone = icsolve.sweep(case, want=WHOLE, **rows)
+            told.update(alone.status.tolist())
+            solved_alone.clear()
+            assert found.status.tolist() == alone.status.tolist(), seed
+            good = alone.status == "ok"
+            for kind in WHOLE[:1] + WHOLE[2:] if good.any() else ():
+                for key, array in alone.kinds[kind].items():
+                    room = 1e-9 * np.abs(array[good]).max()
+                    np.testing.assert_allclose(
+                        found.kinds[kind][key][good], array[good], rtol=1e-9, atol=room
+                    )
+    assert min(told[word] for word in ("ok", "slack", "cannot-assemble")) >= 2
 
 
 def test_the_last_part_of_a_rope_keeps_its_direction_in_a_motion() -> None:

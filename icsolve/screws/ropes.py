@@ -11,7 +11,7 @@ does no work.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 
 from icsolve.case import Rope
@@ -101,6 +101,16 @@ def part_between(
     x, y, moment = force_wrench(u, (ax, ay))
     links = (*rope.links, "")
     return RopePart((links[k], links[k + 1]), at, u, length, (x, y, moment + offset), offset)
+
+
+def part_rooms(rope: Rope, points: Points, scale: float, arithmetic: Arithmetic) -> Iterator[Scalar]:
+    """The squared lengths of straight parts beside a circle [frame^2]: where one is negative an end has come
+    into its pulley, or two pulleys overlap."""
+    circles = zip((points[p] for p in rope.points), offsets_of(rope, scale, arithmetic), strict=True)
+    for ((ax, ay), offset), ((bx, by), next_offset) in pairwise(circles):
+        x, y, between = bx - ax, by - ay, next_offset - offset
+        if type(between) is not float or between:
+            yield x * x + y * y - between * between
 
 
 def offsets_of(rope: Rope, scale: float, arithmetic: Arithmetic) -> tuple[Scalar, ...]:

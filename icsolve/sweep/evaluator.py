@@ -283,8 +283,7 @@ def limits_of(case: Case, own: Sequence[str]) -> list[tuple[int, NumberLimit]]:
 
 def _one_by_one(case: Case) -> bool:
     """Whether more is in the case than the record of a figure and its loads tells."""
-    bound = bool(case.ropes or case.screws)
-    return bound or rubs(case) or (case.profiles is not None and bool(case.profiles.touches))
+    return bool(case.screws) or rubs(case) or (case.profiles is not None and bool(case.profiles.touches))
 
 
 def _columns(names: Sequence[str], columns: Sequence[npt.ArrayLike]) -> tuple[list[Array], int]:
@@ -458,6 +457,7 @@ def _compiled(case: Case, names: Mapping[str, str], asked: RowRequest, gradients
     except SceneError:  # beside the case as written nothing moves: it does so by exact data alone
         return None
     alone = compiled.refusal is not None or compiled.delicate or compiled.idle or hides(compiled)
+    alone = alone or bool(case.ropes and not compiled.taut)
     return None if alone else _Compiled(compiled, asked, names, gradients)
 
 

@@ -25,6 +25,7 @@ from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.numbers.record import Record, Root, Traced, live, varies
 from icsolve.scene import refusals
 from icsolve.screws.plane import Point
+from icsolve.screws.ropes import part_rooms
 from icsolve.statics.load_wrenches import counted_about, points_of, spring_angle
 from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import (
@@ -129,8 +130,8 @@ class CompiledSweep(NamedTuple):
     margins: tuple[int, ...] = ()
     """of the figure as written, where it is another in each row, and of ropes: none may be negative"""
     fits: tuple[int, ...] = ()
-    """of the teeth of a pitch that vary, or whose pivots do, of angles that repeat other data, and of given
-    motions: where one is negative they may not fit"""
+    """of the teeth of a pitch that vary, or whose pivots do, of angles that repeat other data, of given
+    motions, and the pulls of ropes: where one is negative they may not fit"""
     senses: tuple[int, ...] = ()
     """those of angles: where one is negative its arm points the other way"""
     delicate: bool = False
@@ -147,6 +148,8 @@ class CompiledSweep(NamedTuple):
     """what was taken as zero in the sums of power, though doubles do not show it"""
     dynamic: bool = False
     """whether inertia forces are among the loads"""
+    taut: bool = False
+    """whether the rows tell that every rope pulls"""
     untold: bool = False
     """whether they are asked for, and only a scene of its own tells them, or what is asked beside"""
 
@@ -338,6 +341,10 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
     if motion is not None:
         scene = moved_scene(motion)
         margins += motion.margins
+    if case.ropes:
+        every = (part_rooms(rope, scene.points, frame.scale, scene.record) for rope in scene.case.ropes)
+        rooms = tuple(room.index for rope in every for room in rope if varies(room))
+        margins, fits = (margins + rooms, fits) if motion is not None else (margins, fits + rooms)
     scene = rested(scene, asked.contacts, inputs)
     outputs, found = _outputs(scene, asked)
     compiled = CompiledSweep(
@@ -361,6 +368,11 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
         delicate=found.delicate, idle=found.idle, cancels=found.cancels, spent=found.spent, fits=fits
     )
     rubs = asked.answers and refusals.rubs(case)
+    if case.ropes and found.answers and not rubs:
+        pulls = pressing(scene, found).pulls or (0.0,)
+        taut = all(varies(pull) or float(pull) > 0.0 for pull in pulls)
+        fits += tuple(pull.index for pull in pulls if varies(pull))
+        compiled = compiled._replace(taut=taut, fits=fits)
     if asked.dynamic:
         untold = found.moves is None or asked.terms or rubs
         compiled = compiled._replace(dynamic=found.moves is not None, untold=untold)
@@ -470,5 +482,6 @@ def _outputs(
         if triple is not None:
             out["centres", f"{pair[0]}-{pair[1]}"] = triple
     if asked.contacts and found.answers:
-        out |= {("contact", at): (force,) for at, force in pressing(scene, found, asked.contacts)}
+        normals = pressing(scene, found, asked.contacts).contacts
+        out |= {("contact", at): (force,) for at, force in normals.items()}
     return out, found

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from typing import cast
 
 from icsolve.assembly.driven.constraints import ConditionRows
 from icsolve.assembly.driven.groups import as_written
@@ -44,7 +45,7 @@ from icsolve.screws.joints import freedoms, pitch_point
 from icsolve.screws.plane import Point, Triple, subtract, velocity
 from icsolve.statics import load_wrenches, power
 from icsolve.statics.equilibrium import equilibrium
-from icsolve.statics.reaction_basis import Position, ties_of
+from icsolve.statics.reaction_basis import Position, rope_ties, ties_of
 from icsolve.structure.plan import make_plan
 from icsolve.structure.topology import Topology, topology
 from icsolve.tuples import NamedTuple, replace
@@ -438,25 +439,42 @@ def _driven(scene: RecordedScene, twists: Mapping[str, Triple], more: Scalar) ->
     return given, (x / size, y / size), more * scene.frame.scale
 
 
+class Pressing(NamedTuple):
+    """Forces of one sense (scaled): the normal forces of contacts, by their points, of those that equilibrium
+    determines; the pulls of all ropes, None where it leaves one open."""
+
+    contacts: dict[str, Scalar]
+    pulls: tuple[Scalar, ...] | None
+
+
 def pressing(
-    scene: RecordedScene, found: RecordedStatics, contacts: Sequence[RestingContact]
-) -> Iterator[tuple[str, Scalar]]:
-    """The normal force of contacts (scaled), by their points; of those that equilibrium determines."""
-    position = Position(*scene.place, found.motions.twists)
+    scene: RecordedScene, found: RecordedStatics, contacts: Sequence[RestingContact] = ()
+) -> Pressing:
+    """What may only push or only pull, where unknown loads balance the others."""
+    position = Position(*scene.place, found.motions.twists, ropes=rope_ties(scene.place))
     loaded = {load.link for load in scene.case.loads if power.is_unknown(load)}
     # a follower's own equilibrium tells its force, that of the link with the unknown not in a dwell
     ties = sorted(ties_of(position), key=lambda tie: bool(loaded & {tie.by, tie.on}))
     solved = equilibrium(position, ties, found.balance)
     values = {solved.known: 1.0}
     values |= {solved.root(n): found.answers[name] * solved.scale for n, name in enumerate(solved.roots)}
+
+    def value(column: int) -> Scalar | None:
+        row, total = solved.general.of(column), cast(Scalar, 0.0)
+        for own, factor in row.items():
+            if own not in values:
+                return None
+            total = total + factor * values[own]
+        return total
+
+    normals = {}
     for contact in contacts:
         t = next(t for t, tie in enumerate(ties) if getattr(tie.joint, "at", None) == contact.joint.at)
-        row = solved.general.of(solved.first[t])
-        if all(column in values for column in row):
-            total: Scalar = 0.0
-            for column, factor in row.items():
-                total = total + factor * values[column]
-            yield contact.joint.at, total
+        normals[contact.joint.at] = value(solved.first[t])
+    pulls = [value(solved.tension(n)) for n in range(len(solved.ropes))]
+    known = [pull for pull in pulls if pull is not None]
+    told = {at: normal for at, normal in normals.items() if normal is not None}
+    return Pressing(told, tuple(known) if len(known) == len(pulls) else None)
 
 
 def motion_fits(scene: RecordedScene, found: RecordedStatics, *, sense: bool) -> tuple[int, ...]:

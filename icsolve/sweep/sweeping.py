@@ -92,7 +92,7 @@ def sweep(
     start = start_of(case, columns, told(case, wanted.asked))
     if start.one_by_one:
         return _family(start, columns, wanted, progress)
-    alone = case.ropes or start.hides
+    alone = start.hides or (case.ropes and not start.compiled().taut)
     if alone or (_rubs(case) and not _rubs_at_once(start, wanted)):
         return _by_scenes(start, columns, wanted, progress)
     return _together(start, columns, wanted, progress)
