@@ -436,7 +436,8 @@ def wanted_pairs(case: Case, want: Want) -> list[Pair]:
     against = {frozenset((load.link, load_wrenches.reacting(case, load))) for load in case.loads}
     if not (want.centres or want.examine):
         loaded = {load.link for load in case.loads} | {case.ground}
-        links = [link for link in links if link in loaded or any(link in pair for pair in against)]
+        told = loaded.union(*against)
+        links = [link for link in links if link in told]
     links.sort(key=lambda link: link_order(case, link))
     pairs = [(a, b) for n, a in enumerate(links) for b in links[n + 1 :]]
     if want.centres or want.examine:
