@@ -40,7 +40,7 @@ def test_rates_and_velocities_are_there_only_where_asked() -> None:
 
 
 BARS = """icsolve: 1
-points: {A: [0, 0], B: [1, 2], C: [4, 3], D: [6, 0], P: [-5.03, 0.04]}
+points: {A: [0, 0], B: [1, 2], C: [4, 3], D: [6, 0], P: [-5.3, 0.4]}
 joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}%s]
 loads: {M: {torque: 5, link: 4}, T: {torque: unknown, link: 2%s}}
 """
@@ -53,8 +53,8 @@ def test_the_centre_of_a_load_against_a_link_is_among_those_shown() -> None:
 
 
 def test_a_given_centre_off_its_place_is_told_with_its_distance() -> None:
-    """Line BC meets the line of the fixed pivots at (-5, 0), 0.05 from the given one, by 3-4-5."""
-    with pytest.raises(SceneError, match=r"centre 2-4 lies 0\.05 m from where the other centres and joints"):
+    """Line BC meets the line of the fixed pivots at (-5, 0), 0.5 from the given one, by 3-4-5."""
+    with pytest.raises(SceneError, match=r"centre 2-4 lies 0\.5 m from where the other centres and joints"):
         icsolve.solve(icsolve.load(BARS % (", {centre: [2, 4], at: P}", "")))
 
 
