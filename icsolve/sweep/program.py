@@ -369,10 +369,10 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
     )
     rubs = asked.answers and refusals.rubs(case)
     if case.ropes and found.answers and not rubs:
-        pulls = pressing(scene, found).pulls or (0.0,)
-        taut = all(varies(pull) or float(pull) > 0.0 for pull in pulls)
-        fits += tuple(pull.index for pull in pulls if varies(pull))
-        compiled = compiled._replace(taut=taut, fits=fits)
+        pulls = pressing(scene, found).pulls
+        if pulls is not None and all(varies(pull) or float(pull) > 0.0 for pull in pulls):
+            fits += tuple(pull.index for pull in pulls if varies(pull))
+            compiled = compiled._replace(taut=True, fits=fits)
     if asked.dynamic:
         untold = found.moves is None or asked.terms or rubs
         compiled = compiled._replace(dynamic=found.moves is not None, untold=untold)

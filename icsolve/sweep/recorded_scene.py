@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from typing import cast
 
 from icsolve.assembly.driven.constraints import ConditionRows
 from icsolve.assembly.driven.groups import as_written
@@ -460,8 +459,8 @@ def pressing(
     values |= {solved.root(n): found.answers[name] * solved.scale for n, name in enumerate(solved.roots)}
 
     def value(column: int) -> Scalar | None:
-        row, total = solved.general.of(column), cast(Scalar, 0.0)
-        for own, factor in row.items():
+        total: Scalar = 0.0
+        for own, factor in solved.general.of(column).items():
             if own not in values:
                 return None
             total = total + factor * values[own]
