@@ -297,7 +297,7 @@ def compile_sweep(setting: Setting, asked: RowRequest, signs: Signs = ()) -> Com
     refusal: SceneError | None = None
     for nudge in NUDGES:
         try:
-            compiled = _sheet(setting, asked, nudge, signs)
+            compiled = _compiled(setting, asked, nudge, signs)
         except (SceneError, ZeroDivisionError) as error:
             refusal = error if isinstance(error, SceneError) else refusal
             continue
@@ -312,7 +312,7 @@ def compile_sweep(setting: Setting, asked: RowRequest, signs: Signs = ()) -> Com
     )
 
 
-def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> CompiledSweep:
+def _compiled(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> CompiledSweep:
     case, frame = setting.case, setting.figure.frame
     inputs: dict[str, int] = {}
     margins: tuple[int, ...] = ()
@@ -361,18 +361,23 @@ def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> C
         senses,
         rests=bool(asked.contacts),
     )
-    if found is None:
-        return compiled
-    fits += motion_fits(scene, found, sense=asked.rates and not setting.moves)
-    compiled = compiled._replace(
-        delicate=found.delicate, idle=found.idle, cancels=found.cancels, spent=found.spent, fits=fits
-    )
+    return compiled if found is None else _with_statics(compiled, asked, found)
+
+
+def _with_statics(compiled: CompiledSweep, asked: RowRequest, found: RecordedStatics) -> CompiledSweep:
+    """What the statics of the rows tells of how they are to be run."""
+    scene, case, moves = compiled.scene, compiled.setting.case, compiled.setting.moves
     rubs = asked.answers and refusals.rubs(case)
-    if case.ropes and found.answers and not rubs:
-        pulls = pressing(scene, found).pulls
-        if pulls is not None and all(varies(pull) or float(pull) > 0.0 for pull in pulls):
-            fits += tuple(pull.index for pull in pulls if varies(pull))
-            compiled = compiled._replace(taut=True, fits=fits)
+    pulls = pressing(scene, found).pulls if case.ropes and found.answers and not rubs else None
+    fits = (*compiled.fits, *motion_fits(scene, found, sense=asked.rates and not moves))
+    compiled = compiled._replace(
+        delicate=found.delicate,
+        idle=found.idle,
+        cancels=found.cancels,
+        spent=found.spent,
+        fits=(*fits, *(pull.index for pull in pulls or () if varies(pull))),
+        taut=pulls is not None and all(varies(pull) or float(pull) > 0.0 for pull in pulls),
+    )
     if asked.dynamic:
         untold = found.moves is None or asked.terms or rubs
         compiled = compiled._replace(dynamic=found.moves is not None, untold=untold)
