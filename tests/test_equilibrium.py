@@ -31,6 +31,7 @@ from icsolve.errors import CaseError, SceneError
 from icsolve.manual import template
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import Record
+from icsolve.numbers.roots import zero_between
 from icsolve.report.derivation.known import known_of
 from icsolve.report.text import answer_text
 from icsolve.scene import solve_scene
@@ -333,6 +334,34 @@ def test_at_a_change_point_each_branch_has_its_own_stiffness() -> None:
     got = sorted((one.at["angles.AB"], one.stiffness.value) for one in found if one.stiffness is not None)
     for one, other in zip(got, sorted(expected), strict=True):
         assert one == pytest.approx(other, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("crank", "mass", "k", "free"), [(0.3, 12, 800, 0.2), (0.45, 3, 150, 0.5), (2, 40, 90, 1)]
+)
+def test_a_spring_whose_ends_meet_in_a_part_of_the_turn_has_its_positions_in_the_rest(
+    crank: float, mass: float, k: float, free: float
+) -> None:
+    """Bars alike, the block tied to the pivot: in one way to assemble it lies on the pivot, where the spring
+    has no direction; in the other, s = 2 L cos u, all zeros of V' are found (1e-9: those of floats)."""
+    loads = f"W: {{mass: {mass} kg, link: 2, at: G}}, S: {{spring: {k}, free: {free}, link: 3, at: C, to: A}}"
+    figure = BALANCED_ISOSCELES.replace("A: [0, 0]", "A: [0, 0], G: {{centroid: [A, B]}}")
+    weight = mass * 9.81 * crank / 2
+
+    def slope(u: float) -> float:
+        s = 2.0 * crank * math.cos(u)
+        return weight * math.cos(u) - k * (abs(s) - free) * 2.0 * crank * math.sin(u) * math.copysign(1.0, s)
+
+    turn = [(slope(u), u) for u in np.linspace(0.0, 2.0 * math.pi, 7919).tolist()]
+    expected = [
+        math.degrees(zero_between(slope, a, b, at_a, at_b))
+        for (at_a, a), (at_b, b) in pairwise(turn)
+        if at_a * at_b < 0.0 and math.cos(a) * math.cos(b) > 0.0
+    ]
+    for near in ("", f"near: {{C: [{1.6 * crank}, 0]}}"):
+        text = figure.format(crank=crank, rod=crank, angle="unknown", load=loads, near=near)
+        assert places(text) == pytest.approx(expected, abs=1e-9)
+    assert len(expected) >= 2
 
 
 def test_a_branch_that_balances_everywhere_is_said_and_the_others_are_listed() -> None:
