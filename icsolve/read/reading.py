@@ -240,6 +240,8 @@ def numbers(
 
 def quantity(reading: Reading, node: Scalar, text: str, dimension: str, path: str) -> Number | None:
     """As ``number``, of a text that may be a part of the node's."""
+    if text[:2] in ("0x", "0o") and re.fullmatch("0x[0-9A-Fa-f]+|0o[0-7]+", text):
+        text = str(int(text, 0))  # integers of YAML 1.2, too
     try:
         parts = split_quantity(text)
         if parts is None:
