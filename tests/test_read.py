@@ -380,10 +380,8 @@ def test_where_nothing_stands_there_is_no_name(empty: str) -> None:
         load(FOUR_BAR.replace("at: A}", f"at: {empty}}}", 1))
 
 
-NUMERALS = {
-    **{"1e3": 1000.0, "-.5": -0.5, "010": 10.0, "+5.": 5.0, "'7'": 7.0, "1.0E+2": 100.0, "−3": -3.0},
-    **{"0x1F": 31.0, "0o17": 15.0, "0x0": 0.0},
-}
+NUMERALS = {"1e3": 1000.0, "-.5": -0.5, "010": 10.0, "+5.": 5.0, "'7'": 7.0, "1.0E+2": 100.0, "−3": -3.0}
+NUMERALS |= {"0x1F": 31.0, "0o17": 15.0, "0x0": 0.0}
 
 
 @pytest.mark.parametrize("text", NUMERALS)
