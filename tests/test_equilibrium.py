@@ -31,6 +31,7 @@ from icsolve.errors import CaseError, SceneError
 from icsolve.manual import template
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import Record
+from icsolve.numbers.roots import zero_between
 from icsolve.report.derivation.known import known_of
 from icsolve.report.text import answer_text
 from icsolve.scene import solve_scene
@@ -333,6 +334,116 @@ def test_at_a_change_point_each_branch_has_its_own_stiffness() -> None:
     got = sorted((one.at["angles.AB"], one.stiffness.value) for one in found if one.stiffness is not None)
     for one, other in zip(got, sorted(expected), strict=True):
         assert one == pytest.approx(other, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("crank", "mass", "k", "free"), [(0.3, 12, 800, 0.2), (0.45, 3, 150, 0.5), (2, 40, 90, 1)]
+)
+def test_a_spring_whose_ends_meet_in_a_part_of_the_turn_has_its_positions_in_the_rest(
+    crank: float, mass: float, k: float, free: float
+) -> None:
+    """Bars alike, the block tied to the pivot: in one way to assemble it lies on the pivot, where the spring
+    has no direction; in the other, s = 2 L cos u, all zeros of V' are found (1e-9: those of floats)."""
+    loads = f"W: {{mass: {mass} kg, link: 2, at: G}}, S: {{spring: {k}, free: {free}, link: 3, at: C, to: A}}"
+    figure = BALANCED_ISOSCELES.replace("A: [0, 0]", "A: [0, 0], G: {{centroid: [A, B]}}")
+    weight = mass * 9.81 * crank / 2
+
+    def slope(u: float) -> float:
+        s = 2.0 * crank * math.cos(u)
+        return weight * math.cos(u) - k * (abs(s) - free) * 2.0 * crank * math.sin(u) * math.copysign(1.0, s)
+
+    turn = [(slope(u), u) for u in np.linspace(0.0, 2.0 * math.pi, 7919).tolist()]
+    expected = [
+        math.degrees(zero_between(slope, a, b, at_a, at_b))
+        for (at_a, a), (at_b, b) in pairwise(turn)
+        if at_a * at_b < 0.0 and math.cos(a) * math.cos(b) > 0.0
+    ]
+    for near in ("", f"near: {{C: [{1.6 * crank}, 0]}}"):
+        text = figure.format(crank=crank, rod=crank, angle="unknown", load=loads, near=near)
+        assert places(text) == pytest.approx(expected, abs=1e-9)
+    assert len(expected) >= 2
+
+
+def ranges(seed: int, least: float, most: float, wide: float) -> list[str]:
+    """Ranges with uneven ends, in which change points at round values lie between any samples."""
+    draw = random.Random(seed)
+    starts = [round(draw.uniform(least, most), draw.choice([2, 3, 4])) for _ in range(3)]
+    return [f"{{unknown: [{start}, {round(start + draw.uniform(0.98, 1.0) * wide, 3)}]}}" for start in starts]
+
+
+def within(free: str, values: Sequence[float], period: float = math.inf) -> list[float]:
+    """Those values, and a period on, that lie in a range."""
+    low, high = json.loads(free.removeprefix("{unknown: ").removesuffix("}"))
+    turns = range(-2, 3) if math.isfinite(period) else [0]
+    shifted = [value + (turn * period if turn else 0.0) for value in values for turn in turns]
+    return sorted(value for value in shifted if low <= value <= high)
+
+
+@pytest.mark.parametrize("free", ranges(4701, -90.0, 10.0, 400.0))
+def test_a_branch_goes_straight_on_wherever_the_range_begins(free: str) -> None:
+    """A parallelogram flat at 0 and 180, V = W sin u, whatever part of its turns is looked through."""
+    found = places(PARALLELOGRAM.format(angle=free, load="W: {weight: 10, link: 3, at: G}"))
+    assert found == pytest.approx(within(free, [90.0, 270.0], 360.0), abs=1e-9)
+
+
+@pytest.mark.parametrize("torque", [0.2, -0.2, 3.7, -0.011])
+@pytest.mark.parametrize("free", ["{unknown: [0, 359]}", *ranges(4702, -40.0, 40.0, 330.0)])
+def test_positions_close_to_a_change_point_stay_on_their_branch(torque: float, free: str) -> None:
+    """Bars of 1, the block drawn to the pivot by 20 a unit: V = 40 (cos u)^2 - M u in the branch that goes
+    straight on at 90 and 270, whose positions lie within a hundredth of a degree, or four, of these."""
+    loads = f"S: {{spring: 20, free: 0, link: 4, at: C, to: A}}, M: {{torque: {torque}, link: 2}}"
+    text = BALANCED_ISOSCELES.format(crank=1, rod=1, angle=free, load=loads, near="near: {C: [1.8, 0]}")
+    tip = math.degrees(math.asin(-torque / 40.0)) / 2.0
+    expected = within(free, [tip, 90.0 - tip, 180.0 + tip, 270.0 - tip], 360.0)
+    assert places(text) == pytest.approx(expected, abs=1e-9)
+
+
+@pytest.mark.parametrize("free", ["{unknown: [-2, 0]}", *ranges(4703, -1.98, -1.95, 1.96)])
+def test_a_branch_stays_on_its_side_where_two_circles_coincide(free: str) -> None:
+    """Arms of 0.5 from A at -1 and from a block that passes over A: the joint above stays above. There
+    V = 15 sin a + 40 cos a, with its one zero at tan a = 3/8; below, the other."""
+    text = """icsolve: 1
+points: {A: [-1, 0], C: [FREE, 0]}
+lengths: {AB: 0.5, BC: 0.5}
+near: {B: [-0.7, SIDE]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0}
+loads:
+  W: {weight: 30, link: 2, at: B}
+  F: {force: 40, link: 4, at: C, angle: 180}
+"""
+    for side, sign in ((0.3, 1.0), (-0.3, -1.0)):
+        expected = within(free, [-1.0 + sign * math.cos(math.atan(0.375))])
+        assert places(text.replace("FREE", free).replace("SIDE", str(side))) == pytest.approx(
+            expected, abs=1e-12
+        )
+
+
+@pytest.mark.parametrize("free", ["{unknown: [-80, 80]}", *ranges(4704, -88.0, -70.0, 160.0)])
+def test_of_branches_through_near_the_one_drawn_at_a_round_value_is_meant(free: str) -> None:
+    """A parallelogram and the crossed one both pass through the place of C at 30 degrees, the crossed one at
+    another angle; a place that neither passes at a round value is ambiguous."""
+    text = """icsolve: 1
+points: {A: [0, 0], D: [0, 0.2]}
+angles: {AB: FREE}
+lengths: {AB: 0.5, DC: 0.5, BC: 0.2}
+near: {C: NEAR}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 1], at: D}
+loads: {W: {weight: 20, link: 3, at: C}, M: {torque: 6, link: 2}}
+""".replace("FREE", free)
+    tip = math.degrees(math.acos(0.6))
+    found = places(text.replace("NEAR", "[0.5, 0.2]"))
+    assert found == pytest.approx(within(free, [-tip, tip]), abs=1e-9)
+    with pytest.raises(SceneError) as refused:
+        positions(text.replace("NEAR", "[0.4, 0.5]"))  # 3-4-5: no round angle
+    assert refused.value.status == "ambiguous"
 
 
 def test_a_branch_that_balances_everywhere_is_said_and_the_others_are_listed() -> None:

@@ -191,6 +191,29 @@ VARIED += "variables: {P: {choices: [40, 80]}}\n"
 NUMBERS = "student_id,email,variant,P\n7,a@b.c,v1,40\n8,d@e.f,v2,80\n"
 
 
+@pytest.mark.parametrize("bore", [30, 50])
+def test_a_sheet_asks_for_a_length_whether_or_not_the_loads_balance(bore: float, tmp_path: Path) -> None:
+    """A boom on its cylinder: of 30 it rests at one length, of 50 at none; then the key says so."""
+    case = tmp_path / "boom.yaml"
+    case.write_text(f"""icsolve: 1
+units: {{length: m, force: kN}}
+points: {{A: [0, 0], D: [1, 0]}}
+lengths: {{AB: 2, AC: 1, CD: unknown}}
+angles: {{CAB: 0}}
+near: {{C: [0, 1]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: C}}
+  - {{pin: [1, 4], at: D}}
+  - {{slide: [3, 4], at: C, along: [D, C]}}
+loads:
+  W: {{weight: 5, link: 2, at: B}}
+  P: {{pressure: 10 MPa, bore: {bore} mm, link: 3, at: C, away: D, against: 4}}
+""")
+    assert exit_status("sheet", str(case), "-o", str(tmp_path / "boom.tex")) == int(bore == 50)
+    assert ("No answer (no-value)" in (tmp_path / "boom.tex").read_text()) == (bore == 50)
+
+
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
 @pytest.mark.parametrize("delimiter", [",", ";", "\t"])
 def test_a_sheet_reads_the_numbers_as_a_spreadsheet_saves_them(

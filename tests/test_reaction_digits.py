@@ -183,3 +183,34 @@ def test_known_loads_that_do_not_balance_are_never_taken_so_in_silence(more: str
     assert not [note for note in balanced.notes if "leave" in note]
     answer = icsolve.solve(icsolve.load(LEVER.format(p=f"3{more[1:]}")), reactions=True)
     assert len([note for note in answer.notes if "P and Q leave" in note]) == 1
+
+
+@pytest.mark.parametrize("power", [-980, -700, -530, -270, 270, 520, 700, 980])
+def test_loads_of_any_size_that_doubles_hold_have_their_reactions_by_size_and_direction(power: int) -> None:
+    """Loads times a power of two: components, couples and sizes are so many times as large, and directions
+    the same (1e-15: the decimals of the power round); the squares of these forces no double holds."""
+    text = """icsolve: 1
+points: {A: [0, 0], B: [1, 2], C: [5, 3], D: [6, 0], E: [4, 4]}
+links: {3: [E]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {weld: [4, 5], at: D}
+  - {slide: [5, 1], at: D, along: 20}
+loads:
+  P: {force: FORCE, link: 3, at: E, angle: 230}
+  T: {torque: unknown, link: 2}
+"""
+    factor = 2.0**power
+    plain, scaled = (
+        icsolve.solve(icsolve.load(text.replace("FORCE", repr(f))), reactions=True) for f in (1.0, factor)
+    )
+    assert plain.reactions and scaled.reactions
+    for name, own in plain.reactions.items():
+        other = scaled.reactions[name]
+        sizes = (own.x, own.y, own.moment, own.magnitude)
+        assert all(v is not None for v in sizes)
+        found = (other.x, other.y, other.moment, other.magnitude)
+        assert found == pytest.approx(tuple(factor * (v or 0.0) for v in sizes), rel=1e-15, abs=0.0)
+        assert other.direction == pytest.approx(own.direction, rel=1e-15)

@@ -150,6 +150,47 @@ def test_a_power_in_place_of_a_torque_is_told_its_form() -> None:
         load(FOUR_BAR.replace("torque: unknown", "torque: 2 kW"))
 
 
+@pytest.mark.parametrize(
+    ("length", "metres"), [("ft", 0.3048), ("in", 0.0254), ("mm", 1e-3), ("km", 1e3), ("m", 1.0)]
+)
+@pytest.mark.parametrize(("third", "along"), [("", ""), (", 0", ", along: y")])
+def test_a_bare_gravity_is_in_the_lengths_of_the_case(
+    length: str, metres: float, third: str, along: str
+) -> None:
+    """3 kg on an arm of 2: T = 3 kg x g x 2 [N times the length]; with a unit it says the same (1e-14:
+    conversions round)."""
+    joint = "{hinge: [1, 2], at: A, axis: y}" if third else "{pin: [1, 2], at: A}"
+    text = f"""icsolve: 1
+units: {{length: {length}}}
+gravity: GRAVITY
+points: {{A: [0, 0{third}], G: [2, 0{third}]}}
+joints: [{joint}]
+loads: {{T: {{torque: unknown, link: 2{along}}}, W: {{mass: 3 kg, link: 2, at: G}}}}
+"""
+    answers = []
+    for size in ("32.2", f"32.2 {length}/s^2"):
+        answer = solve(load(text.replace("GRAVITY", size)))
+        answers.append(abs(answer.answers["T"].value))
+        told = any("if m/s^2 is meant, write 32.2 m/s^2" in note for note in answer.notes)
+        assert told == (size == "32.2" and length != "m")
+    assert answers == pytest.approx([6.0 * 32.2 * metres] * 2, rel=1e-14)
+
+
+def test_what_may_be_a_slip_is_told_of_a_structure_too() -> None:
+    """Radians for degrees, on a beam that stands still."""
+    beam = """icsolve: 1
+points: {A: [0, 0], B: [4, 0], C: [2, 0]}
+joints:
+  - {pin: [1, beam], at: A}
+  - {slot: [beam, 1], at: B, along: 0}
+loads: {P: {force: 10, link: beam, at: C, angle: -1.5708}}
+"""
+    assert (
+        "loads.P.angle is -1.5708 degrees; if radians are meant, write -1.5708 rad."
+        in solve(load(beam)).notes
+    )
+
+
 def test_force_and_length_of_the_case_per_newton_and_metre() -> None:
     units = load(FOUR_BAR).units
     assert units.force_per_newton == float(Fraction(10**13, 44482216152605))
@@ -293,7 +334,54 @@ def test_names_are_raw_text() -> None:
     ]
 
 
+@pytest.mark.parametrize("word", ["null", "NULL", "true", "No", "off", "1e3", "0x10", "007", "y", "inf"])
+def test_a_word_that_yaml_types_names_points_links_and_loads_wherever_they_stand(word: str) -> None:
+    text = f"""icsolve: 1
+points: {{{word}: [0, 0], B: [2, 1]}}
+joints: [{{pin: [f, {word}], at: {word}}}]
+ground: f
+links: {{{word}: [B, {word}]}}
+loads:
+  {word}: {{force: 3, link: {word}, at: B, away: {word}}}
+  G: {{force: {{like: {word}}}, link: {word}, at: B, toward: {word}, against: f}}
+  T: {{torque: unknown, link: {word}}}
+motion: {{point: B, link: {word}, speed: 1, angle: 116.6}}
+expect: {{{word}: 3, "w{word}": 0.447, "v B on {word}": 1}}
+"""
+    case = load(text)
+    assert (case.links, [one.name for one in case.loads]) == (("f", word), [word, "G", "T"])
+    assert [one.target for one in case.expect] == [LoadIs(word), RateIs(word), SpeedIs("B", word)]
+    assert solve(case, rates=True).answers["T"].value == 0.0
+
+
+WHERE_KEYS_STAND = {
+    "a case": ("icsolve: 1", "icsolve: 1\nqqq: 3"),
+    "a joint": ("{pin: [1, 2],", "{qqq: 3, pin: [1, 2],"),
+    "a load": ("{torque: unknown,", "{qqq: 3, torque: unknown,"),
+    "units": ("units: {", "units: {qqq: 3, "),
+    "motion": ("icsolve: 1", "icsolve: 1\nmotion: {link: 2, turns: cw, qqq: 3}"),
+    "an expected value": ("icsolve: 1", "icsolve: 1\nexpect: {P: {value: 3, qqq: 3}}"),
+    "a link's mass": ("icsolve: 1", "icsolve: 1\nlinks: {2: {mass: 2 kg, centre: B, qqq: 3}}"),
+}
+
+
+@pytest.mark.parametrize("where", WHERE_KEYS_STAND)
+def test_an_unknown_key_is_told_what_may_stand_there(where: str) -> None:
+    plain = "\n".join(line for line in FOUR_BAR.splitlines() if not line.startswith(("expect", "  w4/w2")))
+    old, new = WHERE_KEYS_STAND[where]
+    assert old in plain
+    with pytest.raises(CaseError, match=r"has no key 'qqq'; (its keys are \w|other quantities)"):
+        load(plain.replace(old, new, 1))
+
+
+@pytest.mark.parametrize("empty", ["", "~"])
+def test_where_nothing_stands_there_is_no_name(empty: str) -> None:
+    with pytest.raises(CaseError, match="has no value"):
+        load(FOUR_BAR.replace("at: A}", f"at: {empty}}}", 1))
+
+
 NUMERALS = {"1e3": 1000.0, "-.5": -0.5, "010": 10.0, "+5.": 5.0, "'7'": 7.0, "1.0E+2": 100.0, "−3": -3.0}
+NUMERALS |= {"0x1F": 31.0, "0o17": 15.0, "0x0": 0.0}
 
 
 @pytest.mark.parametrize("text", NUMERALS)
@@ -415,7 +503,7 @@ def test_settings_replace_numbers_before_reading() -> None:
         "loads.P": "1 kip",
         "loads.P.angle": -90.0,
         "near.C.y": "3",
-        "gravity": "9.8",
+        "gravity": "9.8 m/s^2",
     }
     case = load(FOUR_BAR, settings)
     point = case.points["D"]

@@ -216,6 +216,21 @@ def test_the_table_of_the_24_problems_is_what_the_command_prints() -> None:
     assert problems == set(range(1, 25))
 
 
+def test_the_table_of_options_has_those_that_the_commands_have() -> None:
+    told: dict[str, set[str]] = {verb: set() for verb in commands.list_commands(click.Context(commands))}
+    rows = re.findall(r"^\| (`-.*?) \| ([a-z, ]+) \| ", PAGES["commands"], re.MULTILINE)
+    for options, verbs in rows:
+        for verb in verbs.split(", "):
+            told[verb] |= set(re.findall(r"(?<![\w-])--?[a-z][\w-]*", options))
+    for verb, named in told.items():
+        command = commands.get_command(click.Context(commands), verb)
+        assert command is not None
+        shown = [one for one in command.params if isinstance(one, click.Option) and not one.hidden]
+        spellings = [{*one.opts, *one.secondary_opts} for one in shown]
+        assert named <= {spelling for names in spellings for spelling in names}, verb
+        assert [names for names in spellings if not names & {*named, "--output"}] == [], verb
+
+
 def test_the_readme_is_for_a_newcomer_and_leads_to_every_page() -> None:
     assert len(README.splitlines()) <= 300
     for topic in TOPICS:

@@ -472,6 +472,13 @@ REFUSED = {
         32,
         "CD reads as two points",
     ),
+    "a corner of one arm": (
+        "{force: 100, link: 4, at: E, angle: 180}",
+        "{spring: 20, corner: DCD, free: 90, link: 4, against: 3}",
+        14,
+        27,
+        "'D-C-D' names one arm twice, and has no angle",
+    ),
     "a torsion spring without its corner": (
         "{force: 100, link: 4, at: E, angle: 180}",
         "{spring: 20 lbf*in/rad, free: 90, link: 4, at: E, to: A}",

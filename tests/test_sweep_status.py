@@ -397,3 +397,33 @@ def test_a_row_is_given_as_a_case_on_its_own_branch(name: str, path: str, rows: 
     found = icsolve.sweep(case, {path: rows})
     solved = [icsolve.solve(found.case_of(n)).answers[load].value for n in range(len(rows))]
     assert found.answers[load] == pytest.approx(solved, rel=1e-11)
+
+
+@pytest.mark.parametrize("want", [("answers", "status"), ("status", "points"), ("status", "rates")])
+@pytest.mark.parametrize(
+    ("ground", "guide", "status"),
+    [
+        (0, "{slide: [hub, 1], at: C, along: 0}", "ok"),
+        (5, "{slide: [hub, 1], at: C, along: 0}", "cannot-assemble"),
+        (-9, "{slide: [hub, 1], at: C, along: 0}", "cannot-assemble"),
+        (5, "{pin: [hub, 1], at: D}", "ok"),
+    ],
+)
+def test_a_rolling_wheel_leaves_no_guide_behind(
+    ground: float, guide: str, status: str, want: tuple[str, ...]
+) -> None:
+    """A wheel of 2 on the flat keeps to a straight guide, and one on a hump of 5 about D to an arm from D;
+    on a hump or in a hollow a straight guide holds it fast, whatever of it is asked."""
+    text = f"""icsolve: 1
+points: {{C: [0, 2], P: [0, 0], D: [0, {-ground or -5}]}}
+links: {{1: [D], hub: [D]}}
+joints:
+  - {guide}
+  - {{pin: [hub, wheel], at: C}}
+  - {{roll: [wheel, 1], at: P, radii: [2, {ground}]}}
+loads:
+  F: {{force: 10, link: wheel, at: C, angle: 0}}
+  T: {{torque: unknown, link: wheel}}
+"""
+    swept = icsolve.sweep(icsolve.load(text), drive={"wheel": [0, -1, -10, 25]}, want=want)
+    assert swept.status.tolist() == ["ok", *[status] * 3]

@@ -204,7 +204,7 @@ def text_of(case: Case) -> tuple[str, Mapping[str, Number]] | None:
     return None
 
 
-UNITS_NEEDED = ("mass", "moment of inertia", "pressure")
+UNITS_NEEDED = ("mass", "moment of inertia", "pressure", "acceleration")
 """Dimensions of numbers that bare would be refused, or mean another unit."""
 
 

@@ -264,6 +264,8 @@ def _corner(entry: Entry, node: Node) -> tuple[str, ...] | None:
     text = node.text if type(node) is Scalar else ""
     reading = entry.reading
     names = point_key(text, (2, 3), reading.given | reading.used.keys())
+    if not isinstance(names, str) and names[0] == names[-1]:
+        names = f"'{'-'.join(names)}' names one arm twice, and has no angle"
     if isinstance(names, str):
         entry.refuse(node.mark, f"'corner' of {entry.what}: {names}")
         return None

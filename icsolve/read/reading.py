@@ -121,7 +121,7 @@ class Reading:
         """The node's text as a name."""
         if type(node) is not Scalar:
             self.refuse(node.mark, f"{what} should be one name")
-        elif is_null(node) or not node.text:
+        elif node.text in ("", "~"):  # `null` is a word where a name stands
             self.refuse(node.mark, f"{what} has no value")
         elif not is_name(node.text):
             self.refuse(node.mark, f"{shown(node.text)} is not a name: {why_no_name(node.text)}")
@@ -187,8 +187,10 @@ class Reading:
     def unknown_key(
         self, key: str, mark: Mark, allowed: Iterable[str], what: str, elsewhere: Callable[[str], str]
     ) -> None:
-        """Refuse a key that is not known, with a suggestion."""
-        self.refuse(mark, f"{what} has no key {shown(key)}{elsewhere(key) or suggestion(key, allowed)}")
+        """Refuse a key that is not known, with a suggestion: the likely one, or all that there are."""
+        known = list(allowed)
+        told = elsewhere(key) or suggestion(key, known) or f"; its keys are {listed(known)}"
+        self.refuse(mark, f"{what} has no key {shown(key)}{told}")
 
     def text(self, node: Node, what: str) -> str:
         """Free text: a title, a source."""
@@ -238,6 +240,8 @@ def numbers(
 
 def quantity(reading: Reading, node: Scalar, text: str, dimension: str, path: str) -> Number | None:
     """As ``number``, of a text that may be a part of the node's."""
+    if text[:2] in ("0x", "0o") and re.fullmatch("0x[0-9A-Fa-f]+|0o[0-7]+", text):
+        text = str(int(text, 0))  # integers of YAML 1.2, too
     try:
         parts = split_quantity(text)
         if parts is None:
@@ -261,6 +265,11 @@ def _valued(
     numeral, rest = parts
     if dimension == "pressure":
         rest = rest or "/".join((reading.unit_names["force"], reading.unit_names["area"]))
+    if dimension == "acceleration" and not rest:
+        rest = reading.unit_names["path acceleration"]
+        if rest != reading.unit_names[dimension]:
+            meant = f"if m/s^2 is meant, write {numeral.digits} m/s^2."
+            reading.noticed.append(f"{path} is {numeral.digits} {rest}, by the lengths of the case; {meant}")
     places = float(f"5e{numeral.exponent - 1}")
     if not rest:
         if dimension == "mass":

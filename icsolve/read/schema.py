@@ -197,7 +197,9 @@ FORMS: dict[str, Schema] = {
 def _definitions() -> Schema:
     return {
         "text": {"type": ["string", "number", "boolean", "null"]},
-        "name": _any(_pattern(f"^{_NAME}$"), {"type": "integer", "minimum": 0}, {"type": "boolean"}),
+        "name": _any(
+            _pattern(f"^{_NAME}$"), {"type": "integer", "minimum": 0}, {"type": ["boolean", "null"]}
+        ),
         "number": _any({"type": "number"}, _pattern(_BARE)),
         "quantity": _any({"type": "number"}, _pattern(_QUANTITY)),
         "with unit": _pattern(_WITH_UNIT),

@@ -198,6 +198,7 @@ def build_space(root: Mapping, problems: Problems, name: str, units: Units) -> C
         expect=read_expect(reading, published, named) if readable(root, "loads") else (),
         gravity=gravity or Case.gravity,
         space=space,
+        noticed=tuple(reading.noticed),
     )
 
 

@@ -107,5 +107,6 @@ def structure(program: Program, bound: bool, refusal: SceneError) -> Answer:
     said = "the links form a structure: nothing moves, and statics alone gives the reactions."
     if has_friction(case):
         said += " Friction is left out: a structure needs none."
-    answer = Answer(case, points=points, mobility=0, notes=(*figure.notes, said), skipped=figure.skipped)
+    notes = (*figure.notes, *case.noticed, said)
+    answer = Answer(case, points=points, mobility=0, notes=notes, skipped=figure.skipped)
     return scene.ask(lambda found: _bodies(found, {})).added_to(answer)

@@ -9,9 +9,10 @@ that stay open to the last, which are handed on.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from decimal import Decimal, localcontext
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -22,15 +23,21 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.replay import Array, Code
 from icsolve.solve.load_function import LoadFunction
-from icsolve.sweep.branches import may_vanish
-from icsolve.sweep.exact import CONTEXT, ZERO, Unreached, exact_record, lowest
+from icsolve.solve.settled import plain_within
+from icsolve.sweep.branches import DOUBT, may_vanish
+from icsolve.sweep.exact import CONTEXT, ZERO, Unreached, as_written, exact_record, lowest
 from icsolve.tuples import NamedTuple
 
 SAMPLES = 720
+ZOOMS = 5
+"""So many times the place where a margin is lowest is looked for sixteen times more closely."""
 CLOSER = 3
 """So many times the place where a branch comes nearest to `near` is looked for eight times more closely."""
 EVEN = 0.99
 """Two branches whose distances from `near` have at least this ratio are about equally near."""
+DRAWN = 1e-14
+"""Of several that pass through `near` one does so at a value of few decimals, as it was drawn: to so much of
+the figure."""
 
 
 class Branches:
@@ -40,8 +47,9 @@ class Branches:
         self.functions, self.low, self.high = functions, low, high
         self.values = np.linspace(low, high, SAMPLES + 1)
         self.names = [name for name in functions[0].places if all(name in f.places for f in functions)]
-        self.places = np.array([self._places(f, self.values) for f in functions])  # (mode, sample, 2 points)
         self.slack = 1e-9 * (high - low)
+        beside = np.append(self.values[:-1] + self.slack, high - self.slack)  # where loci coincide none meet
+        self.places = np.array([self._places(f, beside) for f in functions])  # (mode, sample, 2 points)
         self.whole = self.assemble(self.values)  # (modes, samples)
         self.whole[:, [0, -1]] &= self.assemble(np.array([low + self.slack, high - self.slack]))
         self.ids = self._followed()
@@ -55,11 +63,16 @@ class Branches:
         return np.array(np.stack(columns, axis=1) / scale + origin)
 
     def assemble(self, values: Array) -> npt.NDArray[np.bool_]:
-        """Whether each mode assembles at each value (modes, n)."""
+        """Whether each mode assembles at each value (modes, n); of margins about zero decimals say it."""
         whole = np.ones((len(self.functions), len(values)), dtype=bool)
         for n, function in enumerate(self.functions):
-            for margin in Code(function.record, function.margins).run(function.given(values), len(values)):
-                whole[n] &= np.broadcast_to(margin >= 0.0, len(values))
+            found = Code(function.record, function.margins).run(function.given(values), len(values))
+            for node, margin in zip(function.margins, found, strict=True):
+                holds = np.array(np.broadcast_to(margin >= 0.0, len(values)))
+                for k in np.flatnonzero(~holds & np.broadcast_to(margin > -DOUBT, len(values))):
+                    least = _exactly(function, node, as_written(values[k]))
+                    holds[k] = not least.is_nan() and least >= -ZERO
+                whole[n] &= holds
         return whole
 
     def _followed(self) -> npt.NDArray[np.int64]:
@@ -130,24 +143,40 @@ class Branches:
     def _margin(self, m: int, k: int) -> int:
         """Between two samples the sign of the margins of a mode that come near to zero, by the decimals as
         written; 0 where one vanishes, or none comes near."""
+        signs = [sign for sign, _ in self._lowest_margins(m, k)]
+        return 0 if 0 in signs else min(signs, default=0)
+
+    def _lowest_margins(self, m: int, k: int) -> Iterator[tuple[int, float]]:
+        """Between two samples the margins of a mode that come near to zero: the sign of each where it is
+        lowest, and where that is."""
         function = self.functions[m]
         exact, record = exact_record(function.compiled), function.record
-        values = np.linspace(self.values[k - 1], self.values[k], 33)
-        found = Code(record, function.margins).run(function.given(values), len(values))
-
-        def along(value: Decimal) -> dict[int, Decimal]:
-            given = function.given(np.array([float(value)]))
-            return {node: Decimal(float(at[0])) for node, at in given.items()} | {function.input: value}
-
-        signs = []
-        for node, margin in zip(function.margins, found, strict=True):
-            if not may_vanish(np.broadcast_to(margin, len(values))):
+        for node in function.margins:
+            near = self._lowest(function, node, float(self.values[k - 1]), float(self.values[k]))
+            if near is None:
                 continue
-            with localcontext(CONTEXT), suppress(Unreached):
-                at = lowest(exact, node, along, float(values[np.argmin(margin)]))
-                (least,) = exact.values([record.nodes[node]], along(at))
-                signs.append(0 if not abs(least) > ZERO else 1 if least > 0 else -1)
-        return 0 if 0 in signs else min(signs, default=0)
+            reach = Decimal(float(self.values[k] - self.values[k - 1]))
+            found = []
+            for power in (1, 2):  # what has a corner where it vanishes is smooth in its square
+                with localcontext(CONTEXT), suppress(Unreached):
+                    at = lowest(exact, node, partial(_given, function), near, reach, power)
+                    (least,) = exact.values([record.nodes[node]], _given(function, at))
+                    found.append((abs(least), least, float(at)))
+            if found:
+                size, least, place = min(found)
+                yield (0 if not size > ZERO else 1 if least > 0 else -1), place
+
+    def _lowest(self, function: LoadFunction, node: int, low: float, high: float) -> float | None:
+        """About where a margin is lowest between two values; None where it cannot vanish there."""
+        code = Code(function.record, [node])
+        for zoom in range(ZOOMS):
+            values = np.linspace(low, high, 33)
+            margin = np.broadcast_to(code.run(function.given(values), len(values))[0], len(values))
+            if not zoom and not may_vanish(margin):
+                return None
+            k = int(np.argmin(margin))
+            low, high = float(values[max(k - 1, 0)]), float(values[min(k + 1, 32)])
+        return float(values[k])
 
     def _closed(self, ids: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
         """A whole turn ends where it begins: what goes straight on there is one branch."""
@@ -182,6 +211,9 @@ class Branches:
         others = [n for n in range(len(self.ids)) if n != m and self.ids[n, k + 1] == self.ids[m, k]]
         if not others:
             return float(self.values[k if first else k + 1])
+        met = [place for sign, place in self._lowest_margins(m, k + 1) if not sign]
+        if met:
+            return met[0]
         low, high = float(self.values[k]), float(self.values[k + 1])
         while True:
             values = np.linspace(low, high, 33)
@@ -199,11 +231,12 @@ class Branches:
 
     def on(self, m: int, value: float) -> int:
         """The branch of a mode at a value."""
-        k = int(np.clip(round((value - self.low) / (self.high - self.low) * SAMPLES), 0, SAMPLES))
-        for j in (k, k - 1, k + 1):
-            if 0 <= j <= SAMPLES and self.ids[m, j] >= 0:
-                return int(self.ids[m, j])
-        return -1
+        k = int(np.clip(np.searchsorted(self.values, value, side="right") - 1, 0, SAMPLES - 1))
+        one, two = int(self.ids[m, k]), int(self.ids[m, k + 1])
+        if one != two and one >= 0 and two >= 0:
+            return one if value <= self._change_point(m, k, True) else two
+        beside = self.ids[m, max(k - 1, 0) : k + 3].tolist()
+        return max(one, two) if max(one, two) >= 0 else next((int(i) for i in beside if i >= 0), -1)
 
     def nearest(self, case: Case) -> frozenset[int]:
         """The branch that passes nearest to `near` at any value.
@@ -219,7 +252,7 @@ class Branches:
 
         sampled = np.where(self.whole, off(self.places), np.inf) if meant else np.zeros(self.whole.shape)
         ids = [int(i) for i in np.unique(self.ids) if i >= 0]
-        best = []
+        best, drawn, rough = [], [], 0.0
         for i in ids:
             best_one = int(np.argmin(np.where(self.ids == i, sampled, np.inf)))
             m, k = divmod(best_one, SAMPLES + 1)
@@ -229,8 +262,32 @@ class Branches:
                 there = np.nan_to_num(off(self._places(self.functions[m], values)), nan=np.inf)
                 least, at = min((least, at), (float(there.min()), float(values[np.argmin(there)])))
                 step /= 8.0
+            if meant:
+                beside = np.array([at - step, at, at + step, plain_within(at, step)])
+                there = off(self._places(self.functions[m], beside))
+                rough = max(rough, float(np.nanmax(np.abs(there[:3] - least))))  # it may come nearer between
+                drawn += [i] if there[3] <= DRAWN * np.nanmax(np.abs(self.places)) else []
             best.append(least)
-        return frozenset({ids[nearest(case, best)]})
+        even = [i for i, d in zip(ids, best, strict=True) if EVEN * max(d, rough) <= max(min(best), rough)]
+        if len(even) > 1 and len(drawn) == 1:
+            return frozenset(drawn)
+        return frozenset({ids[nearest(case, best, rough)]})
+
+
+def _given(function: LoadFunction, value: Decimal) -> dict[int, Decimal]:
+    """The inputs of a mode at a decimal of its free number."""
+    given = function.given(np.array([float(value)]))
+    return {node: Decimal(float(at[0])) for node, at in given.items()} | {function.input: value}
+
+
+def _exactly(function: LoadFunction, node: int, value: Decimal) -> Decimal:
+    """A node of a mode in all digits; not a number where the figure before it does not assemble."""
+    with localcontext(CONTEXT), suppress(Unreached):
+        (found,) = exact_record(function.compiled).values(
+            [function.record.nodes[node]], _given(function, value)
+        )
+        return found
+    return Decimal("NaN")
 
 
 def nearest(case: Case, off: Sequence[float], rough: float = 0.0) -> int:

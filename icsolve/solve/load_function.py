@@ -359,6 +359,8 @@ def _on_record(mode: RecordedMode, path: str, span: tuple[float, float] | None) 
             f"the mechanism has {motions.mobility} degrees of freedom, and one datum is unknown: "
             f"write 'unknown' for {motions.mobility - 1} more of its angles or lengths.",
         )
+    recorded = {p: (record.lifted(x).value, record.lifted(y).value) for p, (x, y) in scene.points.items()}
+    refusals.refuse_no_direction(refusals.directions(compiled.setting.case), recorded, FLOATS)
     wrenches = load_wrenches.wrenches(scene.place, vectors=True)
     balance = power.balance(wrenches, motions.twists, 1)
     total = power.known_power(balance, 0, record)

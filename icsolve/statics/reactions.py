@@ -166,14 +166,15 @@ def _reaction(position: Position, tie: Tie, kept: list[Scalar | None], scale: fl
     """The numbers of a reaction, each rounded once."""
     case, frame = position.case, position.frame
     ordered = ordered_pair(case, tie.by, tie.on) == (tie.by, tie.on)
-    x, y, couple = (None if f is None else (f if ordered else 0.0 - f) / scale for f in kept)
+    own = [None if f is None else f if ordered else 0.0 - f for f in kept]
+    x, y, couple = (None if f is None else f / scale for f in own)
     if couple is not None:
         couple = couple / frame.scale * a.ratio(case.units.exact_torque)
     (px, _), (py, _) = (
         a.rounded(p / frame.scale + o, 1.0 / frame.scale + abs(o))
         for p, o in zip(tie.at, frame, strict=False)
     )
-    exact = {"x": x, "y": y, "moment": couple, **_polar(x, y, a)}
+    exact = {"x": x, "y": y, "moment": couple, **_polar(own[0], own[1], scale, a)}
     both = {name: a.rounded(value) for name, value in exact.items() if value is not None}
     shown = {name: value for name, (value, _) in both.items()}
     errors = {name: error for name, (_, error) in both.items() if math.isfinite(error) and name != "opposite"}
@@ -184,16 +185,17 @@ def _reaction(position: Position, tie: Tie, kept: list[Scalar | None], scale: fl
     return Reaction(by, on, tie.kind, tie.where, (px, py), *force, (), size, toward, back, errors)
 
 
-def _polar(x: Scalar | None, y: Scalar | None, a: Showing) -> dict[str, Scalar | None]:
-    """Size and direction of a force, and the direction of its opposite, from 0 to 360 degrees."""
+def _polar(x: Scalar | None, y: Scalar | None, scale: float, a: Showing) -> dict[str, Scalar | None]:
+    """Size [over ``scale``] and direction of a force, whose squares doubles hold, and the direction of its
+    opposite, from 0 to 360 degrees."""
     found: dict[str, Scalar | None] = dict.fromkeys(("magnitude", "direction", "opposite"))
     if x is None or y is None:
         return found
     if float(x) == float(y) == 0.0:
-        return {**found, "magnitude": x if isinstance(y, float) else y}
+        return {**found, "magnitude": (x if isinstance(y, float) else y) / scale}
     toward = a.angle(x, y)
     return {
-        "magnitude": a.sqrt(x * x + y * y),
+        "magnitude": a.sqrt(x * x + y * y) / scale,
         "direction": toward if float(toward) >= 0.0 else toward + 360.0,
         "opposite": toward + 180.0,
     }

@@ -268,7 +268,12 @@ def exact_record(compiled: CompiledSweep) -> ExactRecord:
 
 
 def lowest(
-    exact: ExactRecord, node: int, along: Callable[[Decimal], Mapping[int, Decimal]], near: float
+    exact: ExactRecord,
+    node: int,
+    along: Callable[[Decimal], Mapping[int, Decimal]],
+    near: float,
+    reach: Decimal = Decimal("1e-3"),
+    power: int = 1,
 ) -> Decimal:
     """Where on a line a value is lowest: a branch comes nearest to changing where its radicand is.
 
@@ -277,6 +282,8 @@ def lowest(
     node : of the value
     along : the inputs by node at a place of the line; may raise Unreached
     near : a place near it
+    reach : so far from there it may lie
+    power : of the value, which makes it smooth
 
     Returns
     -------
@@ -287,18 +294,19 @@ def lowest(
     with localcontext(CONTEXT):
         for _ in range(12):
             try:
-                low, here, high = (exact.values([value], along(at + k * STEP))[0] for k in (-1, 0, 1))
+                values = (exact.values([value], along(at + k * STEP))[0] for k in (-1, 0, 1))
+                low, here, high = (v**power for v in values)
             except Unreached:
                 return as_written(near)
             bend = (high - 2 * here + low) / STEP
             if not bend > 0:
                 return at
             move = (low - high) / (2 * bend)
-            if abs(move) > Decimal("1e-3"):
+            if abs(move) > reach:
                 return as_written(near)
+            at += move
             if abs(move) < STEP:
                 break
-            at += move
     return at
 
 

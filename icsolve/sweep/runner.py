@@ -75,7 +75,8 @@ class Runner:
         wanted = [index for _, _, index in self.moving]
         self.rubs = compiled.rubbing.nodes if compiled.rubbing is not None else []
         nodes = record.nodes
-        alive = [k for k in live(record.nodes, [*wanted, *self.rubs]) if nodes[k].op != Op.INPUT]
+        behind = live(record.nodes, [*wanted, *self.rubs])
+        alive = [k for k in behind if nodes[k].op != Op.INPUT]
         answers = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
         self.roots = [record.roots[k] for k in alive if k in record.roots]
         shallow, divisor = (STEEP * STEEP, STEEP) if compiled.dynamic else (SHALLOW, SMALL)
@@ -83,7 +84,7 @@ class Runner:
             *(Watched(root.radicand, shallow * _size_of(record, root)) for root in self.roots),
             *(Watched(k, divisor * terms_of(nodes, k), sized=True) for k in _divisors(nodes, alive)),
             *(Watched(k, CLOSE) for k in (*compiled.margins, *compiled.fits)),
-            *(Watched(k, -math.inf, AGREED, True) for k in _living(compiled, alive)),
+            *(Watched(k, -math.inf, AGREED, True) for k in _living(compiled, behind)),
         ]
         small = LEANING if compiled.rests else SMALL
         for k in (wanted[n] for n in answers):
@@ -255,10 +256,11 @@ def _size_of(record: Record, root: Root) -> float:
     return math.prod(record.nodes[size].value for _, size in root.margins)
 
 
-def _living(compiled: CompiledSweep, alive: Sequence[int]) -> list[int]:
-    """The checks of links that bear on what is asked."""
+def _living(compiled: CompiledSweep, behind: Sequence[int]) -> list[int]:
+    """The checks of links that bear on what is asked: they share more with what is behind it than a varied
+    number, such as a place that a group found."""
     checks = compiled.motion.checks if compiled.motion else ()
-    known = set(alive)
+    known = {*behind} - {*compiled.inputs.values()}
     return [k for k in checks if known.intersection(live(compiled.record.nodes, [k]))]
 
 

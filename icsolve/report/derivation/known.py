@@ -238,7 +238,7 @@ def _searched(unknown: Unknown, rests: Sequence[float]) -> Point:
     keeps its sign."""
     if unknown.low is not None and unknown.high is not None:
         return unknown.low.value, unknown.high.value
-    middle = rests[0] if rests else 0.0
+    middle = rests[0] if rests else _somewhere(unknown)
     half = 90.0 if is_angle(unknown.path) else 0.5 * abs(middle) or 0.5
     return middle - half, middle + half
 

@@ -137,7 +137,7 @@ def _answer(solved: SpatialSolution, bounds: Mapping[str, float], spatial: Spati
         terms=terms_of_power(solved, values, a),
         advantage=advantage(solved.powers.wrenches, exact, a),
         mobility=solved.mobility,
-        notes=notes_of(solved, spatial.reactions),
+        notes=(*case.noticed, *notes_of(solved, spatial.reactions)),
         sensitivities=Deferred(_no_sensitivities),
         spatial=spatial,
     )
