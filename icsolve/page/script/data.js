@@ -1,5 +1,6 @@
 /* The data of the page, and what is where in every position. */
-const { abs, atan2, cos, floor, hypot, max, min, PI, sin } = Math;
+const { atan2, cos, floor, hypot, max, min, PI, sin } = Math;
+const abs = (v) => (v < 0 ? -v : v);
 const { entries } = Object;
 const data = JSON.parse(document.getElementById("data").textContent);
 const NS = "http://www.w3.org/2000/svg";
