@@ -988,3 +988,83 @@ loads: {P: {force: 10, link: 4, at: D, angle: 0}, Q: {force: [unknown, unknown],
     assert seen == ["ok"] * 3
     with pytest.raises(CaseError, match="cannot vary"):
         icsolve.sweep(icsolve.load(case), {"loads.Q.x.angle": [0.0, 10.0]})
+
+
+COMPONENTS = """icsolve: 1
+points: {A: [0, 0], B: [1, 2], C: [4, 3], D: [6, 2], E: [6, 0]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 5], at: D},
+  {pin: [5, 1], at: E}]
+loads: {P: {force: 10, link: 3, at: C, angle: 30}, T: {torque: 3, link: 2},
+  Q: {force: [unknown, unknown], link: 4, at: C}}
+"""
+SHOWN = TYPE.replace(
+    "const found = answers();",
+    """const found = ['Q.x', 'Q.y'].map((name) => [
+      [...document.querySelectorAll('#labels text')].find((e) => e.textContent.startsWith(name)).textContent,
+      document.querySelector(`[data-load="${name}"]`).getAttribute('transform') || '',
+      document.querySelector(`[data-load="${name}"]`).classList.contains('ghost')]);""",
+)
+
+
+def test_the_components_of_a_force_of_unknown_direction_follow_in_the_figure(shown: Any) -> None:
+    """Their sizes to the four digits that a figure has, their arrows turned round where they change sign;
+    no value where there is none."""
+    draw, turned = random.Random(5), 0
+    page = shown(COMPONENTS)
+    changes = [{"loads.P.angle": repr(round(draw.uniform(-180, 180), 1))} for _ in range(12)]
+    changes += [{"points.D.x": "7", "loads.T": "-40"}, {"points.D.y": "0", "points.C.x": "60"}]
+    first = icsolve.solve(icsolve.load(COMPONENTS)).answers["Q"].components
+    assert first is not None
+    for change, seen in zip(changes, page.run(SHOWN, changes), strict=True):
+        own = solved(COMPONENTS, change)
+        assert own is not None
+        if own[0] != "ok":
+            assert all(text.endswith("no value") and ghost for text, _, ghost in seen), (change, seen)
+            continue
+        now = icsolve.solve(icsolve.load(COMPONENTS, change)).answers["Q"].components
+        assert now is not None
+        for value, written, (text, way, ghost) in zip(now, first, seen, strict=True):
+            size = float(text.rpartition("= ")[2].split()[0])
+            assert size == pytest.approx(abs(value), rel=5.1e-4) and not ghost, change
+            assert (value < 0) is (written < 0) or "rotate(-180.00)" in way, (change, way)
+            turned += (value < 0) is not (written < 0)
+    assert turned >= 4
+
+
+LABELS = TYPE.replace(
+    "const found = answers();",
+    """const own = (where) => [...document.querySelectorAll(where)].map((e) => e.textContent)
+      .filter((t) => t.includes('=')).sort();
+    const found = [own('#labels text'), own('#loads title')];""",
+)
+LOADED = {
+    "linkages/four_bar": "forces and torques",
+    "springs/balanced_arm": "a spring",
+    "dynamics/hoist_starting": "a mass and inertia forces",
+    "ropes/crank_and_rope": "a weight",
+    "tools/scissor_jack": "a torque on a screw",
+    "ch13/13_08_four_bar": "a load in lbf",
+}
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_the_numbers_beside_the_loads_are_those_that_are_typed(
+    name: str, window: Browser, shown: Any, tmp_path: Path
+) -> None:
+    """In the figure, and in what is said of it there, as in the page of the case with these numbers; those
+    halfway between two with four digits too."""
+    path = ROOT / f"{name}.yaml"
+    page = shown(path)
+    fields = [p for p in page.run(FIELDS)[0] if p.startswith("loads.") and p.count(".") == 1]
+    changes = [{p: value} for p in fields for value in ("257.25", "1002.5", "0.37")]
+    texts = page.run(LABELS, changes)
+    units, told = page.run(UNITS), 0
+    for change, seen in zip(changes, texts, strict=True):
+        own = solved(path, written := {p: f"{v} {units.get(p, '')}".strip() for p, v in change.items()})
+        if own is not None and own[0] == "ok":
+            (tmp_path / "own.html").write_text(page_html(icsolve.load(path, written)), encoding="utf-8")
+            window.open(tmp_path / "own.html")
+            assert seen == window.run(LABELS, [{}])[0], change
+            told += 1
+    shown(path)
+    assert told >= 1
