@@ -474,7 +474,7 @@ class RangeSearch:
         """All limits, and ends of groups; while those beside the latter are looked for, these."""
         if self.edges is None:
             self.edges = [s for s, _ in self._ends]
-            self.edges = list({s: None for s in (*self.edges, *(limit for limit, _ in self._limits()))})
+            self.edges = list(dict.fromkeys((*self.edges, *(limit for limit, _ in self._limits()))))
         return self.edges
 
     def _ends_of_groups(self) -> Iterator[tuple[Decimal, float]]:
