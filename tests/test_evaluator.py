@@ -10,6 +10,7 @@ import pickle
 import random
 import shutil
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ from icsolve.case import Case
 from icsolve.errors import SceneError
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.record import OPERATIONS, Op, Record, Traced
-from icsolve.numbers.source import JAVASCRIPT, JAVASCRIPT_FUNCTIONS, straight_line
+from icsolve.numbers.source import JAVASCRIPT, straight_line
 from icsolve.sweep.numbers import numbers_of, with_numbers
 from library import FILES, sample
 
@@ -232,12 +233,21 @@ def test_a_number_that_no_case_may_have_spoils_its_own_row_alone(rows: int, path
         assert np.isnan(found.gradients["T12"][path][-1])
 
 
+SCRIPT = Path(__file__).parent.parent / "icsolve/page/script"
+
+
 @pytest.mark.skipif(shutil.which("node") is None, reason="no JavaScript engine")
-def test_the_generated_javascript_does_what_the_record_does() -> None:
+@pytest.mark.parametrize("kind", ["DOUBLES", "DIGITS"])
+def test_the_generated_javascript_does_what_the_record_does(kind: str) -> None:
+    """On both kinds of numbers of a page."""
     record, wanted, names, expected = recorded()
-    text = straight_line(record.nodes, wanted, names, JAVASCRIPT)
-    script = f"{JAVASCRIPT_FUNCTIONS}let {', '.join(text.names)};const x=0.7,y=2.3;\n" + "\n".join(text.lines)
-    script += f"\nconsole.log(JSON.stringify([{','.join(text.wanted)}]));"
+    language = JAVASCRIPT._replace(number=lambda v: f"of({v!r})")
+    text = straight_line(record.nodes, wanted, names, language)
+    script = "const {entries} = Object;const abs = (v) => (v < 0 ? -v : v);\n"
+    script += (SCRIPT / "digits.js").read_text(encoding="utf-8")
+    script += f"const x={kind}.of(0.7),y={kind}.of(2.3);{{const {{of,root,angle,nearest,turn}}={kind};\n"
+    script += f"let {', '.join(text.names)};\n" + "\n".join(text.lines)
+    script += f"\nconsole.log(JSON.stringify(plainly([{','.join(text.wanted)}])));}}"
     ran = subprocess.run(["node", "-e", script], capture_output=True, text=True, check=True)
     assert [float(v) for v in ran.stdout.strip()[1:-1].split(",")] == pytest.approx(expected, rel=1e-13)
 

@@ -18,6 +18,7 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.read import load
+from icsolve.solve import solve
 from sizes import MORE
 
 
@@ -495,3 +496,46 @@ def test_a_way_of_a_group_that_dies_is_not_exchanged_for_one_that_is_farther(see
     assert found is not None
     at = np.array([case_point(found.frame, found.points[p]) for p in "DEF"])
     assert not dead or float(np.linalg.norm(at - near[3:])) < 2.0 * away
+
+
+FOLDED = """icsolve: 1
+points: {{A: [0, 0], D: [4, 0]}}
+lengths: {{AB: 1, BC: 2, CD: 1.{off:026d}, DE: 1.5}}
+angles: {{AB: 0, CDE: {turned}}}
+near: {{{point}: [{near[0]!r}, {near[1]!r}]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
+loads: {{P: {{force: 100, link: 4, at: E, angle: 45}}, T: {{torque: unknown, link: 2}}}}
+"""
+"""BC and CD are all but in line: by so many units of the 26th decimal CD is too long for that."""
+
+
+@pytest.mark.parametrize("point", ["C", "E"])
+def test_of_two_places_that_all_but_coincide_near_picks_the_same_however_near_they_are(point: str) -> None:
+    """From 0.1 to 1e-13 apart, with `near` 0.3 off in some direction: of C itself, and of E, which a turned
+    arm carries, so that its places lie apart across that. Where it is square to what parts them, within 3
+    degrees, it is refused as equally near."""
+    draw = Random(3)
+    for _ in range(12):
+        turned = draw.choice((0, 50, 140))
+        home, across = (3.0, 0.0), 90.0
+        if point == "E":
+            home = (
+                4.0 + 1.5 * math.cos(math.radians(180 + turned)),
+                1.5 * math.sin(math.radians(180 + turned)),
+            )
+            across = 270.0 + turned
+        toward = draw.choice((draw.uniform(-80, 80), draw.uniform(100, 260), 90.5, -89.0))
+        way = math.radians(across + toward)
+        near = (home[0] + 0.3 * math.cos(way), home[1] + 0.3 * math.sin(way))
+        sides: set[object] = set()
+        for power in (22, 18, 14, 10, 6, 2, 0):
+            text = FOLDED.format(off=10**power, turned=turned, point=point, near=near)
+            try:
+                places = solve(load(text)).points
+                gone = (places[point][0] - home[0], places[point][1] - home[1])
+                sides.add(
+                    gone[0] * math.cos(math.radians(across)) + gone[1] * math.sin(math.radians(across)) > 0
+                )
+            except SceneError as refused:
+                sides.add(None if refused.status == Status.AMBIGUOUS else refused.message)
+        assert sides == {None if abs(abs(toward) - 90) < 2 else abs(toward) < 90}, (turned, toward)

@@ -324,6 +324,33 @@ def test_a_value_beside_the_limit_of_two_rods_behind_a_group_is_found(beside: fl
     assert 88.3 - beside in [pytest.approx(spot.at, abs=1e-9) for spot in spots]
 
 
+@pytest.mark.parametrize(
+    ("k", "rods"), [((-7.75, 2.03), (6.906, 18.066109)), ((9.86, -6.89), (6.135, 3.503728))]
+)
+def test_the_end_of_a_group_is_no_limit_where_what_lies_behind_it_reaches_on_neither_side(
+    k: tuple[float, float], rods: tuple[float, float]
+) -> None:
+    """A plate that three bars let go to 90 degrees turns two rods that are in line some 0.01 or 0.001 degree
+    before: that is the one limit. The rows to both sides of it, 1e-6 away, say so."""
+    starts = zip(((0, 0), (3, 0), (0, 4)), (-3, 5, -1), strict=True)
+    b, d, e = ((px - n * 3, py - n * 4) for (px, py), n in starts)
+    text = PLATE.format(b=b, low=b[1] - 5, d=d, e=e, bars=[15, 25, 5], turned=85.0)
+    f = icsolve.sweep(icsolve.load(text), {"angles.AB": [85.0]}, want=("points",)).points["F"][0]
+    middle, across = (f + k) / 2.0, 0.3 * np.array([f[1] - k[1], k[0] - f[0]])
+    h = [*map(float, middle + across)]
+    text = text.replace("A: [", f"K: [{k[0]}, {k[1]}], A: [").replace("near: {", f"near: {{H: {h}, ")
+    text = text.replace("AB: 5", f"AB: 5, FH: {rods[0]}, KH: {rods[1]}")
+    text = text.replace(
+        "at: E}]", "at: E}, {pin: [3, 7], at: F}, {pin: [7, 8], at: H}, {pin: [8, 1], at: K}]"
+    )
+    case = icsolve.load(text.replace("unknown, link: 2", "unknown, link: 8"))
+    spots = find(case, {"angles.AB": np.array([87.0, 91.0])}, Query("dead"))
+    (limit,) = (spot.at for spot in spots if spot.kind == "limit")
+    assert 89.98 < limit < 89.9995
+    rows = icsolve.sweep(case, {"angles.AB": [limit - 1e-6, limit + 1e-6, 90.0 - 1e-6]})
+    assert rows.status.tolist() == ["ok", "cannot-assemble", "cannot-assemble"]
+
+
 @pytest.mark.parametrize("beside", [0.05, 1e-3, 1e-5])
 def test_a_value_beside_a_limit_is_found_with_friction(beside: float) -> None:
     """The same of a rocker whose crank rubs, by scenes: at 90 degrees its links are in line."""

@@ -39,7 +39,7 @@ from icsolve.assembly.workspace import (
 )
 from icsolve.case import Case, bare_name
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.screws.plane import Point
 from icsolve.tuples import LateModule, NamedTuple, replace
 from icsolve.wording.sentences import listed
@@ -56,6 +56,8 @@ number of points: of a guess that is off in every coordinate so much lies along 
 centre the two are close together, and the ratio alone would call any digits of `near` in between.)"""
 SAME = 1e-11
 """Points nearer than this (normalised, over 1 + their distance from the origin) are one point."""
+COINCIDING = 1e-6
+"""Ways that differ by less are told apart in digits."""
 MOST_LISTED = 4
 
 
@@ -124,7 +126,11 @@ def choose(walk: Walk, points: tuple[str, ...]) -> Mode:
         ``ambiguous``: several are about as near, listed point by point.
     """
     workspace = walk.workspace
-    modes = sorted(distinct(walk.modes, points), key=lambda mode: mode.path.off)
+    modes = distinct(walk.modes, points)
+    for mode in walk.modes:
+        if all(_parted(walk, mode, other, points) for other in modes):
+            modes.append(mode)
+    modes.sort(key=lambda mode: mode.path.off)
     best = modes[0]
     rivals = [mode for mode in modes if mode is best or not _nearer(walk, best, mode, points)]
     if len(rivals) > 1:
@@ -201,6 +207,19 @@ def distinct(modes: list[Mode], points: tuple[str, ...]) -> list[Mode]:
     return out
 
 
+def _forks(one: Mode, two: Mode) -> bool:
+    """Whether two loci meet on another side in the one than in the other."""
+    pairs = zip(one.steps, two.steps, strict=True)
+    return any(isinstance(a, Meet) and isinstance(b, Meet) and a.sign != b.sign for a, b in pairs)
+
+
+def _parted(walk: Walk, one: Mode, two: Mode, points: Sequence[str]) -> bool:
+    """Whether some of the points lie apart in two modes, if only in more digits than doubles have."""
+    if any(_differing(one, two, tuple(points))):
+        return True
+    return one is not two and _forks(one, two) and bool(_in_digits(walk, one, two, points))
+
+
 def differing(one: Mode, two: Mode, points: tuple[str, ...]) -> list[str]:
     """The points that are not in the same place in both."""
     return list(_differing(one, two, points))
@@ -215,15 +234,55 @@ def _differing(one: Mode, two: Mode, points: tuple[str, ...]) -> Iterator[str]:
 
 
 def _nearer(walk: Walk, one: Mode, two: Mode, points: tuple[str, ...]) -> bool:
-    """Whether the one mode is clearly nearer to `near` where the two differ."""
+    """Whether the one mode is clearly nearer to `near` where the two differ; of those that all but coincide
+    more digits tell."""
     held = [p for p in differing(one, two, points) if p in walk.near]
-    near: list[Point] = [walk.near[p] for p in held]
-    return nearer([one.points[p] for p in held], [two.points[p] for p in held], near)
+    first, second = [one.points[p] for p in held], [two.points[p] for p in held]
+    if not _forks(one, two) or _distance(first, second) > COINCIDING:
+        return nearer(first, second, [walk.near[p] for p in held])
+    places = _in_digits(walk, one, two, [p for p in points if p in walk.near])
+    if not places:
+        return False
+    apart = [part for gone, _ in places.values() for part in gone]
+    off = [
+        part - n for p, (_, middle) in places.items() for part, n in zip(middle, walk.near[p], strict=True)
+    ]
+    side = sum((d * a for d, a in zip(apart, off, strict=True)), 0.0)
+    size = float(sum((d * d for d in apart), 0.0)) ** 0.5
+    return bool(float(side) > SIDEWAYS * size * math.hypot(*map(float, off)) / math.sqrt(len(places)))
+
+
+def _in_digits(
+    walk: Walk, one: Mode, two: Mode, points: Sequence[str]
+) -> dict[str, tuple[list[Scalar], list[Scalar]]]:
+    """Of the points that lie apart in two modes by how much, and the middle between [frame], in many digits;
+    of none where these do not tell."""
+    from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, MoreDigits
+
+    workspace, balls = walk.workspace, Balls(PRECISIONS[-1], highest=True)
+    found = {}
+    try:
+        ways = [Figure(workspace.frame, {}, mode.steps) for mode in (one, two)]
+        first, second = (place(figure, workspace.case, balls).points for figure in ways)
+        for p in points:
+            pairs = list(zip(first[p], second[p], strict=True))
+            apart = [b - a for a, b in pairs]
+            if not all(balls.vanishes(d, 1.0) for d in apart):
+                found[p] = apart, [(a + b) / 2.0 for a, b in pairs]
+    except (MoreDigits, BelowZero, ZeroDivisionError):
+        return {}
+    return found
 
 
 def _listing(workspace: Workspace, rivals: list[Mode], points: tuple[str, ...]) -> str:
     """The modes point by point: first the points that have a choice of their own."""
     forked = [p for p in points if any(differing(rivals[0], mode, (p,)) for mode in rivals[1:])]
+    if not forked:
+        names = listed([refusals.plain(p) for p in points if p not in workspace.case.points])
+        return (
+            f"the figure assembles in several ways that all but coincide, of points {names}, and near: does "
+            "not tell which is meant; give it on the side that is meant, some way off"
+        )
     forks = [
         step.target
         for step in rivals[0].steps

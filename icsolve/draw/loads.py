@@ -91,7 +91,7 @@ def load_words(acting: Acting) -> tuple[TextRun, ...]:
     if acting.value is None:
         return (*name, TextRun(" = ?"))
     text = f" = {quantity(abs(acting.value), acting.unit)}"
-    if ends := _intensities(acting.load):
+    if ends := intensities(acting.load):
         text = f" = {figure_number(min(ends))} to {quantity(max(ends), acting.unit)}"
     if acting.at is None and acting.value:
         text += f" {sense_of(acting.load, acting.value, acting.gain, 0.0)}"
@@ -148,7 +148,7 @@ def _spread(scene: Scene, acting: Acting, tail: Point, tip: Point) -> list[tuple
     if not isinstance(over, Stretch) or not {over.a, over.b} <= scene.at.keys():
         return []
     (ax, ay), (bx, by) = scene.at[over.a], scene.at[over.b]
-    first, last = _intensities(load) or (1.0, 1.0)
+    first, last = intensities(load) or (1.0, 1.0)
     largest = max(abs(first), abs(last)) or 1.0
     count = max(int(math.dist((ax, ay), (bx, by)) / 22.0), 3)
     found = []
@@ -159,7 +159,7 @@ def _spread(scene: Scene, acting: Acting, tail: Point, tip: Point) -> list[tuple
     return found
 
 
-def _intensities(load: Load) -> tuple[float, float] | None:
+def intensities(load: Load) -> tuple[float, float] | None:
     """The force per length at both ends of a stretch over which it is not uniform."""
     over, value = getattr(load, "over", None), getattr(load, "value", None)
     if not isinstance(over, Stretch) or over.end is None or not isinstance(value, Number):

@@ -54,7 +54,8 @@ PYTHON = Language(
 JAVASCRIPT = Language(
     {
         **_ARITHMETIC,
-        Op.MUL: "({a}*{b})",
+        Op.MUL: "times({a},{b})",
+        Op.DIV: "over({a},{b})",
         Op.SQRT: "root({a})",
         Op.ANGLE: "angle({a},{b})",
         Op.NEAREST: "nearest({a})",
@@ -63,19 +64,6 @@ JAVASCRIPT = Language(
     "{name}={value};",
     _number,
 )
-JAVASCRIPT_FUNCTIONS = """\
-const root = x => x > 0 ? Math.sqrt(x) : 0;
-const angle = (x, y) => Math.atan2(y, x) * (180 / Math.PI);
-const nearest = x => { const n = Math.round(x); return Math.abs(x % 1) === 0.5 && n % 2 ? n - 1 : n; };
-const turn = d => {
-  const r = d % 360, q = nearest(r / 90), a = (r - 90 * q) * (Math.PI / 180);
-  const c = Math.cos(a), s = Math.sin(a);
-  return [[c, s], [-s, c], [-c, -s], [s, -c]][((q % 4) + 4) % 4];
-};
-"""
-"""What the generated JavaScript calls: as `arithmetic.turn_of` and the operations of a record."""
-
-
 class Text(NamedTuple):
     """Lines in order with the node that each ends at, the names that they assign, and the expression of
     every wanted node."""
@@ -98,7 +86,7 @@ def straight_line(
     inputs : by node, the name of the variable that has it; every other input keeps the value with which it
         was recorded
     language : `PYTHON` or `JAVASCRIPT`; the text calls ``turn``, ``root``, ``degrees``, ``atan2`` (Python) or
-        `JAVASCRIPT_FUNCTIONS`
+        ``turn``, ``root``, ``angle``, ``nearest``, ``times``, ``over``, which may take any numbers
 
     Returns
     -------

@@ -156,23 +156,33 @@ def _file(*names: str) -> str:
         return file.read()
 
 
-NAMES = "data scene rest live moving centres labels words position construction turn fields see"
+NAMES = "data digits scene rest live moving centres labels words position construction turn fields see"
 PARTS = NAMES.split()
 """The parts of the script, in the order in which they run: each uses those before it."""
-SIGNS = "=> === !== && || <= >= = * < > :".split()
+SIGNS = "=> === !== && || <= >= = * < > : + - / ? %".split()
+CLOSED = (
+    (", ", ","),
+    ("; ", ";"),
+    ("{ ", "{"),
+    (" }", "}"),
+    (") {", "){"),
+    *((f" {sign} ", sign) for sign in SIGNS),
+)
+"""What a script is as well without."""
 
 
 @cache
 def _parts() -> str:
     """What is the same in the script of every page, without its comments and indents, and without spaces
-    about signs in lines that have no strings, templates or expressions of their own."""
+    about signs outside of strings, in lines that have no templates or expressions of their own."""
     text = "".join(_file("script", f"{part}.js") for part in PARTS)
     lines = re.sub(r"^\s*/\*.*?\*/\s*|^\s+", "", text, flags=re.MULTILINE | re.DOTALL).split("\n")
-    plain = [n for n, s in enumerate(lines) if not ('"' in s or "'" in s or "`" in s or "/" in s)]
-    closed = "\n".join([lines[n] for n in plain]).replace(", ", ",")
-    for sign in SIGNS:
-        closed = closed.replace(f" {sign} ", sign)
-    for n, line in zip(plain, closed.split("\n"), strict=True):
+    plain = [n for n, s in enumerate(lines) if not any(c in s.replace(" / ", "") for c in "'`/\\")]
+    pieces = "\n".join([lines[n] for n in plain]).split('"')
+    for k in range(0, len(pieces), 2):
+        for spaced, closed in CLOSED:
+            pieces[k] = pieces[k].replace(spaced, closed)
+    for n, line in zip(plain, '"'.join(pieces).split("\n"), strict=True):
         lines[n] = line
     return "\n".join(lines)
 

@@ -8,6 +8,7 @@ page walks the steps, and eliminates with pivots of its own, so that what is sin
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
 from itertools import count, pairwise
 from typing import Any
 
@@ -39,7 +40,7 @@ from icsolve.kinematics.speeds import joint_order
 from icsolve.kinematics.twists import ORIGIN, Bases, Tree, loop_rows, rope_row, span
 from icsolve.numbers.arithmetic import HALF_TURN, Scalar
 from icsolve.numbers.record import Record, Traced
-from icsolve.numbers.source import JAVASCRIPT, JAVASCRIPT_FUNCTIONS, straight_line
+from icsolve.numbers.source import JAVASCRIPT, straight_line
 from icsolve.numbers.units import BOUNDS
 from icsolve.page.fields import handles_of, text_data, units_to_write
 from icsolve.report.derivation.known import Known
@@ -341,7 +342,9 @@ class _ProgramWriter:
         """The program: a function a step, and one for each of the other parts, which end at these nodes."""
         flat = [v for step in steps for v in step.values] + list(_leaves(list(parts.values())))
         wanted = [self.record.lifted(v).index for v in flat]
-        text = straight_line(self.record.nodes, wanted, self.names, JAVASCRIPT)
+        constants: dict[float, str] = {}
+        language = JAVASCRIPT._replace(number=lambda v: constants.setdefault(v, f"k{len(constants)}"))
+        text = straight_line(self.record.nodes, wanted, self.names, language)
         given = iter(text.wanted)
         functions = []
         for step in steps:
@@ -353,9 +356,12 @@ class _ProgramWriter:
             lines = [s for s, k in zip(text.lines, text.at, strict=True) if start <= k < end]
             others.append(f"{name}: () => {{{''.join(lines)}return{_shaped(made, given)}}}")
         variables = f"let {','.join(text.names)};\n" if text.names else ""
+        if constants:
+            values = ",".join(map(repr, constants))
+            variables += f"const [{','.join(constants.values())}]=[{values}].map(of);\n"
         steps_text = ",\n".join(functions)
         return (
-            f"const program = (x, s, q, t, r, w) => {{\n{JAVASCRIPT_FUNCTIONS}{variables}"
+            f"const program = ({{of, root, angle, nearest, turn}}, x, s, q, t, r, w) => {{\n{variables}"
             f"return {{ steps: [{steps_text}],\n{','.join(others)} }};\n}};\n"
         )
 
@@ -384,6 +390,7 @@ class _ProgramWriter:
             "paths": self.paths,
             "bounds": {own: BOUNDS[own] for own in sorted({"", *(numbers[p].bound for p in self.paths)})},
             "numbers": [numbers[path].value for path in self.paths],
+            "exact": {n: exact for n, path in enumerate(self.paths) if (exact := _exact(numbers[path]))},
             "halves": [numbers[path].half for path in self.paths],
             "handles": handles_of(case, self.figure.steps, self.paths),
             "text": text_data(case, self.paths),
@@ -582,6 +589,18 @@ class _ProgramWriter:
             "at": getattr(load, "at", None),
             "to": getattr(load, "to", None),
         }
+
+
+def _exact(number: Number) -> list[Any] | None:
+    """A number as the file has it, as a ratio and a power of pi; None where its double's numeral says it."""
+    if number.exact is not None:
+        num, den, power = number.exact
+    elif number.factor != 1.0:
+        (num, den), power = number.value.as_integer_ratio(), 0
+    else:
+        (num, den), power = Fraction(number.digits.replace("−", "-")).as_integer_ratio(), 0
+    same = power == 0 and Fraction(num, den) == Fraction(repr(number.value))
+    return None if same else [str(num), str(den), power]
 
 
 def _leaves(parts: Any) -> Iterable[Scalar]:

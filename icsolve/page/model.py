@@ -27,7 +27,7 @@ from icsolve.case import (
     pair_name,
 )
 from icsolve.case.loads import name_of_inertia
-from icsolve.draw.loads import axle
+from icsolve.draw.loads import axle, intensities
 from icsolve.draw.marks import Point, View
 from icsolve.draw.ropes import RopeCourse
 from icsolve.draw.scene import Scene
@@ -142,6 +142,7 @@ def load_data(scene: Scene, motion: PageMotion | None, acting: Acting) -> dict[s
         place = scene.at.get(str(getattr(load, "at", "")), place)
     x, y = place or (0.0, 0.0)
     found: dict[str, Any] = {"on": [acting.link, round(x, 1), round(y, 1)], "torque": acting.at is None}
+    found |= _number_shown(acting)
     if isinstance(load, Spring):
         a, b = scene.at[load.at], scene.at[load.to]
         found["span"] = [
@@ -149,6 +150,9 @@ def load_data(scene: Scene, motion: PageMotion | None, acting: Acting) -> dict[s
             [acting.against, round(b[0], 1), round(b[1], 1)],
         ]
         return found
+    if acting.unknown and acting.value is not None and load.name.rpartition(".")[0] in scene.case.directed:
+        column = [acting.value] if motion is None else motion.found.answers[load.name][motion.rows].tolist()
+        found |= {"values": exact(column), **_named(load.name), "unit": unit_word(acting.unit)}
     if motion is None:
         return found
     rows = motion.rows
@@ -381,6 +385,17 @@ def _written_centre(centre: Centre, motion: PageMotion | None) -> Array:
     rows = np.full((motion.positions, 3), np.nan)
     rows[motion.zero - motion.first] = row
     return rows
+
+
+def _number_shown(acting: Acting) -> dict[str, Any]:
+    """How the number beside a load is told in the figure; of a known one, which may be typed, itself."""
+    load = acting.load
+    told: dict[str, Any] = {"k": True} if isinstance(load, Spring | TorsionSpring) else {}
+    if acting.unknown or acting.value is None or name_of_inertia(load.name) or intensities(load):
+        return told
+    clockwise = acting.at is None and sense_of(load, 1.0, acting.gain, 0.0) == "cw"
+    told |= {"known": acting.value, **_named(load.name), "unit": unit_word(acting.unit)}
+    return told | ({"cw": True} if clockwise else {})
 
 
 def _answers(known: Known, motion: PageMotion | None, loads: Sequence[Acting]) -> list[dict[str, Any]]:

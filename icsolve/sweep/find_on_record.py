@@ -238,8 +238,8 @@ class RangeSearch:
 
     def _limits(self) -> Iterator[tuple[Decimal, float | None]]:
         """Where the links assemble on one side only; with the error, where it is more than the last digit."""
-        if self._follows_groups:
-            yield from self._ends
+        if self._follows_groups:  # what lies behind a group may have its own limit before the group's
+            yield from (end for end in self._ends if self._assembles(end[0]) or not self._reaches(end[0]))
         seen: list[Decimal] = []
         for node in dict.fromkeys(node for root in self.roots for node, _ in root.margins):
             for s in self._zeros(self.record.nodes[node]):
@@ -471,10 +471,10 @@ class RangeSearch:
         return list(self._ends_of_groups())
 
     def _edges(self) -> list[Decimal]:
-        """All limits; while those beside the ends of groups are looked for, these."""
+        """All limits, and ends of groups; while those beside the latter are looked for, these."""
         if self.edges is None:
             self.edges = [s for s, _ in self._ends]
-            self.edges = [s for s, _ in self._limits()]
+            self.edges = list(dict.fromkeys((*self.edges, *(limit for limit, _ in self._limits()))))
         return self.edges
 
     def _ends_of_groups(self) -> Iterator[tuple[Decimal, float]]:
@@ -512,10 +512,10 @@ class RangeSearch:
                 return last, beyond
             outside = gap
 
-    def _reaches(self, s: float) -> bool:
-        """Whether the links reach one another at a value."""
+    def _reaches(self, s: float | Decimal) -> bool:
+        """Whether the links of groups reach one another at a value."""
         with suppress(Unreached):
-            self.exact.solved(self.along.at(self.name, as_written(s)))
+            self.exact.solved(self.along.at(self.name, as_written(s) if isinstance(s, float) else s))
             return True
         return False
 

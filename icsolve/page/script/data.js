@@ -1,5 +1,6 @@
 /* The data of the page, and what is where in every position. */
-const { abs, atan2, cos, floor, hypot, max, min, PI, sin } = Math;
+const { atan2, cos, floor, hypot, max, min, PI, sin } = Math;
+const abs = (v) => (v < 0 ? -v : v);
 const { entries } = Object;
 const data = JSON.parse(document.getElementById("data").textContent);
 const NS = "http://www.w3.org/2000/svg";
@@ -39,8 +40,16 @@ let complete = true;
 
 /* Numbers as a figure writes them. */
 const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+/* What is as near to one as to the other is rounded to the even one. */
+function rounded(value, digits) {
+  const [m, power] = abs(value).toExponential(60).split("e");
+  const figures = m.replace(".", "");
+  const halfway = figures[digits] === "5" && !/[1-9]/.test(figures.slice(digits + 1)) && figures[digits - 1] % 2 === 0;
+  if (!halfway) return Number(value.toPrecision(digits));
+  return Math.sign(value) * Number(`${figures[0]}.${figures.slice(1, digits)}e${power}`);
+}
 function number(value, digits) {
-  const x = Number(value.toPrecision(digits));
+  const x = rounded(value, digits);
   if (x === 0) return "0";
   const size = abs(x);
   if (size >= 1e-4 && size < 10 ** max(digits, 7)) return String(x).replace("-", "−");

@@ -42,6 +42,7 @@ if (live) {
   }
   for (const load of Object.values(loads)) {
     load.way = load.way || filled(0);
+    if (load.known !== undefined) load.values = filled(load.known);
     for (const place of [load.on, ...(load.span || [])])
       place.point = Object.keys(written).find((name) => apart(written[name], place.slice(1)) < 0.15);
   }
@@ -120,11 +121,13 @@ function fillLinks(ownNow) {
     for (const place of [load.on, ...(load.span || [])]) if (place.point) place.now = placeOf(place.point);
 }
 function fillLoads(solved) {
-  live.loads.forEach(({ name }, n) => {
+  const [, , now] = lab.scene();
+  live.loads.forEach(({ name, unknown }, n) => {
     const load = own(loads, name);
-    const [u, v, couple] = solved.loads[n];
-    if (load && load.values) load.values[LIVE] = load.torque ? couple : hypot(u, v);
-    if (load && !load.torque) load.way[LIVE] = turned(wrenchOf(scene.first.loads[n]), wrenchOf(solved.loads[n]));
+    const [u, v, couple] = solved ? solved.loads[n] : [];
+    if (load && load.known !== undefined) load.values[LIVE] = now[n][4] * now[n][5];
+    else if (load && load.values) load.values[LIVE] = !solved ? null : unknown ? solved.values[n] : load.torque ? couple : hypot(u, v);
+    if (solved && load && !load.torque) load.way[LIVE] = turned(wrenchOf(scene.first.loads[n]), wrenchOf(solved.loads[n]));
   });
 }
 function centreOf(c, solved) {
@@ -184,7 +187,7 @@ function resolve(dragged, toward) {
     [scene.status, scene.words] = [refusal.status, refusal.words];
     live.posed.forEach((one, k) => { numbers[one.number] = before[k]; });
   }
-  if (solved) fillLoads(solved);
+  fillLoads(solved);
   fillCentres(solved);
   fillAnswers(solved);
 }

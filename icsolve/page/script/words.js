@@ -19,12 +19,18 @@ function lastText(text) {
   while (node && node.lastChild) node = node.lastChild;
   return node;
 }
-/* What stands beside a load in the figure. */
+/* What stands beside a load in the figure, and what is said of it there. */
 function relabel(name, { base, low, unit, values }, r, sense) {
+  const load = own(loads, name);
+  if (!load) return;
+  const turns = load.torque && !load.k ? SHORT[sense] || "" : "";
+  const shown = values[r] === null ? "no value" : `${number(abs(values[r]), 4)} ${unit}${turns}`;
+  const text = `${load.k ? ": k" : ""} = ${shown}`;
+  const title = byId(`load-${name}`) && byId(`load-${name}`).querySelector("title");
+  if (title) title.textContent = base + low + text;
   const label = labels.find((l) => l.label === name);
   if (!label) return;
-  const shown = values[r] === null ? "no value" : `${number(abs(values[r]), 4)} ${unit}${loads[name].torque ? SHORT[sense] || "" : ""}`;
-  lastText(label.text).data = `${low ? "" : base}${loads[name].span ? ": k" : ""} = ${shown}`;
+  lastText(label.text).data = (low ? "" : base) + text;
   label.size = null;
 }
 function tell(r) {
@@ -39,7 +45,7 @@ function tell(r) {
     if ((motion || live) && !(answer.holds && answer.holds[r])) relabel(answer.name, answer, r, sense);
   }
   for (const [name, load] of entries(loads))
-    if (load.values) relabel(name, load, r, load.values[r] < 0 ? "clockwise" : "counterclockwise");
+    if (load.values) relabel(name, load, r, load.values[r] < 0 !== Boolean(load.cw) ? "clockwise" : "counterclockwise");
   const terms = data.terms;
   if (!terms) return;
   let sum = 0;
