@@ -109,7 +109,7 @@ def combinations(case: c.Case, points: Points, of: list[Senses] | None = None) -
                 columns[row[link] : row[link] + 3, k] += sign * place.wrench
     found = []
     for senses in of or product((1.0, -1.0), repeat=len(places)):
-        x = _followed(a, b, columns, places, senses, CAREFUL if of else STEPS)
+        x = followed(a, b, columns, places, senses, CAREFUL if of else STEPS)
         if x is None:
             found.append(Combination(senses, None, None))
             continue
@@ -122,7 +122,7 @@ def combinations(case: c.Case, points: Points, of: list[Senses] | None = None) -
     return found
 
 
-def _followed(a: Any, b: Any, columns: Any, places: list[Place], senses: Senses, steps: int) -> Any:
+def followed(a: Any, b: Any, columns: Any, places: list[Place], senses: Senses, steps: int) -> Any:
     """The solution at full friction of these senses, followed from none; None where it is lost."""
     x = np.linalg.lstsq(a, b, rcond=1e-12)[0]
     first = np.abs(x).max()

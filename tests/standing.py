@@ -179,18 +179,22 @@ def with_friction(case: c.Case) -> tuple[Array, Array, Array, list[rubbing.Place
     return a, friction, b, places
 
 
+def pushing(case: c.Case) -> set[int]:
+    """The columns of the normal forces of contacts."""
+    points, column, found = points_of(case), 0, set[int]()
+    for joint in case.joints:
+        if isinstance(joint, c.Contact):
+            found.add(column)
+        column += len(equilibrium.transmitted(case, joint, points, frame_of(case, points)))
+    return found
+
+
 def off(case: c.Case, grown: float = 1.0) -> float:
     """How far the loads are from those that the joints can balance, friction within ``grown`` times its
     limits: of contacts, guides (either sense of each) and smooth pins."""
-    points = points_of(case)
-    frame, (a, friction, b, places) = frame_of(case, points), with_friction(case)
+    (a, friction, b, places), push = with_friction(case), pushing(case)
     rough = {int(np.flatnonzero(place.force[0])[0]): k for k, place in enumerate(places)}
-    pushing, column = set(), 0
-    for joint in case.joints:
-        if isinstance(joint, c.Contact):
-            pushing.add(column)
-        column += len(equilibrium.transmitted(case, joint, points, frame))
-    guides = [n for n in rough if n not in pushing]
+    guides = [n for n in rough if n not in push]
     found = []
     for senses in product((1.0, -1.0), repeat=len(guides)):
         by, columns = dict(zip(guides, senses, strict=True)), []
@@ -201,7 +205,7 @@ def off(case: c.Case, grown: float = 1.0) -> float:
                 most = grown * places[k].limit
                 columns += [sense * a[:, n] + side * most * friction[:, k] for side in (1.0, -1.0)]
             else:
-                columns += [a[:, n]] if n in pushing else [a[:, n], -a[:, n]]
+                columns += [a[:, n]] if n in push else [a[:, n], -a[:, n]]
         found.append(off_the_cone(np.array(columns).T, b))
     return min(found)
 

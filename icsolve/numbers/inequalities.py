@@ -127,7 +127,8 @@ class Deepest(NamedTuple):
         those that do not count are the cause
     of : the places of the forms that set it, each as deep as the others at the point
     point : (n,), one of those
-    shares : of those forms, in the sum that shows that no point is deeper
+    shares : of those forms, in the sum that shows that no point is deeper; of an infinite depth in a sum that
+        is less than zero everywhere
     """
 
     depth: Any
@@ -138,15 +139,17 @@ class Deepest(NamedTuple):
     def is_proven(self, forms: Sequence[Form], counts: Sequence[float]) -> bool:
         """Whether no form is less than it is to be at the point, and the shares of forms leave no variable,
         but for rounding."""
+        columns = zip(*(forms[k] for k in self.of), strict=True)
+        left = [sum(map(mul, column, self.shares)) for column in columns]
+        is_sum = max(map(abs, left[1:]), default=0.0) <= CLOSE and min(self.shares, default=0.0) >= -CLOSE
         if math.isinf(self.depth):
-            return False
+            counted = sum(map(mul, (counts[k] for k in self.of), self.shares))
+            return is_sum and counted <= CLOSE and left[0] < -CLOSE
         for form, many in zip(forms, counts, strict=True):
             terms = [form[0], *map(mul, form[1:], self.point), -many * self.depth]
             if sum(terms) < -CLOSE * largest_of(terms):
                 return False
-        columns = zip(*(forms[k] for k in self.of), strict=True)
-        left = [abs(sum(map(mul, column, self.shares))) for column in columns][1:]
-        return max(left, default=0.0) <= CLOSE and min(self.shares, default=0.0) >= -CLOSE
+        return is_sum
 
 
 def deepest(forms: Sequence[Form], counts: Sequence[float] | None = None) -> Deepest:
@@ -197,7 +200,9 @@ def _simplex(forms: Sequence[Sequence[Any]], counts: Sequence[Any]) -> Deepest:
         if enters is None:
             break
         if not ratios:
-            return Deepest(-math.inf, (), (0.0,) * count, ())
+            both = {**{basis[r]: -table[r][enters] for r in rows}, enters: one}
+            of = tuple(sorted(c for c in both if c < last))
+            return Deepest(-math.inf, of, (zero,) * count, tuple([both[c] for c in of]))
         _pivot(table, basis, min(ratios)[2], enters, nothing)
     depth = sum(costs[basis[r]] * table[r][-1] for r in rows)
     shares = {basis[r]: table[r][-1] for r in rows if basis[r] < last}

@@ -58,7 +58,7 @@ def standing(scene: EvaluatedScene) -> Standing:
 
     Raises SceneError where that is open.
     """
-    from icsolve.statics.friction.standing import RestingScene
+    from icsolve.statics.friction.pushing import RestingScene
     from icsolve.statics.friction.standing import standing as found
 
     def ask(question: Callable[[Position, Balance, Showing], T]) -> T:

@@ -141,7 +141,7 @@ def edge_of_rest(spare: Callable[[float], Spare], inside: float, outside: float)
         reach = 2.0 * math.ulp(zero)
         inside, outside = narrowed(zero, zero - reach, zero + reach)
     last, beyond = last_that_holds(is_held, inside, outside, least)
-    return last, max(_open(spare, last, beyond - last, end) for end in whole)
+    return last, max(_open(spare, last, max(abs(beyond - last), least), end) for end in whole)
 
 
 WIDER = 8.0

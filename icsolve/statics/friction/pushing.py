@@ -1,71 +1,316 @@
-"""Where contacts only push, ropes slip, or nothing presses without friction: the loads that friction within
-its limits can hold.
+"""What friction within its limits can do, contacts that only push, and ropes that slip and only pull: linear
+inequalities by parts, and the ranges of one unknown load in which they hold.
 
-Each friction is at most its coefficient times the force that presses, and a contact's force is not less than
-zero; nor is the pull of a rope, and beside a place where it slips neither part pulls with more than
-exp(mu beta) times the other. Where the sense of each force that presses is given, these are linear
-inequalities in the unknown load and the frictions. The sense of a guide's force is tried both ways; that of a
-pin's is turned to where the force lies at the end that was found, until the end goes no farther: each time
-the range is one of equilibria.
+Equilibrium leaves the frictions open, and what redundant joints share. Each friction is at most its
+coefficient times the force that presses, and a contact's force is not less than zero; nor is the pull of a
+rope, and beside a place where it slips neither part pulls with more than exp(mu beta) times the other. Where
+the senses in which guides press are given, and whereto the forces of pins point, these are linear
+inequalities: what keeps them is a part of what can be, and so are they, nearly, where the force of a pin lies
+within an angle: all that can be is in it. Guides are taken in either sense, and angles are cut, until every
+such part lies in ranges that hold.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
-from icsolve.numbers.arithmetic import Scalar, all_vanish, decider, largest_of, zero_of
-from icsolve.numbers.inequalities import Form, region
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, decider, largest_of, zero_of
+from icsolve.numbers.inequalities import Form
 from icsolve.numbers.linear import Row, eliminate
 from icsolve.statics.equilibrium import Action, Rub, Statics, actions_of, columns_of, solve_statics
-from icsolve.statics.friction.equations import at, forces_of, shared_normals, smooth_normals
+from icsolve.statics.friction.equations import combined
+from icsolve.statics.friction.interface import rubs_of
 from icsolve.statics.power import Balance
-from icsolve.statics.reaction_basis import Position, Tie
-from icsolve.tuples import LateModule, NamedTuple
+from icsolve.statics.reaction_basis import Position, Tie, meshes, slipping, ties_of, with_flanks
+from icsolve.statics.witness import refuse_doubt
+from icsolve.tuples import LateModule, NamedTuple, Protocol
 
 if TYPE_CHECKING:
     from icsolve.screws import ropes as rope_screws
 else:
     rope_screws = LateModule("icsolve.screws.ropes")
 
-MOST_GUIDES = 6
-"""More have too many combinations of senses."""
-TURNS = 60
-"""A pin's force is turned so often at most."""
-LOADS = (0.0, 1.0, -1.0, 1e3, -1e3)
-"""Loads at which the forces of pins are looked at first, in their unit."""
-ROUNDED = 2.0**-48
+T = TypeVar("T")
+MOST_FLANKS = 6
+"""More meshes have too many combinations of flanks."""
+ROUNDED = 2.0**-44
 """What is left of terms that cancel, as a fraction of them, is rounding."""
-PROVEN = "proven: no friction within its limits holds more"
-TURNED = "the forces of pins were turned until no friction was found that holds more"
-Toward = Callable[[Sequence[float]], list[tuple[float, ...]]]
-"""Directions of the forces that press, of a load and frictions."""
 
 
-class Vertex(NamedTuple):
-    """What an end of a range follows from.
+class AsksStatics(Protocol):
+    """Asks a question of a scene in the numbers that settle it."""
+
+    def __call__(self, question: Callable[[Position, Balance, Showing], T]) -> T:
+        """The answer; SceneError where no digits do."""
+
+
+class RestingScene(NamedTuple):
+    """A scene whose loads are all known: in floats, and what asks the same in numbers that settle it."""
+
+    position: Position
+    balance: Balance
+    ask: AsksStatics
+
+
+class RubLimit(NamedTuple):
+    """A rub: the one or two components of the force that presses, times the coefficient, and its friction."""
+
+    tie: int
+    forces: tuple[Row, ...]
+    friction: Row
+
+
+class FrictionLimits(NamedTuple):
+    """What bounds friction, as combinations of what is open (frictions, shares) and of the known loads.
 
     Attributes
     ----------
-    end : 0 of the least load, 1 of the most
-    of : sets of inequalities, by their places, of each of which as equations the end follows; empty where
-        forces of pins were turned
-    senses : (rubs,) in which the forces press
+    known, root : the columns of the known loads and of the unknown one; None where there is none
+    scale : of these loads, times their number in case units
+    free : columns that say how joints share
+    equations : each is zero
+    normals : of each contact, by its tie, not less than zero
+    rows : each is not less than zero, beside those
+    rubs : all of them
     """
 
-    end: int
-    of: tuple[frozenset[int], ...]
-    senses: tuple[float, ...]
+    known: int
+    root: int | None
+    scale: float
+    free: tuple[int, ...]
+    equations: tuple[Row, ...]
+    normals: Mapping[int, Row]
+    rows: tuple[Row, ...]
+    rubs: tuple[RubLimit, ...]
+
+    def each(self, change: Callable[[Row], Row]) -> FrictionLimits:
+        """With every combination changed."""
+        rubs = (rub._replace(forces=tuple(map(change, rub.forces))) for rub in self.rubs)
+        return self._replace(
+            equations=tuple(map(change, self.equations)),
+            normals={t: change(row) for t, row in self.normals.items()},
+            rows=tuple(map(change, self.rows)),
+            rubs=tuple([rub._replace(friction=change(rub.friction)) for rub in rubs]),
+        )
+
+    def without(self, lost: frozenset[int]) -> FrictionLimits:
+        """The same where some contacts carry nothing."""
+        gone = [row for t, row in self.normals.items() if t in lost]
+        gone += [rub.friction for rub in self.rubs if rub.tie in lost]
+        return self._replace(
+            equations=(*self.equations, *gone),
+            normals={t: row for t, row in self.normals.items() if t not in lost},
+            rubs=tuple([rub for rub in self.rubs if rub.tie not in lost]),
+        )
+
+    @property
+    def pushing(self) -> tuple[Pointing | None, ...]:
+        """Whereto the forces that press point: contacts push, all else is open."""
+        return tuple([SENSES[0] if rub.tie in self.normals else None for rub in self.rubs])
 
 
-class HeldRange(NamedTuple):
-    """From what load to what load it holds, perhaps infinite, and what the two ends follow from."""
+def limits_of(position: Position, balance: Balance, flanks: Mapping[int, float]) -> FrictionLimits:
+    """The limits in the arithmetic of a position, with teeth that carry on these flanks."""
+    still = slipping(position, ((0.0,) * (len(rope.parts) - 1) for rope in position.ropes))
+    ties = with_flanks(still, ties_of(still), flanks)
+    statics, slips = with_slips(still, ties, balance, rubs_of(still, ties))
+    refuse_doubt(len(statics.general.left), position.mobility)
+    equations, rubs = list(statics.general.left), list[RubLimit]()
+    for k, rub in enumerate(statics.rubs):
+        own: Row = {statics.rub(k): 1.0}
+        if not rub.limit:
+            equations.append(own)
+            continue
+        forces = (combined(statics, rub.tie, row) for row in rub.normal)
+        rubs.append(
+            RubLimit(rub.tie, tuple({c: a * rub.limit for c, a in row.items()} for row in forces), own)
+        )
+    normals = {t: combined(statics, t, (1.0,)) for t, tie in enumerate(ties) if tie.joint.only_pushes}
+    rows = [*pulls_of(statics), *(row for slip in slips for row in between_pulls(statics, slip))]
+    rows += [combined(statics, t, (1.0,)) for t in flanks]
+    root = statics.root(0) if statics.roots else None
+    which = statics.known, root, statics.scale, statics.general.free
+    return FrictionLimits(*which, tuple(equations), normals, tuple(rows), tuple(rubs))
 
-    low: float
-    high: float
-    vertices: tuple[Vertex, Vertex]
+
+def every_flanks(scene: RestingScene) -> Iterator[Mapping[int, float]]:
+    """The flanks on which the teeth of meshes may carry, in turn.
+
+    Raises SceneError where they are too many.
+    """
+    teeth = meshes(ties_of(scene.position))
+    if len(teeth) > MOST_FLANKS:
+        raise SceneError(Status.UNSUPPORTED, TOO_MANY)
+    for flanks in product((1.0, -1.0), repeat=len(teeth)):
+        yield dict(zip(teeth, flanks, strict=True))
+
+
+TOO_MANY = "too many joints rub in which more than one sense of what presses would have to be tried."
+
+
+def limits_in_floats(scene: RestingScene, flanks: Mapping[int, float]) -> FrictionLimits:
+    """In floats: those of balls, rounded, without what may be none."""
+    with suppress(SceneError):  # what no digits decide is left to rounding
+        exact = scene.ask(lambda position, balance, _: limits_of(position, balance, flanks))
+        return exact.each(lambda row: {c: float(a) for c, a in row.items() if getattr(a, "is_certain", a)})
+
+    def cleared(row: Row) -> Row:
+        least = ROUNDED * largest_of(row.values())
+        return {c: a for c, a in row.items() if abs(a) > least}
+
+    return limits_of(scene.position, scene.balance, flanks).each(cleared)
+
+
+class Pointing(NamedTuple):
+    """Whereto the force that presses at a rub points: along the positive sense or the other (``half`` is 0),
+    or within an angle to both sides of a direction [rad]."""
+
+    middle: float
+    half: float = 0.0
+
+    def halves(self) -> tuple[Pointing, ...]:
+        """The two halves of an angle."""
+        quarter = 0.5 * self.half
+        return Pointing(self.middle - quarter, quarter), Pointing(self.middle + quarter, quarter)
+
+
+LAPPED = 1.01
+"""Angles lap over one another, so that rounding loses no force that points along an end of two."""
+SENSES = (Pointing(1.0), Pointing(-1.0))
+CIRCLE = tuple([Pointing(2.0 * math.pi * k / 3.0, math.pi / 3.0) for k in range(3)])
+
+
+def halves(to: Pointing | None, is_pin: bool) -> tuple[Pointing, ...]:
+    """Whereto a force may point, cut: a guide's in either sense, a pin's within narrower angles."""
+    whole = CIRCLE if is_pin else SENSES
+    return whole if to is None else to.halves()
+
+
+class ReducedLimits:
+    """The limits in floats, in variables that the equations leave open."""
+
+    def __init__(self, limits: FrictionLimits) -> None:
+        self.limits = limits
+        every = [*limits.equations, *every_row(limits)]
+        root: Row = {} if limits.root is None else {limits.root: 1.0}
+        columns = sorted({c for row in (*every, root) for c in row} - {limits.known})
+        self.place = {c: n for n, c in enumerate([*columns, limits.known])}
+        self.last = len(columns)
+        self.general = eliminate([self._placed(row) for row in limits.equations], self.last)
+        size = largest_of([row.get(limits.known, 0.0) for row in every])
+        left = (row.get(self.last, 0.0) for row in self.general.left)
+        self.balances = all(abs(a) <= ROUNDED * size for a in left)
+        self.open = [n for n in range(self.last) if n not in self.general.solved]
+        self.units = [1.0] * len(self.open)
+        sizes = zip(*(self.form(row)[1:] for row in every_row(limits)), strict=True)
+        self.units = [1.0 / (largest_of(own) or 1.0) for own in sizes]
+        self.rubs = [tuple(map(self.form, (*rub.forces, rub.friction))) for rub in limits.rubs]
+        self.sizes = [largest_of([a for form in rub for a in form]) or 1.0 for rub in self.rubs]
+
+    def _placed(self, row: Row) -> Row:
+        return {self.place[c]: a for c, a in row.items()}
+
+    def form(self, row: Row) -> Form:
+        """A combination by the known loads and the open variables, in units that make these compare."""
+        terms: dict[int, list[float]] = {}
+        for c, a in self._placed(row).items():
+            for d, b in self.general.of(c).items():
+                terms.setdefault(d, []).append(a * b)
+        sums = {d: sum_of(own) for d, own in terms.items()}
+        open_ = zip(self.open, self.units, strict=True)
+        return (sums.get(self.last, 0.0), *(sums.get(n, 0.0) * unit for n, unit in open_))
+
+    def spare(self, k: int, point: Sequence[float]) -> float:
+        """How far a friction is from its limit at a point (w, x), whereto its force may point there."""
+        *forces, friction = self.rubs[k]
+        return (math.hypot(*(at(form, point) for form in forces)) - abs(at(friction, point))) / self.sizes[k]
+
+    def toward(self, part: Sequence[Pointing | None], point: Sequence[float]) -> tuple[Pointing | None, ...]:
+        """Whereto the forces that press point at a point (w, x) of a part; as this where one is none."""
+        found = list(part)
+        for k, (*forces, _) in enumerate(self.rubs):
+            to, (x, *y) = found[k], [at(form, point) for form in forces]
+            if to is None and not y:
+                found[k] = Pointing(math.copysign(1.0, x))
+            elif y and (to is None or to.half):
+                none = math.hypot(x, *y) <= ROUNDED * self.sizes[k]
+                found[k] = Pointing(to.middle if none and to else math.atan2(y[0], x))
+        return tuple(found)
+
+
+def every_row(limits: FrictionLimits) -> Iterator[Row]:
+    yield from (*limits.normals.values(), *limits.rows)
+    for rub in limits.rubs:
+        yield from (*rub.forces, rub.friction)
+
+
+def sum_of(terms: Sequence[float]) -> float:
+    """A sum, zero where that is rounding."""
+    total = sum(terms)
+    return total if abs(total) > ROUNDED * largest_of(terms) else 0.0
+
+
+def at(form: Form, point: Sequence[float]) -> float:
+    """The value of a form at a point (w, x)."""
+    return sum(a * x for a, x in zip(form, point, strict=True))
+
+
+def rows_of(
+    limits: FrictionLimits, toward: Sequence[Pointing | None]
+) -> Iterator[tuple[Row, float, int | None]]:
+    """What is not less than zero in a part, whether its depth counts (1.0), and the rub that it limits."""
+    for row in (*limits.normals.values(), *limits.rows):
+        yield row, 1.0, None
+    for k, ((_, forces, friction), to) in enumerate(zip(limits.rubs, toward, strict=True)):
+        if to is None:
+            continue
+        shares = [to.middle] if len(forces) == 1 else [math.cos(to.middle), math.sin(to.middle)]
+        if to.half:
+            wide = LAPPED * to.half
+            far = math.cos(wide)
+            shares = [math.cos(to.middle) / far, math.sin(to.middle) / far]
+            for end, side in ((to.middle - wide, 1.0), (to.middle + wide, -1.0)):
+                yield _summed(forces, (-side * math.sin(end), side * math.cos(end))), 0.0, None
+        for side in (1.0, -1.0):
+            yield _summed((*forces, friction), (*shares, side)), 1.0, k
+
+
+def _summed(rows: Sequence[Row], shares: Sequence[float]) -> Row:
+    total: Row = {}
+    for row, share in zip(rows, shares, strict=True):
+        for c, a in row.items():
+            total[c] = total.get(c, 0.0) + a * share
+    return total
+
+
+def value_where(
+    limits: FrictionLimits, rows: Sequence[Row], of: Sequence[int], column: int, a: Showing
+) -> Scalar | None:
+    """What a column has where some rows are equations, in the numbers of the limits (balls); None where they
+    hang on each other, or do not say.
+
+    Raises MoreDigits where the balls leave that open.
+    """
+    chosen = [*limits.equations, *(rows[n] for n in of)]
+    columns = sorted({c for row in (*rows, *limits.equations) for c in row} - {column, limits.known})
+    place, count = {c: n for n, c in enumerate([*columns, column, limits.known])}, len(columns)
+    whole = [{place[c]: x for c, x in row.items()} for row in chosen]
+    left = eliminate(whole, count, vanishes=decider(a)).left
+    both = [(row.get(count, 0.0), row.get(count + 1, 0.0)) for row in left]
+    said = [one for one in both if getattr(one[0], "is_certain", bool(one[0]))]
+    if len(said) != 1:
+        return None
+    ((factor, known),) = said
+    zero = all_vanish(a, [(known, largest_of([row.get(count + 1, 0.0) for row in whole]))])
+    return (zero_of(known) if zero else known) / (0.0 - factor)
+
+
+# --- ropes --------------------------------------------------------------------------------------------
 
 
 class RopeSlip(NamedTuple):
@@ -103,220 +348,6 @@ def with_slips(
             slips.append(RopeSlip(tuple(before), column, grown))
             before.append(column)
     return solve_statics(bare, actions, position.case.ground), tuple(slips)
-
-
-class Limits(NamedTuple):
-    """Affine forms in the unknown load and the frictions, each over its limit, without the one that follows
-    from the sum of power [scaled].
-
-    Attributes
-    ----------
-    load : the unit of the unknown load, which makes its largest coefficient 1 [scaled]
-    presses : of each rub the components of the force that presses
-    frictions : of each rub
-    smooth : the normal forces of contacts without friction, the pulls of ropes, and what these leave one
-        another where they slip
-    kept : the places of the rubs, and after them of the slips, whose frictions are variables; last those of
-        what equilibrium leaves open of contacts that share a load
-    """
-
-    load: float
-    presses: tuple[tuple[Form, ...], ...]
-    frictions: tuple[Form, ...]
-    smooth: tuple[Form, ...]
-    kept: tuple[int, ...]
-
-    def inside(self, statics: Statics, start: Sequence[float]) -> list[float]:
-        """The variables at a load with its frictions."""
-        count = len(statics.rubs)
-        own = (start[1 + k] / statics.rubs[k].limit if k < count else 0.0 for k in self.kept)
-        return [start[0] / self.load, *own]
-
-    def forms(self, toward: Sequence[Sequence[float]]) -> list[Form]:
-        """What is not less than zero in an equilibrium where each force that presses has, toward its unit
-        vector, at least the friction over its limit."""
-        found = list(self.smooth)
-        for forces, unit, friction in zip(self.presses, toward, self.frictions, strict=True):
-            force = _summed(forces, unit)
-            found += [_summed((force, friction), (1.0, side)) for side in (1.0, -1.0)]
-        return found
-
-
-def held(
-    statics: Statics, starts: Sequence[Sequence[float]] = (), slips: Sequence[RopeSlip] = ()
-) -> list[HeldRange] | None:
-    """The ranges of the one unknown load in which friction within its limits holds, by rising value [case
-    units]; None where no friction does work, and where guides rub in too many places.
-
-    ``starts`` are loads with their frictions, (1 + rubs,) [scaled], at which the forces of pins are looked at
-    first; with ``slips`` the statics are those of `with_slips`.
-    """
-    limits = _limits(statics, slips)
-    guides = [
-        k
-        for k, rub in enumerate(statics.rubs)
-        if len(rub.normal) == 1 and not statics.ties[rub.tie].joint.only_pushes
-    ]
-    if limits is None or len(guides) > MOST_GUIDES:
-        return None
-    found: list[HeldRange] = []
-    for senses in product((1.0, -1.0), repeat=len(guides)):
-        by_guide = dict(zip(guides, senses, strict=True))
-        own = [by_guide.get(k, 1.0) for k in range(len(statics.rubs))]
-        found += _with_senses(limits, own, [limits.inside(statics, start) for start in starts])
-    unit = limits.load / statics.scale
-    return _joined([one._replace(low=one.low * unit, high=one.high * unit) for one in found])
-
-
-def how(statics: Statics) -> str:
-    """How it is known that no friction holds more."""
-    return TURNED if any(len(rub.normal) == 2 for rub in statics.rubs) else PROVEN
-
-
-def _limits(statics: Statics, slips: Sequence[RopeSlip]) -> Limits | None:
-    """None where there is not one sum of power, or no friction in it."""
-    left, count = statics.general.left[0], len(statics.rubs)
-    if len(statics.general.left) > 1:
-        return None
-
-    count += len(slips)
-    shared = shared_normals(statics)
-    free = [c for c in statics.general.free if any(row.get(c) for row in shared)]
-    columns = (statics.known, statics.root(0), *map(statics.rub, range(count)), *free)
-    sizes = [largest_of([row.get(c, 0.0) for row in statics.general.solved.values()]) for c in columns]
-    load = 1.0 / (sizes[1] or 1.0)
-    pulls = (1.0 / (size or 1.0) for size in sizes[2 + len(statics.rubs) :])
-    units = (1.0, load, *(rub.limit for rub in statics.rubs), *pulls)  # the last of slips, and of shares
-
-    def whole(row: Row) -> Form:
-        three = zip(columns, sizes, units, strict=True)
-        return tuple(
-            [a * unit if abs(a := row.get(c, 0.0)) > ROUNDED * size else 0.0 for c, size, unit in three]
-        )
-
-    power = whole(left)
-    gone = max(range(2, 2 + count), key=lambda k: abs(power[k]), default=0)
-    fixed = not gone or not power[gone]
-    if fixed and not slips:
-        return None
-
-    def form(row: Row) -> Form:
-        own = whole(row)
-        if fixed:
-            return own
-        share = -own[gone] / power[gone]
-        return _summed((own[:gone] + own[gone + 1 :], power[:gone] + power[gone + 1 :]), (1.0, share))
-
-    presses = tuple(tuple(map(form, rows)) for rows in forces_of(statics))
-    frictions = tuple(form({statics.rub(k): 1.0 / rub.limit}) for k, rub in enumerate(statics.rubs))
-    kept = tuple([k for k in range(count + len(free)) if fixed or k != gone - 2])
-    between = [row for slip in slips for row in between_pulls(statics, slip)]
-    between += [left, {c: -a for c, a in left.items()}] if fixed else []  # without friction in it
-    smooth = tuple(map(form, (*smooth_normals(statics), *shared, *pulls_of(statics), *between)))
-    return Limits(load, presses, frictions, smooth, kept)
-
-
-def _summed(forms: Sequence[Form], shares: Sequence[float]) -> Form:
-    columns = [[a * s for a, s in zip(column, shares, strict=True)] for column in zip(*forms, strict=True)]
-    return tuple(
-        [total if abs(total := sum(terms)) > ROUNDED * largest_of(terms) else 0.0 for terms in columns]
-    )
-
-
-def _with_senses(
-    limits: Limits, senses: Sequence[float], starts: Sequence[Sequence[float]]
-) -> Iterator[HeldRange]:
-    """The ranges where guides and contacts press in these senses, and pins in any direction."""
-    pins = [k for k, forces in enumerate(limits.presses) if len(forces) == 2]
-
-    def toward(inside: Sequence[float]) -> list[tuple[float, ...]]:
-        """The directions of the forces at a load and frictions."""
-        found: list[tuple[float, ...]] = [(sense,) for sense in senses]
-        for k in pins:
-            x, y = (at(form, inside) for form in limits.presses[k])
-            size = math.hypot(x, y) or 1.0
-            found[k] = (x / size, y / size)
-        return found
-
-    if not pins:
-        part = region(limits.forms([(sense,) for sense in senses]))
-        if part.first is not None:
-            yield HeldRange(*part.first, _vertices(senses, part.vertex(0), part.vertex(1)))
-        return
-    for start in (*starts, *((load, *[0.0] * len(limits.kept)) for load in LOADS)):
-        units = toward(start)
-        if region(limits.forms(units)).first is not None:
-            least, most = (_turned(limits, toward, units, end) for end in (0, 1))
-            yield HeldRange(least, most, _vertices(senses, (), ()))
-
-
-def _vertices(
-    senses: Sequence[float], least: tuple[frozenset[int], ...], most: tuple[frozenset[int], ...]
-) -> tuple[Vertex, Vertex]:
-    return Vertex(0, least, tuple(senses)), Vertex(1, most, tuple(senses))
-
-
-def _turned(limits: Limits, toward: Toward, units: Sequence[tuple[float, ...]], end: int) -> float:
-    """An end of the range, the least or the most, with the forces of pins turned to where they lie there."""
-    last = math.nan
-    for _ in range(TURNS):
-        part = region(limits.forms(units))
-        if part.first is None or part.first[end] == last:  # but for rounding it is not empty
-            break
-        last = part.first[end]
-        if math.isinf(last):
-            break
-        units = toward((last, *part.point(last)))
-    return last
-
-
-def _joined(found: Sequence[HeldRange]) -> list[HeldRange]:
-    """The ranges that meet as one."""
-    joined: list[HeldRange] = []
-    for one in sorted(found, key=lambda one: (one.low, one.high)):
-        room = ROUNDED * largest_of([end for end in (one.low, one.high) if math.isfinite(end)])
-        if joined and one.low <= joined[-1].high + room:
-            last = joined[-1]
-            if one.high > last.high:
-                joined[-1] = last._replace(high=one.high, vertices=(last.vertices[0], one.vertices[1]))
-        else:
-            joined.append(one)
-    return joined
-
-
-def exactly(statics: Statics, vertex: Vertex) -> Scalar | None:
-    """The load at a vertex in the numbers of the statics (balls) [scaled]; None where none follows there.
-
-    Raises MoreDigits where the balls leave that open.
-    """
-    open_ = [*map(statics.rub, range(len(statics.rubs))), *statics.general.free]
-    count, found = len(open_), []
-    place = {c: n for n, c in enumerate([*open_, statics.root(0), statics.known])}
-    inequalities = _inequalities(statics, vertex.senses)
-    for of in vertex.of:
-        rows = [statics.general.left[0], *(inequalities[n] for n in of)]
-        by_place = [{place[c]: a for c, a in row.items() if c in place} for row in rows]
-        left = eliminate(by_place, count, vanishes=decider(statics.arithmetic)).left
-        loads = [row for row in left if getattr(row.get(count, 0.0), "is_certain", False)]
-        if len(loads) != 1:
-            return None
-        known, size = loads[0].get(count + 1, 0.0), largest_of([row.get(count + 1, 0.0) for row in by_place])
-        if all_vanish(statics.arithmetic, [(known, size)]):
-            known = zero_of(known)
-        found.append(known / (0.0 - loads[0][count]))
-    return (max, min)[vertex.end](found, key=float, default=None)
-
-
-def _inequalities(statics: Statics, senses: Sequence[float]) -> list[Row]:
-    """The inequalities in the order of `Limits.forms`, as combinations of the parameters."""
-    found = [*smooth_normals(statics), *shared_normals(statics), *pulls_of(statics)]
-    for k, (forces, sense) in enumerate(zip(forces_of(statics), senses, strict=True)):
-        most = statics.rubs[k].limit * sense
-        for side in (1.0, -1.0):
-            row = {c: a * most for c, a in forces[0].items()}
-            row[statics.rub(k)] = row.get(statics.rub(k), 0.0) + side
-            found.append(row)
-    return found
 
 
 def pulls_of(statics: Statics) -> list[Row]:

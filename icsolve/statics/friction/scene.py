@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
-from typing import TYPE_CHECKING, TypeVar, cast
+from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.answer import AboutToMove, Answer, Deferred, Found, Later
 from icsolve.answer.bodies import FrictionFound, Rubbing, Tension
@@ -61,9 +61,10 @@ from icsolve.tuples import LateModule, NamedTuple, Protocol, replace
 from icsolve.wording.sentences import listed, plural
 
 if TYPE_CHECKING:
-    from icsolve.statics.friction import pushing as limited
-else:  # where a contact parts
-    limited = LateModule("icsolve.statics.friction.pushing")
+    from icsolve.statics.friction import held_ranges as limited
+    from icsolve.statics.friction.pushing import RestingScene
+else:  # where a contact parts, or rubs do not tell how they act on each other
+    limited = LateModule("icsolve.statics.friction.held_ranges")
 
 
 class Slipping(NamedTuple):
@@ -204,14 +205,19 @@ def at_rest(scene: FrictionScene) -> AtRest:
             "each: without it each unknown load has a range that depends on the others."
         )
         raise SceneError(Status.MOBILITY, message)
-    rates, unproven = rates_of_motion(scene), ""
+    rates = rates_of_motion(scene)
     if any(rope.slips for rope in scene.position.case.ropes):
-        found, ends, unproven = _range_with_ropes(scene, rates)
+        found, ends = _range_with_ropes(scene, rates)
     else:
         ties, workless, senses = ties_of(scene.position), _is_workless(scene), rates.senses.rubs
         statics = _statics(scene, ties, _flanks(scene, ties, workless))
         driven = scene.solution.verdict == "no value"
-        found = pressed(statics, senses, driven) if workless else static_range(statics, senses, scene.alone)
+        within = partial(limited.held, _resting(scene))
+        found = (
+            pressed(statics, senses, driven, within)
+            if workless
+            else static_range(statics, senses, scene.alone, within)
+        )
         ways = [1.0 if end.senses == senses else -1.0 for end in found.ends]
         ends = [
             EndOfRange(way, scene, statics, end, _proven_end(scene, statics, end))
@@ -222,7 +228,7 @@ def at_rest(scene: FrictionScene) -> AtRest:
     found = without_ends(found, [one.end for one in lost])
     proven = [one.proven for one in ends]
     bounds = [bound for each in proven for bound in each.bounds.values()]
-    why = next((each.why for each in proven if each.why), unproven or ("" if bounds else UNENDING))
+    why = next((each.why for each in proven if each.why), "" if bounds else UNENDING)
     exact = {one.end.value: value for one in ends for value in one.proven.values.values()}
     least, most, *possible = (exact.get(v, v) for v in (found.least, found.most, *found.possible))
     found = found._replace(least=least, most=most, possible=(possible[0], possible[1]))
@@ -260,15 +266,14 @@ SLOW = 1e-7
 """Rates below this fraction of the fastest are looked at on balls."""
 
 
-def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[StaticRange, list[EndOfRange], str]:
-    """The range where ropes slip: about to move one way and the other, with the pulls that go with each; its
-    ends that are so, and why of another nothing is proven.
+def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[StaticRange, list[EndOfRange]]:
+    """The range where ropes slip: about to move one way and the other, with the pulls that go with each; and
+    its ends.
 
     Where a rope would have to push before the mechanism is about to move, the range is that in which friction
     within its limits holds.
     """
-    bare, senses = _without_slip(scene, rates), rates.senses.rubs
-    within = _within_limits(bare)
+    senses, within = rates.senses.rubs, limited.held(_resting(scene))
     moving: list[EndOfRange] = []
     for way in (1.0, -1.0):
         one = _slipping(scene, rates, way)
@@ -277,22 +282,27 @@ def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[Static
         end = end_of(statics, [way * sense for sense in senses])
         if end is not None and math.isfinite(end.value) and _pulls(statics, end):
             moving.append(EndOfRange(way, one, statics, end, _proven_end(one, statics, end)))
-    smooth = smooth_load(bare.statics) or 0.0
-    if not within:
-        parameters = bare.statics.parameters({bare.statics.roots[0]: smooth}, (0.0,) * len(senses))
-        tensions_of(bare.statics, parameters, FLOATS, scene.position.case.units.force)
-        status, said = (Status.UNSUPPORTED, MANY_GUIDES) if within is None else (Status.NO_VALUE, NEVER_TAUT)
-        raise SceneError(status, said.format(bare.statics.roots[0]))
-    own = min(within, key=lambda one: max(one.low - smooth, smooth - one.high))
-    ends = [_same(value, moving) or End(value, senses) for value in (own.low, own.high)]
+    still = _slipping(scene, rates, 0.0)
+    bare = _statics(still, ties := ties_of(still.position), _flanks(still, ties, False))
+    smooth = smooth_load(bare)
+    if not within.ranges:
+        parameters = bare.parameters({bare.roots[0]: smooth or 0.0}, (0.0,) * len(senses))
+        tensions_of(bare, parameters, FLOATS, scene.position.case.units.force)
+        raise SceneError(Status.NO_VALUE, NEVER_TAUT.format(bare.roots[0]))
+    own, _ = within.nearest(smooth or 0.0)
+    both = zip((own.low, own.high), own.vertices, strict=True)
+    ends = [_same(value, moving) or End(value, senses, vertex=vertex) for value, vertex in both]
     possible = (ends[0].value, ends[1].value)
-    told = all(_same(value, moving) for value in possible if math.isfinite(value))
     if len(moving) == 2:
-        ends, told = [one.end for one in moving], True
-    found = range_of(ends)._replace(possible=possible, how=limited.how(bare.statics))
-    if smooth_load(bare.statics) is None:
+        ends = [one.end for one in moving]
+    found = range_of(ends)._replace(possible=possible, how=within.how)
+    if smooth is None:
         found = found._replace(presses=True, self_locking=False)
-    return found, moving, "" if told else BY_LIMITS
+    known = [one.end for one in moving]
+    moving += [
+        EndOfRange(1.0, still, bare, end, _proven_end(still, bare, end)) for end in ends if end not in known
+    ]
+    return found, moving
 
 
 def _same(value: float, moving: Sequence[EndOfRange]) -> End | None:
@@ -301,35 +311,19 @@ def _same(value: float, moving: Sequence[EndOfRange]) -> End | None:
     return next((one.end for one in moving if abs(one.end.value - value) <= room), None)
 
 
-class WithoutSlip(NamedTuple):
-    """A scene whose ropes do not slip, and its statics."""
+def _resting(scene: FrictionScene) -> RestingScene:
+    """The scene as what friction within its limits can do is asked of."""
+    from icsolve.statics.friction.pushing import RestingScene
 
-    scene: FrictionScene
-    ties: Sequence[Tie]
-    statics: Statics
+    def ask(question: Callable[[Position, Balance, Showing], T]) -> T:
+        if scene.enclose is None:
+            raise SceneError(Status.UNSUPPORTED, UNBOUND)
+        return scene.enclose(lambda placed: question(placed.position, placed.balance, placed.arithmetic))
 
-
-def _without_slip(scene: FrictionScene, rates: RubbingRates) -> WithoutSlip:
-    scene = _slipping(scene, rates, 0.0)
-    ties = ties_of(scene.position)
-    flanks = _flanks(scene, ties, False)
-    return WithoutSlip(
-        scene, reaction_basis.with_flanks(scene.position, ties, flanks), _statics(scene, ties, flanks)
-    )
+    return RestingScene(scene.position, scene.balance, ask)
 
 
-def _within_limits(bare: WithoutSlip) -> list[limited.HeldRange] | None:
-    """The ranges in which friction within its limits holds, that of ropes among it."""
-    position, rubs = bare.scene.position, bare.statics.rubs
-    statics, slips = limited.with_slips(position, bare.ties, bare.scene.balance, rubs)
-    return limited.held(statics, (), slips)
-
-
-BY_LIMITS = f"{UNSURE} where the pulls of ropes set an end"
 NEVER_TAUT = "no value of {} holds: a rope would have to push, or a contact to pull."
-MANY_GUIDES = (
-    "where ropes slip, the range of {} is not found with friction at so many guides: give a `motion`."
-)
 
 
 def _pulls(statics: Statics, end: End) -> bool:
@@ -347,19 +341,15 @@ def _proven_end(scene: FrictionScene, own: Statics, end: End) -> Proven:
     (root,), vertex = own.roots, end.vertex
     if vertex is None:
         return _proven(scene, Solved(own, {root: end.value}, end.friction), end.senses)
-    if own.asks is None or not vertex.of:
-        return Proven(limited.how(own) if own.asks else UNBOUND)
-
-    def rounded(exact: Statics) -> Value | None:
-        found = limited.exactly(exact, vertex)
-        a = cast("Showing", exact.arithmetic)
-        return None if found is None else Value(*a.rounded(found / exact.scale))
-
     with suppress(SceneError):
-        value = own.asks(rounded)
-        if value is not None:
-            return Proven("", {root: value.error or 0.0}, {root: value.value})
-    return Proven(TOO_CLOSE)
+        value = limited.exactly(_resting(scene), vertex)
+        if value is None:
+            return Proven(TURNED)
+        return Proven("", {root: value.error or 0.0}, {root: value.value})
+    return Proven(TOO_CLOSE if scene.enclose else UNBOUND)
+
+
+TURNED = f"{UNSURE} where a contact parts and pins rub"
 
 
 def _flanks(scene: FrictionScene, ties: Sequence[Tie], workless: bool) -> Mapping[int, float]:

@@ -3,7 +3,8 @@
 Its ends are the equilibria in which the mechanism is about to move one way and the other, as textbooks have
 them. Friction that is not at its limit everywhere, or that a history has left the other way round, can hold
 more: the set of values for which any equilibrium exists with every friction within its limit. Where the rubs
-have little influence on each other the two are proven to be one, else it is looked for.
+have little influence on each other the two are proven to be one, else it is found part by part
+(`held_ranges`).
 
 Where the unknown load does no work it presses links together until friction holds: the mechanism holds
 where the most that friction can do against the motion that the known loads drive is at least what they do.
@@ -13,8 +14,8 @@ The ends of the range are the loads at which it is just that.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from itertools import pairwise, product
+from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from icsolve.errors import SceneError, Status
@@ -30,7 +31,6 @@ from icsolve.statics.friction.equations import (
     contraction,
     fixed_point,
     forces_of,
-    is_sound,
     loads_from_power,
     reduced,
     reduced_workless,
@@ -43,17 +43,13 @@ from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:
-    from icsolve.statics.friction import pushing as limited
     from icsolve.statics.friction import solutions as every
-else:  # where a contact parts, where one is not proven to be the only one
-    limited = LateModule("icsolve.statics.friction.pushing")
+    from icsolve.statics.friction.held_ranges import HeldRange, HeldRanges, Vertex
+else:  # where one is not proven to be the only one
     every = LateModule("icsolve.statics.friction.solutions")
 
 PROVEN = "proven: no friction within its limits holds more"
-SEARCHED = "every combination of full friction was tried"
 IMPENDING = "only impending motion was looked at"
-MOST_TRIED = 6
-"""More rubs have too many combinations of senses."""
 
 
 class End(NamedTuple):
@@ -73,7 +69,7 @@ class End(NamedTuple):
     senses: tuple[float, ...]
     friction: tuple[float, ...] = ()
     pushes: bool = True
-    vertex: limited.Vertex | None = None
+    vertex: Vertex | None = None
 
 
 class StaticRange(NamedTuple):
@@ -105,7 +101,11 @@ class StaticRange(NamedTuple):
     presses: bool = False
 
 
-def static_range(statics: Statics, senses: Sequence[float], alone: bool) -> StaticRange:
+Within = Callable[[], "HeldRanges"]
+"""Finds the ranges in which friction within its limits holds."""
+
+
+def static_range(statics: Statics, senses: Sequence[float], alone: bool, within: Within) -> StaticRange:
     """The interval of the one unknown load.
 
     Parameters
@@ -113,74 +113,43 @@ def static_range(statics: Statics, senses: Sequence[float], alone: bool) -> Stat
     statics : of one motion and one unknown load, with friction as parameters
     senses : (rubs,), those of the rubs in the motion, 1, -1 or 0
     alone : whether what friction that is not about to slip can hold is not looked for
+    within : finds where it can
 
     Returns
     -------
     StaticRange
         Self-locking: it holds with the unknown at zero (against loads), or no value moves it one way.
     """
-    ends = [end for d in (1.0, -1.0) if (end := _end(statics, [d * s for s in senses])) is not None]
+    ends = [_end(statics, [d * s for s in senses]) for d in (1.0, -1.0)]
     locks = all(math.isinf(end.value) for end in ends)  # where contacts push, one way at most
     parts = _may_part(statics) and (locks or not all(end.pushes for end in ends))
     parts = parts or bool(shared_normals(statics))
     if parts or _nothing_presses(statics, senses):
-        starts = [(end.value * statics.scale, *end.friction) for end in ends if end.friction]
-        within = limited.held(statics, starts)
-        if within is not None:
-            return _of_limits(statics, senses, within, alone)
-    one_way = _contracts(statics, senses)  # then friction leads from any equilibrium to any other
-    if alone and one_way:
+        return of_limits(statics, senses, within(), alone)
+    if alone and all(math.isfinite(end.value) for end in ends):
         return range_of(ends)
-    within = _within(statics)
-    own, others = _nearest(within, smooth_load(statics) or 0.0) if within else (None, [])
-    if own is not None and not one_way:
-        ends = [_kept(own, end, senses) for end in ends]
-    found = range_of(ends)
-    if alone:
-        return found
-    if own is None or _is_proven(statics, senses):
-        possible, how = _possible(statics, senses, (found.least, found.most))
-    else:
-        possible, how = _same_ends((own.low, own.high), (found.least, found.most)), PROVEN
-    unbounded = math.isinf(found.least) or math.isinf(found.most)
-    beyond = _again(statics, senses, found.least, found.most) if unbounded else ()
-    again = [end for one in others for end in (one.low, one.high) if math.isfinite(end)]
-    known = [*again, *possible]
-    again += [end for end in beyond if not possible[0] <= end <= possible[1] and not _is_among(end, known)]
-    return found._replace(possible=possible, how=how, again=tuple(sorted(again)))
+    if _is_proven(statics, senses):
+        return range_of(ends)._replace(how=PROVEN)
+    found = within()
+    if not found.ranges:
+        return range_of(ends)
+    own, others = found.nearest(smooth_load(statics) or 0.0)
+    told = range_of([_kept(own, end, senses) for end in ends])
+    possible = _same_ends((own.low, own.high), (told.least, told.most))
+    return told._replace(possible=possible, how=found.how, again=_ends_of(others))
 
 
-def _contracts(statics: Statics, senses: Sequence[float]) -> bool:
-    """Whether frictions of any senses have one equilibrium, which changes continuously with them."""
-    equations = reduced(statics, senses)
-    return equations is not None and contraction(equations.equations) is not None
+def _ends_of(ranges: Sequence[HeldRange]) -> tuple[float, ...]:
+    """The finite ends of some ranges."""
+    return tuple(sorted(end for one in ranges for end in (one.low, one.high) if math.isfinite(end)))
 
 
-def _within(statics: Statics) -> list[limited.HeldRange] | None:
-    """The ranges in which friction within its limits holds; None where pins rub, or guides in too many
-    places."""
-    return None if any(len(rub.normal) > 1 for rub in statics.rubs) else limited.held(statics)
-
-
-def _nearest(
-    within: Sequence[limited.HeldRange], load: float
-) -> tuple[limited.HeldRange, list[limited.HeldRange]]:
-    """The range that is nearest to a load, and the others."""
-    own = min(within, key=lambda one: max(one.low - load, load - one.high))
-    return own, [one for one in within if one is not own]
-
-
-def _kept(own: limited.HeldRange, end: End, senses: Sequence[float]) -> End:
+def _kept(own: HeldRange, end: End, senses: Sequence[float]) -> End:
     """An end within a range; where it lies in another one, the end of that range toward it."""
     for value, side, vertex in zip((own.low, own.high), (-1.0, 1.0), own.vertices, strict=True):
         if side * (end.value - value) > SAME * abs(value):
             return End(value, tuple(senses), vertex=vertex)
     return end
-
-
-def _is_among(value: float, others: Sequence[float]) -> bool:
-    """Whether a value is one of some, but for rounding."""
-    return any(abs(value - other) <= SAME * abs(value) for other in others if math.isfinite(other))
 
 
 def _same_ends(values: tuple[float, float], ends: tuple[float, float]) -> tuple[float, float]:
@@ -206,19 +175,16 @@ def _nothing_presses(statics: Statics, senses: Sequence[float]) -> bool:
     return equations is not None and all(a <= least for a in without_friction(equations.equations))
 
 
-def _of_limits(
-    statics: Statics, senses: Sequence[float], within: Sequence[limited.HeldRange], alone: bool
-) -> StaticRange:
+def of_limits(statics: Statics, senses: Sequence[float], within: HeldRanges, alone: bool) -> StaticRange:
     """The range, of those in which friction within its limits holds, that is nearest to the load without
     friction. It ends where the mechanism is about to move, or where a contact parts.
 
     Raises SceneError where there is none.
     """
     smooth = smooth_load(statics) or 0.0
-    if not within:
+    if not within.ranges:
         raise SceneError(Status.NO_VALUE, _lost(statics, smooth))
-    own, others = _nearest(within, smooth)
-    again = sorted(end for one in others for end in (one.low, one.high) if math.isfinite(end))
+    own, others = within.nearest(smooth)
     moving = [] if alone else _about_to_move(statics, senses)
     ends = []
     for value, vertex in zip((own.low, own.high), own.vertices, strict=True):
@@ -228,7 +194,7 @@ def _of_limits(
         ends.append(next(same, parts))
     jams = loads_from_power(statics) is not None and not own.low <= 0.0 <= own.high
     lifted = _pulling(statics, smooth) if jams else ()
-    return range_of(ends)._replace(how=limited.how(statics), again=tuple(again), lifted=lifted)
+    return range_of(ends)._replace(how=within.how, again=_ends_of(others), lifted=lifted)
 
 
 SAME = 1e-9
@@ -302,56 +268,29 @@ def without_ends(found: StaticRange, ends: Sequence[End]) -> StaticRange:
     return wider._replace(self_locking=found.self_locking or (bool(ends) and not found.presses))
 
 
-def _again(statics: Statics, senses: Sequence[float], least: float, most: float) -> tuple[float, ...]:
-    """Values outside of a range without end at which the mechanism is about to move too.
-
-    A load that locks one way can lock the other way as well, from some value on: the range goes on there.
-    """
-    found = [end.value for end in _about_to_move(statics, senses)]
-    for own in (end for end in (least, most) if math.isfinite(end) and found):
-        found.remove(min(found, key=lambda value: abs(value - own)))
-    return tuple(sorted({value for value in found if value < least or value > most}))
-
-
-def _possible(
-    statics: Statics, senses: Sequence[float], ends: tuple[float, float]
-) -> tuple[tuple[float, float], str]:
-    """The range in which friction within its limits can hold, and how that is known."""
-    if _is_proven(statics, senses):
-        return ends, PROVEN
-    if len(senses) > MOST_TRIED:
-        return ends, IMPENDING
-    tried = [_end(statics, signs, True) for signs in product((1.0, -1.0), repeat=len(senses))]
-    sound = [*ends, *(end.value for end in tried if end is not None)]
-    return (min(sound), max(sound)), SEARCHED
-
-
 def end_of(statics: Statics, senses: Sequence[float]) -> End | None:
     """The unknown load at full friction of these senses; None where power does not give it."""
     return None if reduced(statics, senses) is None else _end(statics, senses)
 
 
-def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> End | None:
+def _end(statics: Statics, senses: Sequence[float]) -> End:
     """The unknown load at full friction of these senses; infinite where the forces grow without bound.
 
-    With ``pushing``, None where a contact would have to pull. Raises SceneError where the equilibrium ends
-    and nothing says at which load.
+    Raises SceneError where the equilibrium ends and nothing says at which load.
     """
     equations = reduced(statics, senses)
     assert equations is not None
     if contraction(equations.equations) is not None:
-        return _moving(statics, equations, senses, contracted(equations.equations), pushing)
+        return _moving(statics, equations, senses, contracted(equations.equations))
     by = well_told(statics, senses, equations)
     y, share, grows = every.followed(by.equations)
     if y is not None:
-        return _moving(statics, by, senses, y, pushing)
+        return _moving(statics, by, senses, y)
     far = SHORT * share
     short = equations.equations.scaled(far)
     last = every.followed(short)[0] or without_friction(equations.equations)
     change = sum(a * x for a, x in zip(equations.loads[0][1:], last, strict=True))
     pushes = equations.scaled(far).least_push(last) >= -ROUNDED
-    if pushing and not (pushes and is_sound(short, last)):
-        return None
     if not pushes and (part := _where_one_parts(equations, last, far)) is not None:
         return End(part / statics.scale, tuple(senses), pushes=False)
     contact = None if grows else parting(equations.equations, share)
@@ -385,14 +324,9 @@ def _where_it_parts(equations: Reduced, contact: int, share: float) -> float:
     )
 
 
-def _moving(
-    statics: Statics, equations: Reduced, senses: Sequence[float], y: Sequence[float], pushing: bool
-) -> End | None:
-    """The end at an equilibrium about to move, or where a contact parts before; None there if all are to be
-    ``pushing``."""
+def _moving(statics: Statics, equations: Reduced, senses: Sequence[float], y: Sequence[float]) -> End:
+    """The end at an equilibrium about to move, or where a contact parts before."""
     pushes = equations.least_push(y) >= -ROUNDED
-    if pushing and not (pushes and is_sound(equations.equations, y)):
-        return None
     if not pushes and (part := _where_one_parts(equations, y, 1.0)) is not None:
         return End(part / statics.scale, tuple(senses), pushes=False)
     return End(equations.load(y)[0] / statics.scale, tuple(senses), equations.friction(y), pushes)
@@ -466,7 +400,7 @@ def _is_proven(statics: Statics, senses: Sequence[float]) -> bool:
 SAID = "the unknown load does no work; between the ends friction was compared with the known loads"
 
 
-def pressed(statics: Statics, senses: Sequence[float], driven: bool) -> StaticRange:
+def pressed(statics: Statics, senses: Sequence[float], driven: bool, within: Within) -> StaticRange:
     """The range of an unknown load that does no work; ``senses`` are those of the rubs in the motion, and
     ``driven`` tells whether the known loads do work.
 
@@ -474,11 +408,10 @@ def pressed(statics: Statics, senses: Sequence[float], driven: bool) -> StaticRa
     """
     name = statics.roots[0]
     if _may_part(statics):
-        within = limited.held(statics)
-        ends = [end for one in within or () for end in (one.low, one.high)]
-        if within is not None and (driven or any(map(math.isfinite, ends))):
-            found = _of_limits(statics, senses, within, False)
-            return found._replace(presses=True, self_locking=False)
+        found = within()
+        ends = [end for one in found.ranges for end in (one.low, one.high)]
+        if driven or any(map(math.isfinite, ends)):
+            return of_limits(statics, senses, found, False)._replace(presses=True, self_locking=False)
     (left,) = statics.general.left
     powers = [left.get(statics.rub(k), 0.0) for k in range(len(senses))]
     drive = left.get(statics.known, 0.0)

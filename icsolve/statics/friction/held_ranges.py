@@ -1,0 +1,286 @@
+"""The ranges of one unknown load in which friction within its limits holds.
+
+A part in which guides press in given senses and the forces of pins point in given directions is one range of
+loads, by linear inequalities (`pushing`), and all loads in it hold. A part in which these are open, or known
+to lie within angles, holds every load that friction can hold so, and a little more: it is cut until all of it
+lies in ranges that hold.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+from icsolve.numbers.arithmetic import Showing, largest_of
+from icsolve.numbers.inequalities import Form, deepest, region
+from icsolve.statics.friction.pushing import (
+    ROUNDED,
+    FrictionLimits,
+    Pointing,
+    ReducedLimits,
+    RestingScene,
+    at,
+    every_flanks,
+    halves,
+    limits_in_floats,
+    limits_of,
+    rows_of,
+    sum_of,
+    value_where,
+)
+from icsolve.statics.power import Balance, Value
+from icsolve.statics.reaction_basis import Position
+from icsolve.tuples import NamedTuple
+
+MOST_PARTS = 1000
+"""So many parts are looked at at most."""
+TURNS = 60
+"""A pin's force is turned so often at most."""
+NARROW = 2.0**-24
+"""An angle is cut no further [rad]: to second order it says what its middle does."""
+SAME = 1e-9
+"""Ends that differ by less of their size are one."""
+POINT = 2.0**-48
+"""An inequality over its largest number keeps its sign but for so much."""
+NEAR = 1e-7
+"""What is left of an inequality, as a fraction of its terms, where it is an equation but for rounding."""
+PROVEN = "proven: no friction within its limits holds more"
+UNFINISHED = "what friction within its limits can hold was not looked at to the end: it may hold more"
+
+
+class _End(NamedTuple):
+    """An end of what a part leaves the load, and where that is: (w, x) of open variables x / w; with w = 0 it
+    is without end in the direction x."""
+
+    load: float
+    point: tuple[float, ...]
+
+
+class Vertex(NamedTuple):
+    """An end of a range, the least load (``end`` is 0) or the most (1), and the part whose end it is."""
+
+    end: int
+    at: _End
+    toward: tuple[Pointing | None, ...]
+    search: _Search
+
+
+class HeldRange(NamedTuple):
+    """From what load to what load it holds, perhaps infinite, and what the two ends follow from."""
+
+    low: float
+    high: float
+    vertices: tuple[Vertex, Vertex]
+
+
+class HeldRanges(NamedTuple):
+    """The ranges by rising value [case units], and whether these are all."""
+
+    ranges: tuple[HeldRange, ...]
+    complete: bool
+
+    @property
+    def how(self) -> str:
+        """How it is known that no friction holds more."""
+        return PROVEN if self.complete else UNFINISHED
+
+    def nearest(self, load: float) -> tuple[HeldRange, list[HeldRange]]:
+        """The range that is nearest to a load, and the others."""
+        own = min(self.ranges, key=lambda one: max(one.low - load, load - one.high))
+        return own, [one for one in self.ranges if one is not own]
+
+
+def held(scene: RestingScene) -> HeldRanges:
+    """The ranges of the one unknown load in which friction within its limits holds."""
+    found, complete = list[HeldRange](), True
+    for flanks in every_flanks(scene):
+        limits = limits_in_floats(scene, flanks)
+        search = _Search(limits, flanks)
+        complete &= search.is_complete()
+        unit = 1.0 / limits.scale
+        found += [one._replace(low=one.low * unit, high=one.high * unit) for one in search.found]
+    return HeldRanges(tuple(joined(found)), complete)
+
+
+class _Search:
+    """The search for the ranges [scaled]; ``found`` has those that hold."""
+
+    def __init__(self, limits: FrictionLimits, flanks: Mapping[int, float]) -> None:
+        assert limits.root is not None
+        self.limits, self.flanks, self.reduced = limits, flanks, ReducedLimits(limits)
+        self.load = self.reduced.form({limits.root: 1.0})
+        self.unit = largest_of(self.load[1:])
+        self.found: list[HeldRange] = []
+        self.is_pin = [len(rub.forces) > 1 for rub in limits.rubs]
+
+    def is_complete(self) -> bool:
+        """Look at every part; whether all lie in ranges that hold."""
+        if not self.reduced.balances:
+            return True
+        parts, sure = [self.limits.pushing], True
+        for _ in range(MOST_PARTS):
+            if not parts:
+                return sure
+            toward = parts.pop()
+            ends = self.ends(toward)
+            if ends is None or self.holds(ends):
+                continue
+            beyond = [end for end, one in enumerate(ends) if not self.holds((one, one))]
+            for end in beyond or (0, 1):
+                self.look(toward, ends, end)
+            if self.holds(ends):
+                continue
+            halves = list(self.cut(toward, [one.point for one in ends]))
+            parts += halves
+            sure &= bool(halves)
+        return False
+
+    def holds(self, ends: tuple[_End, _End]) -> bool:
+        """Whether all between two ends is known to hold."""
+        low, high = (one.load for one in ends)
+        return any(
+            one.low <= low + self.room(low) and high - self.room(high) <= one.high for one in self.found
+        )
+
+    def room(self, load: float) -> float:
+        return SAME * max(abs(load), ROUNDED * self.unit) if math.isfinite(load) else 0.0
+
+    def forms(self, toward: Sequence[Pointing | None]) -> list[Form]:
+        """The inequalities of a part, each over its largest number, in the order of `rows_of`."""
+        found = [self.reduced.form(row) for row, *_ in rows_of(self.limits, toward)]
+        return [tuple([a / size for a in form]) if (size := largest_of(form)) else form for form in found]
+
+    def ends(self, toward: Sequence[Pointing | None]) -> tuple[_End, _End] | None:
+        """The least and the most that a part leaves the load; None where it is empty."""
+        forms = [form for form in self.forms(toward) if any(form)]
+        for room in (0.0, POINT):  # what is no more than a point may for rounding not even be that
+            wider = [(form[0] + room, *form[1:]) for form in forms]
+            least = self.end(wider, -1.0)
+            most = None if least is None else self.end(wider, 1.0)
+            if least is not None and most is not None:
+                short = min([at(form, one.point) for form in forms for one in (least, most)], default=0.0)
+                nothing = (1.0, *[0.0] * (len(self.load) - 1))
+                return (
+                    (least, most)
+                    if short >= -ROUNDED or deepest([*forms, nothing]).depth >= -ROUNDED
+                    else None
+                )
+        return None
+
+    def end(self, forms: Sequence[Form], side: float) -> _End | None:
+        """The most, or the least, that some inequalities leave the load; None where nothing."""
+        counts, scale = [*[0.0] * len(forms), 1.0], self.unit or 2.0 * abs(self.load[0]) or 1.0
+        ahead = [(0.0, *form[1:]) for form in forms]
+        while True:
+            aim = tuple([side * a / scale for a in self.load])
+            depth, _, point, _ = deepest([*forms, aim], counts)
+            if depth < 1.0:
+                return None if math.isinf(depth) else _End(side * depth * scale, (1.0, *point))
+            endless, _, way, _ = deepest([*ahead, (0.0, *aim[1:])], counts)
+            if endless > 0.5 or scale * ROUNDED > self.unit:
+                return _End(side * math.inf, (0.0, *way))
+            scale *= 1e3
+
+    def look(self, part: tuple[Pointing | None, ...], ends: tuple[_End, _End], end: int) -> None:
+        """What holds where the forces that press point as at an end of a part, and turn on from there."""
+        toward = self.reduced.toward(part, ends[end].point)
+        inside = ends if toward == part else self.ends(toward)
+        if inside is not None:
+            low, high = (Vertex(n, one, toward, self) for n, one in enumerate(inside))
+            low, high = (self.turned(low), high) if end == 0 else (low, self.turned(high))
+            self.found = joined([*self.found, HeldRange(low.at.load, high.at.load, (low, high))])
+
+    def turned(self, last: Vertex) -> Vertex:
+        """An end with the forces of pins turned to where they lie there, until it goes no farther."""
+        free = [None if pin else to for to, pin in zip(last.toward, self.is_pin, strict=True)]
+        for _ in range(TURNS if None in free else 0):
+            toward = self.reduced.toward(free, last.at.point)
+            if (further := self.ends(toward)) is None:
+                break
+            ahead = further[last.end].load - last.at.load
+            if not (ahead < 0.0 if last.end == 0 else ahead > 0.0):
+                break
+            last = last._replace(at=further[last.end], toward=toward)
+        return last
+
+    def cut(
+        self, toward: tuple[Pointing | None, ...], points: Sequence[Sequence[float]]
+    ) -> Iterator[tuple[Pointing | None, ...]]:
+        """A part, cut by whereto the force points that bounds its friction least."""
+        spare = {
+            k: min(self.reduced.spare(k, point) for point in points)
+            for k, to in enumerate(toward)
+            if to is None or to.half > NARROW
+        }
+        if spare:
+            k = min(spare, key=lambda k: (min(spare[k], -ROUNDED), -_half(toward[k])))
+            for half in halves(toward[k], self.is_pin[k]):
+                yield (*toward[:k], half, *toward[k + 1 :])
+
+    def equations(self, vertex: Vertex) -> tuple[frozenset[int], ...]:
+        """Sets of inequalities, by their places, of each of which as equations an end follows: those that are
+        equations there but for rounding; none where it hangs on the direction of a pin's force."""
+        rubs, forms = [k for *_, k in rows_of(self.limits, vertex.toward)], self.forms(vertex.toward)
+        near = [n for n, form in enumerate(forms) if any(form) and _is_near(form, vertex.at.point)]
+        if any(k is not None and self.is_pin[k] for k in (rubs[n] for n in near)):
+            return ()
+        by_load = self.by_load([forms[n] for n in near])
+        sets = region(by_load).vertex(vertex.end) if by_load else (frozenset[int](),)
+        return tuple(frozenset(near[n] for n in one) for one in sets)
+
+    def by_load(self, forms: Sequence[Form]) -> list[Form]:
+        """Inequalities with the load, in its unit, as the first variable; none where it has one value."""
+        if not self.unit:
+            return []
+        gone = max(range(1, len(self.load)), key=lambda j: abs(self.load[j]))
+        base = [-a / self.load[gone] for a in self.load]
+        found = []
+        for form in forms:
+            share = form[gone]
+            rest = [sum_of((a, share * b)) for a, b in zip(form, base, strict=True)]
+            found.append((rest[0], share * self.unit / self.load[gone], *rest[1:gone], *rest[gone + 1 :]))
+        return found
+
+
+def _half(to: Pointing | None) -> float:
+    return math.inf if to is None else to.half
+
+
+def _is_near(form: Form, point: Sequence[float]) -> bool:
+    """Whether an inequality is an equation at a point, but for rounding."""
+    terms = [a * x for a, x in zip(form, point, strict=True)]
+    return abs(sum(terms)) <= NEAR * largest_of(terms) + 8.0 * ROUNDED
+
+
+def joined(found: Sequence[HeldRange]) -> list[HeldRange]:
+    """The ranges that meet as one."""
+    joined: list[HeldRange] = []
+    for one in sorted(found, key=lambda one: (one.low, one.high)):
+        room = 2.0**-48 * largest_of([end for end in (one.low, one.high) if math.isfinite(end)])
+        if joined and one.low <= joined[-1].high + room:
+            last = joined[-1]
+            if one.high > last.high:
+                joined[-1] = last._replace(high=one.high, vertices=(last.vertices[0], one.vertices[1]))
+        else:
+            joined.append(one)
+    return joined
+
+
+def exactly(scene: RestingScene, vertex: Vertex) -> Value | None:
+    """The load at an end, rounded once [case units]; None where no inequalities say it.
+
+    Raises SceneError where no digits settle it.
+    """
+    of, flanks = vertex.search.equations(vertex), vertex.search.flanks
+
+    def rounded(position: Position, balance: Balance, a: Showing) -> Value | None:
+        limits = limits_of(position, balance, flanks)
+        assert limits.root is not None
+        rows = [row for row, *_ in rows_of(limits, vertex.toward)]
+        found = [value_where(limits, rows, sorted(one), limits.root, a) for one in of]
+        loads = [load for load in found if load is not None]
+        if not loads or len(loads) < len(found):
+            return None
+        return Value(*a.rounded((max, min)[vertex.end](loads, key=float) / limits.scale))
+
+    return scene.ask(rounded) if of else None

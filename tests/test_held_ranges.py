@@ -1,0 +1,102 @@
+"""All loads that friction within its limits can hold: of rough pins, guides and contacts, however they act on
+one another, the ranges that are told are complete, and they end where they are said to."""
+
+from __future__ import annotations
+
+import math
+from random import Random
+
+import numpy as np
+import pytest
+
+import icsolve
+import rubbing
+import standing
+import transcribe
+from growth import random_mechanism
+from icsolve.numbers.replay import Array
+from icsolve.scene import standing as all_loads
+from sizes import FULL
+
+Range = tuple[float, float]
+
+
+def scene(seed: int) -> str:
+    """A random mechanism that rubs in up to three places, much or little."""
+    rng = Random(seed)
+    return transcribe.text(rubbing.roughened(rng, random_mechanism(rng), 3))
+
+
+def ranges(answer: icsolve.Answer) -> list[Range]:
+    """The range in which friction can hold, and those beyond it, by the ends that are told of these."""
+    assert answer.friction is not None and answer.friction.possible is not None
+    low, high = answer.friction.possible
+    below = [end for end in answer.friction.again if end < low]
+    above = [end for end in answer.friction.again if end > high]
+    ends = [*[-math.inf][: len(below) % 2], *below, low, high, *above, *[math.inf][: len(above) % 2]]
+    return list(zip(ends[::2], ends[1::2], strict=True))
+
+
+LINEAR = {
+    33: [(-math.inf, -0.0546992258), (2.30280599, math.inf)],
+    93: [(-math.inf, math.inf)],
+    237: [(-math.inf, 429.502953), (475.592826, math.inf)],
+    291: [(-math.inf, -208.278393), (106119.623, math.inf)],
+    302: [(-math.inf, -1459.40384), (40.0080592, math.inf)],
+    306: [(-math.inf, -69.3915131)],
+}
+"""Ends by linear programs (HiGHS) on cones in which the force of a pin lies, cut to 1e-5 rad."""
+
+
+@pytest.mark.parametrize("seed", LINEAR)
+def test_ranges_beyond_a_gap_are_those_of_linear_programs(seed: int) -> None:
+    """To 1e-7, as far as the programs go."""
+    answer = icsolve.solve(icsolve.load(scene(seed)))
+    for found, true in zip(ranges(answer), LINEAR[seed], strict=True):
+        assert found == pytest.approx(true, rel=1e-7)
+    assert answer.friction is not None and answer.friction.unique.startswith("proven")
+
+
+@pytest.mark.parametrize("seed", LINEAR)
+def test_all_loads_at_once_are_held_in_these_ranges_and_beside_none(seed: int) -> None:
+    """A thousandth of its size to both sides of each end."""
+    text = scene(seed)
+    for low, high in LINEAR[seed]:
+        for end, side in ((low, 1.0), (high, -1.0)):
+            for inside in (True, False) if math.isfinite(end) else ():
+                value = end + (side if inside else -side) * 1e-3 * abs(end)
+                depth = all_loads(icsolve.load(text.replace("unknown", repr(value)))).depth
+                assert (depth >= 0.0) is inside, value
+
+
+@pytest.mark.parametrize("part", range(30 if FULL else 2))
+def test_no_friction_within_its_limits_holds_a_load_that_is_not_told(part: int) -> None:
+    """Frictions of any sense and share of their limits, drawn: the load that each balances lies in a range,
+    to 1e-6 of the largest load."""
+    compared = 0
+    for seed in range(12 * part, 12 * part + 12):
+        text, dice = scene(seed), Random(f"shares {seed}")
+        case = icsolve.load(text)
+        try:
+            answer = icsolve.solve(case)
+        except icsolve.SceneError:
+            continue
+        if answer.friction is None or answer.friction.possible is None:
+            continue
+        told = ranges(answer)
+        a, friction, b, places = standing.with_friction(case)
+        room = 1e-6 * np.abs(b).max()
+        for _ in range(12):
+            shares = tuple([dice.choice((-1.0, 1.0, dice.uniform(-1, 1))) for _ in places])
+            x = rubbing.followed(a, b, friction, places, shares, rubbing.STEPS)
+            if x is not None and pushes(case, x):
+                load = float(x[a.shape[1] - 1])
+                held = any(low - room <= load <= high + room for low, high in told)
+                assert held, (text, shares, load, told)
+                compared += 1
+    assert compared > 40
+
+
+def pushes(case: icsolve.Case, x: Array) -> bool:
+    """Whether no contact pulls."""
+    return all(x[column] >= -1e-9 for column in standing.pushing(case))
