@@ -151,7 +151,10 @@ def topology(case: Case) -> Topology:
         said = "this needs contacts whose `at` and `normal` are given, and here profiles give them."
         raise SceneError(Status.UNSUPPORTED, said)
     if case.unknowns:
-        said = f"this needs a figure whose data are given, and {case.unknowns[0].path} is to find."
+        said = (
+            f"this needs a figure whose data are given, and {case.unknowns[0].path} is to find: write a number "
+            "in its place, or `solve` the case, which lists its positions of equilibrium, for each value."
+        )
         raise SceneError(Status.UNSUPPORTED, said)
     body_of, members = _bodies(case)
     pins = _pinned_at(case, body_of)
