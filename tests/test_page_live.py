@@ -1068,3 +1068,21 @@ def test_the_numbers_beside_the_loads_are_those_that_are_typed(
             told += 1
     shown(path)
     assert told >= 1
+
+
+GUIDED = """icsolve: 1
+points: {A: [-0.6, 1], B: [-2.5, -1.8], Q: [-0.8, 0.1], C: [-0.8, 3.6]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C},
+  {slide: [4, 1], at: C, along: 90, through: Q}]
+links: {1: [Q]}
+loads: {P: {force: 20, link: 3, at: B, angle: 250}, T: {torque: unknown, link: 2}}
+"""
+
+
+def test_what_solve_does_not_examine_a_page_refuses_no_more(shown: Any) -> None:
+    """Where the line of a guide lies changes no load: a block off it is solved in both, one whose guide
+    turns too."""
+    changes = [{"points.C.x": "-0.5"}, {"points.Q.x": "3"}, {"points.B.x": "-2"}]
+    page = shown(GUIDED)
+    changes += [{p: "80"} for p in page.run(FIELDS)[0] if p.endswith("along")]
+    assert compare(page, GUIDED, changes) == ["ok"] * 4

@@ -35,7 +35,7 @@ from icsolve.case.figure import Unknown
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.draw.words import unit_word
 from icsolve.kinematics.accelerations import Moving, drives_of, moving, rate_rows
-from icsolve.kinematics.motion import TURN
+from icsolve.kinematics.motion import TURN, needed_bonds
 from icsolve.kinematics.speeds import joint_order
 from icsolve.kinematics.twists import ORIGIN, Bases, Tree, loop_rows, rope_row, span
 from icsolve.numbers.arithmetic import HALF_TURN, Scalar
@@ -46,7 +46,7 @@ from icsolve.page.fields import handles_of, text_data, units_to_write
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ratios import independent_motions
 from icsolve.scene.parts import AnswerBuilder
-from icsolve.scene.program import Evaluation, Program, Want, prepare
+from icsolve.scene.program import Evaluation, Program, Want, needed_points, prepare
 from icsolve.scene.refusals import HANGS, rubs
 from icsolve.screws.joints import OFF_RADIUS, at_radius, freedoms, guide_direction
 from icsolve.screws.plane import Triple, force_wrench
@@ -449,15 +449,21 @@ class _ProgramWriter:
         return {"name": rope.name, "points": rope.points, "parts": parts, "end": end}
 
     def _checks(self, place: Mapping[Key, int]) -> Iterable[list[Any]]:
-        """All data of the figure: kind, points, and the number's place among the inputs, of the length of a
-        rope that of what is off."""
-        tied = count()
+        """The data of what `solve` examines: kind, points, and the number's place among the inputs, of the
+        length of a rope that of what is off."""
+        tied, examined = count(), self._examined()
         for datum in data_of(self.case):
-            if self._is_placed(datum):
+            if self._is_placed(datum) and examined.issuperset(datum.points):
                 path = None if datum.kind in (MEAN, LINE) else number_of(self.case, datum).path
                 number = None if path is None else self.paths.index(path)
                 number = next(tied) if datum.kind == ROPE else number
                 yield [datum.kind, [place[p] for p in datum.points], number]
+
+    def _examined(self) -> set[Key]:
+        """The points that reactions need, and those that these are placed by."""
+        bonds = needed_bonds(None, self.top)
+        needed = needed_points(self.case, self.top, bonds, Want(bodies=True))
+        return {key for step in leading_to(needed, self.figure.steps) for key in step.targets}
 
     def _rolls(self, place: Mapping[Key, int]) -> Iterable[list[Any]]:
         """The radii of links that roll: each with the contact, and the centre that lies at it."""

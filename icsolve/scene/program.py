@@ -99,7 +99,7 @@ def without_plan(program: Program) -> Program:
 def _figure(case: Case, top: Topology, bonds: tuple[int, ...], want: Want) -> Figure:
     """The points that are needed, and those whose velocities are told; of the latter only those that the
     data place, for nothing hangs on the others."""
-    needed = _wanted_points(case, top, bonds, want)
+    needed = needed_points(case, top, bonds, want)
     if want.examine:
         try:
             return solve_figure(case)
@@ -124,7 +124,7 @@ def _wanted_bodies(case: Case, top: Topology, want: Want) -> frozenset[int]:
     return frozenset(top.body_of[link] for link in load_wrenches.moving_links(case))
 
 
-def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want) -> list[str]:
+def needed_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want) -> list[str]:
     """The points whose places the plan, the loads and the given motions need."""
     points = [p for k in bonds for p in points_of(top.bonds[k])]
     points += [p for load in case.loads for p in load_wrenches.points_of(load)]
