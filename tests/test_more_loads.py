@@ -123,6 +123,42 @@ def test_an_unknown_force_per_length_and_one_like_it() -> None:
     assert (found.value, found.unit) == (pytest.approx(1.0), "lbf/in")
 
 
+LEVER = """icsolve: 1
+points: {A: [0, 0], B: [3, 0], C: [1, 2]}
+links: {2: [B, C]}
+joints: [{pin: [1, 2], at: A}]
+loads:
+  Q: {distributed: NUMBER, link: 2, from: A, to: B, angle: -90}
+  R: {distributed: {like: Q, times: 2}, link: 2, from: A, to: C, angle: -90}
+  T: {torque: unknown, link: 2}
+"""
+
+
+def test_a_force_per_length_like_another_is_like_a_uniform_one_alone() -> None:
+    """4 a length of 3 at 1.5, twice that along the root of 5 at 0.5; of two numbers neither is meant."""
+    found = icsolve.solve(icsolve.load(LEVER.replace("NUMBER", "4"))).answers["T"].value
+    assert found == pytest.approx(4 * 3 * 1.5 + 8 * math.sqrt(5) * 0.5, rel=1e-14)
+    for ends in ("[0, 4]", "[4, 0]", "[4, 1]"):
+        with pytest.raises(
+            icsolve.CaseError, match="cannot be like Q, which has two numbers, one at each end"
+        ):
+            icsolve.load(LEVER.replace("NUMBER", ends))
+
+
+@pytest.mark.parametrize(("known", "status"), [(3, "no-value"), (0, "any-value")])
+@pytest.mark.parametrize("more", ["", "  V: {torque: {like: T, times: -0.5}, link: 2}\n"])
+def test_an_unknown_that_loads_like_it_undo_is_told_so(known: int, status: str, more: str) -> None:
+    times = -0.5 if more else -1
+    loads = f"loads:\n  K: {{torque: {known}, link: 2}}\n  T: {{torque: unknown, link: 2}}\n"
+    loads += f"  S: {{torque: {{like: T, times: {times}}}, link: 2}}\n{more}"
+    with pytest.raises(icsolve.SceneError) as refused:
+        icsolve.solve(icsolve.load(LEVER.partition("loads:")[0] + loads))
+    assert refused.value.status == status
+    who = "S and V, like it, undo here" if more else "S, like it, undoes here"
+    assert f"what work T does {who}" in refused.value.message
+    assert "stands still" not in refused.value.message and "does not turn" not in refused.value.message
+
+
 BAR = """\
 icsolve: 1
 points: {{A: [0, 0]}}

@@ -149,7 +149,11 @@ def _no_work(outcome: power.Outcome) -> SceneError:
     at_rest = all_vanish(arithmetic, ((part, largest) for part in apart))
     links = [culprit.load.link, *([] if culprit.against == place.case.ground else [culprit.against])]
     slack = culprit.gain == 0.0 or arithmetic.vanishes(culprit.gain, culprit.reach)
-    if at_rest and not slack:
+    alike = [w.load.name for w in balance.wrenches if w.root == culprit.root and w is not culprit]
+    own = next(f for w, f in zip(balance.wrenches, balance.factors[0], strict=True) if w is culprit)
+    if alike and not arithmetic.vanishes(own, largest):
+        cause = sentences.undone(culprit.load.name, alike)
+    elif at_rest and not slack:
         why = _why_at_rest(top, motions, links[0], arithmetic) if len(links) == 1 else ""
         cause = sentences.at_rest(culprit.load.name, links, why)
     else:

@@ -128,6 +128,11 @@ def workless(load: str, cause: str, others_work: bool) -> str:
     )
 
 
+def undone(load: str, alike: Sequence[str]) -> str:
+    """Why a load does no work though its link moves: others that are like it do the opposite."""
+    return f"what work {load} does {listed(alike)}, like it, {'undoes' if len(alike) == 1 else 'undo'} here"
+
+
 def at_rest(load: str, links: Sequence[str], why: str) -> str:
     """Why a load does no work: its link stands still, or does so against the one that takes the opposite."""
     here, *other = map(link_words, links)
