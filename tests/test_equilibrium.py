@@ -2057,6 +2057,7 @@ def test_a_sweep_of_positions_says_what_it_leaves_out(
         "--drive 2=0:10:5",
         "--vary loads.T=1:3:1 --plot x.svg",
         "--vary loads.T=1:3:1 --find rest",
+        *(f"--vary loads.T=1:3:1 --{more}" for more in ("points", "error", "centres", "rates", "velocities")),
     ):
         assert exit_status("sweep", str(file), *words.split()) == 2
         assert "angles.AB is unknown" in capsys.readouterr().err
