@@ -830,3 +830,20 @@ motion: {link: 2, speed: 1}
     assert refusal.value.status == "inconsistent"
     assert "the corner of load S: A and G lie at one place" in refusal.value.message
     assert refusal.value.message.count("Noticed: the length AG is 0") == 1
+
+
+@pytest.mark.parametrize("motion", ["", "motion: {link: beam, speed: 2}\n"])
+def test_of_a_structure_there_are_no_inertia_forces(motion: str) -> None:
+    """Its loads are known, so that it is not told to give them numbers."""
+    case = icsolve.load(f"""icsolve: 1
+points: {{A: [0, 0], B: [4, 0], C: [2, 0]}}
+links: {{beam: {{mass: 3 kg, centre: C}}}}
+joints:
+  - {{pin: [1, beam], at: A}}
+  - {{slot: [beam, 1], at: B, along: 0}}
+loads: {{W: {{weight: 10, link: beam, at: C}}}}
+{motion}""")
+    with pytest.raises(icsolve.SceneError) as refused:
+        icsolve.solve(case, dynamic=True)
+    assert refused.value.status == "structure"
+    assert "nothing moves, and there are no inertia forces" in refused.value.message

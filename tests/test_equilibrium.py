@@ -2057,9 +2057,46 @@ def test_a_sweep_of_positions_says_what_it_leaves_out(
         "--drive 2=0:10:5",
         "--vary loads.T=1:3:1 --plot x.svg",
         "--vary loads.T=1:3:1 --find rest",
+        *(f"--vary loads.T=1:3:1 --{more}" for more in ("points", "error", "centres", "rates", "velocities")),
     ):
         assert exit_status("sweep", str(file), *words.split()) == 2
         assert "angles.AB is unknown" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("friction", ["", ", mu: 0.2, radius: 0.1"])
+@pytest.mark.parametrize(
+    ("free", "torque", "value"),
+    [("unknown", 40, 0.0), ("{unknown: [10, 20]}", 30, 10.0), ("{unknown: [110, 170.3]}", -30, 170.3)],
+)
+def test_what_rests_nowhere_says_where_it_nearly_does(
+    free: str, torque: float, value: float, friction: str
+) -> None:
+    """A weight of 10 at 2: |M - 20 cos u| is least at the end nearest to 0 or 180, with friction too."""
+    load = f"T: {{torque: {torque}, link: 2}}"
+    with pytest.raises(SceneError) as refused:
+        positions(pendulum(load, free, friction=friction))
+    assert refused.value.status == "no-value"
+    assert refused.value.more == refused.value.more | {
+        "positions": [],
+        "nearest": {"at": {"angles.AB": value}},
+    }
+
+
+def test_a_position_that_a_rope_would_have_to_push_is_the_nearest_there_is() -> None:
+    """A bar of 100 hangs at -90, where the rope on which -100 hangs would push."""
+    text = """icsolve: 1
+points: {A: [0, 0], P: [0, 2], Q: [0, 0]}
+lengths: {AB: 2}
+angles: {AB: {unknown: [-180, 180]}}
+joints:
+  - {pin: [1, 2], at: A}
+  - {rope: [B, P, Q], on: [2, 1]}
+loads: {W: {weight: 100, link: 2, at: B}, C: {weight: -100, at: Q}}
+"""
+    with pytest.raises(SceneError) as refused:
+        positions(text)
+    assert refused.value.more["nearest"] == {"at": {"angles.AB": -90.0}}
+    assert "left out is angles.AB = -90" in refused.value.more["notes"][0]
 
 
 @pytest.mark.parametrize("link", ["2", "3"])

@@ -123,6 +123,100 @@ def test_an_unknown_force_per_length_and_one_like_it() -> None:
     assert (found.value, found.unit) == (pytest.approx(1.0), "lbf/in")
 
 
+LEVER = """icsolve: 1
+points: {A: [0, 0], B: [3, 0], C: [1, 2]}
+links: {2: [B, C]}
+joints: [{pin: [1, 2], at: A}]
+loads:
+  Q: {distributed: NUMBER, link: 2, from: A, to: B, angle: -90}
+  R: {distributed: {like: Q, times: 2}, link: 2, from: A, to: C, angle: -90}
+  T: {torque: unknown, link: 2}
+"""
+
+
+def test_a_force_per_length_like_another_is_like_a_uniform_one_alone() -> None:
+    """4 a length of 3 at 1.5, twice that along the root of 5 at 0.5; of two numbers neither is meant."""
+    found = icsolve.solve(icsolve.load(LEVER.replace("NUMBER", "4"))).answers["T"].value
+    assert found == pytest.approx(4 * 3 * 1.5 + 8 * math.sqrt(5) * 0.5, rel=1e-14)
+    for ends in ("[0, 4]", "[4, 0]", "[4, 1]"):
+        with pytest.raises(
+            icsolve.CaseError, match="cannot be like Q, which has two numbers, one at each end"
+        ):
+            icsolve.load(LEVER.replace("NUMBER", ends))
+
+
+@pytest.mark.parametrize(("known", "status"), [(3, "no-value"), (0, "any-value")])
+@pytest.mark.parametrize("more", ["", "  V: {torque: {like: T, times: -0.5}, link: 2}\n"])
+def test_an_unknown_that_loads_like_it_undo_is_told_so(known: int, status: str, more: str) -> None:
+    times = -0.5 if more else -1
+    loads = f"loads:\n  K: {{torque: {known}, link: 2}}\n  T: {{torque: unknown, link: 2}}\n"
+    loads += f"  S: {{torque: {{like: T, times: {times}}}, link: 2}}\n{more}"
+    with pytest.raises(icsolve.SceneError) as refused:
+        icsolve.solve(icsolve.load(LEVER.partition("loads:")[0] + loads))
+    assert refused.value.status == status
+    who = "S and V, like it, undo here" if more else "S, like it, undoes here"
+    assert f"what work T does {who}" in refused.value.message
+    assert "stands still" not in refused.value.message and "does not turn" not in refused.value.message
+
+
+@pytest.mark.parametrize(
+    "second",
+    [
+        "torque: unknown, link: 2, turns: cw",
+        "force: unknown, link: 2, at: B, angle: 0",
+        "force: unknown, link: 3, at: C, away: B",
+        "torque: {like: T1, times: 2}, link: 2}\n  U: {force: unknown, link: 2, at: B, angle: 70",
+    ],
+)
+def test_two_unknowns_that_work_in_one_motion_are_told_so(second: str) -> None:
+    """Two bars, both unknowns on the first of them: that turns, and neither of them is told not to work."""
+    text = f"""icsolve: 1
+points: {{A: [0, 0]}}
+lengths: {{AB: 3, BC: 2}}
+angles: {{AB: 60, BC: -20}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+loads:
+  M: {{torque: 5, link: 3}}
+  T1: {{torque: unknown, link: 2}}
+  T2: {{{second}}}
+"""
+    with pytest.raises(icsolve.SceneError) as refused:
+        icsolve.solve(icsolve.load(text))
+    assert refused.value.status == "no-value"
+    which = "T1 and U" if "U:" in text else "T1 and T2"
+    assert f"no values of {which} balance: in one of the motions" in refused.value.message
+    assert "does not turn" not in refused.value.message and "stands still" not in refused.value.message
+    with pytest.raises(icsolve.SceneError) as refused:  # the second bar hangs on, and nothing acts on it
+        icsolve.solve(icsolve.load(text.replace("  M: {torque: 5, link: 3}\n", "")))
+    idle = "2 unknown loads for a mobility of 1 beside 1 freedom in which no load does work: 1 too many"
+    assert refused.value.message.startswith(idle)
+
+
+@pytest.mark.parametrize(
+    "load", ["force: 5, at: B", "pressure: 5, area: 1, at: B", "distributed: 3, from: A, to: B"]
+)
+@pytest.mark.parametrize("way", ["toward: C", "away: C", "angle: 70", "slope: [1, 2]"])
+def test_a_direction_that_turns_with_a_link_starts_as_it_is_written(load: str, way: str) -> None:
+    """However it is given, T stays as it is on the link that bears it; without, one by two points follows
+    these, and others stay (1e-13: rounding)."""
+    text = f"""icsolve: 1
+points: {{A: [0, 0], C: [2, 5]}}
+lengths: {{AB: 2}}
+angles: {{AB: 10}}
+links: {{1: [C]}}
+joints: [{{pin: [1, 2], at: A}}]
+loads:
+  F: {{{load}, link: 2, {way}, turns_with: 2}}
+  T: {{torque: unknown, link: 2}}
+"""
+    for own in (text, text.replace(", turns_with: 2", "")):
+        found = icsolve.sweep(icsolve.load(own), vary={"angles.AB": [10, 50, 200]}).answers["T"]
+        assert found[0] == pytest.approx(icsolve.solve(icsolve.load(own)).answers["T"].value, rel=1e-13)
+        assert np.allclose(found, found[0], rtol=1e-13) == (own is text)
+
+
 BAR = """\
 icsolve: 1
 points: {{A: [0, 0]}}

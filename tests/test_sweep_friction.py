@@ -252,3 +252,32 @@ def test_a_number_that_puts_contacts_elsewhere_gives_figures_written_so(
         scene = icsolve.solve(icsolve.load(text.replace(was, f"AB: {value}")))
         assert sweep.status[row] == "holds"
         assert tuple(sweep.holds["U"][row]) == scene.answers["U"].holds
+
+
+@pytest.mark.parametrize(
+    ("joint", "path"),
+    [
+        ("{slide: [2, 1], at: C, along: 30, mu: 0.2}", "joints.C.mu"),
+        ("{pin: [2, 1], at: B, mu: 0.2, radius: 0.1}", "joints.B.mu"),
+        ("{pin: [2, 1], at: B, mu: 0.3, radius: 0.1}", "loads.W"),
+    ],
+)
+def test_a_row_in_which_nothing_rubs_has_one_value_as_its_scene_has(joint: str, path: str) -> None:
+    """No friction, or no load, among rows with both: `ok` and a value, or a range of one point, as `solve`
+    says (1e-15: rounding)."""
+    text = f"""icsolve: 1
+points: {{B: [-1, 0.4], C: [0, 0], G: [0, 0.3]}}
+links: {{2: [C]}}
+joints:
+  - {joint}
+loads:
+  W: {{weight: 100, link: 2, at: G}}
+  P: {{force: unknown, link: 2, at: C, angle: 30}}
+"""
+    values = [0.0, 0.05, 0.2]
+    swept = icsolve.sweep(icsolve.load(text), vary={path: values})
+    for k, value in enumerate(values):
+        found = icsolve.solve(icsolve.load(text, settings={path: value})).answers["P"]
+        assert swept.status[k] == ("ok" if found.holds is None else "holds")
+        row = [swept.answers["P"][k]] if found.holds is None else swept.holds["P"][k].tolist()
+        assert row == pytest.approx(found.holds or [found.value], rel=1e-15, abs=1e-15)

@@ -44,9 +44,7 @@ COURSE = "course.yaml"
 @click.option("--against", metavar="OLD.csv", help="Earlier results: says whose marks change, and why.")
 @click.option("--changes", metavar="FILE", help="With --against: every mark that changes, as CSV.")
 @click.option("--review", metavar="FILE", help="What waits for a person; filled, it is a file of overrides.")
-@click.option(
-    "--template", metavar="FILE", help="The platform's own grade file, to be filled."
-)
+@click.option("--template", metavar="FILE", help="The platform's own grade file, to be filled.")
 @click.option("--roster", metavar="FILE", help="Who the students are; those without an answer are listed.")
 @click.option("--course", metavar="FILE", help="Tolerances, marks, strictness [default: DIR/course.yaml].")
 @click.option("--attempt", type=click.Choice(["last", "first", "best"]), help="Which attempt counts [last].")

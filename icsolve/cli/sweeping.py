@@ -247,9 +247,11 @@ def _table(read: Case, path: str, asked: SweepOptions) -> int:
     if read.unknowns:
         from icsolve.sweep.request import RequestError
 
-        if driven or asked.plot is not None:
-            what, path = "--drive" if driven else "--plot", read.unknowns[0].path
-            raise RequestError(f"{path} is unknown, and {what} is for a case in which it is given")
+        there = {"drive": bool(driven), "plot": asked.plot is not None, **dict.fromkeys(asked.want, True)}
+        what = next((name for name in ("drive", "plot", *MORE) if there.get(name)), "")
+        if what:
+            path = read.unknowns[0].path
+            raise RequestError(f"{path} is unknown, and --{what} is for a case in which it is given")
         content, some = _positions_table(read, varied, asked.suffix)
         return _written([content], asked.output) or (DONE if some else NO_ANSWER)
     total, done = math.prod(len(values) for _, values in (*asked.vary, *asked.drive)), 0

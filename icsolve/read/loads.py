@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Container
 from collections.abc import Mapping as Table
 from typing import Any, TypeVar
 
@@ -64,7 +64,8 @@ def read_section(reading: Reading, section: Mapping, forms: Forms[T]) -> tuple[T
     for key, node in section.items.items():
         load = _load(reading, key, node, section.keys[key], forms)
         found.extend(load if isinstance(load, list) else [load] if load is not None else [])
-    _check_likes(reading)
+    linear = {getattr(one, "name", "") for one in found if getattr(getattr(one, "over", None), "end", None)}
+    _check_likes(reading, linear)
     return tuple(found)
 
 
@@ -152,8 +153,8 @@ def _explain_keys(entry: Entry, sort: str, forms: Forms[T]) -> list[str]:
     return told
 
 
-def _check_likes(reading: Reading) -> None:
-    """Each other load exists, is a number of the same kind, and does not lead back."""
+def _check_likes(reading: Reading, linear: Container[str]) -> None:
+    """Each other load exists, is one number of the same kind, and does not lead back."""
     likes = reading.likes
     circular = _circular(likes)
     for name, (other, mark) in likes.items():
@@ -162,6 +163,9 @@ def _check_likes(reading: Reading) -> None:
             reading.refuse(mark, f"there is no load '{other}'{suggestion(other, reading.kinds)}")
         elif others in VECTORS.values():
             reading.refuse(mark, f"load {name} cannot be like {other}, which is given by components")
+        elif other in linear:
+            ends = "which has two numbers, one at each end"
+            reading.refuse(mark, f"load {name} cannot be like {other}, {ends}")
         elif kind and others and dimension_of(kind) != dimension_of(others):
             reading.refuse(mark, f"load {name} is a {kind} and cannot be like {other}, a {others}")
         elif name in circular:

@@ -21,6 +21,7 @@ from icsolve.numbers.arithmetic import Scalar, Showing
 from icsolve.numbers.units import Number
 from icsolve.scene.program import EvaluatedScene, Evaluation, Want, prepare
 from icsolve.statics.load_wrenches import COUPLE, FORCE, as_given, inertia_forces, inertia_of_one
+from icsolve.statics.power import is_unknown
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed
 
@@ -64,6 +65,16 @@ def with_inertia(case: Case) -> tuple[Case, Accelerations, tuple[str, ...]]:
         return EvaluatedScene(prepare(case, Want(bodies=True)), True).ask(partial(_found, case))
     except OverflowError:
         raise SceneError(Status.UNSUPPORTED, TOO_FAST) from None
+    except SceneError as refusal:
+        if refusal.status != Status.STRUCTURE or any(map(is_unknown, case.loads)):
+            raise
+        raise SceneError(Status.STRUCTURE, STILL) from None
+
+
+STILL = (
+    "the links form a structure: nothing moves, and there are no inertia forces. Without `--dynamic` and "
+    "`dynamic: yes` its reactions are found by statics."
+)
 
 
 def _found(case: Case, found: Evaluation) -> tuple[Case, Accelerations, tuple[str, ...]]:

@@ -149,12 +149,20 @@ def _no_work(outcome: power.Outcome) -> SceneError:
     at_rest = all_vanish(arithmetic, ((part, largest) for part in apart))
     links = [culprit.load.link, *([] if culprit.against == place.case.ground else [culprit.against])]
     slack = culprit.gain == 0.0 or arithmetic.vanishes(culprit.gain, culprit.reach)
-    if at_rest and not slack:
+    alike = [w.load.name for w in balance.wrenches if w.root == culprit.root and w is not culprit]
+    place_in = next(n for n, w in enumerate(balance.wrenches) if w is culprit)
+    works = any(not arithmetic.vanishes(factors[place_in], largest) for factors in balance.factors)
+    unknown = [w.load.name for w in power.unknown_loads(balance)]
+    if works and alike:
+        cause = sentences.undone(culprit.load.name, alike)
+    elif at_rest and not slack:
         why = _why_at_rest(top, motions, links[0], arithmetic) if len(links) == 1 else ""
         cause = sentences.at_rest(culprit.load.name, links, why)
     else:
         cause = sentences.idle_load(culprit.load.name, links, not any(culprit.unit[:2]), slack)
     message = sentences.workless(culprit.load.name, cause, others)
+    if works and len(unknown) > 1:
+        message = sentences.workless_together(unknown, others)
     if len(top.members) > 2 and (ends := sentences.free_ends(top, place.case)):
         message += f" Is a joint missing? {ends[0].upper()}{ends[1:]}."
     status = Status.DEAD_CENTRE if at_rest and others else Status.NO_VALUE if others else Status.ANY_VALUE

@@ -11,6 +11,7 @@ from icsolve.assembly import solve_figure
 from icsolve.case import Case, Coordinates, Unknown
 from icsolve.errors import SceneError, Status
 from icsolve.scene import solve_scene
+from icsolve.solve.known_loads import smooth
 from icsolve.solve.load_function import given_at, naming_uncarried
 from icsolve.solve.positions import Search, find_positions
 from icsolve.solve.rest import with_scene
@@ -156,7 +157,9 @@ def _resting(case: Case, unknown: Unknown, start: float | None, asked: Mapping[s
     """With friction: the ranges in which the mechanism holds still."""
     search = find_ranges(_written(case), unknown.path, span_of(unknown), start)
     if not search.ranges:
-        raise no_value(unknown.path, None, (*case.noticed, *search.notes))
+        bare = find_positions(smooth(_written(case)), unknown.path, span_of(unknown), start)
+        nearest = next((one.value for one in bare.positions), bare.nearest)
+        raise no_value(unknown.path, nearest, (*case.noticed, *search.notes))
     found = [
         EquilibriumPosition(
             {unknown.path: one.held},

@@ -87,7 +87,8 @@ def find_positions(case: Case, path: str, span: tuple[float, float] | None, star
     except TogetherError:
         found = _find_followed(case, path, span or whole_range(case, path), start, span is None)
     rests, slack = taut(found.positions, path)
-    return found._replace(positions=tuple(rests), notes=(*found.notes, *slack))
+    least = found.positions[0].value if found.positions and not rests else found.nearest
+    return found._replace(positions=tuple(rests), notes=(*found.notes, *slack), nearest=least)
 
 
 def _find_in_modes(
@@ -459,6 +460,10 @@ def _balances_everywhere(
     return bool(loads) and refusal is None and not any(loads)
 
 
+NEARER = 1.0 - 2.0**-48
+"""A load is smaller than another by more than their rounding: an end of the range is told as written."""
+
+
 def _nearest(functions: Sequence[LoadFunction], stretches: Sequence[Stretch]) -> float | None:
     """Where the generalised load is smallest: sampled, then closed in on."""
     best: tuple[float, float] | None = None
@@ -474,7 +479,7 @@ def _nearest(functions: Sequence[LoadFunction], stretches: Sequence[Stretch]) ->
                 load = np.abs(power / rate) / (function.force_scale * function.compiled.scene.frame.scale)
             load = np.broadcast_to(load, values.shape)  # one number where the position does not matter
             k = int(np.nanargmin(load))
-            if best is None or float(load[k]) < best[0]:
+            if best is None or float(load[k]) < best[0] * NEARER:
                 best = (float(load[k]), float(values[k]))
             values = np.linspace(float(values[k]) - step, float(values[k]) + step, 33)
             values = values[(values >= branches.low) & (values <= branches.high)]

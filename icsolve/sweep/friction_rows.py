@@ -107,7 +107,9 @@ class FrictionRows(NamedTuple):
             return Balanced({n: take(r) * found for n, r in self.ratios.items()}, {}, sure & settled)
         ends = [self._moving(take, forces, [side * s for s in senses], rows) for side in (1.0, -1.0)]
         both = np.sort(np.stack([value for value, _ in ends], axis=1), axis=1)
-        sure &= ends[0][1] & ends[1][1]
+        # without a width nothing may rub, and the scene says what it is
+        wide = both[:, 1] - both[:, 0] > SENSE * np.abs(both).max(axis=1)
+        sure &= ends[0][1] & ends[1][1] & wide
         holds = {n: np.sort(np.asarray(take(r))[..., None] * both, axis=1) for n, r in self.ratios.items()}
         return Balanced({}, holds, sure)
 

@@ -29,6 +29,7 @@ from icsolve.case import (
     Rope,
     Slope,
     Spring,
+    Toward,
     Weight,
     is_named,
     ordered_pair,
@@ -195,15 +196,16 @@ class _Writer:
             rope = next(rope for rope in self.ropes if rope.end == load.link)
             load = load._replace(at=rope.points[-1])
             return load._replace(heading=AlongRope(rope)) if isinstance(load, Force) else load
-        load = load._replace(at=self.on((self.body_of[load.link], load.at)))
+        spot = (self.body_of[load.link], load.at)
+        load = load._replace(at=self.on(spot))
         if isinstance(load, Weight):
             return load
         if isinstance(load, Spring):
             return load._replace(to=self.on((self.body_of[load.against or ground], load.to)))
-        return self._turned(load) if load.turns_with else load
+        return self._turned(load, spot) if load.turns_with else load
 
-    def _turned(self, load: Force | ForceVector) -> Load:
-        """A load whose direction turns with a link."""
+    def _turned(self, load: Force | ForceVector, spot: Spot) -> Load:
+        """A load whose direction turns with a link: one toward a point as it did where it is written."""
         record = self.record
         z = self.moved.vector(self.body_of[load.turns_with or ""], (1.0, 0.0))
         if isinstance(load, ForceVector):
@@ -213,6 +215,10 @@ class _Writer:
             run, rise = load.heading
             x, y = product(z, (record.given(run), record.given(rise)))
             return load._replace(heading=Slope(record.stand(run, x), record.stand(rise, y)))
+        if isinstance(load.heading, Toward):
+            line = product(z, self.mechanism.shape.between(spot, (spot[0], load.heading.point)))
+            self.points[f"@{load.name} turned"] = plus(self.moved.place(spot), line)
+            return load._replace(heading=load.heading._replace(point=f"@{load.name} turned"))
         assert isinstance(load.heading, Number)
         return load._replace(heading=record.direct(load.heading, product(z, record.turn(load.heading))))
 

@@ -128,6 +128,21 @@ def workless(load: str, cause: str, others_work: bool) -> str:
     )
 
 
+def workless_together(loads: Sequence[str], others_work: bool) -> str:
+    """Of several unknowns there is a motion in which none does work."""
+    which, idle = listed([*loads]), "in one of the motions that the joints leave none of them does work"
+    if others_work:
+        remedy = "Put one of them where it does work in that motion, or take another position."
+        return f"no values of {which} balance: {idle}, but the known loads do. {remedy}"
+    outcome = "so that they can make up for one another. Give one of them a number."
+    return f"many values of {which} balance: {idle}, nor do the known loads, {outcome}"
+
+
+def undone(load: str, alike: Sequence[str]) -> str:
+    """Why a load does no work though its link moves: others that are like it do the opposite."""
+    return f"what work {load} does {listed(alike)}, like it, {'undoes' if len(alike) == 1 else 'undo'} here"
+
+
 def at_rest(load: str, links: Sequence[str], why: str) -> str:
     """Why a load does no work: its link stands still, or does so against the one that takes the opposite."""
     here, *other = map(link_words, links)
@@ -192,17 +207,18 @@ def free_ends(top: Topology, case: Case) -> str:
 def wrong_count(mobility: int, unknowns: int, idle: int, ends: str = "") -> str:
     """Freedoms that do not match the unknowns; ``ends``: which links have a free end."""
     active = mobility - idle
+    beside = f" beside {plural(idle, 'freedom')} in which no load does work" if idle else ""
     if unknowns > active:
         extra = unknowns - active
         return (
-            f"{plural(unknowns, 'unknown load')} for a mobility of {active}: {extra} too many. "
+            f"{plural(unknowns, 'unknown load')} for a mobility of {active}{beside}: {extra} too many. "
             f"Give {'one of them a number' if extra == 1 else f'{extra} of them numbers'}, or tie it to "
             "another with `like`."
         )
     missing = active - unknowns
     wrong = (
-        f"the mechanism has {plural(active, 'degree')} of freedom but {plural(unknowns, 'unknown load')}: it "
-        "would not stay in equilibrium."
+        f"the mechanism has {plural(active, 'degree')} of freedom{beside} but "
+        f"{plural(unknowns, 'unknown load')}: it would not stay in equilibrium."
     )
     several = missing > 2  # the freedoms that one pin takes
     if ends:
