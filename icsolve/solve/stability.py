@@ -241,9 +241,23 @@ def is_still(case: Case, path: str, value: float) -> bool:
     return spare_friction(moving_loads(with_numbers(case, {own: value}), own))[0] >= 0.0
 
 
+def is_open_beside(case: Case, path: str, value: float, error: float, above: bool) -> bool:
+    """Whether just above or below a value at which a mechanism ceases to hold still, it may still hold, as
+    friction was left."""
+    from icsolve.solve.known_loads import is_open
+
+    own = find_number(case, path).path
+    step = 4.0 * error + BESIDE * abs(value)
+    return is_open(with_numbers(case, {own: value + (step if above else -step)}), own)
+
+
+BESIDE = 1e-9
+"""So far beside a value, of its size, no rounding decides what is so there."""
+
 __all__ = [
     "TurningPower",
     "holding_values",
+    "is_open_beside",
     "is_still",
     "neutral_values",
     "rest_as_written",

@@ -626,8 +626,12 @@ def notes_at_rest(root: str, found: StaticRange) -> Sequence[str]:
         side = "above" if math.isinf(found.most) else "below"
         why = "the harder it presses, the more it holds" if found.presses else "it locks that way"
         notes.append(f"no value of {root} {side} the range moves it, however large: {why}.")
-    for value in found.again:
-        notes.append(f"beyond {root} = {value:.6g}, where it is about to move too, it may hold again.")
+    for low, high in found.again:
+        where = f"from {root} = {low:.6g} to {high:.6g}"
+        if math.isinf(high - low):
+            end = low if math.isinf(high) else high
+            where = f"beyond {root} = {end:.6g}, where it is about to move too,"
+        notes.append(f"{where} it may hold again.")
     for end, more in zip((found.least, found.most), found.possible, strict=True):
         if end != more and abs(end - more) > SAME * abs(end):
             far = f"to {more:.6g}" if math.isfinite(more) else "up" if more > 0.0 else "down"
