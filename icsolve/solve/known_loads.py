@@ -15,7 +15,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.arithmetic import largest_of
 from icsolve.scene import solve_scene, standing
-from icsolve.solve.rest import PROBE, probes
+from icsolve.solve.rest import PROBE, holding, probes
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.senses import reach_of, unit_of
 
@@ -182,8 +182,6 @@ def _held(said: SaidCase, load: str, alone: bool) -> Held:
         raise
     found, friction = answer.answers[load], answer.friction
     if found.holds is None:
-        from icsolve.solve.stability import holding
-
         parts = (
             any(joint.only_pushes for joint in case.joints) and standing(holding(case, answer)).depth < 0.0
         )
