@@ -28,13 +28,9 @@ def scene(seed: int) -> str:
 
 
 def ranges(answer: icsolve.Answer) -> list[Range]:
-    """The range in which friction can hold, and those beyond it, by the ends that are told of these."""
+    """The range in which friction can hold, and those beyond it."""
     assert answer.friction is not None and answer.friction.possible is not None
-    low, high = answer.friction.possible
-    below = [end for end in answer.friction.again if end < low]
-    above = [end for end in answer.friction.again if end > high]
-    ends = [*[-math.inf][: len(below) % 2], *below, low, high, *above, *[math.inf][: len(above) % 2]]
-    return list(zip(ends[::2], ends[1::2], strict=True))
+    return sorted((answer.friction.possible, *answer.friction.again))
 
 
 LINEAR = {

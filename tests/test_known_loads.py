@@ -71,26 +71,36 @@ def known(text: str, value: float) -> icsolve.Case:
 
 
 def holds_as_its_range_says(text: str) -> int:
-    """How many values inside and outside of the range of the unknown load were compared."""
-    found = icsolve.solve(icsolve.load(text)).answers["U"]
-    assert found.holds is not None
+    """How many values inside and outside of the range of the unknown load were compared; in between, up to
+    where friction may hold as it was left, it is open."""
+    solved = icsolve.solve(icsolve.load(text))
+    found = solved.answers["U"]
+    assert found.holds is not None and solved.friction is not None and solved.friction.possible is not None
     low, high = found.holds
-    finite = [end for end in found.holds if math.isfinite(end)]
+    least, most = solved.friction.possible
+    finite = [end for end in (low, high, least, most) if math.isfinite(end)]
     size = max([1.0, *(abs(end) for end in finite)])
     inside = (max(low, -2.0 * size), min(high, 2.0 * size))
     room = 1e-3 * (inside[1] - inside[0])
     if not finite or room <= 1e-12 * size:
         return 0
-    checks = [(inside[0] + room, True), (sum(inside) / 2, True), (inside[1] - room, True)]
-    checks += [(low - room, False), (low - size, False)] if math.isfinite(low) else []
-    checks += [(high + room, False), (high + size, False)] if math.isfinite(high) else []
+    checks: list[tuple[float, bool | None]] = [(end, True) for end in (inside[0] + room, inside[1] - room)]
+    checks += [(sum(inside) / 2, True)]
+    for end, last, side in ((low, least, -1.0), (high, most, 1.0)):
+        if abs(last - end) > 4.0 * room and math.isfinite(end):
+            checks += [(end + side * room, None)]
+        if math.isfinite(last):
+            checks += [(last + side * room, False), (last + side * size, False)]
     for value, holds in checks:
+        if any(one[0] <= value <= one[1] for one in solved.friction.again):
+            continue
         answer = icsolve.solve(known(text, value))
         assert answer.holds_still is holds, f"{value}\n{text}"
-        assert answer.to_dict()["holds_still"] is holds
+        assert answer.to_dict().get("holds_still") is holds
         said = " ".join(answer.notes)
-        assert ("friction is enough" in said) is holds, said
-        assert ("friction is not enough" in said) is not holds, said
+        assert ("friction is enough:" in said) is (holds is True), said
+        assert ("friction is not enough:" in said) is (holds is False), said
+        assert ("left the other way round" in said) is (holds is None), said
         assert "do not balance" not in said
     return len(checks)
 

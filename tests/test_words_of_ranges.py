@@ -4,12 +4,17 @@ that presses, as on a brake, holds the more the harder it presses; what friction
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
+from pathlib import Path
 from random import Random
 
 import pytest
 
 import icsolve
+import rough_scenes
+import standing
+from shell import Shell
 from sizes import FULL
 
 LOCKS, PRESSES, JAMS = "it locks that way", "the harder it presses, the more it holds", "it holds as a jam"
@@ -32,21 +37,9 @@ loads:
 
 def band(dice: Random) -> str:
     """A lever that draws a band round a drum."""
-    return f"""icsolve: 1
-units: {{length: cm, force: N}}
-points: {{O: [0, 0], D: [30, -5], A: [20, -5], B: [10, -20], E: [60, -5]}}
-joints:
-  - {{pin: [1, drum], at: O}}
-  - {{pin: [1, lever], at: D}}
-  - rope: [A, O, B]
-    on: [lever, drum, 1]
-    radii: {{O: 15}}
-    wraps: {{O: ccw}}
-    mu: {{O: {dice.uniform(0.1, 0.5):.2f}}}
-loads:
-  F: {{force: unknown, link: lever, at: E, angle: {dice.choice((90, -90))}}}
-  T: {{torque: {dice.choice((-500, 200, 900))}, link: drum}}
-"""
+    text = rough_scenes.band(dice).text.replace("F:", "T:").replace("P:", "F:")
+    torque = dice.choice((-500, 200, 900))
+    return "icsolve: 1\n" + re.sub(r"force: \d+", "force: unknown", text).replace("LOAD", str(torque))
 
 
 def wall(dice: Random) -> str:
@@ -159,3 +152,39 @@ motion: {{point: B, link: bar, speed: 1, angle: 180}}
     with pytest.raises(icsolve.SceneError, match="the forces grow without bound") as refusal:
         icsolve.solve(icsolve.load(f"{rest}motion{motion}"))
     assert refusal.value.status == "jam"
+
+
+LEFT = "left the other way round at some joint"
+
+
+@pytest.mark.parametrize("seed", range(60 if FULL else 12))
+def test_between_impending_motion_and_what_friction_can_hold_it_is_open(
+    seed: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A rod in two rough slots: with one load unknown, known and sought the same is said of the stretch in
+    which friction holds only as it was left."""
+    dice = Random(f"left {seed}")
+    while True:
+        text = re.sub("  L1: .*\n", "", standing.rod(dice))  # a torque
+        last = text.rindex("force: 1,")
+        answer = icsolve.solve(icsolve.load(f"{text[:last]}force: unknown,{text[last + 9 :]}"))
+        assert answer.friction is not None and answer.friction.possible is not None
+        (high, most), held = (answer.answers["L2"].holds[1], answer.friction.possible[1]), answer
+        if math.isfinite(high) and most - high > 0.01 * abs(high):
+            break
+    assert any(f"from {high:.6g}" in note and LEFT in note for note in held.notes)
+    beyond = 0.5 * (high + most) if math.isfinite(most) else high + abs(high) + 1.0
+    known = f"{text[:last]}force: {beyond!r},{text[last + 9 :]}"
+    given = icsolve.solve(icsolve.load(known))
+    assert given.holds_still is None and "holds_still" not in given.to_dict()
+    assert [LEFT in note for note in given.notes] == [True]
+    case = tmp_path / "case.yaml"
+    case.write_text(known)
+    shell = Shell(capsys)
+    assert LEFT in " ".join(shell("explain", case).out.split())
+    span = f"loads.L2={high - 0.01 * abs(high)!r},{high + 0.001 * abs(high)!r}"
+    (found,) = shell("sweep", case, "--vary", span, "--find", "hold", "--json").objects()
+    (one,) = found["found"]
+    assert (one["from"], one["to"]) == ("holds", "slips")
+    assert one["at"]["loads.L2"] == pytest.approx(high, rel=1e-12)
+    assert any(LEFT in note for note in found["notes"])

@@ -241,8 +241,12 @@ def _tension(tension: Tension) -> dict[str, Any]:
 
 def _friction(friction: FrictionFound) -> dict[str, Any]:
     if friction.possible is not None:
-        ends = [end if math.isfinite(end) else None for end in friction.possible]
-        return {"possible": ends, "how": friction.unique}
+        possible, *again = (
+            [end if math.isfinite(end) else None for end in one]
+            for one in (friction.possible, *friction.again)
+        )
+        found = {"possible": possible, "how": friction.unique}
+        return {**found, "again": again} if again else found
     return {
         "losses": friction.losses,
         "residual": friction.residual,

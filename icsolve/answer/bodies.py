@@ -214,7 +214,7 @@ class FrictionFound(NamedTuple):
     ``unique`` says how
     it is known that there is no other solution, '' where that is not known. At rest ``possible`` has
     the range of the unknown load in which friction within its limits can hold, ``unique`` says how
-    it was found, and ``again`` has the values beyond the range from which it may hold again; ``jams`` is the
+    it was found, and ``again`` has the ranges beyond it in which it may hold again; ``jams`` is the
     sentence on contacts that push by friction alone.
     """
 
@@ -225,7 +225,7 @@ class FrictionFound(NamedTuple):
     losses: float = 0.0
     efficiency: float | None = None
     possible: tuple[float, float] | None = None
-    again: tuple[float, ...] = ()
+    again: tuple[tuple[float, float], ...] = ()
     jams: str = ""
 
 

@@ -232,7 +232,7 @@ def _equilibrium(case: Case, word: str, along: str, low: float, high: float) -> 
         {"kind": word, "at": {along: one.value + 0.0}, "error": {along: one.error}, **told}
         for one, told in places
     ]
-    return Finding(word, along, found, notes=(*notes, *_notes(case, word, along, low, bool(found))))
+    return Finding(word, along, found, notes=(*notes, *_notes(case, word, along, low, found)))
 
 
 FRICTIONLESS = (
@@ -240,8 +240,17 @@ FRICTIONLESS = (
 )
 
 
-def _notes(case: Case, word: str, along: str, low: float, found: bool) -> Iterator[str]:
-    """What the entries do not say: that friction has no part in them, or what is so where there are none."""
+LEFT = (
+    "beside {along} = {value:.6g}, where it is said to slip, it may still hold if friction was left the "
+    "other way round at some joint."
+)
+
+
+def _notes(
+    case: Case, word: str, along: str, low: float, found: Sequence[Mapping[str, Any]]
+) -> Iterator[str]:
+    """What the entries do not say: that friction has no part in them, or what is so where there are none; and
+    beside which it hangs on how friction was left."""
     from icsolve.statics.power import has_friction
 
     if word == "rest" and has_friction(case):
@@ -252,6 +261,12 @@ def _notes(case: Case, word: str, along: str, low: float, found: bool) -> Iterat
         whole = along.count(".") == 1 and along.startswith("loads.")  # its range is one of `solve`
         where = "throughout" if whole else f"at all {CUTS + 1} places that were looked at"
         yield f"it {'holds still' if is_still(case, along, low) else 'slips'} {where}."
+    for one in found if word == "hold" else ():
+        from icsolve.solve.stability import is_open_beside
+
+        value, error = one["at"][along], one["error"][along]
+        if is_open_beside(case, along, value, error, one["to"] == "slips"):
+            yield LEFT.format(along=along, value=value)
 
 
 def _found(

@@ -189,7 +189,7 @@ def balanced(parts: AnswerBuilder) -> AnswerBuilder:
 def judged(parts: AnswerBuilder, reactions: bool) -> Answer:
     """The answer of an evaluated scene; refused where power does not determine it."""
     rubs = parts.program.want.bodies and refusals.rubs(parts.case)
-    if not (rubs and refusals.is_workless(parts.outcome)):
+    if not (rubs and refusals.may_hold(parts.outcome)):
         parts.scene.ask(lambda found: refusals.refuse_unbalanced(found.outcome))
     if rubs:
         from icsolve.scene.free_bodies import with_friction

@@ -110,8 +110,11 @@ def rubs(case: Case) -> bool:
     return any(power.is_unknown(load) for load in case.loads) and power.has_friction(case)
 
 
-def is_workless(outcome: power.Outcome) -> bool:
-    """Whether the one unknown load of a mechanism does no work: with friction it may still balance."""
+def may_hold(outcome: power.Outcome) -> bool:
+    """Whether one unknown load may with friction balance what it does not without: it does no work, or there
+    are several freedoms, and no motion is given."""
+    if outcome.motions.mobility > 1:
+        return len(power.unknown_loads(outcome.balance)) == 1 and not outcome.place.case.motion
     return outcome.solution.verdict in ("no value", "any value") and outcome.motions.mobility == 1
 
 

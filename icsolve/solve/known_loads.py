@@ -15,19 +15,22 @@ from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.arithmetic import largest_of
 from icsolve.scene import solve_scene, standing
-from icsolve.solve.rest import PROBE, probes
+from icsolve.solve.rest import PROBE, holding, probes
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.senses import reach_of, unit_of
+
+Range = tuple[float, float]
 
 
 class Held(NamedTuple):
     """From what to what value of a load it holds still, turned about where nowhere; how far off these may be;
-    beyond what values it may hold again; what is to be said where that is a jam."""
+    up to where it may hold as friction was left, and where again; what is to be said where that is a jam."""
 
     low: float
     high: float
     error: float = 0.0
-    again: tuple[float, ...] = ()
+    possible: Range = (math.inf, -math.inf)
+    again: tuple[Range, ...] = ()
     jams: str = ""
 
 
@@ -38,11 +41,22 @@ Spare = tuple[float, float]
 
 class AskedLoad(NamedTuple):
     """The load that was asked, as an unknown one, its own value (0.0 of one that the case does not have), and
-    where it holds still."""
+    where it holds still: of several ranges the one with its value in it."""
 
     load: Load
     value: float
     held: Held
+
+    @property
+    def holds(self) -> bool:
+        """Whether it holds still."""
+        return self.held.low <= self.value <= self.held.high
+
+    @property
+    def open(self) -> bool:
+        """Whether it does only if friction was left the other way round at some joint."""
+        low, high = self.held.possible
+        return low <= self.value <= high and not self.holds
 
 
 def asked_of(case: Case, path: str = "") -> AskedLoad | None:
@@ -64,6 +78,8 @@ def asked_of(case: Case, path: str = "") -> AskedLoad | None:
             held = _held(said, load.name, not varied)
             if not held.low <= value <= held.high:
                 held = _held(said, load.name, False)
+                low, high = next((one for one in held.again if one[0] <= value <= one[1]), held[:2])
+                held = held._replace(low=low, high=high)
         except SceneError as error:
             refusal = error
             continue
@@ -87,16 +103,20 @@ def moving_loads(case: Case, path: str = "") -> Held:
     found = None
     with suppress(SceneError):
         found = asked_of(case, path)
-    if found is None or _beyond(found):
+    if found is None:
         return _of_all(replace(case, motion=(), expect=()))
     return Held(found.held.low - found.value, found.held.high - found.value, found.held.error)
 
 
-def _beyond(found: AskedLoad) -> bool:
-    """Whether the load is outside of its range, and past where it may hold again: all loads at once say."""
-    low, high, _, again, _ = found.held
-    past = (found.value <= a < low or high < a <= found.value for a in again)
-    return low <= high and any(past)
+def is_open(case: Case, path: str = "") -> bool:
+    """Whether it hangs on how friction was left if a mechanism under known loads holds still.
+
+    Parameters as of `asked_of`.
+    """
+    with suppress(SceneError):
+        found = asked_of(case, path)
+        return found is not None and found.open
+    return False
 
 
 def spare_friction(held: Held) -> Spare:
@@ -162,23 +182,15 @@ def _held(said: SaidCase, load: str, alone: bool) -> Held:
         raise
     found, friction = answer.answers[load], answer.friction
     if found.holds is None:
-        parts = _parts(case, load, found.value)
+        parts = (
+            any(joint.only_pushes for joint in case.joints) and standing(holding(case, answer)).depth < 0.0
+        )
         return NOWHERE if parts else Held(found.value, found.value, found.error or 0.0)
     largest = largest_of([end for end in found.holds if math.isfinite(end)])
     error = UNPROVEN * largest if found.error is None else found.error
-    return Held(*found.holds, error, *((friction.again, friction.jams) if friction else ()))
-
-
-def _parts(case: Case, load: str, value: float) -> bool:
-    """Whether a contact parts under an unknown load of this value."""
-    if not any(joint.only_pushes for joint in case.joints):
-        return False
-    number = Number(value, 0.0, f"loads.{load}", repr(value))
-    loads = [
-        one._replace(value=number) if one.name == load and not isinstance(one, ForceVector) else one
-        for one in case.loads
-    ]
-    return standing(replace(case, loads=tuple(loads))).depth < 0.0
+    if friction is None or friction.possible is None:
+        return Held(*found.holds, error)
+    return Held(*found.holds, error, friction.possible, friction.again, friction.jams)
 
 
 def _of_all(case: Case) -> Held:
@@ -207,6 +219,10 @@ HOLDS = "friction is enough: under the known loads the mechanism holds still."
 SLIPS = "friction is not enough: under the known loads the mechanism moves."
 SHARED = "So it does as its joints share the load, which equilibrium leaves open, in one way at least."
 OPEN = "whether friction is enough for the known loads is open: {}"
+LEFT = (
+    "it is if it was left the other way round at some joint, and the mechanism moves under loads that grew "
+    "from rest. It would hold anyway with {}."
+)
 KEPT_UP = "friction counted, the known loads keep up this motion."
 
 
@@ -234,13 +250,14 @@ def _at_rest(case: Case) -> tuple[bool | None, str]:
         if depth < 0.0:
             return False, SLIPS
         return True, f"{HOLDS} {SHARED}" if shared else HOLDS
-    low, high, _, _, jams = found.held
+    low, high = found.held[:2]
     reach = reach_of((low, high), unit_of(found.load, case), lambda end: f"{end + 0.0:.6g}", None)
     what = f"{_named(found.load)} {reach}"
-    if low <= found.value <= high:
+    if found.holds:
+        jams = found.held.jams
         return True, f"{HOLDS} So it does with {what}.{jams and ' But '}{jams}"
-    if _beyond(found) and standing(replace(case, expect=())).depth >= 0.0:
-        return True, f"{HOLDS} So it does with {what}, and here beyond that."
+    if found.open:
+        return None, OPEN.format(LEFT.format(what))
     return False, f"{SLIPS} It would hold with {what}." if low <= high else SLIPS
 
 

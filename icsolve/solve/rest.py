@@ -6,11 +6,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from itertools import combinations
 
-from icsolve.answer import Answer
+from icsolve.answer import Answer, by_load
 from icsolve.answer.equilibrium import Stiffness
-from icsolve.case import Case, Force, Number, Torque
+from icsolve.case import Case, Force, ForceVector, Number, Torque
 from icsolve.errors import SceneError, Status
 from icsolve.scene import solve_by_power, solve_scene
+from icsolve.statics.power import is_unknown
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import left_out
 
@@ -142,3 +143,14 @@ def probes(case: Case, links: Sequence[str], freedoms: int) -> Iterator[Torque |
             for degrees in ("0", "90"):
                 along = Number(float(degrees), 0.0, f"loads.{PROBE}.angle", degrees)
                 yield Force(PROBE, link, name, None, along)
+
+
+def holding(case: Case, answer: Answer) -> Case:
+    """The case with its unknown loads at the values that were found."""
+    loads, found = [], by_load(answer.answers)
+    for load in case.loads:
+        if is_unknown(load) and not isinstance(load, ForceVector):
+            value = found[load.name].value
+            load = load._replace(value=Number(value, 0.0, f"loads.{load.name}", repr(value)))  # noqa: PLW2901
+        loads.append(load)
+    return replace(case, loads=tuple(loads), directed=(), expect=(), motion=())

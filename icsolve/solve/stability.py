@@ -7,17 +7,17 @@ from collections.abc import Callable
 from functools import cache
 from itertools import pairwise
 
-from icsolve.answer import Answer, by_load
+from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
-from icsolve.case import Case, ForceVector, Number
+from icsolve.case import Case
 from icsolve.errors import CaseError, Problem, SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.roots import zero_between
 from icsolve.read.names import shown
 from icsolve.scene import solve_scene
 from icsolve.solve.positions import led_rest, moved_by, refuse_motion, rest_of
-from icsolve.solve.rest import Rest, balances
-from icsolve.statics.power import has_friction, is_unknown
+from icsolve.solve.rest import Rest, balances, holding
+from icsolve.statics.power import has_friction
 from icsolve.sweep.numbers import find_number, refuse_space, with_numbers
 from icsolve.tuples import NamedTuple, replace
 
@@ -50,17 +50,6 @@ def _refuse_unknown(case: Case, of: str) -> None:
     links = f"name a link that moves ({', '.join(movable)})"
     said = f"no stability by {shown(of)}: {links}, or a datum that poses the figure, as angles.AB"
     raise CaseError([Problem(case.path, 1, 1, said)])
-
-
-def holding(case: Case, answer: Answer) -> Case:
-    """The case with its unknown loads at the values that were found."""
-    loads, found = [], by_load(answer.answers)
-    for load in case.loads:
-        if is_unknown(load) and not isinstance(load, ForceVector):
-            value = found[load.name].value
-            load = load._replace(value=Number(value, 0.0, f"loads.{load.name}", repr(value)))  # noqa: PLW2901
-        loads.append(load)
-    return replace(case, loads=tuple(loads), directed=(), expect=(), motion=())
 
 
 def rest_as_written(case: Case, of: str) -> Rest:
@@ -241,9 +230,23 @@ def is_still(case: Case, path: str, value: float) -> bool:
     return spare_friction(moving_loads(with_numbers(case, {own: value}), own))[0] >= 0.0
 
 
+def is_open_beside(case: Case, path: str, value: float, error: float, above: bool) -> bool:
+    """Whether just above or below a value at which a mechanism ceases to hold still, it may still hold, as
+    friction was left."""
+    from icsolve.solve.known_loads import is_open
+
+    own = find_number(case, path).path
+    step = 4.0 * error + BESIDE * abs(value)
+    return is_open(with_numbers(case, {own: value + (step if above else -step)}), own)
+
+
+BESIDE = 1e-9
+"""So far beside a value, of its size, no rounding decides what is so there."""
+
 __all__ = [
     "TurningPower",
     "holding_values",
+    "is_open_beside",
     "is_still",
     "neutral_values",
     "rest_as_written",

@@ -84,10 +84,10 @@ class HeldRanges(NamedTuple):
         """How it is known that no friction holds more."""
         return PROVEN if self.complete else UNFINISHED
 
-    def nearest(self, load: float) -> tuple[HeldRange, list[HeldRange]]:
-        """The range that is nearest to a load, and the others."""
+    def nearest(self, load: float) -> tuple[HeldRange, tuple[tuple[float, float], ...]]:
+        """The range that is nearest to a load, and from where to where the others go."""
         own = min(self.ranges, key=lambda one: max(one.low - load, load - one.high))
-        return own, [one for one in self.ranges if one is not own]
+        return own, tuple([(one.low, one.high) for one in self.ranges if one is not own])
 
 
 def held(scene: RestingScene) -> HeldRanges:

@@ -53,7 +53,7 @@ from icsolve.statics.friction.static_range import (
     static_range,
     without_ends,
 )
-from icsolve.statics.power import Balance, Bounded, Solution, Value, is_unknown
+from icsolve.statics.power import Balance, Bounded, Solution, Value, is_unknown, unknown_loads
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import names_by_tie, reactions_of, tensions_of
 from icsolve.statics.witness import refuse_doubt, residual, terms_of
@@ -198,14 +198,22 @@ def at_rest(scene: FrictionScene) -> AtRest:
     SceneError
         ``mobility`` above 1, where the range of one load depends on the others.
     """
-    mobility = scene.position.mobility
-    if mobility > 1 and mobility - len(scene.solution.idle) != 1:
+    mobility, rates = scene.position.mobility, None
+    if mobility - len(scene.solution.idle) == 1 or mobility == 1:
+        try:
+            rates = rates_of_motion(scene)
+        except SceneError:  # what no load moves rubs
+            if mobility == 1:
+                raise
+    if rates is None:
+        if len(unknown_loads(scene.balance)) == 1:
+            return _of_several_freedoms(scene)
         message = (
-            f"friction at {plural(mobility, 'degree')} of freedom needs `motion`, one for "
-            "each: without it each unknown load has a range that depends on the others."
+            f"friction at {plural(mobility, 'degree')} of freedom needs `motion`, one for each: without it "
+            "each unknown load has a range that depends on the others. Or give all but one a number: then "
+            "its range is found."
         )
         raise SceneError(Status.MOBILITY, message)
-    rates = rates_of_motion(scene)
     if any(rope.slips for rope in scene.position.case.ropes):
         found, ends = _range_with_ropes(scene, rates)
     else:
@@ -223,6 +231,11 @@ def at_rest(scene: FrictionScene) -> AtRest:
             EndOfRange(way, scene, statics, end, _proven_end(scene, statics, end))
             for way, end in zip(ways, found.ends, strict=True)
         ]
+    return _told(found, ends, rates)
+
+
+def _told(found: StaticRange, ends: Sequence[EndOfRange], rates: RubbingRates) -> AtRest:
+    """A range as it is told, with what is proven of its ends."""
     lost = [one for one in ends if one.proven.why and _is_beyond(one.statics, one.end.value)]
     ends = [one for one in ends if one not in lost]
     found = without_ends(found, [one.end for one in lost])
@@ -233,6 +246,35 @@ def at_rest(scene: FrictionScene) -> AtRest:
     least, most, *possible = (exact.get(v, v) for v in (found.least, found.most, *found.possible))
     found = found._replace(least=least, most=most, possible=(possible[0], possible[1]))
     return AtRest(found, None if why else max(bounds), why, ends, rates)
+
+
+def _of_several_freedoms(scene: FrictionScene) -> AtRest:
+    """The range of the one unknown load where friction holds several freedoms: there is no motion that would
+    begin at its ends.
+
+    Raises SceneError where there is none, and where the fit of joints alone presses what rubs.
+    """
+    from icsolve.statics.friction.standing import refuse_fit
+
+    refuse_fit(_resting(scene))
+    ties = ties_of(scene.position)
+    statics = equilibrium(scene.position, ties, scene.balance, rubs_of(scene.position, ties))
+    within = limited.held(_resting(scene))
+    if not within.ranges:
+        raise SceneError(Status.NO_VALUE, NEVER_HELD.format(statics.roots[0]))
+    own, again = within.nearest(0.0)
+    both = zip((own.low, own.high), own.vertices, strict=True)
+    ends = [End(value, (), (), True, vertex) for value, vertex in both]
+    presses = not any(row.get(statics.root(0)) for row in statics.general.left)
+    found = range_of(ends)._replace(how=within.how, again=again, presses=presses)
+    finite = (end for end in ends if math.isfinite(end.value))
+    of = [EndOfRange(1.0, scene, statics, end, _proven_end(scene, statics, end)) for end in finite]
+    return _told(found._replace(self_locking=found.self_locking and not presses), of, RubbingRates((), ()))
+
+
+NEVER_HELD = (
+    "no value of {} holds: friction within its limits is not enough, or a contact would have to pull."
+)
 
 
 def _is_beyond(statics: Statics, load: float) -> bool:
@@ -626,8 +668,12 @@ def notes_at_rest(root: str, found: StaticRange) -> Sequence[str]:
         side = "above" if math.isinf(found.most) else "below"
         why = "the harder it presses, the more it holds" if found.presses else "it locks that way"
         notes.append(f"no value of {root} {side} the range moves it, however large: {why}.")
-    for value in found.again:
-        notes.append(f"beyond {root} = {value:.6g}, where it is about to move too, it may hold again.")
+    for low, high in found.again:
+        where = f"from {root} = {low:.6g} to {high:.6g}"
+        if math.isinf(high - low):
+            end = low if math.isinf(high) else high
+            where = f"beyond {root} = {end:.6g}, where it is about to move too,"
+        notes.append(f"{where} it may hold again.")
     for end, more in zip((found.least, found.most), found.possible, strict=True):
         if end != more and abs(end - more) > SAME * abs(end):
             far = f"to {more:.6g}" if math.isfinite(more) else "up" if more > 0.0 else "down"

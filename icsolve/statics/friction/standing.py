@@ -200,6 +200,14 @@ def _is_shared(limits: FrictionLimits) -> bool:
     return any(abs(row.get(c, 0.0)) > ROUNDED * size for row, size in sizes for c in limits.free)
 
 
+def refuse_fit(scene: RestingScene) -> None:
+    """Refuse joints that rub and that their fit alone may press together."""
+    ties = ties_of(scene.position)
+    for flanks in every_flanks(scene):
+        if pressed := _pressed_by_fit(limits_in_floats(scene, flanks)):
+            raise SceneError(Status.UNSUPPORTED, shared(ties[pressed.tie], ties))
+
+
 def _pressed_by_fit(limits: FrictionLimits) -> Pressed | None:
     """Joints that rub, pressed together without any load or friction; None where none can be."""
     bare = limits.each(lambda row: {c: a for c, a in row.items() if c in limits.free})

@@ -82,7 +82,7 @@ class StaticRange(NamedTuple):
     how : how that was found: only `PROVEN` is a proof
     self_locking : it holds with the unknown at zero, or no value moves it one way
     ends : those ends at which it is about to move
-    again : values outside of the interval at which it is so too
+    again : other ranges in which friction within its limits can hold
     parts : at which ends a contact would have to pull: there it parts, before the end
     lifted : where nothing holds without the unknown load, contacts that push by friction alone: without it
         they would have to pull
@@ -95,7 +95,7 @@ class StaticRange(NamedTuple):
     how: str
     self_locking: bool = False
     ends: tuple[End, ...] = ()
-    again: tuple[float, ...] = ()
+    again: tuple[tuple[float, float], ...] = ()
     parts: tuple[float, ...] = ()
     lifted: tuple[str, ...] = ()
     presses: bool = False
@@ -136,12 +136,7 @@ def static_range(statics: Statics, senses: Sequence[float], alone: bool, within:
     own, others = found.nearest(smooth_load(statics) or 0.0)
     told = range_of([_kept(own, end, senses) for end in ends])
     possible = _same_ends((own.low, own.high), (told.least, told.most))
-    return told._replace(possible=possible, how=found.how, again=_ends_of(others))
-
-
-def _ends_of(ranges: Sequence[HeldRange]) -> tuple[float, ...]:
-    """The finite ends of some ranges."""
-    return tuple(sorted(end for one in ranges for end in (one.low, one.high) if math.isfinite(end)))
+    return told._replace(possible=possible, how=found.how, again=others)
 
 
 def _kept(own: HeldRange, end: End, senses: Sequence[float]) -> End:
@@ -194,7 +189,7 @@ def of_limits(statics: Statics, senses: Sequence[float], within: HeldRanges, alo
         ends.append(next(same, parts))
     jams = loads_from_power(statics) is not None and not own.low <= 0.0 <= own.high
     lifted = _pulling(statics, smooth) if jams else ()
-    return range_of(ends)._replace(how=within.how, again=_ends_of(others), lifted=lifted)
+    return range_of(ends)._replace(how=within.how, again=others, lifted=lifted)
 
 
 SAME = 1e-9
@@ -441,11 +436,10 @@ def pressed(statics: Statics, senses: Sequence[float], driven: bool, within: Wit
         )
     least, most = max(holding, key=lambda pair: (pair[1] == math.inf, pair[1]))
     both = (least / statics.scale, most / statics.scale)
-    others = {end / statics.scale for pair in holding if pair != (least, most) for end in pair}
-    again = sorted(end for end in others if math.isfinite(end) and end not in both)
+    again = tuple((a / statics.scale, b / statics.scale) for a, b in holding if (a, b) != (least, most))
     own = [end for end in (least, most) if math.isfinite(end)]
     about_to_move = tuple(End(end / statics.scale, senses, moving[end]) for end in own)
-    return StaticRange(*both, both, SAID, ends=about_to_move, again=tuple(again), presses=True)
+    return StaticRange(*both, both, SAID, ends=about_to_move, again=again, presses=True)
 
 
 def _value_inside(a: float, b: float) -> float:
