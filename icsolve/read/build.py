@@ -58,7 +58,7 @@ def build(root: Mapping, problems: Problems, name: str, units: Units) -> Case:
         if not reading.problems.found:
             given = (loads, motion, parts["inertia"], parts["expect"])
             reading.noticed += check_loads(reading, root, figure, *given, ground)
-            reading.noticed += check_guides(reading, root, figure)
+            reading.noticed += check_guides(figure)
             reading.noticed += (*stray_points(reading, figure), *small_angles(figure))
     links = tuple(reading.links or ())
     return Case(

@@ -158,19 +158,17 @@ def check_loads(
     return tuple(said)
 
 
-def check_guides(reading: Reading, root: Mapping, figure: FigureData) -> tuple[str, ...]:
-    """Refuse a slot along points of its own pin's link, which it takes along; sentences on guides that a
-    joint of other links gives: their line holds in this position, but it may be that the guide is one of
+def check_guides(figure: FigureData) -> tuple[str, ...]:
+    """Sentences on guides that a joint of other links gives, and on slots along points of their own pin's
+    link, which it takes along: their line holds in this position, but it may be that the guide is one of
     those links'."""
     said, bearing = [], dict[str, dict[str, None]]()
     for joint in figure.joints:
         for point in (one for one in joint.named if one == joint.at or one not in _guide_points(joint)):
             bearing.setdefault(point, {}).update(dict.fromkeys(joint.links))
     welds = [joint.links for joint in figure.joints if not joint.freedom]
-    slots = _slots(root)
     for joint in (one for one in figure.joints if one.guide is not None):
         pin, slotted = joint.links[0], joint.links[-1]
-        node = next(slots) if joint.freedom > 1 else None
         own, theirs = _welded(pin, welds), _welded(slotted, welds)
         for point in _guide_points(joint):
             others = [*bearing.get(point, ())]
@@ -182,24 +180,17 @@ def check_guides(reading: Reading, root: Mapping, figure: FigureData) -> tuple[s
                 whose = " and ".join(f"link {other}" for other in others[:2])
                 meant = "if it is a guide of one of these, name that link second"
                 said.append(f"{guide}, a joint of {whose}; {meant}.")
-            elif node is not None and point != joint.at and not own.isdisjoint(bearers):
-                reading.refuse(node.items["along"].mark, OWN_SLOT.format(pin=pin, link=slotted, point=point))
+            elif joint.freedom > 1 and point != joint.at and not own.isdisjoint(bearers):
+                said.append(OWN_SLOT.format(pin=pin, link=slotted, point=point, at=joint.at))
                 break
     return tuple(said)
 
 
 OWN_SLOT = (
-    "a slot of link {link} is given by {point}, a point of link {pin}, whose pin runs in it: write 'slot: "
-    "[{link}, {pin}]' if the slot is in link {pin}, or give its line by points of link {link} or in degrees "
-    "('links: {{{link}: [{point}]}}' if link {link} has {point} too)"
+    "the slot of link {link} at {at} is given by {point}, a point of link {pin}, whose pin runs in it: write "
+    "'slot: [{link}, {pin}]' if the slot is in link {pin}, 'links: {{{link}: [{point}]}}' if link {link} has "
+    "{point} too."
 )
-
-
-def _slots(root: Mapping) -> Iterator[Mapping]:
-    """The slots as they are written."""
-    section = root.items.get("joints")
-    entries = section.items if type(section) is Sequence else []
-    return (node for node in entries if type(node) is Mapping and "slot" in node.items)
 
 
 def _guide_points(joint: Joint) -> tuple[str, ...]:

@@ -152,8 +152,8 @@ def topology(case: Case) -> Topology:
         raise SceneError(Status.UNSUPPORTED, said)
     if case.unknowns:
         said = (
-            f"this needs a figure whose data are given, and {case.unknowns[0].path} is to find: write a number "
-            "in its place, or `solve` the case, which lists its positions of equilibrium, for each value."
+            f"this needs a figure whose data are given, and {case.unknowns[0].path} is to find: write a "
+            "number in its place, or `solve` the case for each value: it lists the positions of equilibrium."
         )
         raise SceneError(Status.UNSUPPORTED, said)
     body_of, members = _bodies(case)
