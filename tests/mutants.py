@@ -103,6 +103,22 @@ EQUIVALENT: dict[str, str] = {
     "icsolve/statics/load_wrenches.py _unit_wrench #6: -pi -> pi": "no unit of torque has a power of it",
     "icsolve/statics/equilibrium.py _equations #7: row.get(action.column, 0.0) + value -> row.get("
     "action.column, 0.0) - value": "all equations with the other sign",
+    "icsolve/kinematics/accelerations.py _rates #12: 1.0 -> 2.0": "the size beside which a factor is zero",
+    "icsolve/scene/program.py _arithmetics #13: 1 -> 2": "the second of two is the last",
+    "icsolve/numbers/source.py straight_line #27: uses[k] > 1 -> uses[k] < 1": "only the length of the text",
+    "icsolve/statics/power.py solve_balance #3: 1 -> 2": "one equation by the elimination of many",
+    "icsolve/scene/parts.py AnswerBuilder.slopes #11: -1 -> 1": "the last of two",
+    "icsolve/assembly/driven/poses.py Moved.degrees #1: 1.0 -> 2.0": "a size is no part of an angle",
+    "icsolve/assembly/walk.py Walk._close #3: d <= TOO_CLOSE -> d < TOO_CLOSE": "the two are equal nowhere",
+    "icsolve/statics/friction/scene.py solved #2: 0.0 -> 1.0": "the value is replaced by its range",
+    "icsolve/numbers/arithmetic.py module #9: 64 -> 96.0": "bounds decide",
+    "icsolve/kinematics/centres.py ordered #0: i < j -> i > j": "one order of a pair or the other",
+    "icsolve/assembly/driven/mechanism.py _base #0: not spots[line.body] -> spots[line.body]": "one at 0, 0",
+    "icsolve/numbers/intervals.py _turning #13: 2.0 -> 3.0": "beyond -1, where the cosine ends",
+    "icsolve/numbers/balls.py widest #1: 0.0 -> 1.0": "balls are among the values",
+    "icsolve/numbers/balls.py _context #1: 0 -> 1": "no exponent is near the limits",
+    "icsolve/scene/program.py _arithmetics #25: dear > MOST -> dear >= MOST": "as many digits either way",
+    "icsolve/numbers/arithmetic.py Floats.rounded #1: value + 0.0 -> value - 0.0": "the sign of a zero",
 }
 """Mutants, as they are listed, that change no answer, with the reason."""
 
