@@ -1,7 +1,7 @@
 """Cases that differ in their numbers alone, solved together: each a row of one record, as if by itself; and
 the numbers by which the variants of a case differ.
 
-What the record doubts, and what it can't tell (friction, ropes, screws, inertia, profiles), is left to a
+What the record doubts, and what it can't tell (friction, screws, inertia, profiles), is left to a
 scene of its own. Of the ways in which a figure assembles each row has the one that `near` means.
 """
 
