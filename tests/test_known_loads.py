@@ -9,12 +9,14 @@ from __future__ import annotations
 import math
 from random import Random
 
+import mpmath
 import pytest
 
 import icsolve
 import rubbing
 import transcribe
 from growth import random_mechanism
+from icsolve.solve.stability import holding_values
 from sizes import FULL
 
 LADDER = """icsolve: 1
@@ -177,3 +179,23 @@ def test_a_contact_is_looked_at_only_where_the_rest_of_the_scene_can_be_built() 
     answer = icsolve.solve(icsolve.load(far))
     assert answer.answers["U"].value == pytest.approx(50.0, rel=1e-15)
     assert any("whether its contacts have to pull was not examined" in note for note in answer.notes)
+
+
+@pytest.mark.parametrize("slope", [7, 20, 30, 41, 63.5])
+@pytest.mark.parametrize("more", ["", "  P: {force: 0, link: 2, at: C, angle: 12}\n"])
+def test_a_weight_alone_begins_to_hold_where_its_friction_does_within_the_error(
+    slope: float, more: str
+) -> None:
+    """mu = tan of the slope, in forty digits; a weight alone holds there at any size, or at none."""
+    text = f"""icsolve: 1
+points: {{C: [0, 0], G: [0, 0.3]}}
+joints:
+  - {{slide: [2, 1], at: C, along: {slope}, mu: 0.2}}
+loads:
+  W: {{weight: 100, link: 2, at: G}}
+{more}"""
+    (found,) = holding_values(icsolve.load(text), "joints.C.mu", 0.0, 3.0)
+    with mpmath.workdps(40):
+        exact = mpmath.tan(mpmath.radians(mpmath.mpf(str(slope))))
+        assert abs(mpmath.mpf(found.value) - exact) <= found.error <= 1e-13
+    assert (found.before, found.after) == ("slips", "holds")

@@ -128,12 +128,24 @@ def spare_friction(held: Held) -> Spare:
 def _one_unknown(case: Case, path: str = "") -> Iterator[tuple[Case, Load, Number]]:
     """The case with one load unknown, in turn: with its own, that of the ``path`` first, and with one more,
     whose number is none."""
-    for load, number in sorted(_known(case), key=lambda one: one[1].path != path):
-        loads = tuple([load if other.name == load.name else other for other in case.loads])
-        yield replace(case, loads=loads), load, number
+    known = sorted(_known(case), key=lambda one: one[1].path != path)
+    idle = {load.name for load, number in known if number.value == 0.0}
+    acting = {load.name for load in case.loads} - idle
+    alone = [number for load, number in known if {load.name} == acting and number.path != path]
+    for load, number in known:
+        if number not in alone:
+            yield _in_place(case, load), load, number
     links = [link for link in joint_order(case) if link != case.ground]
     for more in (*probes(case, links, 1), *probes(case, [], 1)):  # where nothing turns a force holds it
         yield replace(case, loads=(*case.loads, more)), more, Number(0.0, 0.0, "", "0")
+    for load, number in known:  # that acts alone: it holds at any number or at none, by its sign
+        if number in alone:
+            yield _in_place(case, load), load, number
+
+
+def _in_place(case: Case, load: Load) -> Case:
+    """The case with a load in place of its own of that name."""
+    return replace(case, loads=tuple([load if other.name == load.name else other for other in case.loads]))
 
 
 def _known(case: Case) -> Iterator[tuple[Load, Number]]:
