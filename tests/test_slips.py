@@ -1130,11 +1130,11 @@ loads:
 
 
 @pytest.mark.parametrize(
-    ("along", "point"), [("[A, B]", "A"), ("[B, F]", "F"), ("[F, A]", "F"), ("[B, E], through: A", "A")]
+    ("along", "point"), [("[A, B]", "A"), ("[B, F]", "F"), ("[F, A]", "F"), ("-45, through: A", "A")]
 )
 def test_a_slot_along_points_of_its_own_pins_link_is_refused(along: str, point: str) -> None:
-    """It would go with the pin; by points of the slotted link or in degrees it stands."""
-    for right in ("[O, E]", "[B, O]", "[E, B]", "-26.565051177"):
+    """It would go with the pin; where one is a point of the slotted link, or in degrees, it stands."""
+    for right in ("[O, E]", "[B, O]", "[E, B]", "-26.565051177", "[A, O]", "[B, E], through: A"):
         assert not icsolve.load(ARM.replace("[O, E]", right)).noticed
     with pytest.raises(CaseError) as refused:
         icsolve.load(ARM.replace("[O, E]", along))

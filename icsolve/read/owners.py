@@ -172,19 +172,22 @@ def check_guides(reading: Reading, root: Mapping, figure: FigureData) -> tuple[s
         pin, slotted = joint.links[0], joint.links[-1]
         node = next(slots) if joint.freedom > 1 else None
         own, theirs = _welded(pin, welds), _welded(slotted, welds)
-        for point in _guide_points(joint):
+        carried_along = []
+        for point in (one for one in _guide_points(joint) if one != joint.at):
             others = [*bearing.get(point, ())]
             bearers = {*others, *(link for link, points in figure.further.items() if point in points)}
             if not theirs.isdisjoint(bearers):
-                continue
-            if others and own.isdisjoint(bearers):
+                node = None
+            elif not own.isdisjoint(bearers):
+                carried_along.append(point)
+            elif others:
                 guide = f"the guide of links {' and '.join(joint.links)} at {joint.at} is given by {point}"
                 whose = " and ".join(f"link {other}" for other in others[:2])
                 meant = "if it is a guide of one of these, name that link second"
                 said.append(f"{guide}, a joint of {whose}; {meant}.")
-            elif node is not None and point != joint.at and not own.isdisjoint(bearers):
-                reading.refuse(node.items["along"].mark, OWN_SLOT.format(pin=pin, link=slotted, point=point))
-                break
+        if node is not None and carried_along:
+            said_of = OWN_SLOT.format(pin=pin, link=slotted, point=carried_along[0])
+            reading.refuse(node.items["along"].mark, said_of)
     return tuple(said)
 
 
