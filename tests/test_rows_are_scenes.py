@@ -767,3 +767,45 @@ def test_a_row_contradicts_data_that_repeat_others_as_its_scene_does(
     for n, value in enumerate(values):
         for table in tables:
             assert table.status[n] == solved(with_numbers(case, {path: value}))[0], value
+
+
+BESIDE = """icsolve: 1
+points: {{A: [0, 0], {fixed}}}
+lengths: {{AB: {sizes[0]}, BC: {sizes[1]}{more}}}
+angles: {{AB: {at}}}
+near: {{C: [{near}]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {last}]
+loads: {{P: {{force: {p}, link: 4, at: C, angle: 180}}, T: {{torque: {t}, link: 2}}}}
+"""
+SLIDING = {"fixed": "C: [unknown, 0.5]", "more": "", "last": "{slide: [4, 1], at: C, along: 0}"}
+ROCKING = {"fixed": "D: [4, 0]", "more": ", CD: 2.5", "last": "{pin: [4, 1], at: D}"}
+NEXT_TO = {
+    "a rod square to its guide": (SLIDING, (2, 2.5), "-0.1, 0.5", 270.0, -30.0),
+    "a rocker at its limit": (ROCKING, (1, 3.5), "3, 2", math.degrees(math.acos(30 / 36)), 20.0),
+    "a crank at its limit": (ROCKING, (3, 2), "3, 2", math.degrees(math.acos(4.75 / 24)), -20.0),
+    "a parallelogram": ({**ROCKING, "more": ", CD: 2"}, (2, 4), "5, 1.5", 0.0, 30.0),
+}
+
+
+@pytest.mark.parametrize("asked", ["torque", "force"])
+@pytest.mark.parametrize("kind", NEXT_TO)
+def test_rows_beside_singular_positions_have_the_digits_of_scenes(kind: str, asked: str) -> None:
+    """At random distances from 1 to 1e-13 degree: to 1e-9 in a sweep, to 1e-8 in an evaluator, which both say
+    doubles keep; the way of assembling is that of the row."""
+    form, sizes, near, at, off = NEXT_TO[kind]
+    loads = {"p": "unknown", "t": 10} if asked == "force" else {"p": 30, "t": "unknown"}
+    text, name = BESIDE.format(at=at + off, sizes=sizes, near=near, **form, **loads), "PT"[asked == "torque"]
+    case, draw = icsolve.load(text), random.Random(kind)
+    values = [at + side * 10.0 ** -draw.uniform(0, 13) for _ in range(60 if FULL else 15) for side in (1, -1)]
+    rows = icsolve.sweep(case, {"angles.AB": values}, want=("answers", "status", "points"))
+    call = icsolve.evaluator(case, inputs=("angles.AB",), want=("answers", "points"))(np.array(values))
+    seen = 0
+    for table, least in ((rows, 1e-9), (call, 1e-8)):
+        for n in np.flatnonzero(table.status == "ok").tolist():
+            x, y = map(float, table.points["C"][n])
+            there = text.replace(f"C: [{near}]", f"C: [{x!r}, {y!r}]")
+            with contextlib.suppress(icsolve.SceneError):  # two ways that all but coincide
+                right = icsolve.solve(icsolve.load(there, {"angles.AB": repr(values[n])})).answers[name].value
+                assert table.answers[name][n] == pytest.approx(right, rel=least, abs=1e-15), values[n]
+                seen += 1
+    assert seen >= len(values)

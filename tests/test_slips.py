@@ -1137,12 +1137,12 @@ loads:
 
 
 @pytest.mark.parametrize(
-    ("along", "point"), [("[A, B]", "A"), ("[B, F]", "F"), ("[F, A]", "F"), ("[B, E], through: A", "A")]
+    ("along", "point"), [("[A, B]", "A"), ("[B, F]", "F"), ("[F, A]", "F"), ("-45, through: A", "A")]
 )
 def test_a_slot_along_points_of_its_own_pins_link_is_told(along: str, point: str) -> None:
-    """Its line holds in this position, and would go with the pin; of points of the slotted link, or in
-    degrees, nothing is said."""
-    for right in ("[O, E]", "[B, O]", "[E, B]", "-26.565051177"):
+    """Its line holds in this position, and would go with the pin; where one is a point of the slotted link,
+    or in degrees, nothing is said."""
+    for right in ("[O, E]", "[B, O]", "[E, B]", "-26.565051177", "[A, O]", "[B, E], through: A"):
         assert not icsolve.load(ARM.replace("[O, E]", right)).noticed
     (told,) = icsolve.load(ARM.replace("[O, E]", along)).noticed
     assert f"the slot of link 3 at B is given by {point}, a point of link 2, whose pin runs in it" in told

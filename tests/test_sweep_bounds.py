@@ -133,8 +133,8 @@ loads: {T14: {torque: 10, link: 4}, T12: {torque: unknown, link: 2}}
     assert pessimism(sweep, range(13))
     assert (sweep.status == "ok").all()
     relative = sweep.error["T12"] / np.abs(sweep.answers["T12"])
-    assert (np.diff(relative[1:6]) > 0.0).all()
-    assert relative.max() < 1e-6
+    assert (np.diff(relative[1:4]) > 0.0).all()
+    assert relative.max() < 1e-9
 
 
 def test_bounds_cost_few_operations_and_change_no_answer() -> None:

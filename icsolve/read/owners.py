@@ -170,19 +170,21 @@ def check_guides(figure: FigureData) -> tuple[str, ...]:
     for joint in (one for one in figure.joints if one.guide is not None):
         pin, slotted = joint.links[0], joint.links[-1]
         own, theirs = _welded(pin, welds), _welded(slotted, welds)
-        for point in _guide_points(joint):
+        held, carried_along = False, []
+        for point in (one for one in _guide_points(joint) if one != joint.at):
             others = [*bearing.get(point, ())]
             bearers = {*others, *(link for link, points in figure.further.items() if point in points)}
             if not theirs.isdisjoint(bearers):
-                continue
-            if others and own.isdisjoint(bearers):
+                held = True
+            elif not own.isdisjoint(bearers):
+                carried_along.append(point)
+            elif others:
                 guide = f"the guide of links {' and '.join(joint.links)} at {joint.at} is given by {point}"
                 whose = " and ".join(f"link {other}" for other in others[:2])
                 meant = "if it is a guide of one of these, name that link second"
                 said.append(f"{guide}, a joint of {whose}; {meant}.")
-            elif joint.freedom > 1 and point != joint.at and not own.isdisjoint(bearers):
-                said.append(OWN_SLOT.format(pin=pin, link=slotted, point=point, at=joint.at))
-                break
+        if joint.freedom > 1 and carried_along and not held:
+            said.append(OWN_SLOT.format(pin=pin, link=slotted, point=carried_along[0], at=joint.at))
     return tuple(said)
 
 

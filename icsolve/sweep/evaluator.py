@@ -40,17 +40,13 @@ from icsolve.sweep.request import (
     request_of,
     told,
 )
-from icsolve.sweep.runner import STEEP, Key, Rows, column, usual_and_terms
+from icsolve.sweep.runner import SHALLOW, SMALL, STEEP, Key, Rows, column, usual_and_terms
 from icsolve.sweep.start import is_hard
 from icsolve.sweep.table import CODE, KINDS, WORDS, Table, by_kind
 from icsolve.tuples import NamedTuple, dataclass, field, replace
 
 FEW = 24
 """So many rows at most run as Python: numpy's own cost a step is that of some twenty floats."""
-NEAR = 1e-7
-"""A divisor, radicand, margin or answer below this fraction of what it is as written makes its row one that
-is solved as a scene: that decides nothing, it only looks closer."""
-
 COUNTED = (NumberLimit("<", FARTHEST, ""), NumberLimit(">", -FARTHEST, ""))
 """Angles of more turns are refused."""
 
@@ -328,7 +324,7 @@ class _Compiled:
         watched = [*self.positive, *self.apart]
         terms = {v.index: usual_and_terms(record, v.index)[1] for v in answers.values()}
         sizes = [terms.get(k) or abs(record.nodes[k].value) or 1.0 for k in watched]
-        near = [STEEP * STEEP, STEEP, NEAR] if compiled.dynamic else [NEAR] * 3
+        near = [STEEP * STEEP, STEEP, SMALL] if compiled.dynamic else [SHALLOW, SMALL, SMALL]
         counts = [len(self.positive), len(divided), len(answers)]
         self.limits = np.repeat(near, counts) * np.array(sizes)
         self.code = Code(record, [*self.shown, *watched])

@@ -22,9 +22,10 @@ from icsolve.sweep.friction_rows import FrictionRows
 from icsolve.sweep.program import CompiledSweep, live_roots
 from icsolve.tuples import NamedTuple, cached_property
 
-SHALLOW = 1e-9
-"""A radicand below this fraction of its terms makes its row doubtful."""
-SMALL = 1e-7
+SHALLOW = 1e-6
+"""A radicand below this fraction of its terms makes its row doubtful: what doubles leave of an answer beside
+there, of which place and speed each lose these digits, is right to 1e-9."""
+SMALL = 1e-6
 """Below this fraction of the terms that it is summed from (where the record was made) a divisor or an answer
 makes its row doubtful, and so does an answer that many times larger than there."""
 STEEP = 1e-2
