@@ -273,3 +273,11 @@ def test_a_centre_on_an_axis_needs_no_more_digits() -> None:
     _, y, _ = scene.first.outcome.motions.twists["4"][0]
     assert (type(y), y) == (float, 0.0)
     assert answer.centres["2", "4"].place[1] == 0.0
+
+
+@pytest.mark.parametrize("power", [-1074, -1040, -1024])
+@pytest.mark.parametrize("value", ["3", "1e-300"])
+def test_a_divisor_too_small_for_a_double_to_turn_over_is_refused(value: str, power: int) -> None:
+    """Powers of two too, by which ball and decimal are multiplied elsewhere: 1 / 2^-1074 is infinite."""
+    with pytest.raises(MoreDigits):
+        Balls(30).exactly(decimal.Decimal(value)) / 2.0**power

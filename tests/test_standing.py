@@ -88,6 +88,33 @@ def test_two_scenes_side_by_side_hold_where_both_do(
         assert answer.holds_still is all(each), texts
 
 
+@pytest.mark.parametrize("kinds", ALIKE, ids=lambda kinds: kinds[0].__name__)
+@pytest.mark.parametrize("part", range(10 if FULL else 1))
+def test_beside_a_scene_that_holds_a_load_has_the_range_that_it_has_alone(
+    kinds: list[Callable[[Random], Rough]], part: int
+) -> None:
+    """All that friction can hold, to 1e-9; none where the other scene slips."""
+    dice, compared = Random(f"beside {kinds[0].__name__} {part}"), 0
+    for _ in range(12):
+        one, other = (dice.choice(kinds)(dice) for _ in range(2))
+        load = f"{dice.uniform(-100, 100):.4f}"
+        held = icsolve.solve(other.case(load)).holds_still
+        with refused() as alone:
+            own = icsolve.solve(one.case("unknown")).friction
+        texts = [one.text.replace("LOAD", "unknown"), other.text.replace("LOAD", load)]
+        with refused() as both:
+            found = icsolve.solve(icsolve.load(standing.side_by_side(texts))).friction
+        if alone or held is False:
+            assert both == ["no-value"], texts
+        elif held:
+            assert own is not None and found is not None and own.possible and found.possible
+            ranges = [sorted((a.possible, *a.again)) for a in (own, found)]
+            for low_high, beside in zip(*ranges, strict=True):
+                assert beside == pytest.approx(low_high, rel=1e-9, abs=1e-9), texts
+            compared += 1
+    assert compared > 0
+
+
 @pytest.mark.parametrize("part", range(20 if FULL else 2))
 def test_a_five_bar_stands_where_its_rough_pins_can_hold_it(part: int) -> None:
     """What its joints carry hangs on the frictions themselves: two of the four are open, and the forces of

@@ -158,7 +158,7 @@ class Ball:
         if type(other) is not Ball:
             if other == 1.0:
                 return self
-            if abs(math.frexp(other)[0]) == 0.5 and abs(other) < 2.0**1000:
+            if abs(math.frexp(other)[0]) == 0.5 and 2.0**-1023 <= abs(other) < 2.0**1000:
                 halved: Ball = self * (1.0 / other)
                 return halved
             other = a.ball(other)

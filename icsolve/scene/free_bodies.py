@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from copy import copy
+from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.answer import Answer
@@ -48,7 +49,7 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     outcome = parts.outcome
     position = _position(parts.first._replace(outcome=outcome, arithmetic=FLOATS))
     enclose, alone = _enclose(parts) if parts.scene.certain else None, parts.program.want.alone
-    place = position, outcome.balance, outcome.solution, parts.speed
+    place = position, outcome.balance, outcome.solution, lambda: parts.speed
     scene = FrictionScene(*place, lambda: parts.traced, enclose, alone)
     return solved(scene, answer_with, reactions)
 
@@ -77,7 +78,7 @@ def _enclose(parts: AnswerBuilder) -> Enclose:
     def placed(found: Evaluation) -> SceneOnBalls:
         if id(found) not in known:  # the scene keeps what it has evaluated
             position, balance = _position(found), found.outcome.balance
-            known[id(found)] = SceneOnBalls(position, balance, speed_of(found), found.arithmetic, {})
+            known[id(found)] = SceneOnBalls(position, balance, partial(speed_of, found), found.arithmetic, {})
         return known[id(found)]
 
     def ask(question: Callable[[SceneOnBalls], T]) -> T:

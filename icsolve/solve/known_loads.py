@@ -76,7 +76,7 @@ def asked_of(case: Case, path: str = "") -> AskedLoad | None:
         try:
             said = SaidCase(one)
             held = _held(said, load.name, not varied)
-            if not held.low <= value <= held.high:
+            if not held.low <= value <= held.high and _may_hold(case):
                 held = _held(said, load.name, False)
                 low, high = next((one for one in held.again if one[0] <= value <= one[1]), held[:2])
                 held = held._replace(low=low, high=high)
@@ -87,6 +87,13 @@ def asked_of(case: Case, path: str = "") -> AskedLoad | None:
     if refusal is not None:
         raise refusal
     return None
+
+
+def _may_hold(case: Case) -> bool:
+    """Whether some friction within its limits holds known loads, or that is open."""
+    with suppress(SceneError):
+        return standing(case).depth >= 0.0
+    return True
 
 
 UNPROVEN = 1e-9

@@ -14,7 +14,7 @@ Newton's method for that load. Evaluated on a tape, the sum gives its slope by e
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
 from types import MappingProxyType
 
@@ -154,7 +154,7 @@ class SceneOnBalls(NamedTuple):
 
     position: Position
     balance: Balance
-    speed: Speed
+    speed: Callable[[], Speed]
     arithmetic: Showing
     made: dict[object, Statics]
 
@@ -213,7 +213,7 @@ SLIGHT = 1e-6
 
 def _moves_so(scene: SceneOnBalls, senses: Sequence[float], rope_senses: Sequence[Sequence[float]]) -> bool:
     """Whether everything rubs in these senses; where no motion is given, perhaps in all the opposite ones."""
-    moving = rubbing_rates(scene.position, scene.speed).in_floats.senses
+    moving = rubbing_rates(scene.position, scene.speed()).in_floats.senses
     asked = [sense for row in (senses, *rope_senses) for sense in row]
     opposite = [-sense for sense in asked]
     return moving.every == asked or (not scene.position.case.motion and moving.every == opposite)

@@ -296,11 +296,12 @@ def rates_of_motion(scene: FrictionScene) -> RubbingRates:
 
     Raises SceneError where a freedom that no motion fixes moves it.
     """
-    found = rubbing_rates(scene.position, scene.speed)
-    size = fastest(scene.position.twists) * max(map(abs, scene.speed.particular))
-    if any(abs(rate * scene.speed.divisor) <= SLOW * size for rate in found.every) and scene.enclose:
+    speed = scene.speed()
+    found = rubbing_rates(scene.position, speed)
+    size = fastest(scene.position.twists) * max(map(abs, speed.particular))
+    if any(abs(rate * speed.divisor) <= SLOW * size for rate in found.every) and scene.enclose:
         with suppress(SceneError):  # where balls leave it open, rounding alone would say more
-            found = scene.enclose(lambda placed: rubbing_rates(placed.position, placed.speed).in_floats)
+            found = scene.enclose(lambda placed: rubbing_rates(placed.position, placed.speed()).in_floats)
     return found
 
 
@@ -589,7 +590,7 @@ class FrictionScene(NamedTuple):
     position: Position
     balance: Balance
     solution: Solution
-    speed: Speed
+    speed: Callable[[], Speed]
     trace: Callable[[], Bounded | None]
     """the same on a tape"""
     enclose: Enclose | None
