@@ -59,6 +59,11 @@ def test_a_ray_that_is_met_only_behind_its_start() -> None:
     assert_refused(text, Status.CANNOT_ASSEMBLE, "at B", "wrong side", "4 m behind")
 
 
+def test_a_ray_that_meets_a_circle_only_behind_its_start() -> None:
+    text = "points: {A: [0, 0], C: [-3, 0]}\nangles: {AB: 0}\nlengths: {CB: 1}\n" + PINS
+    assert_refused(text, Status.CANNOT_ASSEMBLE, "at B", "circle about C", "wrong side", "2 m behind")
+
+
 def test_parallel_guides_never_meet() -> None:
     text = "points: {A: [0, 0], C: [0, 1]}\nangles: {AB: 30, CB: 30}\n" + PINS
     assert_refused(text, Status.CANNOT_ASSEMBLE, "at B", "parallel", "0.866025 m apart")
