@@ -361,7 +361,7 @@ def test_lines_that_are_parallel_but_for_the_twentieth_digit_meet() -> None:
 @pytest.mark.parametrize("power", ["", "e4", "e-4"])
 def test_two_spellings_of_one_double_are_one_place(power: str) -> None:
     """However large the figure is."""
-    b, g = (f"[{x}{power}, 0.4{power}]" for x in ("0.1", "0.10000000000000001"))
+    b, g = (f"[{x}{power}, 0.4{power}]" for x in ("0.1", "0.100000000000000001"))
     text = f"icsolve: 1\npoints: {{A: [0, 0], B: {b}, G: {g}}}\n"
     joints = "joints:\n  - {pin: [1, 2], at: A}\n"
     figure = solve_figure(load(text + joints))
