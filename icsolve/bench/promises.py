@@ -231,6 +231,21 @@ joints: [{pin: [1, 2], at: A}, {contact: [2, 3]}, {slide: [3, 1], at: B, along: 
 loads: {P: {force: 100, link: 3, at: B, angle: -90}, T12: {torque: unknown, link: 2}}
 """
 DISK = CAM % "{circle: C, radius: 40}"
+OWN_ROLLER = (
+    DISK.replace("3: {roller", "4: {roller")
+    .replace("{contact: [2, 3]}", "{contact: [2, 4]}")
+    .replace("joints: [", "joints: [{pin: [3, 4], at: B}, ")
+)
+HEAVY = f"{DISK}links: {{3: {{mass: 2 kg, centre: B}}}}\nmotion: {{link: 2, speed: 10}}\ndynamic: yes\n"
+ROPED = """\
+icsolve: 1
+points: {A: [0, 0], B: [0.7, 0.5], P: [0, 4], Q: [3, 4], C: [3, 1]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {slide: [3, 1], at: C, along: 90}
+  - {rope: [B, P, Q, C], on: [2, 1, 1, 3], radii: {P: 0.3, Q: 0.3}, wraps: {P: cw, Q: cw}}
+loads: {W: {weight: 100, link: 3, at: C}, T12: {torque: unknown, link: 2}}
+"""
 LOBES = ", ".join(f"{10 * k}: {40.0 + 8.0 * float(np.cos(np.radians(30.0 * k))):.6f}" for k in range(36))
 LOBED = CAM % f"{{about: A, zero: [A, C], radii: {{{LOBES}}}}}"
 SEED = 3
@@ -266,6 +281,9 @@ def _rows(effort: Effort, kept: Kept, rows: int) -> str:
         "with friction, the range that holds": (RUBBING, 5.0),
         "a roller on an eccentric disk": (DISK, 20.0),
         "a roller on a table of radii": (LOBED, 20.0),
+        "a roller that is a link of its own": (OWN_ROLLER, 20.0),
+        "a heavy follower, with inertia forces": (HEAVY, 20.0),
+        "a weight on a rope over two pulleys": (ROPED, 5.0),
     }
     groups = [load(butterflies(n)(Random(THREE))) for n in (1, 3)]
     degree: Array = np.linspace(-0.5, 0.5, rows)
