@@ -305,7 +305,10 @@ def _rows(effort: Effort, kept: Kept, rows: int) -> str:
         library = compiled(folder)
         if library is not None:
             calls[IN_C] = newton_in_c(library, butterfly, near, np.empty(len(near)))
-    times = dict(zip(calls, least(list(calls.values()), effort.seconds), strict=True))
+    parts = (list(limits), [name for name in calls if name not in limits])  # each as many as are remembered
+    times: dict[str, float] = {}
+    for names in parts:
+        times |= zip(names, least([calls[name] for name in names], effort.seconds), strict=True)
     short = [name for name in calls if "36" in name]
     counts = dict.fromkeys(calls, rows) | {NEWTON: len(near), IN_C: len(near)}
     counts |= dict(zip(short, (len(few), len(many)), strict=True))
