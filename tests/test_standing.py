@@ -27,7 +27,7 @@ NEAR = 0.01
 
 
 @pytest.mark.parametrize("kind", standing.KINDS)
-@pytest.mark.parametrize("part", range(20 if FULL else 2))
+@pytest.mark.parametrize("part", range(20 if FULL else 1))
 def test_known_loads_hold_where_the_joints_can_balance_them(kind: Callable[[Random], str], part: int) -> None:
     """Crates, bricks in a wall, blocks joined by bars, of one to five freedoms: none is left open, and all
     hold or slip as the cone of what their joints can do has their loads in it (to 1e-9 of them) or not."""
@@ -336,7 +336,7 @@ def test_a_table_that_a_sled_holds_tips_at_no_value_of_the_pull(seed: int) -> No
     assert [one.value for one in found] == pytest.approx([low, high], abs=1e-12)
 
 
-@pytest.mark.parametrize("seed", range(40 if FULL else 8))
+@pytest.mark.parametrize("seed", range(40 if FULL else 4))
 @pytest.mark.parametrize("pinned", [False, True], ids=["mechanism", "structure"])
 def test_smooth_legs_hold_a_table_as_far_as_they_reach(pinned: bool, seed: int) -> None:
     """Also where nothing rubs, and where a pin beyond them on the left leaves nothing to move: then it lifts
@@ -365,7 +365,7 @@ def test_of_however_many_legs_one_is_lost_where_the_weight_is_beyond_them(
 
 
 @pytest.mark.parametrize("kind", [standing.rod, standing.barred])
-@pytest.mark.parametrize("part", range(20 if FULL else 3))
+@pytest.mark.parametrize("part", range(20 if FULL else 2))
 def test_a_range_of_rubbing_guides_has_no_gap_in_it_and_is_told_whole(
     kind: Callable[[Random], str], part: int
 ) -> None:
