@@ -64,6 +64,8 @@ JAVASCRIPT = Language(
     "{name}={value};",
     _number,
 )
+
+
 class Text(NamedTuple):
     """Lines in order with the node that each ends at, the names that they assign, and the expression of
     every wanted node."""

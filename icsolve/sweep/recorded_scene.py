@@ -475,11 +475,12 @@ def pressing(
     normals = {}
     for contact in contacts:
         t = next(t for t, tie in enumerate(ties) if getattr(tie.joint, "at", None) == contact.joint.at)
-        normals[contact.joint.at] = value(solved.first[t])
-    pulls = [value(solved.tension(n)) for n in range(len(solved.ropes))]
-    known = [pull for pull in pulls if pull is not None]
-    told = {at: normal for at, normal in normals.items() if normal is not None}
-    return Pressing(told, tuple(known) if len(known) == len(pulls) else None)
+        normal = value(solved.first[t])
+        if normal is not None:
+            normals[contact.joint.at] = normal
+    ropes = range(len(solved.ropes))
+    pulls = [pull for pull in (value(solved.tension(n)) for n in ropes) if pull is not None]
+    return Pressing(normals, tuple(pulls) if len(pulls) == len(ropes) else None)
 
 
 def motion_fits(scene: RecordedScene, found: RecordedStatics, *, sense: bool) -> tuple[int, ...]:
