@@ -22,9 +22,9 @@ from icsolve.answer import Answer
 from icsolve.case import Case, Force, Number, Rope
 from icsolve.errors import CaseError, SceneError
 from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers.decimals import decimal_of
 from icsolve.screws.ropes import rope_parts
 from icsolve.solve.positions import find_along
-from icsolve.sweep.exact import decimal_of
 from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.path_tracking import PathTracker
 from sizes import MORE

@@ -103,11 +103,12 @@ def test_series_are_good_to_two_digits_more_than_are_asked_for(digits: int) -> N
     assert 10.0**-digits <= pi.radius <= 10.0**-digits * (1 + HAIR)
     for _ in range(20):
         radius = draw.choice([0.0, 1e-3 * 10.0**-digits, 10.0**-digits, 1e-6])
-        degrees = Ball(balls, Decimal(repr(draw.uniform(-1000.0, 1000.0))), radius, 1e3, INEXACT)
+        angle = draw.choice([draw.uniform(-1000.0, 1000.0), 10.0 ** draw.uniform(-40.0, 0.0)])
+        degrees = Ball(balls, Decimal(repr(angle)), radius, 1e3, INEXACT)
         true = exact(degrees.value) * many.pi / 180
         for part, wanted in zip(balls.cos_sin(degrees), (many.cos(true), many.sin(true)), strict=True):
-            assert abs(exact(part.value) - wanted) <= 10.0 ** -(digits + 7)
-            off = math.radians(radius) + 10.0 ** -(digits + 2)
+            assert abs(exact(part.value) - wanted) <= 10.0 ** -(digits + 7) * abs(wanted)
+            off = math.radians(radius) + 10.0 ** -(digits + 2) * abs(float(wanted))
             assert off <= part.radius <= off * (1 + 1e-6)
 
 

@@ -19,11 +19,11 @@ from icsolve.assembly import newton
 from icsolve.bench.full_turn import FOUR_BAR_CASE
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.decimals import CONTEXT
 from icsolve.numbers.record import Record
 from icsolve.numbers.roots import closed_in
 from icsolve.sweep import find_by_scenes, scenes
 from icsolve.sweep.continuation import PathSegment
-from icsolve.sweep.exact import CONTEXT
 from icsolve.sweep.find_on_record import Query, RangeSearch, find
 from icsolve.sweep.path_tracking import PathTracker
 from library import FILES, sample

@@ -23,7 +23,8 @@ from icsolve.cams.pieces import TURN, CircularArc, Point, PolarPiece, Spline, St
 from icsolve.case import Case, Number
 from icsolve.case.profiles import Arc, Arcs, Circle, Follower, Line, Polygon, Radii, Roller, Shape
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.balls import INEXACT, UP, WIDE, Ball, Balls, MoreDigits
+from icsolve.numbers.balls import INEXACT, UP, Ball, Balls, MoreDigits
+from icsolve.numbers.decimals import WIDE
 from icsolve.numbers.krawczyk import enclosed_root
 from icsolve.numbers.units import found_number
 from icsolve.tuples import NamedTuple

@@ -194,9 +194,7 @@ class Marker:
             chosen = [self._chosen(list(attempts)) for _, attempts in groups]
         return self._student(student, chosen)
 
-    def _by_one_of_group(
-        self, entries: list[StoredAnswer], members: tuple[str, ...]
-    ) -> list[StoredAnswer]:
+    def _by_one_of_group(self, entries: list[StoredAnswer], members: tuple[str, ...]) -> list[StoredAnswer]:
         """A group hands in one solution, to the numbers of one of them: the answers to each case as of the
         member to whose numbers they fit best, the same for all members."""
         found: list[StoredAnswer] = []

@@ -14,20 +14,19 @@ The operations go through contexts of their own, never the default context of `d
 
 import math
 from collections.abc import Sequence
-from decimal import (
-    MAX_EMAX,
-    MIN_EMIN,
-    ROUND_HALF_EVEN,
-    Context,
-    Decimal,
-    DivisionByZero,
-    InvalidOperation,
-    Overflow,
-)
-from functools import cache
+from decimal import Decimal
 from typing import Union, final
 
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.decimals import (
+    GUARD,
+    WIDE,
+    context_of,
+    cos_sin_within,
+    decimal_of,
+    pi,
+    quarter_turns,
+)
 from icsolve.numbers.units import ExactRatio, Number
 
 UP = 1.0 + 2.0**-49
@@ -255,16 +254,6 @@ def _exact_quotient(above: Ball, below: Ball, value: Decimal) -> int | None:
     return last
 
 
-def _context(digits: int) -> Context:
-    """A context that owes nothing to the default one."""
-    traps = [InvalidOperation, DivisionByZero, Overflow]
-    return Context(digits, ROUND_HALF_EVEN, MIN_EMIN, MAX_EMAX, capitals=1, clamp=0, flags=[], traps=traps)
-
-
-WIDE = _context(20_000)
-"""Wide enough that sums and products of two numbers of a scene are exact."""
-
-
 class Balls:
     """The arithmetic of `Ball` at a number of digits; an `icsolve.numbers.arithmetic.Arithmetic`.
 
@@ -278,7 +267,7 @@ class Balls:
 
     def __init__(self, digits: int, highest: bool = False, carried: float = 1.0) -> None:
         self.digits, self.highest, self.carried = digits, highest, carried
-        context = _context(digits)
+        context = context_of(digits)
         self.add, self.subtract = context.add, context.subtract
         self.multiply, self.divide, self.root = context.multiply, context.divide, context.sqrt
         self.power = context.exp
@@ -314,8 +303,7 @@ class Balls:
 
     def pi(self) -> Ball:
         """The ratio of the circumference of a circle to its diameter."""
-        places = self.digits + GUARD
-        return self._placed(_pi(places), -places, float(f"1e-{self.digits}") + TINY)
+        return self._rounded(pi(self.digits + GUARD), float(f"1e-{self.digits}") + TINY)
 
     def given(self, number: Number) -> Ball:
         """A number of the case in case units, as its file writes it."""
@@ -327,9 +315,7 @@ class Balls:
     def _read(self, number: Number) -> Ball:
         if number.exact is not None:
             return self.ratio(number.exact)
-        if number.factor != 1.0:
-            return self.ball(number.value)
-        return self.exactly(Decimal(number.digits.replace("−", "-")))
+        return self.exactly(decimal_of(number))
 
     def turn(self, number: Number) -> tuple[Scalar, Scalar]:
         """Cosine and sine of an angle of the case (degrees)."""
@@ -340,43 +326,18 @@ class Balls:
 
     def cos_sin(self, degrees: Ball) -> tuple[Scalar, Scalar]:
         """Cosine and sine of an angle in degrees; exact at multiples of 90, and the halves at 30."""
-        within = WIDE.remainder(degrees.value, _TURN)
-        quarter = round(float(within) / 90.0)
-        rest = WIDE.subtract(within, Decimal(90 * quarter))
+        quarter, rest = quarter_turns(degrees.value)
         c: Scalar = 1.0
         s: Scalar = 0.0
         if rest or degrees.radius:
-            c, s = self._series(rest, degrees.radius)
+            cosine, sine = cos_sin_within(rest, self.digits)
+            off, own = degrees.radius * 0.0174533, float(f"1e-{self.digits + 2}")
+            c, s = (self._rounded(v, (off + abs(float(v)) * own) * UP + TINY) for v in (cosine, sine))
             if degrees.radius == 0.0 and abs(rest) == 30:
                 s = self.ball(0.5 if rest > 0 else -0.5)
-        return ((c, s), (-s, c), (-c, -s), (s, -c))[quarter % 4]
+        return ((c, s), (-s, c), (-c, -s), (s, -c))[quarter]
 
-    def _series(self, rest: Decimal, radius: float) -> tuple[Ball, Ball]:
-        """Cosine and sine of an angle within 45 degrees, by power series in whole numbers.
-
-        The terms alternate and fall, so what is left out is less than the first of it; each of some
-        hundred divisions loses less than one unit of the `GUARD` digits.
-        """
-        places = self.digits + GUARD
-        one = 10**places
-        x = int(rest.scaleb(places, WIDE)) * _pi(places) // (180 * one)
-        square = x * x // one
-        sums = []
-        for first, start in ((one, 0), (x, 1)):
-            term, total, n = first, first, start
-            while term:
-                n += 2
-                term = -(term * square // (one * n * (n - 1)))
-                total += term
-                if term in (1, -1):
-                    break
-            sums.append(total)
-        off = (radius * 0.0174533 + float(f"1e-{self.digits + 2}")) * UP + TINY
-        c, s = (self._placed(total, -places, off) for total in sums)
-        return c, s
-
-    def _placed(self, digits: int, exponent: int, radius: float) -> Ball:
-        value = Decimal(digits).scaleb(exponent, WIDE)
+    def _rounded(self, value: Decimal, radius: float) -> Ball:
         return Ball(self, value, radius, abs(float(value)) * UP + TINY, INEXACT)
 
     def sqrt(self, value: Scalar) -> Scalar:
@@ -518,29 +479,6 @@ def _digits(number: Number) -> int:
     """How many digits a number is written with, zeros before the first left out."""
     digits = number.digits.lower().partition("e")[0]
     return len(digits.replace(".", "").lstrip("+-−0"))
-
-
-GUARD = 10
-"""Digits that series are taken further than their result needs."""
-_TURN = Decimal(360)
-
-
-@cache
-def _pi(places: int) -> int:
-    """pi * 10**places but for one unit, by Machin's formula."""
-    one: int = 10 ** (places + GUARD)
-
-    def arc_tangent(n: int) -> int:
-        k, term = 1, one // n
-        total = term
-        while term:
-            term = -(term // (n * n)) if term > 0 else (-term) // (n * n)
-            k += 2
-            total += term // k
-        return total
-
-    found: int = (16 * arc_tangent(5) - 4 * arc_tangent(239)) // 10**GUARD
-    return found
 
 
 def widest(values: Sequence[Scalar]) -> float:

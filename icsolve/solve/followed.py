@@ -19,11 +19,11 @@ from icsolve.assembly.modes import ways_of
 from icsolve.case import Case, Coordinates, Direction, Number, Torque, is_angle, is_named
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import RADIAN
+from icsolve.numbers.decimals import as_written
 from icsolve.numbers.replay import Array, Code
 from icsolve.scene import solve_scene
 from icsolve.solve.load_function import bearers, given_at
 from icsolve.solve.rest import AT_LIMIT, PROBE, Rest
-from icsolve.sweep.exact import as_written
 from icsolve.sweep.find_by_scenes import Query
 from icsolve.sweep.find_on_record import RangeSearch
 from icsolve.sweep.numbers import points_of

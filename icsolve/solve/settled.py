@@ -15,6 +15,7 @@ from icsolve.case import Case, Coordinates, Torque, is_angle
 from icsolve.errors import SceneError
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.arithmetic import DEGREE
+from icsolve.numbers.decimals import CONTEXT, as_written, decimal_ratio
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import terms_of
 from icsolve.numbers.replay import Array, Code
@@ -24,14 +25,7 @@ from icsolve.solve.followed import rate_of
 from icsolve.solve.load_function import LoadFunction, given_at
 from icsolve.solve.rest import AT_LIMIT, PROBE, Rest, held
 from icsolve.statics.load_wrenches import counted_about
-from icsolve.sweep.exact import (
-    CONTEXT,
-    ZERO,
-    RowScenes,
-    as_written,
-    decimal_ratio,
-    exact_record,
-)
+from icsolve.sweep.exact import ZERO, RowScenes, exact_record
 from icsolve.sweep.program import CompiledSweep
 from icsolve.tuples import replace
 

@@ -21,6 +21,7 @@ from icsolve.case import Case, TorsionSpring, is_angle, is_named
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.arithmetic import DEGREE, Scalar
+from icsolve.numbers.decimals import CONTEXT, as_written, decimal_ratio
 from icsolve.numbers.intervals import Ends
 from icsolve.numbers.record import varies
 from icsolve.numbers.replay import Array, Code
@@ -45,7 +46,7 @@ from icsolve.solve.positions import refuse_ropes, refuse_unwritten, whole_range
 from icsolve.solve.rest import why_slack, with_scene
 from icsolve.solve.settled import CLOSED, NEAR, rounded, scene_in, within_a_turn
 from icsolve.statics import load_wrenches, power
-from icsolve.sweep.exact import CONTEXT, VANISHED, as_written, decimal_ratio, exact_record
+from icsolve.sweep.exact import VANISHED, exact_record
 from icsolve.sweep.program import CompiledSweep, setting_of, spring_angles
 from icsolve.sweep.recorded_scene import motions_of
 from icsolve.tuples import NamedTuple, replace

@@ -14,10 +14,11 @@ from decimal import localcontext
 
 import numpy as np
 
+from icsolve.numbers.decimals import CONTEXT
 from icsolve.numbers.record import Root, live
 from icsolve.numbers.replay import BLOCK, Array, code_of
 from icsolve.sweep.continuation import ChangePoints, InputLine, State
-from icsolve.sweep.exact import CONTEXT, ZERO, Unreached, exact_record, lowest
+from icsolve.sweep.exact import ZERO, Unreached, exact_record, lowest
 from icsolve.sweep.path_tracking import PathTracker
 from icsolve.sweep.program import CompiledSweep, Signs, live_roots
 from icsolve.sweep.request import RequestError

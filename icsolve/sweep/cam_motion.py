@@ -39,10 +39,11 @@ from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Radii, Roll
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import turn_of
 from icsolve.numbers.balls import Balls
+from icsolve.numbers.decimals import CONTEXT, as_written
 from icsolve.numbers.replay import Array
 from icsolve.scene.refusals import rubs
 from icsolve.sweep.branches import signs_of
-from icsolve.sweep.exact import CONTEXT, as_written, hides
+from icsolve.sweep.exact import hides
 from icsolve.sweep.first_contact import FirstContact, FirstContacts, Mask, radius_ratio
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recorded_scene import RestingContact

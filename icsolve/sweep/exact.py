@@ -7,28 +7,35 @@ row itself. The varied numbers are the shortest decimals that name their doubles
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from decimal import Context, Decimal, DivisionByZero, localcontext
-from functools import lru_cache
+from decimal import Context, Decimal, localcontext
 
 from icsolve.assembly.steps import PointGroup, place
 from icsolve.case import Case, Centroid, Coordinates, Number
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.balls import Ball, Balls, BelowZero, MoreDigits
+from icsolve.numbers.decimals import (
+    CONTEXT,
+    DIGITS,
+    angle,
+    as_written,
+    cos_sin,
+    decimal_of,
+    decimal_ratio,
+    pi,
+)
 from icsolve.numbers.linear import solve_square
 from icsolve.numbers.record import Implicit, Op, Root, Traced, live, terms_of
 from icsolve.numbers.replay import BINARY
 from icsolve.numbers.roots import STEP
-from icsolve.numbers.units import ExactRatio, found_number
+from icsolve.numbers.units import found_number
 from icsolve.statics.load_wrenches import counted_about
 from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep, live_roots
 from icsolve.tuples import replace
 
 ADD, SUB, MUL = Op.ADD, Op.SUB, Op.MUL
-DIGITS = 240
 ZERO = Decimal("1e-40")
 """What is below this fraction of its terms is zero."""
 VANISHED = Decimal("1e-60")
@@ -50,8 +57,6 @@ SHORT = Context(prec=160)
 APART = "the links do not reach one another in this row."
 AGAINST = "an angle that repeats other data is met but for its sense: it points the other way in this row."
 ANYWHERE = "change point: two links have come to lie so that a point of them may be anywhere on a circle."
-CONTEXT = Context(prec=DIGITS, Emin=-999_999, Emax=999_999, traps=[DivisionByZero])
-"""What is not a number compares with nothing."""
 
 Values = dict[int, Decimal]
 Step = tuple[int, int, int, int]
@@ -233,7 +238,7 @@ class ExactRecord:
         """Newton's method to the last digit. Where two solutions have become one its steps halve the error,
         and half of the digits are all that there is."""
         q = [given[k] for k in group.solved]
-        units = [Decimal(1), Decimal(1), pi() / 180] * (len(q) // 3)
+        units = [Decimal(1), Decimal(1), pi(DIGITS) / 180] * (len(q) // 3)
         least, last = Decimal(10) ** (12 - DIGITS), Decimal(1)
         wanted = group.parts
         indices = [v.index for v in wanted if isinstance(v, Traced)]
@@ -342,24 +347,6 @@ def _pair(node: Traced) -> tuple[int, int]:
 def _over(value: Decimal, size: Decimal) -> Decimal:
     """A value as a fraction of its terms, whose size may have either sign."""
     return value / abs(size) if size else Decimal("NaN")
-
-
-def as_written(value: float) -> Decimal:
-    """The decimal by which a file would name a double."""
-    return Decimal(repr(float(value)))
-
-
-def decimal_of(number: Number) -> Decimal:
-    """A number of the case, as the file has it: its unit by the exact factor [case units]."""
-    if number.exact is not None:
-        return decimal_ratio(number.exact)
-    return Decimal(number.digits) if number.factor == 1.0 else Decimal(number.value)
-
-
-def decimal_ratio(exact: ExactRatio) -> Decimal:
-    """An exact ratio, in the digits of the context."""
-    num, den, power = exact
-    return Decimal(num) / den * pi() ** power if power else Decimal(num) / den
 
 
 # --- rows as scenes --------------------------------------------------------------------------------
@@ -488,74 +475,6 @@ def _without_dust(value: Decimal) -> Decimal:
 
 def _exact(value: Decimal, path: str) -> Number:
     return found_number(SHORT.plus(value), path)
-
-
-# --- functions ------------------------------------------------------------------------------------
-
-
-@lru_cache(maxsize=1)
-def pi() -> Decimal:
-    """Pi by Machin's formula."""
-    with localcontext(CONTEXT) as context:
-        context.prec += 10
-
-        def arctan_of_inverse(n: int) -> Decimal:
-            term = total = Decimal(1) / n
-            k = 1
-            while abs(term) > Decimal(10) ** -(DIGITS + 10):
-                term /= -n * n
-                k += 2
-                total += term / k
-            return total
-
-        return 4 * (4 * arctan_of_inverse(5) - arctan_of_inverse(239))
-
-
-BITS = 10 * DIGITS // 3 + 64
-UNIT = Decimal(1 << BITS)
-
-
-@lru_cache(maxsize=64)
-def cos_sin(degrees: Decimal) -> tuple[Decimal, Decimal]:
-    """Cosine and sine of an angle [degrees], exact at multiples of 90."""
-    if degrees.adjusted() > DIGITS // 2:  # so many turns leave no digit of the angle
-        return Decimal("NaN"), Decimal("NaN")
-    with localcontext(CONTEXT):
-        reduced = degrees % 360
-        quarter = int((reduced / 90).to_integral_value())
-        half = (reduced - 90 * quarter) * pi() / 360
-        squared, term, total, k = int(half * half * UNIT), 1 << BITS, 0, 1
-        while term:  # the sine of half the angle over that, in units of which whole numbers suffice
-            total += term
-            k += 2
-            term = -(term * squared >> BITS) // (k * (k - 1))
-        sine = Decimal(total) / UNIT * half
-        c, s = 1 - 2 * sine * sine, 2 * sine * (1 - sine * sine).sqrt()
-        return ((c, s), (-s, c), (-c, -s), (s, -c))[quarter % 4]
-
-
-FIFTH = Decimal("1e-50")
-"""The fifth power of a smaller angle is nothing to all digits: two terms of its arc tangent suffice."""
-
-
-def angle(x: Decimal, y: Decimal) -> Decimal:
-    """Direction of a vector [degrees], within half a turn."""
-    with localcontext(CONTEXT):
-        size = max(abs(x), abs(y))
-        if not size or not size.is_finite():
-            return Decimal("NaN") if size else Decimal(0)
-        x, y = x / size, y / size
-        if not y:
-            return Decimal(0 if x > 0 else -180)
-        if not x:
-            return Decimal(90 if y > 0 else -90)
-        found, tangent = Decimal(math.degrees(math.atan2(float(y), float(x)))), Decimal(1)
-        while abs(tangent) > FIFTH:
-            c, s = cos_sin(found)
-            across, along = y * c - x * s, x * c + y * s
-            tangent = across / along
-            found += (tangent - tangent**3 / 3) * 180 / pi()
-        return found
 
 
 def _normal_equations(

@@ -23,6 +23,7 @@ from icsolve.answer import by_load
 from icsolve.case import Case, refuse_no_case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.decimals import CONTEXT, as_written
 from icsolve.numbers.jets import BallArray, Cells, Jet
 from icsolve.numbers.record import Op, Record, Traced, live, terms_of
 from icsolve.numbers.replay import Array
@@ -32,7 +33,7 @@ from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.continuation import SAME
-from icsolve.sweep.exact import APART, CONTEXT, Unreached, Values, as_written
+from icsolve.sweep.exact import APART, Unreached, Values
 from icsolve.sweep.find_by_scenes import FoundPosition, FoundPositions, Mask, Query, Scenes
 from icsolve.sweep.parts import SweepPart, SweepParts
 from icsolve.sweep.program import RowRequest

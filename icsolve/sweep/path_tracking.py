@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.assembly.driven.groups import ROUNDS, NewtonGroup, Solver
+from icsolve.numbers.decimals import CONTEXT, as_written
 from icsolve.numbers.record import Op
 from icsolve.numbers.replay import Array, Code
 from icsolve.sweep.continuation import (
@@ -26,7 +27,7 @@ from icsolve.sweep.continuation import (
     goes_on,
     segment_of,
 )
-from icsolve.sweep.exact import CONTEXT, Unreached, as_written
+from icsolve.sweep.exact import Unreached
 from icsolve.sweep.program import CompiledSweep
 
 FIRST = 2.0**-5

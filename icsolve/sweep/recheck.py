@@ -17,8 +17,9 @@ import numpy.typing as npt
 
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.decimals import CONTEXT, as_written
 from icsolve.numbers.replay import Array
-from icsolve.sweep.exact import APART, CONTEXT, ZERO, RowScenes, Unreached, as_written, lowest
+from icsolve.sweep.exact import APART, ZERO, RowScenes, Unreached, lowest
 from icsolve.sweep.parts import SweepPart, SweepParts
 
 CLEAR = 2.0**-12
