@@ -149,21 +149,26 @@ class FirstContact:
     def _grazed(self, off: Array, guide: Array) -> Mask:
         """Rows in which the way may pass twice through the piece over one chord, whose ends lie to one side
         of it: there it runs along the piece, nearer than that lies to its chord."""
-        line = self.line
-        a, b = off[:, line.first], off[:, line.first + 1]
+        line, (qx, qy) = self.line, guide
+        x, y = line.x[line.first], line.y[line.first]
+        dx, dy = line.x[line.first + 1] - x, line.y[line.first + 1] - y
+        long = dx * dx + dy * dy
+        reach = math.sqrt(line.square.max()) + np.hypot(qx, qy).max(initial=0.0)
+        most = 2.0 * line.rise * (1.0 if self.shifts else 2.0 * reach) + AT_ONE * self.size**2
+        # else it is far from both ends of the chord
+        small = np.abs(off) < most + (0.0 if self.shifts else long.max())
+        row, k = np.nonzero(small[:, line.first] | small[:, line.first + 1])
+        a, b = off[row, line.first[k]], off[row, line.first[k] + 1]
         if self.shifts:
             least, along, room = np.minimum(np.abs(a), np.abs(b)), 0.0, 2.0 * line.rise
         else:
-            (qx, qy), x, y = guide, line.x[line.first], line.y[line.first]
-            dx, dy = line.x[line.first + 1] - x, line.y[line.first + 1] - y
-            along = dx * dx + dy * dy
-            foot = (_outer(qx, dx) + _outer(qy, dy) - (x * dx + y * dy)) / along
+            x, y, dx, dy, along, qx, qy = x[k], y[k], dx[k], dy[k], long[k], qx[row], qy[row]
+            foot = (qx * dx + qy * dy - (x * dx + y * dy)) / along
             nearest = np.where((foot > 0.0) & (foot < 1.0), a - foot * foot * along, np.minimum(a, b))
             least = np.where(a > 0.0, nearest, -np.maximum(a, b))
-            room = 4.0 * line.rise * np.hypot(x - qx[:, None], y - qy[:, None]) + AT_ONE * self.size**2
+            room = 4.0 * line.rise * np.hypot(x - qx, y - qy) + AT_ONE * self.size**2
         beside = ((a > 0.0) == (b > 0.0)) & (least < room) & (np.abs(a - b) <= 1.5 * along + 3.0 * room)
-        return np.asarray(beside.any(axis=1))
-
+        return np.bincount(row[beside], minlength=len(off)) > 0
     def _way(self, at: Array, guide: Array, x: Array, y: Array, nx: Array, ny: Array) -> tuple[Array, Array]:
         """How far the follower is moved to places, and whether the gap grows there as it moves on."""
         px, py = at
