@@ -196,7 +196,7 @@ def test_exactly_two_commands_get_a_stranger_going() -> None:
     commands_given = [line for line in block.splitlines() if line and not line.startswith("```")]
     assert len(commands_given) == 2
     assert commands_given[0].endswith("icsolve check cases/")
-    assert commands_given[1].endswith("pytest")
+    assert "&& .venv/bin/pytest" in commands_given[1]
 
 
 def test_the_table_of_the_24_problems_is_what_the_command_prints() -> None:
