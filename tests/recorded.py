@@ -10,8 +10,8 @@ from mpmath import mp, mpf
 import icsolve
 from icsolve.case import Case
 from icsolve.numbers.record import Implicit, Op, Traced
-from icsolve.sweep.numbers import numbers_of
 from icsolve.sweep.program import CompiledSweep
+from icsolve.sweep.varied_numbers import numbers_of
 
 mp.dps = 60
 RADIAN = mp.pi / 180

@@ -16,7 +16,7 @@ from mpmath import cos, matrix, mp, mpf, pi, sin
 
 import icsolve
 from icsolve.solve.stability import holding_values
-from icsolve.sweep.numbers import with_numbers
+from icsolve.sweep.varied_numbers import with_numbers
 from sizes import FULL
 
 DIGITS = 50

@@ -19,8 +19,8 @@ from icsolve.assembly.driven.mechanism import mechanism
 from icsolve.numbers.record import Record
 from icsolve.structure.topology import topology
 from icsolve.sweep.drivers import closed_drive, drive_of
-from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import RowRequest, compile_sweep, setting_of, wanted_points
+from icsolve.sweep.varied_numbers import numbers_of, with_numbers
 from icsolve.tuples import replace
 from library import FILES
 from mechanisms import Generator, butterfly, four_bar, stephenson, three_loops, triple_pin, watt

@@ -22,7 +22,7 @@ from icsolve.case import Case, Contact, Inertia, KnownCentre, Motion, Number, Pi
 from icsolve.errors import CaseError, SceneError
 from icsolve.manual import template
 from icsolve.sweep.find_on_record import Query, find
-from icsolve.sweep.numbers import find_number, with_numbers
+from icsolve.sweep.varied_numbers import find_number, with_numbers
 from reference import MANY, many, motions, points_of
 from shell import exit_status
 from sizes import MORE
@@ -689,7 +689,7 @@ def test_a_turn_with_inertia_forces_solves_no_scene(monkeypatch: pytest.MonkeyPa
     def refuse(*_: object, **__: object) -> None:
         raise AssertionError("a row is a scene of its own")
 
-    monkeypatch.setattr(import_module("icsolve.sweep.scenes"), "_one", refuse)
+    monkeypatch.setattr(import_module("icsolve.sweep.rows_by_scenes"), "_one", refuse)
     case = icsolve.load("icsolve: 1\n" + FOUR_BAR + "dynamic: yes\n")
     turn = {"angles.AB": np.linspace(0.0, 360.0, 37)}
     rows = icsolve.sweep(case, turn, ("answers", "status", "velocities", "accelerations", "error"))

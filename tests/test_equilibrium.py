@@ -35,9 +35,9 @@ from icsolve.numbers.roots import zero_between
 from icsolve.report.derivation.known import known_of
 from icsolve.report.text import answer_text
 from icsolve.scene import solve_scene
-from icsolve.solve import limits as limits_room
-from icsolve.solve import resting
-from icsolve.solve.rest import AT_LIMIT
+from icsolve.solve import friction_ranges
+from icsolve.solve import mode_limits as limits_room
+from icsolve.solve.rest_position import AT_LIMIT
 from icsolve.solve.stability import holding_values, neutral_values, with_stability
 from shell import Shell, exit_status
 from sizes import FULL
@@ -47,7 +47,7 @@ from sizes import FULL
 def sampled(monkeypatch: pytest.MonkeyPatch) -> None:
     """Ranges that friction alone holds are looked for at fewer values: here all are wide."""
     if not FULL:
-        monkeypatch.setattr(resting, "SAMPLES", 40)
+        monkeypatch.setattr(friction_ranges, "SAMPLES", 40)
 
 
 PENDULUM = """icsolve: 1

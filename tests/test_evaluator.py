@@ -21,7 +21,7 @@ from icsolve.errors import SceneError
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.record import OPERATIONS, Op, Record, Traced
 from icsolve.numbers.source import JAVASCRIPT, straight_line
-from icsolve.sweep.numbers import numbers_of, with_numbers
+from icsolve.sweep.varied_numbers import numbers_of, with_numbers
 from library import FILES, sample
 
 FOUR_BAR = """icsolve: 1

@@ -15,7 +15,7 @@ from icsolve.explain.document import AsText, Document
 from icsolve.explain.given import asked_section, given_section
 from icsolve.explain.worked import Worked
 from icsolve.report.derivation.known import Known
-from icsolve.sweep.numbers import numbers_of
+from icsolve.sweep.varied_numbers import numbers_of
 from icsolve.wording.statement import Statement
 
 

@@ -19,7 +19,7 @@ from icsolve import case as c
 from icsolve.scene import solve_scene
 from icsolve.solve import known_loads
 from icsolve.solve.stability import holding_values
-from icsolve.sweep.numbers import find_number, with_numbers
+from icsolve.sweep.varied_numbers import find_number, with_numbers
 from reference import frame_of, points_of
 from rough_scenes import KINDS, TOUCHING, Rough, band
 from shell import Shell

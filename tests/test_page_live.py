@@ -23,7 +23,7 @@ from icsolve.numbers.units import BOUNDS
 from icsolve.page import page_html
 from icsolve.page.fields import lines_of
 from icsolve.page.motion import motion_of
-from icsolve.sweep.numbers import numbers_of
+from icsolve.sweep.varied_numbers import numbers_of
 from icsolve.tuples import replace
 from library import FILES, page_of, sample
 from sizes import FULL

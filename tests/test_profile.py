@@ -29,7 +29,7 @@ from icsolve.numbers.roots import zero_between
 from icsolve.read import load
 from icsolve.read.profiles import PROFILES as KEYS
 from icsolve.solve import solve
-from icsolve.sweep.numbers import with_numbers
+from icsolve.sweep.varied_numbers import with_numbers
 from sizes import MORE
 from texts import PAGES
 

@@ -21,7 +21,7 @@ from icsolve.errors import SceneError
 from icsolve.read import load
 from icsolve.solve import solve
 from icsolve.sweep import sweep
-from icsolve.sweep.numbers import with_numbers
+from icsolve.sweep.varied_numbers import with_numbers
 from icsolve.tuples import replace
 
 mp.dps = 60

@@ -17,7 +17,7 @@ from icsolve.read import load
 from icsolve.solve import solve
 from icsolve.sweep import cam_sweep, sweep
 from icsolve.sweep.cam_sweep import SAID
-from icsolve.sweep.numbers import with_numbers
+from icsolve.sweep.varied_numbers import with_numbers
 from made import number
 from sizes import FULL
 
@@ -343,7 +343,10 @@ def test_rows_at_once_are_the_scenes_one_by_one(monkeypatch: pytest.MonkeyPatch,
 def solved(monkeypatch: pytest.MonkeyPatch) -> list[object]:
     """The rows that were solved as scenes."""
     every: list[object] = []
-    scenes, one = import_module("icsolve.sweep.scenes"), import_module("icsolve.sweep.scenes")._one
+    scenes, one = (
+        import_module("icsolve.sweep.rows_by_scenes"),
+        import_module("icsolve.sweep.rows_by_scenes")._one,
+    )
     monkeypatch.setattr(scenes, "_one", lambda *all: (every.append(all), one(*all))[1])
     return every
 

@@ -26,9 +26,9 @@ from icsolve.case.joints import Guided
 from icsolve.numbers.units import BOUNDS
 from icsolve.scene import solve_scene
 from icsolve.sweep.evaluator import Evaluated
-from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import setting_of
 from icsolve.sweep.table import Sweep
+from icsolve.sweep.varied_numbers import numbers_of, with_numbers
 from icsolve.tuples import replace
 from library import FILES, sample
 from sizes import FULL

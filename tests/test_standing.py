@@ -17,7 +17,7 @@ import icsolve
 import rough_scenes as rs
 import standing
 from icsolve.solve.stability import holding_values
-from icsolve.sweep.numbers import find_number, with_numbers
+from icsolve.sweep.varied_numbers import find_number, with_numbers
 from rough_scenes import Rough
 from shell import Shell
 from sizes import FULL

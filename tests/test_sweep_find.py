@@ -22,7 +22,7 @@ from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.decimals import CONTEXT
 from icsolve.numbers.record import Record
 from icsolve.numbers.roots import closed_in
-from icsolve.sweep import find_by_scenes, scenes
+from icsolve.sweep import find_by_scenes, rows_by_scenes
 from icsolve.sweep.continuation import PathSegment
 from icsolve.sweep.find_on_record import Query, RangeSearch, find
 from icsolve.sweep.path_tracking import PathTracker
@@ -506,7 +506,7 @@ def test_searches_for_a_figure_that_does_not_assemble_are_bounded(
 
     monkeypatch.setattr(newton, "_searched", lru_cache(counted))
     monkeypatch.setattr(newton, "MOST_WORK", 5_000)
-    monkeypatch.setattr(scenes, "can_share", lambda: False)
+    monkeypatch.setattr(rows_by_scenes, "can_share", lambda: False)
     text = (Path(__file__).parent / "data" / "found" / "wrongmode_1.yaml").read_text()
     spots = find(icsolve.load(text), {"lengths.P9-P10": np.array(span)}, Query("max"))
     assert not spots

@@ -12,7 +12,7 @@ import pytest
 import icsolve
 from icsolve.files import can_fork
 from icsolve.solve import attempt
-from icsolve.sweep import scenes
+from icsolve.sweep import rows_by_scenes
 from sizes import FULL
 
 CASES = Path(__file__).parent.parent / "cases" / "ch13"
@@ -117,11 +117,11 @@ def test_a_crank_that_friction_jams_says_so() -> None:
 @pytest.mark.parametrize("name", ["13_19_slider_crank_friction_at_pins", "13_20_slider_crank_with_friction"])
 def test_several_processes_find_what_one_does(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     degrees = np.arange(0.0, 360.0, 20.0)
-    monkeypatch.setattr(scenes, "can_share", lambda: False)
+    monkeypatch.setattr(rows_by_scenes, "can_share", lambda: False)
     alone = icsolve.sweep(case(name), drive={"2": degrees}, want=WANT)
-    monkeypatch.setattr(scenes, "can_share", lambda: True)
+    monkeypatch.setattr(rows_by_scenes, "can_share", lambda: True)
     for constant, value in (("PATIENCE", 0.0), ("WORTH", 0.0), ("FEW", 4)):
-        monkeypatch.setattr(scenes, constant, value)
+        monkeypatch.setattr(rows_by_scenes, constant, value)
     done: list[int] = []
     together = icsolve.sweep(case(name), drive={"2": degrees}, want=WANT, progress=done.append)
     assert same(alone, together)

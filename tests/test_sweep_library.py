@@ -12,7 +12,7 @@ import pytest
 
 import icsolve
 from icsolve.manual import kinds, template
-from icsolve.sweep.numbers import numbers_of
+from icsolve.sweep.varied_numbers import numbers_of
 from library import FILES, sample
 from sizes import FULL
 

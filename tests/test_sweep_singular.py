@@ -27,7 +27,7 @@ import full_turns
 import icsolve
 import transcribe
 from icsolve.sweep.find_on_record import Query, find
-from icsolve.sweep.numbers import numbers_of, with_numbers
+from icsolve.sweep.varied_numbers import numbers_of, with_numbers
 from library import FILES, sample
 from recorded import truths
 from sizes import FULL

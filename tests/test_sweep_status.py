@@ -18,7 +18,7 @@ from icsolve.assembly.driven.order import AssemblyOrder
 from icsolve.case import Case
 from icsolve.scene.sensitivity import numbers_of
 from icsolve.statics.power import is_unknown
-from icsolve.sweep.numbers import with_numbers
+from icsolve.sweep.varied_numbers import with_numbers
 from library import FILES
 
 ALL = ("answers", "status", "error", "points", "centres", "rates")

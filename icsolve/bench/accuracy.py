@@ -27,7 +27,7 @@ from icsolve.screws.plane import subtract
 from icsolve.solve import solve
 from icsolve.statics.power import Outcome
 from icsolve.sweep import sweep
-from icsolve.sweep.numbers import numbers_of, with_numbers
+from icsolve.sweep.varied_numbers import numbers_of, with_numbers
 from icsolve.tuples import NamedTuple
 
 DIGITS = 60

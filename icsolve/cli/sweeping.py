@@ -223,7 +223,7 @@ def _readable(
 
 def _with_varied(case: Case, asked: SweepOptions) -> Case:
     """The case with numbers for unknown data of its figure that are varied: as written, else the first."""
-    from icsolve.sweep.numbers import find_number
+    from icsolve.sweep.varied_numbers import find_number
 
     varied = {n if n.startswith("points.") else find_number(case, n).path: at for n, at in asked.vary}
     for unknown in case.unknowns:
@@ -333,7 +333,7 @@ def _positions_table(case: Case, columns: Mapping[str, Values], suffix: str) -> 
 
 def _positions(case: Case, columns: Mapping[str, Values]) -> Iterator[dict[str, Any]]:
     from icsolve.solve import solve
-    from icsolve.sweep.numbers import find_number, with_numbers
+    from icsolve.sweep.varied_numbers import find_number, with_numbers
 
     own = {find_number(case, path).path: path for path in columns}
     for numbers in zip(*(columns[path].tolist() for path in own.values()), strict=True):

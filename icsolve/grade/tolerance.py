@@ -278,7 +278,7 @@ def _slope(target: Target, answer: Answer, path: str, value: float) -> float:
 
 def _changed(target: Target, answer: Answer, path: str, value: float) -> tuple[float, ...] | None:
     """The target where one number is another; None where it has no value then."""
-    from icsolve.sweep.numbers import with_numbers
+    from icsolve.sweep.varied_numbers import with_numbers
 
     near = {name: place for name, place in answer.points.items() if is_named(name)}
     case = replace(with_numbers(answer.case, {path: value}), near={**answer.case.near, **near})

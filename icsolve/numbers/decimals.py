@@ -1,7 +1,8 @@
 """Decimals of many digits: pi, cosine and sine, directions, and the numbers that a file has.
 
 What balls bound (`icsolve.numbers.balls`) and what a row of a sweep is run on in high precision
-(`icsolve.sweep.exact`) is worked out here, through contexts of their own, never the default one of `decimal`.
+(`icsolve.sweep.exact_record`) is worked out here, through contexts of their own, never the default one of
+`decimal`.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ from icsolve.read.reading import unit_names
 from icsolve.read.settings import places
 from icsolve.report.derivation.known import Known
 from icsolve.statics.load_wrenches import is_loaded
-from icsolve.sweep.numbers import numbers_of
+from icsolve.sweep.varied_numbers import numbers_of
 from icsolve.tuples import NamedTuple
 
 

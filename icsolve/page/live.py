@@ -54,8 +54,8 @@ from icsolve.screws.ropes import TOUCHING, RopePart, rope_parts
 from icsolve.statics import load_wrenches, power
 from icsolve.statics.load_wrenches import COUPLE, FORCE, inertia_forces, is_loaded
 from icsolve.structure.topology import Bond
-from icsolve.sweep.numbers import numbers_of
 from icsolve.sweep.program import wanted_points
+from icsolve.sweep.varied_numbers import numbers_of
 from icsolve.tuples import NamedTuple
 
 SECTIONS = ("points", "lengths", "angles", "joints", "loads", "motion", "gravity", "links")

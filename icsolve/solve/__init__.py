@@ -2,8 +2,8 @@
 
 `load_function` writes the power of the loads in every mode of the figure on a record, `branches` follows
 the modes and encloses the zeros over the whole range, `positions` closes in on each, `stability` tells
-whether it is stable, `resting` finds the ranges in which friction holds, `known_loads` tells whether it
-does, `two_data` finds pairs of data; `equilibrium` answers a case.
+whether it is stable, `friction_ranges` finds the ranges in which friction holds, `known_loads` tells whether
+it does, `two_data` finds pairs of data; `equilibrium` answers a case.
 """
 
 from __future__ import annotations

@@ -24,9 +24,9 @@ from icsolve.numbers.decimals import CONTEXT, as_written
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.replay import Array, Code
 from icsolve.solve.load_function import LoadFunction
-from icsolve.solve.settled import plain_within
+from icsolve.solve.refinement import plain_within
 from icsolve.sweep.branches import DOUBT, may_vanish
-from icsolve.sweep.exact import ZERO, Unreached, exact_record, lowest
+from icsolve.sweep.exact_record import ZERO, Unreached, exact_record, lowest
 from icsolve.tuples import NamedTuple
 
 SAMPLES = 720

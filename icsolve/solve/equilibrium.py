@@ -11,11 +11,11 @@ from icsolve.assembly import solve_figure
 from icsolve.case import Case, Coordinates, Unknown
 from icsolve.errors import SceneError, Status
 from icsolve.scene import solve_scene
+from icsolve.solve.friction_ranges import find_ranges
 from icsolve.solve.known_loads import smooth
 from icsolve.solve.load_function import given_at, naming_uncarried
 from icsolve.solve.positions import Search, find_positions
-from icsolve.solve.rest import with_scene
-from icsolve.solve.resting import find_ranges
+from icsolve.solve.rest_position import with_scene
 from icsolve.solve.two_data import find_pairs
 from icsolve.statics.power import has_friction, is_unknown
 from icsolve.sweep.program import wanted_points

@@ -15,7 +15,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.arithmetic import largest_of
 from icsolve.scene import solve_scene, standing
-from icsolve.solve.rest import PROBE, holding, probes
+from icsolve.solve.rest_position import PROBE, holding, probes
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.senses import reach_of, unit_of
 

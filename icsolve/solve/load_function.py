@@ -36,7 +36,6 @@ from icsolve.statics import load_wrenches, power
 from icsolve.structure.topology import topology
 from icsolve.sweep.branches import may_vanish
 from icsolve.sweep.drivers import Drive
-from icsolve.sweep.numbers import points_of, with_numbers
 from icsolve.sweep.program import (
     CompiledSweep,
     RowRequest,
@@ -48,6 +47,7 @@ from icsolve.sweep.program import (
     wanted_points,
 )
 from icsolve.sweep.recorded_scene import RecordedScene, motions_of
+from icsolve.sweep.varied_numbers import points_of, with_numbers
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording import sentences
 from icsolve.wording.joints import why_not_moved

@@ -14,15 +14,14 @@ from icsolve.case.joints import Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Code
 from icsolve.solve.branches import Branches, isolate, nearest
-from icsolve.solve.followed import (
+from icsolve.solve.driven_search import (
     NOT_ALL,
-    LedMechanism,
+    DrivenMechanism,
     converted,
+    driven_mechanisms,
     exchanged,
-    led_mechanisms,
     nearest_of,
 )
-from icsolve.solve.limits import at_limits, limits_of
 from icsolve.solve.load_function import (
     LoadFunction,
     TogetherError,
@@ -34,8 +33,8 @@ from icsolve.solve.load_function import (
     with_other_ways,
     written_function,
 )
-from icsolve.solve.rest import Rest, taut
-from icsolve.solve.settled import (
+from icsolve.solve.mode_limits import at_limits, limits_of
+from icsolve.solve.refinement import (
     at_change_point,
     balancing_torque,
     described,
@@ -44,10 +43,11 @@ from icsolve.solve.settled import (
     in_range,
     modes_meet,
     placed_by_coordinates,
-    settled,
+    refined,
     within_a_turn,
 )
-from icsolve.sweep.numbers import find_number
+from icsolve.solve.rest_position import RestPosition, taut
+from icsolve.sweep.varied_numbers import find_number
 from icsolve.tuples import NamedTuple, replace
 
 BESIDE = 5e-4
@@ -64,7 +64,7 @@ class Search(NamedTuple):
     """What was found over a range: positions by rising value, sentences, and where the loads come nearest."""
 
     path: str
-    positions: tuple[Rest, ...]
+    positions: tuple[RestPosition, ...]
     notes: tuple[str, ...]
     any_value: bool
     nearest: float | None
@@ -192,7 +192,7 @@ def _find_followed(
         found = _exchanged(case, path, span)
     if found is not None and (found.any_value or found.positions) and not case.near:
         return found._replace(path=path, positions=tuple(_settled_turns(found.positions, path, whole)))
-    led, complete = led_mechanisms(case, path, span, start, found.positions if found is not None else ())
+    led, complete = driven_mechanisms(case, path, span, start, found.positions if found is not None else ())
     if start is None:
         refuse_unwritten(case, path, led[0].links, not whole)
     meant = [led[nearest(case, [one.off(case.near) for one in led])]] if case.near else led
@@ -220,7 +220,7 @@ def _exchanged(case: Case, path: str, span: tuple[float, float]) -> Search | Non
     return None
 
 
-def _settled_turns(rests: Sequence[Rest], path: str, whole: bool) -> list[Rest]:
+def _settled_turns(rests: Sequence[RestPosition], path: str, whole: bool) -> list[RestPosition]:
     """Positions by rising value, each once; angles of a whole turn within it."""
     if whole and is_angle(path):
         rests = [rest._replace(value=within_a_turn(rest.value, rest.error)) for rest in rests]
@@ -234,7 +234,7 @@ def _balanced(some: int, of: int) -> str:
     )
 
 
-def find_along(case: Case, along: str, low: float, high: float) -> tuple[list[Rest], list[str]]:
+def find_along(case: Case, along: str, low: float, high: float) -> tuple[list[RestPosition], list[str]]:
     """The positions of equilibrium along a sweep of an ordinary case, by a datum that poses it or by turning
     a link from the position as written (degrees); and sentences on those that were left out."""
     with naming_uncarried(case, () if along in case.links else (along,)):
@@ -242,14 +242,14 @@ def find_along(case: Case, along: str, low: float, high: float) -> tuple[list[Re
     return taut(distinct(sorted(rests, key=lambda rest: rest.value)), along)
 
 
-def _along(case: Case, along: str, low: float, high: float) -> list[Rest]:
+def _along(case: Case, along: str, low: float, high: float) -> list[RestPosition]:
     bare = replace(case, motion=(), expect=())
     own, value = _as_written(bare, along)
     wide = (min(low, value), max(high, value))
     try:
         function = moved_by(bare, along, wide)
     except TogetherError:
-        return LedMechanism(bare, own, (low, high)).rests()
+        return DrivenMechanism(bare, own, (low, high)).rests()
     functions = with_other_ways(function, wide) if function.compiled.setting.moves else [function]
     branches = Branches(functions, *wide)
     kept = frozenset({branches.on(0, value)})
@@ -265,7 +265,7 @@ def _as_written(case: Case, along: str) -> tuple[str, float]:
     return number.path, number.value
 
 
-def rest_of(case: Case, along: str) -> Rest:
+def rest_of(case: Case, along: str) -> RestPosition:
     """The position as written, by a datum or a link; raises as `moved_by`."""
     try:
         return described(moved_by(case, along), _as_written(case, along)[1], 0.0)
@@ -275,10 +275,10 @@ def rest_of(case: Case, along: str) -> Rest:
         return led_rest(case, along)
 
 
-def led_rest(case: Case, along: str) -> Rest:
+def led_rest(case: Case, along: str) -> RestPosition:
     """The same where points only together have places."""
     own, value = _as_written(case, along)
-    return LedMechanism(case, own, (value, value)).described(value, 0.0)
+    return DrivenMechanism(case, own, (value, value)).described(value, 0.0)
 
 
 def refuse_motion(case: Case) -> None:
@@ -386,10 +386,10 @@ def search_modes(
     kept: frozenset[int] | None,
     whole: bool,
     notes: list[str] | None = None,
-) -> list[tuple[int, Rest]]:
+) -> list[tuple[int, RestPosition]]:
     """The positions of all modes, each with its mode; ``kept`` has the branches that are meant (None: all),
     and ``notes`` takes sentences on what stays open."""
-    found: list[tuple[int, Rest]] = []
+    found: list[tuple[int, RestPosition]] = []
     low, high = branches.low, branches.high
     path = functions[0].path
     limits = limits_of(functions, branches)
@@ -403,7 +403,7 @@ def search_modes(
             doubt = f"{path} was searched from {low:g} to {high:g}, but not proven to have no other position."
             notes.append(doubt)
         for bracket in search.brackets:
-            position = settled(function, bracket, (low, high), whole)
+            position = refined(function, bracket, (low, high), whole)
             if position is not None and (kept is None or branches.on(n, position.value) in kept):
                 found.append((n, position))
         for cluster in search.open_cells if search.complete else ():

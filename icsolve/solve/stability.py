@@ -16,9 +16,9 @@ from icsolve.numbers.roots import zero_between
 from icsolve.read.names import shown
 from icsolve.scene import solve_scene
 from icsolve.solve.positions import led_rest, moved_by, refuse_motion, rest_of
-from icsolve.solve.rest import Rest, balances, holding
+from icsolve.solve.rest_position import RestPosition, balances, holding
 from icsolve.statics.power import has_friction
-from icsolve.sweep.numbers import find_number, refuse_space, with_numbers
+from icsolve.sweep.varied_numbers import find_number, refuse_space, with_numbers
 from icsolve.tuples import NamedTuple, replace
 
 CUTS = 32
@@ -52,7 +52,7 @@ def _refuse_unknown(case: Case, of: str) -> None:
     raise CaseError([Problem(case.path, 1, 1, said)])
 
 
-def rest_as_written(case: Case, of: str) -> Rest:
+def rest_as_written(case: Case, of: str) -> RestPosition:
     """The position as written of a case whose loads are all known and balance."""
     refuse_motion(case)
     if has_friction(case):
@@ -73,7 +73,7 @@ def rest_as_written(case: Case, of: str) -> Rest:
         return _by_another(case, of, refusal)
 
 
-def _by_another(case: Case, link: str, refusal: SceneError) -> Rest:
+def _by_another(case: Case, link: str, refusal: SceneError) -> RestPosition:
     """The position for a link that the search can't lead (a coupler, a block that slides), by one that it
     can.
 
@@ -193,8 +193,8 @@ def _driven(case: Case) -> str:
 
 def holding_values(case: Case, path: str, low: float, high: float) -> list[TurningPower]:
     """The values of a number at which a mechanism under known loads begins or ceases to hold still."""
+    from icsolve.solve.friction_ranges import edge_of_rest
     from icsolve.solve.known_loads import Held, Spare, moving_loads, spare_friction
-    from icsolve.solve.resting import edge_of_rest
 
     own = find_number(case, path).path
 

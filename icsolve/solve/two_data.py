@@ -43,10 +43,10 @@ from icsolve.solve.load_function import (
     refuse_together,
 )
 from icsolve.solve.positions import refuse_ropes, refuse_unwritten, whole_range
-from icsolve.solve.rest import why_slack, with_scene
-from icsolve.solve.settled import CLOSED, NEAR, rounded, scene_in, within_a_turn
+from icsolve.solve.refinement import CLOSED, NEAR, rounded, scene_in, within_a_turn
+from icsolve.solve.rest_position import why_slack, with_scene
 from icsolve.statics import load_wrenches, power
-from icsolve.sweep.exact import VANISHED, exact_record
+from icsolve.sweep.exact_record import VANISHED, exact_record
 from icsolve.sweep.program import CompiledSweep, setting_of, spring_angles
 from icsolve.sweep.recorded_scene import motions_of
 from icsolve.tuples import NamedTuple, replace

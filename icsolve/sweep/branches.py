@@ -18,7 +18,7 @@ from icsolve.numbers.decimals import CONTEXT
 from icsolve.numbers.record import Root, live
 from icsolve.numbers.replay import BLOCK, Array, code_of
 from icsolve.sweep.continuation import ChangePoints, InputLine, State
-from icsolve.sweep.exact import ZERO, Unreached, exact_record, lowest
+from icsolve.sweep.exact_record import ZERO, Unreached, exact_record, lowest
 from icsolve.sweep.path_tracking import PathTracker
 from icsolve.sweep.program import CompiledSweep, Signs, live_roots
 from icsolve.sweep.request import RequestError

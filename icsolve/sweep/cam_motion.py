@@ -43,14 +43,14 @@ from icsolve.numbers.decimals import CONTEXT, as_written
 from icsolve.numbers.replay import Array
 from icsolve.scene.refusals import rubs
 from icsolve.sweep.branches import signs_of
-from icsolve.sweep.exact import hides
+from icsolve.sweep.exact_record import hides
 from icsolve.sweep.first_contact import FirstContact, FirstContacts, Mask, radius_ratio
 from icsolve.sweep.program import RowRequest
+from icsolve.sweep.record_runner import Key
 from icsolve.sweep.recorded_scene import RestingContact
 from icsolve.sweep.request import Columns
-from icsolve.sweep.run import SweepRun
-from icsolve.sweep.runner import Key
-from icsolve.sweep.start import start_of
+from icsolve.sweep.rows_on_record import SweepRun
+from icsolve.sweep.starting_position import start_of
 from icsolve.sweep.table import CODE, Codes
 from icsolve.tuples import NamedTuple, replace
 

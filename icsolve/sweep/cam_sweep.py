@@ -19,14 +19,14 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
 from icsolve.sweep.cam_motion import CamMotion, Rows, cam_motion
 from icsolve.sweep.first_contact import Mask
-from icsolve.sweep.numbers import with_numbers
-from icsolve.sweep.parts import distinct_rows
 from icsolve.sweep.program import RowRequest, setting_of
+from icsolve.sweep.record_runner import Key, Progress
+from icsolve.sweep.record_runner import Rows as Which
 from icsolve.sweep.request import Columns, SweepRequest
-from icsolve.sweep.runner import Key, Progress
-from icsolve.sweep.runner import Rows as Which
-from icsolve.sweep.scenes import by_scenes
+from icsolve.sweep.row_parts import distinct_rows
+from icsolve.sweep.rows_by_scenes import by_scenes
 from icsolve.sweep.table import Sweep, Table
+from icsolve.sweep.varied_numbers import with_numbers
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed
 

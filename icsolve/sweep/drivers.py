@@ -42,7 +42,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.linear import Row, eliminate
 from icsolve.screws.plane import Point
-from icsolve.sweep.numbers import with_numbers
+from icsolve.sweep.varied_numbers import with_numbers
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed, plural
 

@@ -27,9 +27,9 @@ from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.drivers import Drive
-from icsolve.sweep.exact import hides
-from icsolve.sweep.numbers import find_number, numbers_of, with_numbers
+from icsolve.sweep.exact_record import hides
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of
+from icsolve.sweep.record_runner import SHALLOW, SMALL, STEEP, Key, Rows, column, usual_and_terms
 from icsolve.sweep.request import (
     FARTHEST,
     RequestError,
@@ -40,9 +40,9 @@ from icsolve.sweep.request import (
     request_of,
     told,
 )
-from icsolve.sweep.runner import SHALLOW, SMALL, STEEP, Key, Rows, column, usual_and_terms
-from icsolve.sweep.start import is_hard
+from icsolve.sweep.starting_position import is_hard
 from icsolve.sweep.table import CODE, KINDS, WORDS, Table, by_kind
+from icsolve.sweep.varied_numbers import find_number, numbers_of, with_numbers
 from icsolve.tuples import NamedTuple, dataclass, field, replace
 
 FEW = 24

@@ -22,9 +22,9 @@ from icsolve.numbers.replay import Array
 from icsolve.numbers.tape import UNIT
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
+from icsolve.sweep import sweep
 from icsolve.sweep.program import wanted_points
 from icsolve.sweep.request import Columns, RequestError
-from icsolve.sweep.sweeping import sweep
 from icsolve.sweep.table import CODE, Codes
 from icsolve.tuples import NamedTuple
 

@@ -33,13 +33,13 @@ from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.continuation import SAME
-from icsolve.sweep.exact import APART, Unreached, Values
+from icsolve.sweep.exact_record import APART, Unreached, Values
 from icsolve.sweep.find_by_scenes import FoundPosition, FoundPositions, Mask, Query, Scenes
-from icsolve.sweep.parts import SweepPart, SweepParts
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recheck import Recheck
 from icsolve.sweep.request import RequestError, along_of, columns_of
-from icsolve.sweep.start import start_of
+from icsolve.sweep.row_parts import SweepPart, SweepParts
+from icsolve.sweep.starting_position import start_of
 from icsolve.wording.sentences import left_out
 
 __all__ = ["FoundPosition", "FoundPositions", "Query", "find"]

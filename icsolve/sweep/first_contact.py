@@ -169,6 +169,7 @@ class FirstContact:
             room = 4.0 * line.rise * np.hypot(x - qx, y - qy) + AT_ONE * self.size**2
         beside = ((a > 0.0) == (b > 0.0)) & (least < room) & (np.abs(a - b) <= 1.5 * along + 3.0 * room)
         return np.bincount(row[beside], minlength=len(off)) > 0
+
     def _way(self, at: Array, guide: Array, x: Array, y: Array, nx: Array, ny: Array) -> tuple[Array, Array]:
         """How far the follower is moved to places, and whether the gap grows there as it moves on."""
         px, py = at

@@ -27,7 +27,7 @@ from icsolve.sweep.continuation import (
     goes_on,
     segment_of,
 )
-from icsolve.sweep.exact import Unreached
+from icsolve.sweep.exact_record import Unreached
 from icsolve.sweep.program import CompiledSweep
 
 FIRST = 2.0**-5

@@ -41,7 +41,6 @@ from icsolve.sweep.drivers import (
     turns_links,
 )
 from icsolve.sweep.friction_rows import FrictionRows, rubbing
-from icsolve.sweep.numbers import find_number, number_at, with_numbers
 from icsolve.sweep.recorded_scene import (
     RecordedScene,
     RecordedStatics,
@@ -57,6 +56,7 @@ from icsolve.sweep.recorded_scene import (
     statics,
     velocities,
 )
+from icsolve.sweep.varied_numbers import find_number, number_at, with_numbers
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 

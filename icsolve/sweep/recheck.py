@@ -19,8 +19,8 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.decimals import CONTEXT, as_written
 from icsolve.numbers.replay import Array
-from icsolve.sweep.exact import APART, ZERO, RowScenes, Unreached, lowest
-from icsolve.sweep.parts import SweepPart, SweepParts
+from icsolve.sweep.exact_record import APART, ZERO, RowScenes, Unreached, lowest
+from icsolve.sweep.row_parts import SweepPart, SweepParts
 
 CLEAR = 2.0**-12
 """A row farther from a change point than this part of the longest step is on the side that floats say."""

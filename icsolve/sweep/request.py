@@ -15,9 +15,9 @@ from icsolve.numbers.replay import Array
 from icsolve.numbers.units import BOUNDS
 from icsolve.read.names import pairs, shown, suggestion
 from icsolve.statics.power import is_unknown
-from icsolve.sweep.numbers import find_number, number_at
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recorded_scene import pairs as all_pairs
+from icsolve.sweep.varied_numbers import find_number, number_at
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 

@@ -19,7 +19,7 @@ from icsolve.numbers.replay import Array
 from icsolve.numbers.tape import UNIT
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.program import RowRequest
-from icsolve.sweep.runner import Key, Rows
+from icsolve.sweep.record_runner import Key, Rows
 from icsolve.tuples import cached_property, dataclass, field
 
 WORDS = (

@@ -30,10 +30,10 @@ from icsolve.read.variables import names_in, replaced
 from icsolve.solve import solve
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.evaluator import Evaluator, RecordedRows
-from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import RowRequest, compile_sweep, setting_of
 from icsolve.sweep.recorded_scene import pairs
 from icsolve.sweep.request import SweepRequest
+from icsolve.sweep.varied_numbers import numbers_of, with_numbers
 from icsolve.tuples import replace
 from icsolve.wording.senses import unit_of
 

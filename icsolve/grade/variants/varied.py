@@ -24,7 +24,7 @@ from icsolve.read.document import Mapping as Tree
 from icsolve.read.document import Scalar, parse
 from icsolve.read.names import Problems
 from icsolve.read.variables import count, first_values, value_at
-from icsolve.sweep.numbers import numbers_of
+from icsolve.sweep.varied_numbers import numbers_of
 from icsolve.tuples import NamedTuple, cached_property
 
 TRIALS = 60

@@ -12,14 +12,14 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import BLOCK, Array
 from icsolve.numbers.tape import UNIT
 from icsolve.sweep.continuation import InputLine
-from icsolve.sweep.numbers import with_numbers
-from icsolve.sweep.parts import SweepPart, SweepParts
 from icsolve.sweep.recheck import Recheck
+from icsolve.sweep.record_runner import Key, Progress, Rows, RowsFound, column
 from icsolve.sweep.request import Columns
-from icsolve.sweep.runner import Key, Progress, Rows, RowsFound, column
-from icsolve.sweep.scenes import by_scenes, placed_near
-from icsolve.sweep.start import Start
+from icsolve.sweep.row_parts import SweepPart, SweepParts
+from icsolve.sweep.rows_by_scenes import by_scenes, placed_near
+from icsolve.sweep.starting_position import Start
 from icsolve.sweep.table import CODE, Codes, Table
+from icsolve.sweep.varied_numbers import with_numbers
 
 CHUNK = 16 * BLOCK
 """Rows whose followed states are held at once."""

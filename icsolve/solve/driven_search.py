@@ -23,14 +23,14 @@ from icsolve.numbers.decimals import as_written
 from icsolve.numbers.replay import Array, Code
 from icsolve.scene import solve_scene
 from icsolve.solve.load_function import bearers, given_at
-from icsolve.solve.rest import AT_LIMIT, PROBE, Rest
+from icsolve.solve.rest_position import AT_LIMIT, PROBE, RestPosition
 from icsolve.sweep.find_by_scenes import Query
 from icsolve.sweep.find_on_record import RangeSearch
-from icsolve.sweep.numbers import points_of
-from icsolve.sweep.parts import SweepParts
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.request import columns_of
-from icsolve.sweep.start import start_of
+from icsolve.sweep.row_parts import SweepParts
+from icsolve.sweep.starting_position import start_of
+from icsolve.sweep.varied_numbers import points_of
 from icsolve.tuples import replace
 
 STARTS = (0.5, 0.1, 0.9, 0.3, 0.7, 0.02, 0.98)
@@ -44,7 +44,7 @@ NOT_ALL = "the ways in which the figure assembles are not shown to be all."
 UNPROVEN = "beside what was balanced no bound of its error is proven."
 
 
-class LedMechanism:
+class DrivenMechanism:
     """A mechanism led from the position as written over a range of a datum, or of a link's turning (degrees).
 
     Raises SceneError where nothing turns in it, or it can't be led so.
@@ -114,18 +114,20 @@ class LedMechanism:
         found = [torque for value in at if not math.isnan(torque := self.search.answer(as_written(value))[0])]
         return bool(found) and all(abs(torque) <= 1e-30 for torque in found)
 
-    def rests(self) -> list[Rest]:
+    def rests(self) -> list[RestPosition]:
         """The positions in which the loads balance."""
         return [self.described(spot.at, spot.error + 4.0 * math.ulp(spot.at)) for spot in self.search.found()]
 
-    def described(self, value: float, error: float) -> Rest:
+    def described(self, value: float, error: float) -> RestPosition:
         """A position with its stiffness: the derivative of the torque that holds it, by the record in many
         digits, times the square of the rates' ratio (once for the torque, once for the datum)."""
         case = self.scene(value)
         answer = solve_scene(case, rates=True)
         rate = rate_of(answer, self.along) / float((answer.rates or {})[self.links[0]])
         if not rate:
-            return Rest(value, error, "neutral", None, AT_LIMIT, answer, case, self.links, self._size())
+            return RestPosition(
+                value, error, "neutral", None, AT_LIMIT, answer, case, self.links, self._size()
+            )
         turns = is_angle(self.along) or self.along in case.links
         units = case.units
         _, slope = self.search.answer(as_written(value))
@@ -133,7 +135,7 @@ class LedMechanism:
         size = abs(self._size() / rate**2) * (1.0 if turns else 1.0 / units.torque_per_force_length)
         kind = "neutral" if abs(stiffness) <= 1e-12 * size else "stable" if stiffness > 0.0 else "unstable"
         unit = f"{units.torque}/rad" if turns else f"{units.force}/{units.length}"
-        return Rest(
+        return RestPosition(
             value,
             error,
             kind,
@@ -215,7 +217,9 @@ def exchanged(case: Case, path: str) -> Iterator[tuple[Case, str]]:
             yield replace(case, points=points, lengths=lengths, angles=(*angles, turned), near={}), other
 
 
-def converted(rests: Sequence[Rest], path: str, span: tuple[float, float], other: str) -> list[Rest]:
+def converted(
+    rests: Sequence[RestPosition], path: str, span: tuple[float, float], other: str
+) -> list[RestPosition]:
     """Positions that were found by another datum, by the one at ``path``: those whose values lie in a range.
 
     The stiffness is the other's times the square of the ratio of the rates.
@@ -248,16 +252,16 @@ def converted(rests: Sequence[Rest], path: str, span: tuple[float, float], other
     return found
 
 
-def led_mechanisms(
-    case: Case, path: str, span: tuple[float, float], start: float | None, known: Sequence[Rest]
-) -> tuple[list[LedMechanism], bool]:
+def driven_mechanisms(
+    case: Case, path: str, span: tuple[float, float], start: float | None, known: Sequence[RestPosition]
+) -> tuple[list[DrivenMechanism], bool]:
     """The mechanism in each way in which it assembles at some values of a datum and in known positions;
     whether these are all there.
 
     Raises SceneError where it assembles at none.
     """
     low, high = span
-    found: list[LedMechanism] = []
+    found: list[DrivenMechanism] = []
     complete, refusal, most = True, None, max(2, MOST_WORK // len(case.links) ** 2)
     for value in [low + part * (high - low) for part in STARTS] if start is None else [start]:
         written = given_at(case, path, value)
@@ -271,17 +275,17 @@ def led_mechanisms(
             if not any(one.passes(value, way.points) for one in found):
                 if len(found) >= most:
                     return found, False
-                found.append(LedMechanism(replace(written, near=way.near), path, span))
+                found.append(DrivenMechanism(replace(written, near=way.near), path, span))
     for rest in known:
         if not any(one.passes(rest.value, dict(rest.answer.points)) for one in found):
             near = {name: at for name, at in rest.answer.points.items() if name not in case.points}
-            found.append(LedMechanism(replace(given_at(case, path, rest.value), near=near), path, span))
+            found.append(DrivenMechanism(replace(given_at(case, path, rest.value), near=near), path, span))
     if not found:
         raise refusal or SceneError(Status.CANNOT_ASSEMBLE, f"the figure assembles for no {path} searched.")
     return found, complete
 
 
-def nearest_of(led: Sequence[LedMechanism]) -> float | None:
+def nearest_of(led: Sequence[DrivenMechanism]) -> float | None:
     """Where the generalised load is smallest: sampled, then closed in on."""
     best = (math.inf, math.nan)
     for one in led:

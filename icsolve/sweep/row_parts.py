@@ -24,12 +24,12 @@ from icsolve.sweep.branches import (
     signs_of,
 )
 from icsolve.sweep.continuation import InputLine, State, written_state
-from icsolve.sweep.numbers import number_at
 from icsolve.sweep.path_tracking import Mask
 from icsolve.sweep.program import CompiledSweep, Signs, live_roots
+from icsolve.sweep.record_runner import Rows, Runner
 from icsolve.sweep.request import Columns
-from icsolve.sweep.runner import Rows, Runner
-from icsolve.sweep.start import Start
+from icsolve.sweep.starting_position import Start
+from icsolve.sweep.varied_numbers import number_at
 from icsolve.tuples import NamedTuple
 
 WIDEST = 4.0

@@ -14,11 +14,11 @@ from icsolve.assembly.workspace import Workspace
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
-from icsolve.sweep.exact import hides
-from icsolve.sweep.numbers import number_at, with_numbers
+from icsolve.sweep.exact_record import hides
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, Signs, compile_sweep, setting_of
+from icsolve.sweep.record_runner import Runner
 from icsolve.sweep.request import Columns
-from icsolve.sweep.runner import Runner
+from icsolve.sweep.varied_numbers import number_at, with_numbers
 from icsolve.tuples import NamedTuple
 
 MOST_TRIED = 400

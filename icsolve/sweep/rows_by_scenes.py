@@ -20,11 +20,11 @@ from icsolve.files import can_fork, started
 from icsolve.numbers.replay import Array
 from icsolve.scene import solve_scene
 from icsolve.screws.plane import Point
-from icsolve.sweep.numbers import number_at, with_numbers
 from icsolve.sweep.program import wanted_points
+from icsolve.sweep.record_runner import Progress, Rows
 from icsolve.sweep.request import Columns
-from icsolve.sweep.runner import Progress, Rows
 from icsolve.sweep.table import Table
+from icsolve.sweep.varied_numbers import number_at, with_numbers
 from icsolve.tuples import replace
 
 Place = tuple[float, float]

@@ -15,11 +15,11 @@ from icsolve.case.joints import with_friction
 from icsolve.errors import SceneError
 from icsolve.numbers.roots import last_that_holds, zero_between
 from icsolve.solve.branches import Branches, nearest
-from icsolve.solve.followed import NOT_ALL, led_mechanisms
+from icsolve.solve.driven_search import NOT_ALL, driven_mechanisms
 from icsolve.solve.known_loads import Spare, moving_loads, smooth, spare_friction
 from icsolve.solve.load_function import TogetherError
 from icsolve.solve.positions import functions_of, refuse_unwritten, search_modes, whole_range
-from icsolve.solve.settled import scene_at
+from icsolve.solve.refinement import scene_at
 from icsolve.tuples import NamedTuple, replace
 
 SAMPLES = 120
@@ -94,7 +94,7 @@ def _led(
 ) -> tuple[list[RoughMode], bool]:
     """The ways of a figure whose points only together have places, along its motion; whether these are all
     of them."""
-    led, complete = led_mechanisms(case, path, span, start, ())
+    led, complete = driven_mechanisms(case, path, span, start, ())
     if start is None:
         refuse_unwritten(case, path, led[0].links, not whole)
     meant = [led[nearest(case, [one.off(case.near) for one in led])]] if case.near else led

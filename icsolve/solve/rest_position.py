@@ -24,7 +24,7 @@ NEAR = 1e-6
 """Loads balance where the torque that would balance them is this small beside the largest times the size."""
 
 
-class Rest(NamedTuple):
+class RestPosition(NamedTuple):
     """One position of equilibrium of a mode.
 
     ``answer`` is the solved scene in it and ``case`` that scene, ``links`` those that turn, the
@@ -62,15 +62,15 @@ def with_scene(
     return replace(found, case=answer.case, answers={}, witnesses=(), centres=shown)
 
 
-def balances(rest: Rest) -> bool:
+def balances(rest: RestPosition) -> bool:
     """Whether the loads balance there, to what a figure written in decimals can tell."""
     answer = held(rest.case, rest.links, solve=solve_by_power)
     return answer is None or abs(answer.answers[PROBE].value) <= NEAR * rest.size
 
 
-def taut(rests: Sequence[Rest], path: str) -> tuple[list[Rest], list[str]]:
+def taut(rests: Sequence[RestPosition], path: str) -> tuple[list[RestPosition], list[str]]:
     """The positions in which every rope pulls, and a sentence on each of the others."""
-    found, notes = list[Rest](), list[str]()
+    found, notes = list[RestPosition](), list[str]()
     for rest in rests:
         slack = why_slack(rest.case, rest.links)
         if slack:

@@ -15,8 +15,8 @@ from icsolve.numbers.roots import last_that_holds
 from icsolve.scene import solve_scene
 from icsolve.solve.branches import Branches
 from icsolve.solve.load_function import LoadFunction
-from icsolve.solve.rest import AT_LIMIT, Rest
-from icsolve.solve.settled import balancing_torque, plain_within, scene_at, told
+from icsolve.solve.refinement import balancing_torque, plain_within, scene_at, told
+from icsolve.solve.rest_position import AT_LIMIT, RestPosition
 from icsolve.tuples import NamedTuple
 
 
@@ -77,7 +77,7 @@ def at_limits(
     branches: Branches,
     kept: frozenset[int] | None,
     limits: Sequence[Limit],
-) -> list[Rest]:
+) -> list[RestPosition]:
     """Rests at limits of the free datum: there two modes meet, and the load changes its sign from one
     to the other along the motion that the mechanism has."""
     found = []
@@ -92,7 +92,7 @@ def at_limits(
     return found
 
 
-def _rest_at_limit(one: LoadFunction, two: LoadFunction, limit: Limit) -> list[Rest]:
+def _rest_at_limit(one: LoadFunction, two: LoadFunction, limit: Limit) -> list[RestPosition]:
     """The position between two modes that meet at a limit, where the load changes its sign there."""
     step = 1e-7 * max(1.0, abs(limit.value))
     here = limit.value - limit.side * step

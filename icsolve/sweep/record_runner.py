@@ -17,7 +17,7 @@ from icsolve.numbers.adjoint import noise_of
 from icsolve.numbers.backward import Backward
 from icsolve.numbers.record import Op, Record, Root, Traced, live, terms_of, varies
 from icsolve.numbers.replay import BLOCK, Array, Code
-from icsolve.sweep.exact import RowScenes
+from icsolve.sweep.exact_record import RowScenes
 from icsolve.sweep.friction_rows import FrictionRows
 from icsolve.sweep.program import CompiledSweep, live_roots
 from icsolve.tuples import NamedTuple, cached_property

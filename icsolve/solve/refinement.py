@@ -21,11 +21,11 @@ from icsolve.numbers.record import terms_of
 from icsolve.numbers.replay import Array, Code
 from icsolve.numbers.roots import MOST_ORDER, last_that_holds, zeros_between
 from icsolve.scene import solve_by_power, solve_scene
-from icsolve.solve.followed import rate_of
+from icsolve.solve.driven_search import rate_of
 from icsolve.solve.load_function import LoadFunction, given_at
-from icsolve.solve.rest import AT_LIMIT, PROBE, Rest, held
+from icsolve.solve.rest_position import AT_LIMIT, PROBE, RestPosition, held
 from icsolve.statics.load_wrenches import counted_about
-from icsolve.sweep.exact import ZERO, RowScenes, exact_record
+from icsolve.sweep.exact_record import ZERO, RowScenes, exact_record
 from icsolve.sweep.program import CompiledSweep
 from icsolve.tuples import replace
 
@@ -46,9 +46,9 @@ APART = 1e-6
 """Points of two ways of assembling differ by more than this fraction of the figure's size."""
 
 
-def settled(
+def refined(
     function: LoadFunction, bracket: tuple[float, float], span: tuple[float, float], turns: bool
-) -> Rest | None:
+) -> RestPosition | None:
     """The position in a bracket, to the last digit: rounded once where Newton's method finds it in all
     digits, else between two doubles the power changes its sign."""
     start = _closed_in(function, *bracket)
@@ -95,7 +95,7 @@ def rounded(exact: Decimal) -> tuple[float, float]:
 
 def in_range(
     function: LoadFunction, closest: tuple[float, float] | None, span: tuple[float, float], turns: bool
-) -> Rest | None:
+) -> RestPosition | None:
     """A value and its error as a position; None where it is beyond the range."""
     if closest is None:
         return None
@@ -232,7 +232,7 @@ def balancing_torque(function: LoadFunction, value: float, on: str = "") -> floa
     return torque
 
 
-def described(function: LoadFunction, value: float, error: float) -> Rest:
+def described(function: LoadFunction, value: float, error: float) -> RestPosition:
     """A position with its stiffness: rounded once where the zero is known in all digits, else enclosed about
     the value by the record. Of no error the value is meant as it stands, as a file writes it."""
     at = as_written(value)
@@ -279,7 +279,7 @@ def _kind(stiffness: Stiffness) -> str:
     return "stable" if stiffness.value > 0.0 else "unstable"
 
 
-def _enclosed(function: LoadFunction, value: float, error: float) -> Rest:
+def _enclosed(function: LoadFunction, value: float, error: float) -> RestPosition:
     """A position whose stiffness is enclosed over what its error leaves open."""
     cells = function.enclosed(Interval(np.array([value - error]), np.array([value + error])))
     record, nodes = function.record, [function.slope, function.rate, function.power]
@@ -309,14 +309,14 @@ def told(
     stiffness: Stiffness | None,
     why: str,
     at: float | None = None,
-) -> Rest:
+) -> RestPosition:
     """A position with its scene; ``at`` is a value beside it that assembles."""
     case = scene_at(function, value if at is None else at)
     size = function.case.units.torque_per_force_length / (
         function.force_scale * function.compiled.scene.frame.scale
     )
     answer = solve_scene(case, rates=True)
-    return Rest(value, error, stability, stiffness, why, answer, case, function.links, size)
+    return RestPosition(value, error, stability, stiffness, why, answer, case, function.links, size)
 
 
 def _has_sign(rate: Interval) -> bool:
@@ -387,7 +387,7 @@ def modes_meet(function: LoadFunction, cluster: tuple[float, float]) -> bool:
 
 def at_change_point(
     function: LoadFunction, cluster: tuple[float, float], step: float, span: tuple[float, float]
-) -> list[Rest]:
+) -> list[RestPosition]:
     """The position at a change point, if there is one: the generalised load of a branch goes smoothly on to
     it, though no scene can be solved there. A polynomial takes it there from one side; how far one of one
     degree less is off, and what rounding becomes on the way, estimate the errors."""
@@ -441,7 +441,7 @@ def _generalised(function: LoadFunction, value: float) -> float:
     return -torque * ratio * (1.0 if function.turns_links else 1.0 / units.torque_per_force_length)
 
 
-def _scenes_near(function: LoadFunction, value: float, step: float) -> Iterator[Rest]:
+def _scenes_near(function: LoadFunction, value: float, step: float) -> Iterator[RestPosition]:
     """The scene at a change point, or as near to it as it has an answer."""
     for part in (0.0, 1e-9, 1e-6, 1e-3):
         with suppress(SceneError):
@@ -465,9 +465,9 @@ def _turning_point(function: LoadFunction, low: float, high: float) -> tuple[flo
     return middle, 0.5 * abs(stop - start) + math.ulp(middle)
 
 
-def distinct(found: Sequence[Rest]) -> list[Rest]:
+def distinct(found: Sequence[RestPosition]) -> list[RestPosition]:
     """Rests by rising value, those that two modes share once."""
-    kept: list[Rest] = []
+    kept: list[RestPosition] = []
     widest = 8.0 * max((rest.error for rest in found), default=0.0)
     for one in found:
         first = bisect_left(kept, one.value - widest, key=lambda rest: rest.value)
@@ -476,7 +476,7 @@ def distinct(found: Sequence[Rest]) -> list[Rest]:
     return kept
 
 
-def _same(one: Rest, other: Rest) -> bool:
+def _same(one: RestPosition, other: RestPosition) -> bool:
     if abs(one.value - other.value) > 4.0 * (one.error + other.error):
         return False
     if one.stiffness is not None and other.stiffness is not None:  # of two branches, at a change point

@@ -31,8 +31,8 @@ from icsolve.numbers.replay import BINARY
 from icsolve.numbers.roots import STEP
 from icsolve.numbers.units import found_number
 from icsolve.statics.load_wrenches import counted_about
-from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep, live_roots
+from icsolve.sweep.varied_numbers import numbers_of, with_numbers
 from icsolve.tuples import replace
 
 ADD, SUB, MUL = Op.ADD, Op.SUB, Op.MUL
