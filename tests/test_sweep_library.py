@@ -97,3 +97,22 @@ def test_what_is_wanted_besides_changes_no_row(name: str) -> None:
             for load, values in plain.answers.items():
                 assert full.answers[load] == pytest.approx(values, rel=1e-9, abs=1e-12, nan_ok=True)
             return
+
+
+@pytest.mark.parametrize("name", sample(FILES, 14, "terms"))
+def test_the_power_of_a_unit_of_each_load_is_that_of_the_row_as_a_scene(name: str) -> None:
+    """In the motion whose rates are told, of one freedom or several; to 1e-9 of the largest."""
+    case = icsolve.load(FILES[name])
+    if case.unknowns or case.dynamic or case.space is not None:
+        return
+    for link in case.links:
+        with contextlib.suppress(icsolve.SceneError):
+            found = icsolve.sweep(case, want=("answers", "terms"), drive={link: np.arange(-10.0, 11.0, 5.0)})
+            for row in np.flatnonzero(found.status == "ok").tolist():
+                told = {term.load: term.factor for term in icsolve.solve(found.case_of(row)).terms}
+                own = {load: array[row] for load, array in found.terms.items()}
+                assert own == {
+                    load: pytest.approx(told[load], rel=1e-9, abs=1e-9 * max(map(abs, told.values())))
+                    for load in own
+                }
+            assert found.terms.keys() >= found.answers.keys()

@@ -763,3 +763,32 @@ def test_links_that_are_all_but_parallel_and_very_long_are_followed(seed: int) -
     assert (sweep.error["T12"] <= 1e-4 * abs(sweep.answers["T12"]).max()).all()
     spots = find(case, None, Query("dead"), drive={"2": [0.0, 2.0]})
     assert [spot.kind for spot in spots] == []
+
+
+@pytest.mark.parametrize("seed", range(40 if FULL else 6))
+def test_tongs_folded_flat_are_at_a_change_point_on_either_side(seed: int) -> None:
+    """Two pins of the next pair coincide there: the root of the group is double, and what its digits leave of
+    a coordinate that is 0 must not decide."""
+    draw = Random(seed)
+    bar, angle = draw.choice([50, 100, 40.5, 0.3, 7]), draw.randint(12, 60)
+    lean = math.radians(angle)
+    text = f"""icsolve: 1
+points: {{A: [0, 0], B: [0, unknown]}}
+lengths: {{AC: {bar}, CD: {bar}, CE: {bar}, BC: {bar}, DF: {bar}, EF: {bar}}}
+angles: {{AC: {angle}, ACD: 180, BCE: 180}}
+near: {{B: [0, {2 * bar * math.sin(lean)}], F: [{3 * bar * math.cos(lean)}, {bar * math.sin(lean)}]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{slot: [3, 1], at: B, along: 90}}
+  - {{pin: [2, 3], at: C}}
+  - {{pin: [2, 5], at: D}}
+  - {{pin: [3, 4], at: E}}
+  - {{pin: [4, 5], at: F}}
+loads: {{P: {{force: 120, link: 3, at: B, angle: 270}}, Q: {{force: unknown, link: 5, at: F, angle: 180}}}}
+"""
+    case = icsolve.load(text)
+    for link, flat in (("5", angle), ("2", -angle)):
+        for turn in (0.0, -180.0, 180.0):
+            degrees = flat + turn + np.array([-0.5, 0.0, 0.5])
+            found = icsolve.sweep(case, drive={link: degrees})
+            assert found.status.tolist() == ["ok", "change-point", "ok"], (link, turn)

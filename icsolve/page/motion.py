@@ -441,6 +441,8 @@ def _shares(case: Case, found: Sweep) -> dict[str, Array]:
     if not alone or rubs(case) or case.dynamic or any(map(_like, case.loads)):
         return {}
     (name,) = found.answers
+    if not found.terms[name].any():  # of several freedoms the motion that is told may leave it in its place
+        return {}
     with np.errstate(all="ignore"):
         return {load: own / found.terms[name] for load, own in found.terms.items() if load != name}
 

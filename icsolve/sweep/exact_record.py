@@ -45,7 +45,11 @@ ROUNDS = 2 * DIGITS + 20
 """Steps of Newton's method: so many bring all digits where each leaves a third of the error (where a straight
 part of a rope ends), and half of the digits where it leaves half: where two solutions have become one."""
 HALF = Decimal("1e-70")
-"""Digits of a double root, of a threefold one too: more than a scene decides by."""
+"""A step this short ends at a double root, and at a threefold one: what is left is as long as the step."""
+DOUBLE_ROOT = Decimal("1e-66")
+"""Digits that such a root has then: more than a scene decides by."""
+MET = Decimal(10) ** (20 - DIGITS)
+"""Conditions (normalised) are met where they are off by less."""
 SHORTER = Decimal("1e-9")
 """A step longer than this and than the last leads to no solution near: beyond a fold there is none."""
 AGREED = Decimal("1e-9")
@@ -247,12 +251,19 @@ class ExactRecord:
             flat = [found[v.index] if isinstance(v, Traced) else Decimal(float(v)) for v in wanted]
             f, rest = flat[: len(group.residuals)], flat[len(group.residuals) :]
             j = [rest[n * len(q) : (n + 1) * len(q)] for n in range(len(f))]
-            move = least_squares(j, f)
+            met = max(map(abs, f)) < MET
+            try:
+                move = least_squares(j, f)
+            except Unreached:
+                if not met:
+                    raise
+                move = [Decimal(1)]
             size = max(map(abs, move))
             if size < least:
                 return q
-            if size < HALF and size > last / 3:
-                return [x.quantize(HALF) for x in q]
+            # where the conditions are met a long step is what is left of them over what vanishes
+            if (size < HALF and size > last / 3) or (size > HALF and met):
+                return [x.quantize(DOUBLE_ROOT) for x in q]
             if not size < max(last, SHORTER):
                 break
             q = [x - m / unit for x, m, unit in zip(q, move, units, strict=True)]

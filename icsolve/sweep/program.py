@@ -54,6 +54,7 @@ from icsolve.sweep.recorded_scene import (
     rates,
     rested,
     statics,
+    unit_powers,
     velocities,
 )
 from icsolve.sweep.varied_numbers import find_number, number_at, with_numbers
@@ -471,16 +472,13 @@ def _outputs(
     if not (asked.answers or asked.rates or asked.centres or asked.in_motion):
         return out, None
     rubs = asked.answers and refusals.rubs(scene.case)
-    everything = asked.rates or bool(asked.centres) or rubs or asked.in_motion
+    everything = asked.rates or asked.terms or bool(asked.centres) or rubs or asked.in_motion
     found = statics(scene, everything, asked.dynamic)
     for name, value in found.answers.items():
         if asked.answers and not rubs:
             out["answers", name] = (value,)
-    if asked.terms and 1 in (len(found.balance.factors), len(found.answers)):
-        unknown = [n for n, w in enumerate(found.balance.wrenches) if w.load.name in found.answers]
-        row = max(found.balance.factors, key=lambda row: sum(abs(float(row[n])) for n in unknown))
-        pairs = zip(found.balance.wrenches, row, strict=True)
-        out |= {("terms", w.load.name): (factor * w.measure,) for w, factor in pairs}
+    if asked.terms:
+        out |= {("terms", load): (factor,) for load, factor in unit_powers(scene, found)}
     out |= _in_motion(scene, asked, found)
     for pair in asked.centres:
         triple = centre(scene, found.motions, pair)

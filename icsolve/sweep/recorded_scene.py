@@ -513,6 +513,21 @@ def rates(scene: RecordedScene, found: motion.Motions) -> dict[str, Scalar]:
     return shown
 
 
+def unit_powers(scene: RecordedScene, found: RecordedStatics) -> Iterator[tuple[str, Scalar]]:
+    """By load the power of a unit of it in the motion whose rates are told [force units times case length a
+    second, over the load's unit]."""
+    twists, scale, balance = found.motions.twists, scene.frame.scale, found.balance
+    if found.motions.mobility > 1:
+        speed = speeds.speed_of(scene.place, twists)
+    else:
+        divisor, target = _scale(scene, twists)
+        speed = speeds.Speed((target,), (), divisor, arithmetic=scene.record)
+    for n, w in enumerate(balance.wrenches):
+        row = [factors[n] for factors in balance.factors]
+        size = max(sizes[n] for sizes in balance.sizes)
+        yield w.load.name, speed.particular_of(row, size) * (w.measure / scale)
+
+
 def velocities(scene: RecordedScene, found: motion.Motions) -> Iterator[tuple[tuple[str, str], Point]]:
     """Velocities of points on the links that carry them, by point and link [case length/s]; those left open
     are not there."""

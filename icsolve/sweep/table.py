@@ -264,7 +264,7 @@ class Table:
                 self.put("points", name, row, (x, y), error)
         self._fill_motion(row, answer)
         loads = {load.name for load in case.loads}  # the power of friction is none of a unit of a load
-        for term in answer.terms if asked.terms and 1 in (answer.mobility, len(answer.answers)) else ():
+        for term in answer.terms if asked.terms else ():
             if term.load in loads:
                 self.put("terms", term.load, row, term.factor)
         for pair in asked.centres if centres else ():
