@@ -257,7 +257,9 @@ def _sum_of_powers(answer: Answer, show: Format) -> str:
         return f"without friction the terms add up to {show(scene.sum_of_powers() * unit)}"
     if scene.in_equilibrium:
         return "the terms add up to zero, the loads are in equilibrium"
-    return f"the terms add up to {show(scene.sum_of_powers() * unit)}, the loads are not in equilibrium"
+    within = [one.within for one in scene.left_over]
+    why = f"which is within {within[0]}" if all(within) else "the loads are not in equilibrium"
+    return f"the terms add up to {show(scene.sum_of_powers() * unit)}, {why}"
 
 
 def _term(answer: Answer, term: Term, certain: int, digits: int) -> tuple[str, str, str]:

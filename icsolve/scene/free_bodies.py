@@ -12,7 +12,7 @@ from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS, Showing
 from icsolve.scene.parts import AnswerBuilder, speed_of
 from icsolve.scene.program import EvaluatedScene, Evaluation, Program, evaluate_still, plain, points_shown
-from icsolve.statics.free_bodies import FreeBodies, free_bodies
+from icsolve.statics.free_bodies import FreeBodies, Reach, free_bodies
 from icsolve.statics.power import Balance, Value, has_friction, is_unknown
 from icsolve.statics.reaction_basis import Position, rope_ties
 
@@ -27,14 +27,16 @@ T = TypeVar("T")
 def with_bodies(parts: AnswerBuilder, reactions: bool) -> Answer:
     """The answer with the reactions, and with the unknown loads as free bodies give them."""
     by_power = {root: (value.value, value.error or 0.0) for root, value in parts.unknowns.items()}
-    found = parts.scene.ask(lambda evaluated: _bodies(evaluated, by_power))
+    found = parts.scene.ask(lambda evaluated: _bodies(evaluated, by_power, parts.reach_of_figure))
     return found.added_to(parts.answer(), reactions)
 
 
-def _bodies(found: Evaluation, power: Mapping[str, tuple[float, float]]) -> FreeBodies:
+def _bodies(
+    found: Evaluation, power: Mapping[str, tuple[float, float]], figure: Reach = lambda motion: 0.0
+) -> FreeBodies:
     if found.outcome.motions.slack:  # the given centres miss the motion: no digits would be right
         found = found._replace(outcome=plain(found.outcome), arithmetic=FLOATS)
-    return free_bodies(_position(found), found.outcome.balance, power, found.arithmetic)
+    return free_bodies(_position(found), found.outcome.balance, power, found.arithmetic, figure)
 
 
 def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:

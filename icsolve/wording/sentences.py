@@ -228,13 +228,24 @@ def wrong_count(mobility: int, unknowns: int, idle: int, ends: str = "") -> str:
     return f"{wrong} Add {plural(missing, 'unknown load')}, or {lock} to lock it."
 
 
-def nothing_asked(mobility: int, balanced: bool) -> str:
-    """Known loads alone, on links that are free to move."""
-    balance = "balance in this position" if balanced else "do not balance: make one `unknown` to hold them"
-    return (
-        f"no load is `unknown`, and those that are given {balance}. The links can move "
-        f"({plural(mobility, 'freedom')}): where they should stand still, a joint is missing."
-    )
+def nothing_asked(mobility: int, left: Sequence[str], turning: Sequence[str]) -> str:
+    """Known loads alone, on links that are free to move.
+
+    Parameters
+    ----------
+    left : what the loads may leave for want of in each motion in which they leave something; '' where they do
+        not balance in it
+    turning : the links that can turn by themselves, where nothing else can move
+    """
+    balance = "balance in this position" + (f" but for {left[0]}" if left else "")
+    if not all(left):
+        balance = "do not balance: make one `unknown` to hold them"
+    free = f"The links can move ({plural(mobility, 'freedom')}): where they should stand still, a joint is "
+    free += "missing."
+    if turning:
+        one = len(turning) == 1
+        free = f"Link{'' if one else 's'} {listed(turning)} can turn by {'itself' if one else 'themselves'}."
+    return f"no load is `unknown`, and those that are given {balance}. {free}"
 
 
 def redundant(
