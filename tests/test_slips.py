@@ -808,6 +808,11 @@ SCENES = {
         "",
         "joints.A.mu is 10: few surfaces that rub have more than 1; if percent are meant, write 0.1",
     ),
+    "a crank that is pinned on by its pivot": (
+        [("{pin: [2, 3], at: B}", "{pin: [2, 3], at: A}")],
+        "",
+        "link 4 stands still in this position: P does no work on it",
+    ),
     "a pin given twice": (
         [("at: A}", "at: A}\n  - {pin: [2, 1], at: A}")],
         "",

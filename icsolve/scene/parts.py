@@ -208,6 +208,8 @@ class AnswerBuilder:
     def _notes(self, answers: Mapping[str, Found]) -> list[str]:
         notes = [sentences.EXPLAINED] if self.scene.explained else []
         notes += self.scene.ask(_notes)
+        with suppress(SceneError):  # where no digits tell that a link stands still
+            notes += self.scene.ask(_at_rest)
         notes += self._known_alone()
         if self.scene.certain and self.given is None and self.case.profiles is None:
             notes += sensitivity.unsettled(self.case, answers, self._change())
@@ -495,6 +497,20 @@ def _notes(found: Evaluation) -> list[str]:
         ends = sentences.free_ends(program.top, program.case)
         notes.append(f"{count} in which no load does work{': ' if ends else ''}{ends}.")
     return notes
+
+
+def _at_rest(found: Evaluation) -> list[str]:
+    """Where every unknown load is none, the known loads whose links stand still."""
+    (place, motions, balance, solution), a = found.outcome, found.arithmetic
+    if not solution.values or any(float(value) for value in solution.values.values()):
+        return []
+    fastest = largest_of([x for ts in motions.twists.values() for t in ts for x in t])
+    on: dict[str, list[str]] = {}
+    for w in balance.wrenches:
+        works = w.number and w.load.link != place.case.ground and power.has_number(w.load)
+        if works and all(a.vanishes(x, fastest) for t in motions.twists[w.load.link] for x in t):
+            on.setdefault(w.load.link, []).append(w.load.name)
+    return [sentences.known_at_rest(loads, link) for link, loads in on.items()]
 
 
 def _turning_alone(outcome: Outcome) -> list[str]:

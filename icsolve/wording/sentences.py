@@ -151,6 +151,12 @@ def at_rest(load: str, links: Sequence[str], why: str) -> str:
     return f"{still} in this position{clause}, so it is a dead centre for {load}"
 
 
+def known_at_rest(loads: Sequence[str], link: str) -> str:
+    """Known loads that do no work, for their link stands still."""
+    verb = "does" if len(loads) == 1 else "do"
+    return f"{link_words(link)} stands still in this position: {listed(loads)} {verb} no work on it."
+
+
 def idle_load(load: str, links: Sequence[str], couple: bool, slack: bool) -> str:
     """Why a load does no work on links that move; ``slack``: a spring that is neither stretched nor wound."""
     here, *other = map(link_words, links)
