@@ -507,6 +507,23 @@ def test_friction_has_no_part_where_nothing_is_unknown() -> None:
     assert "leans by no more than the angle" in explain(held.case)
 
 
+@pytest.mark.parametrize("motion", ["", "motion: {link: 3, turns: ccw}"])
+def test_a_load_that_presses_a_brake_is_not_said_to_do_no_work(motion: str) -> None:
+    """The shoe's lever stands still, and what friction takes hangs on the load on it."""
+    answer = solved(f"""
+points: {{A: [0, 0], B: [200, -50], O: [200, -200], H: [600, 0]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [1, 3], at: O}}
+  - {{contact: [3, 2], at: B, normal: 90, mu: 0.35}}
+{motion}
+loads:
+  P: {{force: 300, link: 2, at: H, angle: 270}}
+  M: {{torque: unknown, link: 3}}
+""")
+    assert not any("stands still in this position" in note for note in answer.notes)
+
+
 @pytest.mark.parametrize("reach", [0.1, 0.4, 0.7, 0.95])
 def test_a_ladder_that_friction_holds_carries_what_equilibrium_says(reach: float) -> None:
     """A man a share of the way up a ladder of slope 2.4 on a smooth wall: the wall pushes by W reach / 2.4,

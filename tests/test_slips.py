@@ -35,6 +35,31 @@ loads:
 """
 
 
+DOOR = """\
+icsolve: 1
+points: {O: [0, 0], E: [-1, 0.8], C: {centroid: [A, B]}}
+lengths: {OC: 1, CA: 0.9, EA: 0.8}
+angles: {OC: 60}
+near: {A: [-0.2, 1.1]}
+joints:
+  - {pin: [1, 2], at: O}
+  - {pin: [2, 3], at: C}
+  - {pin: [3, 4], at: A}
+  - {pin: [4, 1], at: E}
+loads:
+  W: {weight: 700, link: 3, at: C}
+  S: {spring: 5000, free: 0.25, link: 2, at: O, to: B}
+  P: {force: unknown, link: 3, at: B, angle: 90}
+"""
+
+
+def test_the_end_of_a_bar_whose_middle_is_given_belongs_to_the_bar() -> None:
+    """An overhead door on two arms: a spring to its lower edge is no spring to the frame."""
+    with pytest.raises(CaseError, match=r"to link 1 at B, which is a point of link 3: write 'against: 3'"):
+        icsolve.load(DOOR)
+    icsolve.solve(icsolve.load(DOOR.replace("to: B", "to: B, against: 3")))
+
+
 def changed(*changes: tuple[str, str]) -> str:
     """The press with some words changed."""
     text = PRESS

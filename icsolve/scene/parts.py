@@ -208,8 +208,9 @@ class AnswerBuilder:
     def _notes(self, answers: Mapping[str, Found]) -> list[str]:
         notes = [sentences.EXPLAINED] if self.scene.explained else []
         notes += self.scene.ask(_notes)
-        with suppress(SceneError):  # where no digits tell that a link stands still
-            notes += self.scene.ask(_at_rest)
+        if self.given is None and not power.has_friction(self.case):
+            with suppress(SceneError):  # where no digits tell that a link stands still
+                notes += self.scene.ask(_at_rest)
         notes += self._known_alone()
         if self.scene.certain and self.given is None and self.case.profiles is None:
             notes += sensitivity.unsettled(self.case, answers, self._change())
