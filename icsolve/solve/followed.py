@@ -32,6 +32,7 @@ from icsolve.sweep.program import RowRequest
 from icsolve.sweep.request import columns_of
 from icsolve.sweep.start import start_of
 from icsolve.tuples import replace
+from icsolve.wording import sentences
 
 STARTS = (0.5, 0.1, 0.9, 0.3, 0.7, 0.02, 0.98)
 """Where in the range the ways of assembling are sought."""
@@ -224,7 +225,7 @@ def converted(rests: Sequence[Rest], path: str, span: tuple[float, float], other
     turns = is_angle(path)
     for rest in rests:
         if not rest.answer.points.keys() >= {*points_of(path)}:
-            raise SceneError(Status.UNSUPPORTED, f"{path} does not pose the figure: it moves nothing.")
+            raise SceneError(Status.UNSUPPORTED, sentences.poses_nothing(path))
         own, by = rate_of(rest.answer, path), rate_of(rest.answer, other)
         value = value_of(rest.answer, path)
         size = max(abs(c) for at in rest.answer.points.values() for c in at)

@@ -188,6 +188,20 @@ def uncarried(case: Case, points: Iterable[str]) -> str:
     return said if found else ""
 
 
+def poses_nothing(path: str, moves: bool = False) -> str:
+    """A number that is to find by the positions that it gives, and gives none; whether the mechanism
+    ``moves`` all the same."""
+    why = "it moves nothing."
+    if moves:
+        why = "the mechanism moves without changing it. Take an angle, a length or a coordinate that the "
+        why += "motion changes, or a link that turns."
+    return (
+        f"{path} does not pose the figure: {why} At which value of it the loads balance in the position as "
+        f"written is asked by a sweep: `icsolve sweep CASE --vary {path}=FROM:TO:STEP --find hold`, with a "
+        "number in the case."
+    )
+
+
 def left_out(at: str, slack: str) -> str:
     """A position that is not told as it is asked for one, with the refusal of what it would ask of a rope."""
     return f"left out is {at}, where {slack.partition('. ')[0]}."
