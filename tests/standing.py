@@ -179,13 +179,43 @@ def with_friction(case: c.Case) -> tuple[Array, Array, Array, list[rubbing.Place
     return a, friction, b, places
 
 
+def carried(case: c.Case) -> list[tuple[float | None, float | None]]:
+    """The force of each joint on its second link, as far as equilibrium says it where what rubs carries force
+    along itself too: None of a component that it leaves open."""
+    points = points_of(case)
+    a, friction, b, places = with_friction(case)
+    both = np.hstack([a, friction])
+    _, sizes, rows = np.linalg.svd(both)
+    free = rows[int((sizes > 1e-11 * sizes[0]).sum()) :]
+    x = np.linalg.lstsq(both, b, rcond=1e-12)[0]
+    assert np.allclose(both @ x, b, atol=1e-9 * np.abs(b).max())
+    column, rub, found = 0, 0, []
+    for joint in case.joints:
+        units = {k: w[:2] for k, (*_, w) in enumerate(transmitted(case, joint, points), start=column)}
+        column += len(units)
+        if any(row in units for place in places[rub : rub + 1] for row in np.flatnonzero(place.force[0])):
+            units[a.shape[1] + rub] = tuple(places[rub].wrench[:2])
+            rub += 1
+        own = np.zeros((2, both.shape[1]))
+        for k, unit in units.items():
+            own[:, k] = unit
+        told = [None if np.abs(free @ row).max(initial=0.0) > 1e-9 else float(row @ x) for row in own]
+        found.append((told[0], told[1]))
+    return found
+
+
+def transmitted(case: c.Case, joint: c.Joint, points: Any) -> list[tuple[str, str, Any]]:
+    """The unit forces and couples of a joint."""
+    return equilibrium.transmitted(case, joint, points, frame_of(case, points))
+
+
 def pushing(case: c.Case) -> set[int]:
     """The columns of the normal forces of contacts."""
     points, column, found = points_of(case), 0, set[int]()
     for joint in case.joints:
         if isinstance(joint, c.Contact):
             found.add(column)
-        column += len(equilibrium.transmitted(case, joint, points, frame_of(case, points)))
+        column += len(transmitted(case, joint, points))
     return found
 
 

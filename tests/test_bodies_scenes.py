@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 import subprocess
 import sys
@@ -19,6 +20,7 @@ from equilibrium import push
 from icsolve.answer import Answer
 from icsolve.answer.bodies import Reaction
 from icsolve.errors import SceneError
+from icsolve.report.text import answer_text
 from icsolve.solve import attempt
 from sizes import FULL
 
@@ -109,11 +111,12 @@ loads: {{P: {{{load}, link: 3, at: C}}}}
 
 def turned_truss(degrees: float, slip: float, kind: str) -> str:
     """A truss that may slide along its lower chord, and a load across that, as a program writes them, each
-    number the double next to it: the whole turned by an angle, the load by ``slip`` more."""
+    number the double next to it, none of one decimal: the whole turned by an angle, the load by ``slip``
+    more."""
     with mp.workdps(40):
         turned = mpf(degrees) - 90 + mpf(slip)
         along, across = (mp.expjpi(angle / 180) for angle in (mpf(degrees), turned))
-        places = [mp.mpc(1.3, 0.7) + mp.mpc(*at) * along for at in ((0, 0), (4, 0), (2, 2))]
+        places = [mp.mpc(mp.e, mp.euler) + mp.mpc(*at) * along for at in ((0, 0), (4, 0), (2, 2))]
         a, b, c, components = ([float(p.real), float(p.imag)] for p in (*places, across))
     load = {
         "components": f"force: {components}",
@@ -307,6 +310,62 @@ loads:
         return
     with pytest.raises(SceneError, match="the known loads do not balance"):
         solved(text % given)
+
+
+GROOVE = """
+points: {{O: [0, 0], A: [{a}], B: [{b}], G: [{g}, 0]}}
+joints:
+  - {{contact: [1, 2], at: A, normal: {left}}}
+  - {{contact: [1, 2], at: B, normal: {right}}}
+loads: {{W: {{weight: 40, link: 2, at: G}}}}
+"""
+
+
+def test_decimals_of_a_figure_count_as_those_of_its_loads_where_known_loads_balance() -> None:
+    """A smooth ball in a groove, the places where it touches written to three decimals: its weight leaves
+    what these were rounded by, which notes say with one voice; the reactions are those of the exact figure.
+    Beside the middle by a hundredth of the radius it does not balance."""
+    dice = Random(7)
+    for _ in range(20):
+        radius, left, right = dice.uniform(1.0, 3.0), dice.randint(10, 80), dice.randint(100, 170)
+        a, b = (
+            ", ".join(f"{-radius * part(math.radians(normal)):.3f}" for part in (math.cos, math.sin))
+            for normal in (left, right)
+        )
+        text = GROOVE.format(a=a, b=b, g=0, left=left, right=right)
+        answer = solved(text)
+        whole = 40.0 / math.sin(math.radians(right - left))
+        for name, other in (("F1-2@A", right), ("F1-2@B", left)):
+            pushed = whole * abs(math.cos(math.radians(other)))
+            assert force(answer, name).magnitude == pytest.approx(pushed, rel=3e-3, abs=3e-3 * whole)
+        for one in (answer, icsolve.solve(icsolve.load(f"icsolve: 1{text}"))):
+            assert any("half a unit of the last decimals" in note for note in one.notes)
+            assert not any("do not balance" in note or "joint is missing" in note for note in one.notes)
+            assert "not in equilibrium" not in answer_text(one)
+        beside = GROOVE.format(a=a, b=b, g=f"{0.01 * radius:.3f}", left=left, right=right)
+        off = icsolve.load(f"icsolve: 1{beside}")
+        assert any("do not balance" in note for note in icsolve.solve(off).notes)
+        with pytest.raises(SceneError, match="the known loads do not balance"):
+            icsolve.solve(off, reactions=True)
+
+
+def test_a_wheel_that_idles_is_not_for_want_of_a_joint() -> None:
+    """A frame whose pulley a rope without friction does not turn: only that it turns by itself is said."""
+    answer = solved(IDLING)
+    assert parts(answer, "F12") == near(0.0, 20.0, 80.0)
+    (note,) = (note for note in answer.notes if "no load is `unknown`" in note)
+    assert "Link 3 can turn by itself." in note and "joint" not in note
+
+
+IDLING = """
+points: {A: [0, 0], C: [4, 0], W: [4.5, -3], E: [3.5, -3]}
+joints:
+  - {weld: [1, 2], at: A}
+  - {pin: [2, 3], at: C}
+  - {rope: [E, C, W], on: [1, 3], radii: {C: 0.5}, wraps: {C: cw}}
+loads:
+  W: {weight: 10, at: W}
+"""
 
 
 def test_weld_carries_a_couple_about_the_point_that_is_said() -> None:

@@ -1029,6 +1029,34 @@ loads:
         icsolve.solve(icsolve.load(text.format(torque=3, carried="[B]")))
 
 
+@pytest.mark.parametrize("given", ["lengths.OB", "points.B.x"])
+def test_where_the_weight_of_a_steelyard_stands_is_asked_by_a_sweep(given: str) -> None:
+    """Its arm shapes the beam and poses nothing: the refusal names the sweep that finds it. A coordinate may
+    pose a figure: where it is written is asked for first."""
+    text = """icsolve: 1
+points: {{O: [0, 0], A: [-50, 0], B: [{x}, 0]}}
+{lengths}
+joints: [{{pin: [1, 2], at: O}}]
+loads:
+  W: {{weight: 200, link: 2, at: A}}
+  Q: {{weight: 40, link: 2, at: B}}
+"""
+    span = "{unknown: [100, 500]}"
+    lengths = "lengths: {{OB: {}}}\nnear: {{B: [200, 0]}}".format
+    by_length = given == "lengths.OB"
+    asked = text.format(x="unknown" if by_length else span, lengths=lengths(span) if by_length else "")
+    if not by_length:
+        with pytest.raises(SceneError, match=r"as in \{unknown: \[0.2, 0.5\], from: 0.3\}"):
+            icsolve.solve(icsolve.load(asked))
+        asked = asked.replace("500]", "500], from: 300")
+    with pytest.raises(SceneError, match=f"{given} does not pose the figure") as refused:
+        icsolve.solve(icsolve.load(asked))
+    assert f"--vary {given}=FROM:TO:STEP --find hold" in refused.value.message
+    written = text.format(x="unknown" if by_length else 200, lengths=lengths(200) if by_length else "")
+    found = holding_values(icsolve.load(written), given, 100.0, 500.0)
+    assert [one.value for one in found] == pytest.approx([250.0, 250.0], abs=1e-9)
+
+
 def test_of_two_data_a_place_that_both_branches_come_to_picks_neither() -> None:
     """With two freedoms C comes to one place with either bend of the arms; B and E tell which is meant."""
     given = {

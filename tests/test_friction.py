@@ -20,6 +20,7 @@ import rubbing
 import transcribe
 from growth import random_mechanism
 from icsolve.answer import Answer, Found
+from icsolve.explain import explain
 from icsolve.numbers.linear import solve_square
 from icsolve.statics.friction import solutions as homotopy
 from icsolve.statics.friction.equations import (
@@ -500,9 +501,53 @@ def test_friction_has_no_part_where_nothing_is_unknown() -> None:
     answer = solved(text)
     assert answer.rates == {"2": 0.0, "1": 0.0}
     assert answer.friction is None
-    with pytest.raises(icsolve.SceneError) as caught:
-        solved(text, reactions=True)
-    assert caught.value.status == "unbalanced"
+    held = solved(text, reactions=True)
+    assert held.friction is None and held.reactions is not None
+    assert (held.reactions["F12"].x, held.reactions["F12"].y) == (exactly(-30), exactly(100))
+    assert "leans by no more than the angle" in explain(held.case)
+
+
+@pytest.mark.parametrize("motion", ["", "motion: {link: 3, turns: ccw}"])
+def test_a_load_that_presses_a_brake_is_not_said_to_do_no_work(motion: str) -> None:
+    """The shoe's lever stands still, and what friction takes hangs on the load on it."""
+    answer = solved(f"""
+points: {{A: [0, 0], B: [200, -50], O: [200, -200], H: [600, 0]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [1, 3], at: O}}
+  - {{contact: [3, 2], at: B, normal: 90, mu: 0.35}}
+{motion}
+loads:
+  P: {{force: 300, link: 2, at: H, angle: 270}}
+  M: {{torque: unknown, link: 3}}
+""")
+    assert not any("stands still in this position" in note for note in answer.notes)
+
+
+@pytest.mark.parametrize("reach", [0.1, 0.4, 0.7, 0.95])
+def test_a_ladder_that_friction_holds_carries_what_equilibrium_says(reach: float) -> None:
+    """A man a share of the way up a ladder of slope 2.4 on a smooth wall: the wall pushes by W reach / 2.4,
+    as much as the floor rubs, less than half the weight up to the top. Against a rough wall equilibrium does
+    not say how much of each friction acts, and on a floor with mu = 0.1 it slips under most of the way."""
+    text = f"""
+points: {{A: [0, 0], B: [5, 12], M: [{5 * reach}, {12 * reach}]}}
+joints:
+  - {{contact: [1, 2], at: A, normal: 90, mu: 0.5}}
+  - {{contact: [1, 2], at: B, normal: 180}}
+loads: {{W: {{weight: 180, link: 2, at: M}}}}
+"""
+    told = solved(text, reactions=True).reactions
+    assert told is not None
+    foot, top = told["F1-2@A"], told["F1-2@B"]
+    assert (foot.x, foot.y, top.x) == (exactly(75 * reach), exactly(180), exactly(-75 * reach))
+    assert dict(foot.parts)["friction"] == exactly(75 * reach)
+    rough = solved(text.replace("180}", "180, mu: 0.3}"), reactions=True)
+    assert rough.reactions is not None and rough.reactions["F1-2@A"].y is None
+    assert any("equilibrium leaves 1 part of the reactions open" in note for note in rough.notes)
+    if reach > 0.3:
+        with pytest.raises(icsolve.SceneError, match="friction is not enough") as caught:
+            solved(text.replace("0.5}", "0.1}"), reactions=True)
+        assert caught.value.status == "unbalanced"
 
 
 def test_the_sense_of_a_passive_freedom_is_open() -> None:

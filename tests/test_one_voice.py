@@ -448,6 +448,28 @@ VERBS = {
 }
 
 
+@pytest.mark.parametrize("kind", ["contact", "slot"])
+def test_normals_on_which_a_centre_lies_are_named_by_their_points(kind: str) -> None:
+    """A ladder on two walls: the same two normals in the text, the worked solution and the page."""
+    text = """
+icsolve: 1
+points: {A: [0, 0], B: [5, 12], M: [3, 7.2]}
+joints:
+  - {contact: [1, 2], at: A, normal: 90}
+  - {contact: [1, 2], at: B, normal: 180}
+loads:
+  W: {weight: 180, link: 2, at: M}
+  P: {force: unknown, link: 2, at: A, angle: 0}
+"""
+    if kind == "slot":
+        text = text.replace("contact: [1, 2], at: A, normal: 90", "slot: [2, 1], at: A, along: 0")
+        text = text.replace("contact: [1, 2], at: B, normal: 180", "slot: [2, 1], at: B, along: 90")
+    case = icsolve.load(text)
+    normal = {"contact": "common normal", "slot": "normal to the slot"}[kind]
+    for told in (answer_text(icsolve.solve(case)), explain(case), unescape(page_html(case))):
+        assert f"the {normal} at A" in told and f"the {normal} at B" in told
+
+
 @pytest.mark.parametrize("verb", VERBS)
 def test_an_undetermined_point_that_nothing_needs_stops_no_command(verb: str, tmp_path: Path) -> None:
 

@@ -6,6 +6,7 @@ holds files that are read and whose scene, answer or notes tell.
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,7 @@ import icsolve
 from icsolve.errors import CaseError, SceneError
 from icsolve.manual import template
 from icsolve.numbers.units import parse_unit
+from icsolve.sweep.varied_numbers import find_number
 from shell import exit_status
 
 PRESS = """\
@@ -33,6 +35,55 @@ loads:
   P: {force: 100, link: 4, at: E, angle: 180}
   T12: {torque: unknown, link: 2}
 """
+
+
+DOOR = """\
+icsolve: 1
+points: {O: [0, 0], E: [-1, 0.8], C: {centroid: [A, B]}}
+lengths: {OC: 1, CA: 0.9, EA: 0.8}
+angles: {OC: 60}
+near: {A: [-0.2, 1.1]}
+joints:
+  - {pin: [1, 2], at: O}
+  - {pin: [2, 3], at: C}
+  - {pin: [3, 4], at: A}
+  - {pin: [4, 1], at: E}
+loads:
+  W: {weight: 700, link: 3, at: C}
+  S: {spring: 5000, free: 0.25, link: 2, at: O, to: B}
+  P: {force: unknown, link: 3, at: B, angle: 90}
+"""
+
+
+def test_the_end_of_a_bar_whose_middle_is_given_belongs_to_the_bar() -> None:
+    """An overhead door on two arms: a spring to its lower edge is no spring to the frame."""
+    with pytest.raises(CaseError, match=r"to link 1 at B, which is a point of link 3: write 'against: 3'"):
+        icsolve.load(DOOR)
+    icsolve.solve(icsolve.load(DOOR.replace("to: B", "to: B, against: 3")))
+
+
+UNKNOWN = {
+    "at: A}": "at: A, mu: ?0.2?, radius: 0.1}",
+    "angle: 180": "angle: ?180?",
+    "{force: 100": "{pressure: 20, bore: ?2?",
+    "{torque: unknown, link: 2}": "{spring: 20, free: ?2?, link: 2, at: B, to: D}",
+    "{pin: [4, 1], at: D}": "{contact: [1, 4], at: D, normal: ?90?}",
+    "{pin: [3, 4], at: C}": "{slide: [3, 4], at: C, along: ?20?}",
+    "loads:": "  - {roll: [4, 5], at: E, radii: [?0.5?, 0]}\n  - {slide: [5, 1], at: F, along: 0}\nloads:",
+}
+
+
+@pytest.mark.parametrize(("old", "new"), UNKNOWN.items())
+def test_what_cannot_be_unknown_is_asked_by_a_sweep_that_takes_it(old: str, new: str) -> None:
+    """The path that the refusal names is one that a sweep varies, in the units of the case."""
+    before, number, after = new.split("?")
+    text = PRESS.replace("D: [4, 0]}", "D: [4, 0], F: [5, 1.5]}")
+    with pytest.raises(CaseError, match="'unknown' cannot stand here") as refused:
+        icsolve.load(text.replace(old, f"{before}unknown{after}"))
+    found = re.search(r"--vary (\S+)=FROM:TO:STEP", str(refused.value))
+    assert found, refused.value
+    case = icsolve.load(text.replace(old, f"{before}{number}{after}"))
+    assert find_number(case, found[1]).value == float(number)
 
 
 def changed(*changes: tuple[str, str]) -> str:
@@ -807,6 +858,11 @@ SCENES = {
         [("at: A}", "at: A, mu: 10, radius: 0.1}")],
         "",
         "joints.A.mu is 10: few surfaces that rub have more than 1; if percent are meant, write 0.1",
+    ),
+    "a crank that is pinned on by its pivot": (
+        [("{pin: [2, 3], at: B}", "{pin: [2, 3], at: A}")],
+        "",
+        "link 4 stands still in this position: P does no work on it",
     ),
     "a pin given twice": (
         [("at: A}", "at: A}\n  - {pin: [2, 1], at: A}")],

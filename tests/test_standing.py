@@ -42,6 +42,35 @@ def test_known_loads_hold_where_the_joints_can_balance_them(kind: Callable[[Rand
     assert seen == {True, False}
 
 
+@pytest.mark.parametrize("kind", standing.KINDS)
+@pytest.mark.parametrize("part", range(20 if FULL else 1))
+def test_where_friction_holds_joints_carry_what_equilibrium_says(
+    kind: Callable[[Random], str], part: int
+) -> None:
+    """Each force is that of the links' equilibrium with the friction as one more force of its joint (to 1e-9,
+    in floats); what that leaves open is open, and where the loads slip there is none."""
+    dice, told, open_ = Random(f"carried {kind.__name__} {part}"), 0, 0
+    for _ in range(12):
+        text = kind(dice)
+        case = icsolve.load(text)
+        if not icsolve.solve(case).holds_still:
+            with pytest.raises(icsolve.SceneError, match="friction is not enough"):
+                icsolve.solve(case, reactions=True)
+            continue
+        answer, forces = icsolve.solve(case, reactions=True), standing.carried(case)
+        assert answer.reactions is not None
+        largest = max([abs(f) for both in forces for f in both if f is not None], default=1.0)
+        for reaction, joint, (x, y) in zip(answer.reactions.values(), case.joints, forces, strict=True):
+            sign = 1.0 if joint.links[0] == reaction.by else -1.0
+            for own, other in ((reaction.x, x), (reaction.y, y)):
+                told, open_ = told + (other is not None), open_ + (other is None)
+                if other is None:
+                    assert own is None, text
+                else:
+                    assert own == pytest.approx(sign * other, abs=1e-9 * largest), text
+    assert told and open_
+
+
 @pytest.mark.parametrize("part", range(20 if FULL else 2))
 def test_bars_hang_askew_as_far_as_their_pins_rub(part: int) -> None:
     """On a block that rubs too: of two to four freedoms, whether each joint rubs within its limit follows

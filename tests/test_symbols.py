@@ -164,6 +164,30 @@ def test_wedges_lie_between_the_planes_of_their_guides() -> None:
     assert min(faces[0]) == pytest.approx(max(faces[1]), abs=0.1)
 
 
+@pytest.mark.parametrize("end", [80, -80, 5])
+@pytest.mark.parametrize("links", ["[2, 3]", "[3, 2]"])
+def test_what_slides_on_the_frame_is_no_wheel(links: str, end: int) -> None:
+    """A rack whose rod is pinned to it, wherever: the pinion alone is round, by its pin."""
+    text = f"""
+icsolve: 1
+points: {{O: [0, 25], C: [0, 0], R: [{end}, 0], N: [{2 * end}, 40]}}
+lengths: {{RK: 100, NK: 60}}
+near: {{K: [{2 * end - 25}, -15]}}
+joints:
+  - {{pin: [1, 2], at: O}}
+  - {{slide: [3, 1], at: R, along: 0}}
+  - {{roll: {links}, at: C}}
+  - {{pin: [3, 4], at: R}}
+  - {{pin: [4, 5], at: K}}
+  - {{pin: [5, 1], at: N}}
+loads:
+  M: {{torque: 80, link: 5}}
+  T: {{torque: unknown, link: 2}}
+"""
+    picture = drawn(text)
+    assert len([e for e in picture.root.iter(f"{SVG}circle") if e.get("class") == "body"]) == 1
+
+
 @pytest.mark.parametrize("name", ["roller_follower", "offset_roller_follower", "tangent_cam", "square_cam"])
 def test_no_hatching_runs_through_a_cam(name: str) -> None:
     """Rails of followers keep off cams and rollers; the block stands on a stem beyond the roller."""

@@ -32,9 +32,10 @@ from icsolve.draw.marks import (
 from icsolve.draw.place import Label, Soft, clipped
 from icsolve.draw.scene import Part, Scene, around, with_labels
 from icsolve.draw.words import centre_runs, quantity
-from icsolve.report.derivation.known import Known, joint_of_normal
+from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ratios import Step
 from icsolve.tuples import NamedTuple
+from icsolve.wording.joints import joint_of_normal
 
 BEYOND = 16.0
 """How far a line of centres goes on beyond the last of them."""

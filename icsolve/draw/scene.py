@@ -183,7 +183,7 @@ def _wheel(
     case: Case, link: str, at: Point, radius: float | None, points: Mapping[str, Point]
 ) -> Wheel | None:
     """The circle of a link that rolls at a point; None for a straight one, and where no centre is known."""
-    if radius == 0.0 or (radius is None and link == case.ground):
+    if radius == 0.0 or (radius is None and (link == case.ground or _slides(case, link))):
         return None
     pins = [p for p in case.pivots(link) if p in points]
     if radius is None:
@@ -198,6 +198,11 @@ def _wheel(
         if p in points and abs(math.dist(points[p], at) - size) <= NEAR * size:
             return Wheel(link, points[p], size, "roll", radius < 0.0)
     return None
+
+
+def _slides(case: Case, link: str) -> bool:
+    """Whether a link slides along the frame, and so does not turn."""
+    return any(j.keeps_direction and {link, case.ground} == {*j.links} for j in case.joints)
 
 
 def _touching(

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer.bodies import Reaction
-from icsolve.case import is_angle, pair_name
+from icsolve.case import Pair, is_angle, pair_name
 from icsolve.case.loads import name_of_inertia
 from icsolve.draw.marks import Mark, MarkGroup, TextMark, TextRun, bounds, text_width
 from icsolve.draw.svg import runs_of
@@ -15,6 +15,7 @@ from icsolve.errors import refuse_overflow
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ratios import Step
 from icsolve.report.text import positions_text
+from icsolve.wording.joints import joint_of_normal, normal_name
 from icsolve.wording.senses import holding, spelt
 from icsolve.wording.sentences import plural, provenance
 
@@ -207,20 +208,19 @@ def step_sentence(known: Known, steps: Sequence[Step], number: int) -> str:
     if not last.centre.lines:
         return f"Step {number}: {name} from the loop equations of the whole mechanism."
     if len(last.centre.lines) == 1 and len(last.centre.lines[0]) > 1:
-        both = line_words(known, last.centre.lines[0]).removeprefix("the line ").replace(" ", " and ")
+        both = line_words(known, last.centre.lines, 0).removeprefix("the line ").replace(" ", " and ")
         return f"Step {number}: {name} is in the place of {both}."
-    lines = " meets ".join(line_words(known, line) for line in last.centre.lines)
-    return f"Step {number}: {name} is where {lines}."
+    lines = last.centre.lines
+    met = " meets ".join(line_words(known, lines, n) for n in range(len(lines)))
+    return f"Step {number}: {name} is where {met}."
 
 
-def line_words(known: Known, line: tuple[tuple[str, str], ...]) -> str:
+def line_words(known: Known, lines: Sequence[tuple[Pair, ...]], number: int) -> str:
     """A line of centres in words."""
-    names = [
-        f"I{pair_name(known.case, pair)}" for pair in sorted(line, key=lambda p: pair_name(known.case, p))
-    ]
-    if len(names) == 1:
-        return f"the common normal of {names[0][1:]}"
-    return f"the line {names[0]} {names[1]}"
+    if len(lines[number]) == 1:
+        return f"the {normal_name(joint_of_normal(known.case.joints, lines, number))}"
+    first, second = sorted(f"I{pair_name(known.case, pair)}" for pair in lines[number])
+    return f"the line {first} {second}"
 
 
 def description(known: Known) -> str:

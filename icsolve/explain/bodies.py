@@ -310,7 +310,8 @@ def friction_section(work: Worked) -> Iterable[Section]:
     """The rule at each joint that rubs: friction circles of pins, friction angles of guides; then what they
     come to in this position."""
     rules = [block for joint in work.case.joints for block in _rule(work, joint)]
-    blocks = [*([words(RULE)] if rules else []), *rules, *rubbing_blocks(work)]
+    rule = RULE if work.answer.answers or work.case.motion else RULE_AT_REST
+    blocks = [*([words(rule)] if rules else []), *rules, *rubbing_blocks(work)]
     if blocks:
         yield Section("Friction", tuple(blocks))
 
@@ -327,6 +328,13 @@ RULE = (
     "Where a joint rubs, its force leans against the motion by the angle phi, with tan phi = mu. In a pin of "
     "radius r it is then tangent to the friction circle, of radius r sin phi about the pin; on a guide, in a "
     "slot or at a contact it makes phi with the normal."
+)
+
+
+RULE_AT_REST = (
+    "Where a joint rubs, it holds as long as its force leans by no more than the angle phi, with tan phi = "
+    "mu. In a pin of radius r it then passes within the friction circle, of radius r sin phi about the pin; "
+    "on a guide, in a slot or at a contact it makes at most phi with the normal."
 )
 
 

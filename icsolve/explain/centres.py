@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.answer import Centre
-from icsolve.case import Joint, Pair, is_named, pair_name
+from icsolve.case import Pair, is_named, pair_name
 from icsolve.explain.document import Block, Inline, Items, Section, formula, words
 from icsolve.explain.formula import (
     Expr,
@@ -24,9 +24,9 @@ from icsolve.explain.formula import (
 )
 from icsolve.explain.ropes import rope_ratio, screw_ratio
 from icsolve.explain.worked import Worked, rate_name
-from icsolve.report.derivation.known import Known, joint_of_normal
+from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ratios import Ratio, Ratios, Step, ratios_of
-from icsolve.wording.joints import centre_words, normal_words
+from icsolve.wording.joints import centre_words, joint_of_normal, normal_name
 from icsolve.wording.sentences import link_words
 
 
@@ -92,7 +92,7 @@ def _constructed(work: Worked, centre: Centre) -> Iterable[Inline]:
     for n, line in enumerate(lines):
         yield ": on " if n == 0 else ", and on "
         if len(line) == 1:
-            yield f"the {_normal(joint_of_normal(work.case.joints, lines, n))}"
+            yield f"the {normal_name(joint_of_normal(work.case.joints, lines, n))}"
         yield from _line(work, centre, line)
 
 
@@ -118,14 +118,6 @@ def _line(work: Worked, centre: Centre, line: tuple[Pair, ...]) -> Iterable[Inli
     yield " "
     yield work.centre_name(line[1])
     yield f" (links {', '.join(links)})"
-
-
-def _normal(joint: Joint | None) -> str:
-    if joint is None or joint.at is None:
-        return "common normal of the joint"
-    what = normal_words(joint)
-    hidden = not is_named(joint.at)
-    return f"{what} of links {' and '.join(joint.links)}" if hidden else f"{what} at {joint.at}"
 
 
 # --- ratios of speeds ------------------------------------------------------------------------------------

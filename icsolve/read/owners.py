@@ -262,7 +262,8 @@ class _Owners:
             points_of_all = set().union(*(self.own.get(link, ()) for link in together))
             self.own.update(dict.fromkeys(together, points_of_all))
         self.dimensioned = {end for length in figure.lengths for end in (length.a, length.b)}
-        self.dimensioned.update(name for name, at in figure.points.items() if isinstance(at, Centroid))
+        means = ((name, *at.of) for name, at in figure.points.items() if isinstance(at, Centroid))
+        self.dimensioned.update(name for names in means for name in names)
         self.centres = {joint.at for joint in figure.joints if joint.stands_in}
         self.fixed: dict[str, set[str]] = {}
 
@@ -306,7 +307,7 @@ def _on_joints(joints: Iterable[Joint]) -> Iterator[tuple[str, str]]:
 
 
 def _tied(figure: FigureData, known: set[str]) -> Iterator[str]:
-    """Points that two lengths or corners, or the mean of known points, fix to points that are known."""
+    """Points that two lengths or corners, or a mean, fix to points that are known."""
     ties: dict[str, int] = {}
     sets = [{length.a, length.b} for length in figure.lengths]
     sets += [{angle.a, angle.at, angle.b} for angle in figure.angles if isinstance(angle, Corner)]
@@ -316,5 +317,5 @@ def _tied(figure: FigureData, known: set[str]) -> Iterator[str]:
             ties[point] = ties.get(point, 0) + 1
     yield from (point for point, count in ties.items() if count > 1)
     for point, value in figure.points.items():
-        if isinstance(value, Centroid) and {*value.of} <= known:
-            yield point
+        if isinstance(value, Centroid) and len(free := {point, *value.of} - known) == 1:
+            yield from free

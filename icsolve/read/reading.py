@@ -393,6 +393,10 @@ COMPASS = {
 """Directions in words, and the angle of each."""
 
 
+SWEPT = "give one, and ask `icsolve sweep CASE --vary {}=FROM:TO:STEP --find hold`, or `--find` of an answer"
+"""How a number of joints and loads that can't be `unknown` is found, by its path."""
+
+
 def _no_number(node: Scalar, text: str, dimension: str, path: str) -> str:
     wanted = _a(dimension)
     if is_null(node):
@@ -403,11 +407,11 @@ def _no_number(node: Scalar, text: str, dimension: str, path: str) -> str:
     if dimension == "angle" and text.lower() in COMPASS:
         return f"an angle is in degrees counterclockwise from +x: write {COMPASS[text.lower()]} for '{text}'"
     if text == "unknown":
-        way = path.startswith("loads.") and path.endswith(".angle")
-        wanted = (
-            "a force of unknown direction is 'force: [unknown, unknown]'" if way else f"{wanted} is wanted"
-        )
-        return f"'unknown' cannot stand here; {wanted}"
+        wanted = f"{wanted} is wanted"
+        if path.startswith("loads.") and path.endswith(".angle"):
+            wanted = "a force of unknown direction is 'force: [unknown, unknown]'; where its size is known"
+        swept = path.startswith(("joints.", "loads."))
+        return f"'unknown' cannot stand here; {wanted}{', ' + SWEPT.format(path) if swept else ''}"
     if text.startswith("unknown "):
         return "write 'unknown' alone; its unit follows from those of the case"
     likely = suggestion(text, ("unknown",)) or _meant(text, dimension, path)

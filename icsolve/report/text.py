@@ -216,16 +216,18 @@ def _place(centre: Centre, digits: int) -> str:
 def _how(case: Case, centre: Centre) -> str:
     """How a centre was found, in words."""
     if len(centre.lines) == 1 and len(centre.lines[0]) > 1:  # a line through one place is any
-        return f"in the place of {_line(case, centre.lines[0]).removeprefix('line ').replace(' ', ' and ')}"
+        return f"in the place of {_line(case, centre.lines, 0).removeprefix('line ').replace(' ', ' and ')}"
     if centre.lines:
-        return "where " + " meets ".join(_line(case, line) for line in centre.lines)
+        return "where " + " meets ".join(_line(case, centre.lines, n) for n in range(len(centre.lines)))
     return {"inspection": "a joint", "given": "given by the case"}.get(centre.by, centre.by)
 
 
-def _line(case: Case, line: tuple[Pair, ...]) -> str:
-    if len(line) == 1:
-        return f"the normal of joint {pair_name(case, line[0])}"
-    ends = sorted(line, key=lambda pair: sorted(link_order(case, link) for link in pair))
+def _line(case: Case, lines: Sequence[tuple[Pair, ...]], number: int) -> str:
+    if len(lines[number]) == 1:
+        from icsolve.wording.joints import joint_of_normal, normal_name
+
+        return f"the {normal_name(joint_of_normal(case.joints, lines, number))}"
+    ends = sorted(lines[number], key=lambda pair: sorted(link_order(case, link) for link in pair))
     return "line " + " ".join(f"I{pair_name(case, pair)}" for pair in ends)
 
 
@@ -257,7 +259,9 @@ def _sum_of_powers(answer: Answer, show: Format) -> str:
         return f"without friction the terms add up to {show(scene.sum_of_powers() * unit)}"
     if scene.in_equilibrium:
         return "the terms add up to zero, the loads are in equilibrium"
-    return f"the terms add up to {show(scene.sum_of_powers() * unit)}, the loads are not in equilibrium"
+    within = [one.within for one in scene.left_over]
+    why = f"which is within {within[0]}" if all(within) else "the loads are not in equilibrium"
+    return f"the terms add up to {show(scene.sum_of_powers() * unit)}, {why}"
 
 
 def _term(answer: Answer, term: Term, certain: int, digits: int) -> tuple[str, str, str]:

@@ -8,11 +8,11 @@ from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.answer import Answer
-from icsolve.errors import SceneError
+from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Showing
 from icsolve.scene.parts import AnswerBuilder, speed_of
 from icsolve.scene.program import EvaluatedScene, Evaluation, Program, evaluate_still, plain, points_shown
-from icsolve.statics.free_bodies import FreeBodies, free_bodies
+from icsolve.statics.free_bodies import FreeBodies, Reach, free_bodies
 from icsolve.statics.power import Balance, Value, has_friction, is_unknown
 from icsolve.statics.reaction_basis import Position, rope_ties
 
@@ -26,15 +26,48 @@ T = TypeVar("T")
 
 def with_bodies(parts: AnswerBuilder, reactions: bool) -> Answer:
     """The answer with the reactions, and with the unknown loads as free bodies give them."""
+    if holds(parts):
+        from icsolve.statics.friction.standing import held_bodies
+
+        at_rest = parts.scene.ask(
+            lambda one: held_bodies(_position(one), one.outcome.balance, one.arithmetic)
+        )
+        return at_rest.added_to(parts.answer(), reactions)
     by_power = {root: (value.value, value.error or 0.0) for root, value in parts.unknowns.items()}
-    found = parts.scene.ask(lambda evaluated: _bodies(evaluated, by_power))
+    found = parts.scene.ask(lambda evaluated: _bodies(evaluated, by_power, parts.reach_of_figure))
     return found.added_to(parts.answer(), reactions)
 
 
-def _bodies(found: Evaluation, power: Mapping[str, tuple[float, float]]) -> FreeBodies:
+def holds(parts: AnswerBuilder) -> bool:
+    """Whether the friction of joints holds loads that are all known.
+
+    Raises SceneError where it does not.
+    """
+    case = parts.case
+    turning = any(rope.slips for rope in case.ropes) or any(screw.rubs for screw in case.screws)
+    if case.motion or turning or not has_friction(case) or any(map(is_unknown, case.loads)):
+        return False
+    try:
+        held = standing(parts.scene).depth >= 0.0
+    except SceneError:  # it hangs on how hard the fit of the joints presses them together
+        return False
+    if not held:
+        raise SceneError(Status.UNBALANCED, SLIPS)
+    return True
+
+
+SLIPS = (
+    "friction is not enough to hold the known loads, so there are no reactions at rest. Make one of the "
+    "loads `unknown`, or give the `motion` that it resists."
+)
+
+
+def _bodies(
+    found: Evaluation, power: Mapping[str, tuple[float, float]], figure: Reach = lambda motion: 0.0
+) -> FreeBodies:
     if found.outcome.motions.slack:  # the given centres miss the motion: no digits would be right
         found = found._replace(outcome=plain(found.outcome), arithmetic=FLOATS)
-    return free_bodies(_position(found), found.outcome.balance, power, found.arithmetic)
+    return free_bodies(_position(found), found.outcome.balance, power, found.arithmetic, figure)
 
 
 def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:

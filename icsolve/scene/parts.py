@@ -16,6 +16,7 @@ from icsolve.kinematics.centres import CentreFinder
 from icsolve.kinematics.speeds import Speed
 from icsolve.numbers.arithmetic import Scalar, largest_of, zero_of
 from icsolve.numbers.balls import PRECISIONS, BelowZero, MoreDigits, MovedBalls
+from icsolve.numbers.units import numbers_in
 from icsolve.scene.program import (
     EvaluatedScene,
     Evaluation,
@@ -39,8 +40,9 @@ from icsolve.wording.sentences import at_words, link_words
 
 if TYPE_CHECKING:
     from icsolve.scene import sensitivity
+    from icsolve.statics import free_bodies
 else:
-    sensitivity = LateModule("icsolve.scene.sensitivity")
+    sensitivity, free_bodies = map(LateModule, ("icsolve.scene.sensitivity", "icsolve.statics.free_bodies"))
 
 
 class Power(NamedTuple):
@@ -206,9 +208,21 @@ class AnswerBuilder:
     def _notes(self, answers: Mapping[str, Found]) -> list[str]:
         notes = [sentences.EXPLAINED] if self.scene.explained else []
         notes += self.scene.ask(_notes)
+        if self.given is None and not power.has_friction(self.case):
+            with suppress(SceneError):  # where no digits tell that a link stands still
+                notes += self.scene.ask(_at_rest)
+        notes += self._known_alone()
         if self.scene.certain and self.given is None and self.case.profiles is None:
             notes += sensitivity.unsettled(self.case, answers, self._change())
         return notes
+
+    def _known_alone(self) -> Iterable[str]:
+        """What is to be said of loads that are all known, on links that can move."""
+        loads, mobility = self.case.loads, self.outcome.motions.mobility
+        if loads and mobility and not (power.has_friction(self.case) or any(map(power.is_unknown, loads))):
+            left = [] if self.in_equilibrium else [one.within for one in self.left_over]
+            turning = _turning_alone(self.outcome) if all(left) else []
+            yield sentences.nothing_asked(mobility, left, turning)
 
     @cached_property
     def slopes(self) -> dict[str, dict[str, float]]:
@@ -282,6 +296,34 @@ class AnswerBuilder:
                     near = min(float(change), size)
                     reach[load] = max(reach.get(load, 0.0), far if change > own else near)
         return reach
+
+    def reach_of_figure(self, motion: int) -> float:
+        """How much half a unit of the last decimals of the figure may change what the powers of the known
+        loads add up to in a motion, to first order [as `power_of`]: whole numbers are exact, and it counts
+        as far as where data of the figure repeat one another."""
+        from icsolve.assembly.refusals import OF_SIZE
+
+        balance = self.outcome.balance
+        both = zip(balance.wrenches, balance.sizes[motion], strict=True)
+        most = sum(abs(power.power_of(w, size)) for w, size in both)
+        with suppress(SceneError, ZeroDivisionError):
+            outcome, tape = self.traced or evaluate_bounded(self.program)
+            own = {n.path for w in outcome.balance.wrenches for n in numbers_in(w.number)}
+            by_path = tape.back(power.known_power(outcome.balance, motion, tape)).by_path
+            numbers = sensitivity.numbers_of(self.case)
+            given = [numbers[path] for path in by_path.keys() & numbers.keys() - own]
+            reach = sum(abs(by_path[n.path]) * n.half for n in given if "." in n.digits)
+            return min(reach / power.force_scale(balance), OF_SIZE * most)
+        return 0.0
+
+    @cached_property
+    def left_over(self) -> tuple[free_bodies.LeftOver, ...]:
+        """What the known loads leave where they do not balance."""
+        return self.scene.ask(
+            lambda found: tuple(
+                free_bodies.left_over(found.outcome.balance, found.arithmetic, self.reach_of_figure)
+            )
+        )
 
     @property
     def in_equilibrium(self) -> bool:
@@ -455,10 +497,36 @@ def _notes(found: Evaluation) -> list[str]:
         count = sentences.plural(len(solution.idle), "passive freedom")
         ends = sentences.free_ends(program.top, program.case)
         notes.append(f"{count} in which no load does work{': ' if ends else ''}{ends}.")
-    loads, rough = program.case.loads, power.has_friction(program.case)
-    if loads and not rough and not any(map(power.is_unknown, loads)) and motions.mobility:
-        notes.append(sentences.nothing_asked(motions.mobility, solution.verdict == "balanced"))
     return notes
+
+
+def _at_rest(found: Evaluation) -> list[str]:
+    """Where every unknown load is none, the known loads whose links stand still."""
+    (place, motions, balance, solution), a = found.outcome, found.arithmetic
+    if not solution.values or any(float(value) for value in solution.values.values()):
+        return []
+    fastest = largest_of([x for ts in motions.twists.values() for t in ts for x in t])
+    on: dict[str, list[str]] = {}
+    for w in balance.wrenches:
+        works = w.number and w.load.link != place.case.ground and power.has_number(w.load)
+        if works and all(a.vanishes(x, fastest) for t in motions.twists[w.load.link] for x in t):
+            on.setdefault(w.load.link, []).append(w.load.name)
+    return [sentences.known_at_rest(loads, link) for link, loads in on.items()]
+
+
+def _turning_alone(outcome: Outcome) -> list[str]:
+    """The links each of which can turn by itself about a point, where nothing else can move; else none."""
+    twists = outcome.motions.twists
+    fastest = largest_of([x for ts in twists.values() for t in ts for x in t])
+    still, found = 1e-12 * fastest, []
+    for link in (links[0] for links in outcome.place.top.members):
+        u, v, turn = max(twists[link], key=lambda t: abs(t[2]))
+        if any(abs(x) > still for t in twists[link] for x in t):
+            apart = (x * turn - w * y for *at, w in twists[link] for x, y in zip(at, (u, v), strict=True))
+            if abs(turn) <= still or any(abs(off) > still * fastest for off in apart):
+                return []
+            found.append(link)
+    return found if len(found) == outcome.motions.mobility else []
 
 
 def _redundancy(found: Evaluation) -> Iterable[str]:

@@ -32,6 +32,7 @@ from icsolve.sweep.row_parts import SweepParts
 from icsolve.sweep.starting_position import start_of
 from icsolve.sweep.varied_numbers import points_of
 from icsolve.tuples import replace
+from icsolve.wording import sentences
 
 STARTS = (0.5, 0.1, 0.9, 0.3, 0.7, 0.02, 0.98)
 """Where in the range the ways of assembling are sought."""
@@ -228,7 +229,7 @@ def converted(
     turns = is_angle(path)
     for rest in rests:
         if not rest.answer.points.keys() >= {*points_of(path)}:
-            raise SceneError(Status.UNSUPPORTED, f"{path} does not pose the figure: it moves nothing.")
+            raise SceneError(Status.UNSUPPORTED, sentences.poses_nothing(path))
         own, by = rate_of(rest.answer, path), rate_of(rest.answer, other)
         value = value_of(rest.answer, path)
         size = max(abs(c) for at in rest.answer.points.values() for c in at)

@@ -307,7 +307,7 @@ def moving_function(
     setting = setting_of(case, (path,) if path else (), (link,) if link else (), posing=posing)
     if path and not setting.moves:
         held = next((joint for joint in case.joints if not joint.stays_known), None)
-        moves_nothing = f"{path} does not pose the figure: it moves nothing."
+        moves_nothing = sentences.poses_nothing(path)
         raise SceneError(Status.UNSUPPORTED, why_not_moved(held) if held is not None else moves_nothing)
     return _on_record(moved(setting), path or link, span)
 
@@ -426,11 +426,7 @@ def naming_uncarried(case: Case, paths: Sequence[str]) -> Iterator[None]:
 def refuse_unposed(function: LoadFunction) -> None:
     """Refuse a number that the motion of the mechanism does not change."""
     if not function.poses:
-        raise SceneError(
-            Status.UNSUPPORTED,
-            f"{function.path} does not pose the figure: the mechanism moves without changing it. Take an "
-            "angle, a length or a coordinate that the motion changes, or a link that turns.",
-        )
+        raise SceneError(Status.UNSUPPORTED, sentences.poses_nothing(function.path, moves=True))
 
 
 def _turning(twists: Mapping[str, tuple[tuple[Scalar, Scalar, Scalar], ...]]) -> list[str]:

@@ -47,8 +47,9 @@ from icsolve.solve.refinement import (
     within_a_turn,
 )
 from icsolve.solve.rest_position import RestPosition, taut
-from icsolve.sweep.varied_numbers import find_number
+from icsolve.sweep.varied_numbers import find_number, points_of
 from icsolve.tuples import NamedTuple, replace
+from icsolve.wording import sentences
 
 BESIDE = 5e-4
 """Beside a change point a branch is looked at in steps of this fraction of the range."""
@@ -323,13 +324,16 @@ def _moving_from(
 def refuse_unwritten(case: Case, path: str, links: Sequence[str], bounded: bool) -> None:
     """Refuse what counts from a position as written, on links that turn, where none is written; and a torsion
     spring whose turns nothing counts from, not even the middle of a range."""
-    turning = set(links)
+    turning, ends = set(links), {*points_of(path)}
+    own = any(ends <= {*points} for points in case.carries.values())
+    if own and path.startswith("lengths."):  # of one link, which it shapes
+        raise SceneError(Status.UNSUPPORTED, sentences.poses_nothing(path))
     for what, link in _history(case):
         if link in turning:
             raise SceneError(
                 Status.UNDERDETERMINED,
                 f"{what} counts from the position as written, and link {link} turns: say at which "
-                f"{path} the figure is written, as in {{unknown: [0, 360], from: 30}}.",
+                f"{path} the figure is written, as in {_written_at(path)}.",
             )
     for load in case.loads if not bounded else ():
         if isinstance(load, TorsionSpring) and {load.link, load.against} & turning:
@@ -340,6 +344,11 @@ def refuse_unwritten(case: Case, path: str, links: Sequence[str], bounded: bool)
             )
 
 
+def _written_at(path: str) -> str:
+    """An example of how it is said where in its range an unknown datum is written."""
+    return "{unknown: [0, 360], from: 30}" if is_angle(path) else "{unknown: [0.2, 0.5], from: 0.3}"
+
+
 def refuse_ropes(case: Case, path: str) -> None:
     """Refuse ropes that are fixed at both ends, and of which nothing says how long they are."""
     for rope in case.ropes:
@@ -347,8 +356,7 @@ def refuse_ropes(case: Case, path: str) -> None:
             raise SceneError(
                 Status.UNDERDETERMINED,
                 f"the rope {rope.name} keeps the length that it has in the position as written: say at which "
-                f"{path} the figure is written,"
-                " as in {unknown: [0, 360], from: 30}, or give its `length`.",
+                f"{path} the figure is written, as in {_written_at(path)}, or give its `length`.",
             )
 
 

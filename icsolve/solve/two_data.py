@@ -50,6 +50,7 @@ from icsolve.sweep.exact_record import VANISHED, exact_record
 from icsolve.sweep.program import CompiledSweep, setting_of, spring_angles
 from icsolve.sweep.recorded_scene import motions_of
 from icsolve.tuples import NamedTuple, replace
+from icsolve.wording import sentences
 from icsolve.wording.sentences import left_out
 
 GRID = 48
@@ -264,7 +265,7 @@ def _surface(mode: RecordedMode, paths: Sequence[str], limits: Sequence[Ends]) -
                 changes.append((by_x, by_y, velocity(one, at)[axis], velocity(other, at)[axis]))
     for k, path in enumerate(paths):
         if not any(varies(change[k]) or change[k] for change in changes):
-            raise SceneError(Status.UNSUPPORTED, f"{path} does not pose the figure: it moves nothing.")
+            raise SceneError(Status.UNSUPPORTED, sentences.poses_nothing(path))
     loads = _generalised(changes, totals)
     slopes = [v for load in loads for v in gradient(record, load, inputs).values()]
     nodes, by_data = ([record.lifted(v).index for v in some] for some in (loads, slopes))

@@ -6,7 +6,7 @@ A mechanism without an unknown load: its known loads hold it still, or what they
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TypeVar
 
 from icsolve.answer import Answer
@@ -64,14 +64,18 @@ class FreeBodies(NamedTuple):
 
 
 def free_bodies(
-    position: Position, balance: Balance, power: Mapping[str, tuple[float, float]], a: Showing
+    position: Position,
+    balance: Balance,
+    power: Mapping[str, tuple[float, float]],
+    a: Showing,
+    figure: Reach = lambda motion: 0.0,
 ) -> FreeBodies:
     """Equilibrium of every link; ``power`` has the unknown loads as power found them, and their bounds.
 
-    Raises SceneError where the two disagree.
+    ``figure`` is as in `refuse_imbalance`. Raises SceneError where the two disagree.
     """
     known = position.mobility and not any(is_unknown(w.load) for w in balance.wrenches)
-    left = refuse_imbalance(position, balance, a) if known else ()
+    left = refuse_imbalance(position, balance, a, figure) if known else ()
     solved = frictionless(position, balance, ties_of(position))
     found = told(position, balance, solved, power, a)
     return found._replace(notes=(*left, *found.notes))
@@ -213,35 +217,66 @@ def carrying(statics: Equilibrium[T], parameters: Mapping[int, Scalar], t: int) 
 
 TOLERATED = 1e-9
 """Loads whose powers leave this fraction of the largest are taken as balanced, and that is said."""
+Reach = Callable[[int], float]
+"""What half a unit of the last decimals of a figure may make of the power of the known loads in a motion."""
 
 
-def refuse_imbalance(position: Position, balance: Balance, a: Arithmetic) -> tuple[str, ...]:
-    """Refuse reactions of known loads that do not balance; the notes on what their decimals leave open.
+class LeftOver(NamedTuple):
+    """What the powers of known loads leave in a motion [case units times the motion's speed].
 
-    What half a unit of the last decimals may be the cause of is no refusal, nor what is next to nothing: it
-    is said. With friction nothing says how much of it acts, unless a load is unknown.
+    Attributes
+    ----------
+    motion : in which
+    left : what they add up to
+    powers : of each load
+    within : what that may be for want of; '' where the loads do not balance
     """
-    notes = []
+
+    motion: int
+    left: float
+    powers: tuple[float, ...]
+    within: str
+
+
+def left_over(balance: Balance, a: Arithmetic, figure: Reach) -> Iterator[LeftOver]:
+    """Where the powers of known loads do not add up to zero, and whether that may be for want of decimals, of
+    the loads or of the ``figure``, or is next to nothing."""
+    for motion, factors in enumerate(balance.factors):
+        powers = tuple(power_of(w, float(f)) for w, f in zip(balance.wrenches, factors, strict=True))
+        sizes = [power_of(w, size) for w, size in zip(balance.wrenches, balance.sizes[motion], strict=True)]
+        scale = force_scale(balance)
+        exact = known_power(balance, motion, a)
+        if a.vanishes(exact, sum(map(abs, sizes)) * scale):
+            continue
+        left, largest = float(exact) / scale, max(map(abs, powers))
+        room = sum(_room(w, float(f)) for w, f in zip(balance.wrenches, factors, strict=True))
+        within = ""
+        if abs(left) <= room or room + TOLERATED * largest < abs(left) <= room + figure(motion):
+            within = "half a unit of the last decimals"
+        elif abs(left) <= room + TOLERATED * largest:
+            within = f"a fraction of {abs(left) / largest:.1g} of what they do"
+        yield LeftOver(motion, left, powers, within)
+
+
+def refuse_imbalance(
+    position: Position, balance: Balance, a: Arithmetic, figure: Reach = lambda motion: 0.0
+) -> tuple[str, ...]:
+    """Refuse reactions of known loads that do not balance; the notes on what decimals leave open.
+
+    With friction nothing says how much of it acts, unless a load is unknown.
+    """
     if has_friction(position.case):
         raise SceneError(
             Status.UNBALANCED,
             "with friction, and no unknown load, nothing says how much of the friction acts: make one load "
             "`unknown`, or take out `mu`.",
         )
-    for motion, factors in enumerate(balance.factors):
-        powers = [power_of(w, float(f)) for w, f in zip(balance.wrenches, factors, strict=True)]
-        sizes = [power_of(w, size) for w, size in zip(balance.wrenches, balance.sizes[motion], strict=True)]
-        scale = force_scale(balance)
-        exact = known_power(balance, motion, a)
-        if a.vanishes(exact, sum(map(abs, sizes)) * scale):
-            continue
-        left, largest = abs(exact) / scale, max(map(abs, powers))
-        room = sum(_room(w, float(f)) for w, f in zip(balance.wrenches, factors, strict=True))
-        said = _leave(position, balance, motion, powers, float(exact) / scale)
-        if left > room + TOLERATED * largest:
+    notes = []
+    for one in left_over(balance, a, figure):
+        said = _leave(position, balance, one.motion, one.powers, one.left)
+        if not one.within:
             raise SceneError(Status.UNBALANCED, _named(said))
-        within = f"a fraction of {left / largest:.1g} of what they do"
-        notes.append(_taken(said, "half a unit of the last decimals" if left <= room else within))
+        notes.append(_taken(said, one.within))
     return tuple(notes)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import assert_never
 
 from icsolve.case import (
@@ -12,6 +12,7 @@ from icsolve.case import (
     Joint,
     KnownCentre,
     Number,
+    Pair,
     Pin,
     Roll,
     Slide,
@@ -142,6 +143,29 @@ def centre_words(joint: Joint) -> str:
 def normal_words(joint: Joint) -> str:
     """The line on which the centre of two surfaces lies."""
     return "normal to the slot" if joint.guide is not None else "common normal"
+
+
+def joint_of_normal(joints: Iterable[Joint], lines: Sequence[Sequence[Pair]], number: int) -> Joint | None:
+    """The joint whose common normal is a line of a centre; of several between two links each has its own.
+
+    Parameters
+    ----------
+    joints : those of the case
+    lines, number : the lines of the centre, and which of them it is
+    """
+    pair = set(lines[number][0])
+    before = sum(len(line) == 1 and set(line[0]) == pair for line in lines[:number])
+    found = [joint for joint in joints if joint.has_normal and pair <= set(joint.links)]
+    return found[before] if before < len(found) else None
+
+
+def normal_name(joint: Joint | None) -> str:
+    """The normal of a joint by its point, or its links."""
+    if joint is None or joint.at is None:
+        return "common normal of the joint"
+    what = normal_words(joint)
+    hidden = not is_named(joint.at)
+    return f"{what} of links {' and '.join(joint.links)}" if hidden else f"{what} at {joint.at}"
 
 
 def why_not_moved(joint: Joint) -> str:

@@ -151,6 +151,12 @@ def at_rest(load: str, links: Sequence[str], why: str) -> str:
     return f"{still} in this position{clause}, so it is a dead centre for {load}"
 
 
+def known_at_rest(loads: Sequence[str], link: str) -> str:
+    """Known loads that do no work, for their link stands still."""
+    verb = "does" if len(loads) == 1 else "do"
+    return f"{link_words(link)} stands still in this position: {listed(loads)} {verb} no work on it."
+
+
 def idle_load(load: str, links: Sequence[str], couple: bool, slack: bool) -> str:
     """Why a load does no work on links that move; ``slack``: a spring that is neither stretched nor wound."""
     here, *other = map(link_words, links)
@@ -180,6 +186,20 @@ def uncarried(case: Case, points: Iterable[str]) -> str:
     with_ = f"link {listed(found)}" if len(found) == 1 else f"links {listed(found)}"
     said = f"no link carries {listed(names)}: if {goes} with {with_}, write `links: {{{entries}}}`."
     return said if found else ""
+
+
+def poses_nothing(path: str, moves: bool = False) -> str:
+    """A number that is to find by the positions that it gives, and gives none; whether the mechanism
+    ``moves`` all the same."""
+    why = "it moves nothing."
+    if moves:
+        why = "the mechanism moves without changing it. Take an angle, a length or a coordinate that the "
+        why += "motion changes, or a link that turns."
+    return (
+        f"{path} does not pose the figure: {why} At which value of it the loads balance in the position as "
+        f"written is asked by a sweep: `icsolve sweep CASE --vary {path}=FROM:TO:STEP --find hold`, with a "
+        "number in the case."
+    )
 
 
 def left_out(at: str, slack: str) -> str:
@@ -228,13 +248,24 @@ def wrong_count(mobility: int, unknowns: int, idle: int, ends: str = "") -> str:
     return f"{wrong} Add {plural(missing, 'unknown load')}, or {lock} to lock it."
 
 
-def nothing_asked(mobility: int, balanced: bool) -> str:
-    """Known loads alone, on links that are free to move."""
-    balance = "balance in this position" if balanced else "do not balance: make one `unknown` to hold them"
-    return (
-        f"no load is `unknown`, and those that are given {balance}. The links can move "
-        f"({plural(mobility, 'freedom')}): where they should stand still, a joint is missing."
-    )
+def nothing_asked(mobility: int, left: Sequence[str], turning: Sequence[str]) -> str:
+    """Known loads alone, on links that are free to move.
+
+    Parameters
+    ----------
+    left : what the loads may leave for want of in each motion in which they leave something; '' where they do
+        not balance in it
+    turning : the links that can turn by themselves, where nothing else can move
+    """
+    balance = "balance in this position" + (f" but for {left[0]}" if left else "")
+    if not all(left):
+        balance = "do not balance: make one `unknown` to hold them"
+    free = f"The links can move ({plural(mobility, 'freedom')}): where they should stand still, a joint is "
+    free += "missing."
+    if turning:
+        one = len(turning) == 1
+        free = f"Link{'' if one else 's'} {listed(turning)} can turn by {'itself' if one else 'themselves'}."
+    return f"no load is `unknown`, and those that are given {balance}. {free}"
 
 
 def redundant(

@@ -14,7 +14,6 @@ from icsolve.case import (
     Case,
     Coordinates,
     ForceVector,
-    Joint,
     Like,
     Load,
     Pair,
@@ -366,20 +365,6 @@ def _acting(known: Known, w: Wrench) -> Acting:
     direction = (0.0, 0.0) if torque else (float(w.unit[1]), -float(w.unit[0]))
     unit = unit_of(w.load, known.case)
     return Acting(w.load, w.load.link, w.against, at, direction, gain, value, unit, number is None, holds)
-
-
-def joint_of_normal(joints: Iterable[Joint], lines: Sequence[Sequence[Pair]], number: int) -> Joint | None:
-    """The joint whose common normal is a line of a centre; of several between two links each has its own.
-
-    Parameters
-    ----------
-    joints : those of the case
-    lines, number : the lines of the centre, and which of them it is
-    """
-    pair = set(lines[number][0])
-    before = sum(len(line) == 1 and set(line[0]) == pair for line in lines[:number])
-    found = [joint for joint in joints if joint.has_normal and pair <= set(joint.links)]
-    return found[before] if before < len(found) else None
 
 
 # --- what ropes do to a link -----------------------------------------------------------------------------

@@ -23,7 +23,9 @@ from itertools import product
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Showing, largest_of
 from icsolve.numbers.inequalities import deepest
-from icsolve.statics.friction.interface import shared
+from icsolve.statics.equilibrium import equilibrium
+from icsolve.statics.free_bodies import FreeBodies, Solved, told, with_tooth_forces
+from icsolve.statics.friction.interface import rubs_of, shared
 from icsolve.statics.friction.pushing import (
     ROUNDED,
     TOO_MANY,
@@ -39,7 +41,8 @@ from icsolve.statics.friction.pushing import (
     rows_of,
     value_where,
 )
-from icsolve.statics.reaction_basis import ties_of
+from icsolve.statics.power import Balance
+from icsolve.statics.reaction_basis import Position, ties_of
 from icsolve.tuples import NamedTuple
 
 MOST_PARTS = 2000
@@ -85,6 +88,20 @@ def standing(scene: RestingScene) -> Standing:
         raise SceneError(Status.UNSUPPORTED, shared(ties[fitted.tie], ties))
     assert sure is not None
     return sure
+
+
+def held_bodies(position: Position, balance: Balance, a: Showing) -> FreeBodies:
+    """The reactions of known loads that friction holds, as far as equilibrium says how much of it acts: at
+    rest a joint that rubs carries what acts along it too."""
+    rubbing = {rub.tie: rub.unit for rub in rubs_of(position, ties_of(position))}
+    ties = [
+        tie._replace(units=(*tie.units, rubbing[t])) if t in rubbing else tie
+        for t, tie in enumerate(ties_of(position))
+    ]
+    solved = with_tooth_forces(
+        position, ties, lambda flanked: Solved(equilibrium(position, flanked, balance), {})
+    )
+    return told(position, balance, solved, None, a)
 
 
 def _standing(
