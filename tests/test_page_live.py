@@ -228,6 +228,27 @@ def test_a_wheel_whose_centre_leaves_its_radius_is_refused_as_solve_does(shown: 
     assert seen == ["unsupported", "unsupported", "ok"]
 
 
+WHEELS = """icsolve: 1
+points: {O: [0, 0], Q: [5, 0], P: [2, 0]}
+joints: [{pin: [1, 2], at: O}, {pin: [1, 3], at: Q}, {roll: [2, 3], at: P, radii: [2, 3]}]
+loads: {M: {torque: 5, link: 2}, T: {torque: unknown, link: 3}}
+"""
+
+
+def test_radii_that_no_longer_fit_are_refused_as_solve_does(shown: Any) -> None:
+    """Of two wheels on pins, and of a pinion: to 0.2 % they fit, outside and inside of one another."""
+    size, fits = "joints.P.radii.", [0, 3, 6, 7]
+    changes = [{f"{size}0": "2.003"}, {f"{size}0": "2.005"}, {f"{size}1": "-3"}]
+    changes += [{"points.Q.x": "-1", f"{size}1": "-3"}, {"points.Q.x": "-1"}, {"points.P.y": "0.1"}]
+    changes += [{"points.P.y": "0.001"}, {"points.P.x": "1", f"{size}0": "1", f"{size}1": "4"}]
+    seen = compare(shown(WHEELS), WHEELS, changes)
+    assert [n for n, status in enumerate(seen) if status == "ok"] == fits
+    assert set(seen) == {"ok", "inconsistent"}
+    path = ROOT / "rolling/rack_and_pinion.yaml"
+    seen = compare(shown(path), path, [{f"{size}0": text} for text in ("40.05", "39", "45")])
+    assert seen == ["ok", "inconsistent", "inconsistent"]
+
+
 def test_a_rope_that_would_push_is_slack(shown: Any) -> None:
     """Pulls of all signs on both ropes, and a pulley too large for its rope."""
     changes = [{"loads.W": w, "loads.E1": e} for w in ("-40", "10", "40") for e in ("-15", "0", "15", "60")]

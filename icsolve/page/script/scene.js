@@ -733,6 +733,20 @@ function refuseMisfit(told, x, points) {
     if (abs(apart(plainly(points[a]), plainly(points[b])) / told.frame[2] - fit) > 2e-3 * fit)
       refuse("inconsistent", "the teeth do not fit the distance of the pivots");
   }
+  for (const [contact, radii, pairs] of told.held)
+    if (pairs.every((pair) => rollingMargins(told, x, points, contact, radii, pair).some((margin) => margin < 0)))
+      refuse("inconsistent", "the radii of two links that roll do not fit the figure");
+}
+/* Numbers of which none is negative where radii fit the centres of two links that roll; a straight one has none. */
+function rollingMargins(told, x, points, contact, radii, pair) {
+  const arms = pair.flatMap((k, n) => {
+    const r = plainly(x[radii[n]]) * told.frame[2];
+    return k === null || !r ? [] : [[minus(plainly(points[contact]), plainly(points[k])), r]];
+  });
+  const round = arms.map(([arm, r]) => (2 * told.offRadius * r * r) ** 2 - (dot(arm, arm) - r * r) ** 2);
+  if (arms.length < 2) return round;
+  const [[a, r], [b, s]] = arms;
+  return [...round, (told.offRadius * (r * r + s * s)) ** 2 - (a[1] * b[0] - a[0] * b[1]) ** 2, -dot(a, b) * r * s];
 }
 /* The basis twist that tells a joint's own centre, or the direction of its guide. */
 const ownOf = (told, bases) => bases.map((basis, k) => (told.bonds[k][2] ? basis[0] : basis[basis.length - 1]));
@@ -762,8 +776,7 @@ function movedAs(told, x, motions, points) {
 /* Whether a wheel has its radius still: its centre lies so far from where it touches. */
 function rollsOn(told, x, { points }, [n, contact, centre]) {
   if (!x[n] !== !told.numbers[n]) return false;
-  const r = abs(plainly(x[n]) * told.frame[2]);
-  return centre === null || abs(apart(plainly(points[contact]), plainly(points[centre])) - r) <= told.offRadius * r;
+  return rollingMargins(told, x, points, contact, [n], [centre]).every((margin) => margin >= 0);
 }
 /* The inertia forces of the given motion among the loads. */
 function withInertia(told, x, figure, motions, { meant, twists }, loads) {
