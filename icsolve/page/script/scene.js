@@ -509,9 +509,9 @@ function figureOf(program, told, x) {
       again();
     },
     /* From where it is: the same branches, Newton's method from the last places; a point of which `toward` has
-       a place goes to the side on which that is. */
-    followed(toward = () => null) {
-      typed = false;
+       a place goes to the side on which that is. Numbers that a motion has measured are rounded. */
+    followed(measured, toward = () => null) {
+      typed = !measured;
       told.steps.forEach((step, n) => {
         if (step.start) {
           if (!iterate(n)) refuse("cannot-assemble", `the links do not meet at ${plain(step.p[0])}`);
@@ -825,11 +825,12 @@ function solvedScene(told, x, figure) {
   try {
     const placed = figure.inDigits();
     refuseMisfit(told, placed.numbers, placed.points);
-    solved = plainly(sceneOf(told, placed.numbers, placed));
+    const found = sceneOf(told, placed.numbers, placed);
+    refuseSlack(told, found);
+    solved = plainly(found);
   } finally {
     fine = false;
   }
-  refuseSlack(told, solved);
   return solved;
 }
 /* Of numbers that a motion has measured: refused where what rounding leaves of the places gives other loads. */
@@ -851,8 +852,7 @@ function solvedAsFollowed(told, x, figure) {
 function sceneAsPlaced(told, x, figure) {
   refuseUnfit(told, x, figure);
   const solved = sceneOf(told, x, figure);
-  refuseSlack(told, solved);
-  return solved;
+  return { ...solved, open: refuseSlack(told, solved) || solved.open };
 }
 /* What is refused before anything moves. */
 function refuseUnfit(told, x, figure) {
@@ -867,10 +867,12 @@ function refuseUnfit(told, x, figure) {
       refuse("inconsistent", "a weight hangs from a part of a rope that does not hang");
   });
 }
+/* Whether doubles leave open if all ropes pull; refused where one does not. */
 function refuseSlack(told, solved) {
-  if (!told.ropes.length || !(told.loads.some((load) => load.unknown) || told.posed.length || !solved.motions.mobility)) return;
-  const { ropes, most, shares } = reactionsOf({ solved });
-  if (!shares || ropes.some((pull) => pull !== null && pull < -1e-11 * most)) refuse("slack");
+  if (!told.ropes.length || !(told.loads.some((load) => load.unknown) || told.posed.length || !solved.motions.mobility)) return false;
+  const { ropes, most, shares, open } = reactionsOf({ solved });
+  if (!shares || ropes.some((pull) => pull !== null && pull < 0 && !isNothing(pull, most, 1e-11))) refuse("slack");
+  return open;
 }
 function sceneOf(told, x, figure) {
   const parts = figure.scene();
