@@ -127,6 +127,16 @@ def check_free(path: str, force: bool) -> None:
         raise KeptError(f"{path} is there already, and is left as it is; --force writes over it")
 
 
+def check_ending(path: str, endings: Iterable[str], writer: str) -> None:
+    """Raises KeptError where a file's name ends as nothing that ``writer`` writes; without an ending, as of a
+    device, it may be all of it."""
+    *some, last = filter(None, endings)
+    ending = os.path.splitext(path)[1].lower()
+    if ending and ending not in (*some, last):
+        names = f"{', '.join(some)} or {last}" if some else last
+        raise KeptError(f"{path} should end in {names}, which is what {writer} writes")
+
+
 @contextmanager
 def whole_file(path: str, force: bool = True, binary: bool = False) -> Iterator[IO[Any]]:
     """A file to write, in UTF-8 unless ``binary``; it takes its name only when all is written.

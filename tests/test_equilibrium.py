@@ -39,6 +39,8 @@ from icsolve.solve import friction_ranges
 from icsolve.solve import mode_limits as limits_room
 from icsolve.solve.rest_position import AT_LIMIT
 from icsolve.solve.stability import holding_values, neutral_values, with_stability
+from icsolve.sweep.numbers import numbers_of
+from library import FILES, sample
 from shell import Shell, exit_status
 from sizes import FULL
 
@@ -2051,6 +2053,33 @@ def test_a_rope_with_a_free_end_rests_where_its_counterweight_says(
     for of in ("angles.AB", "2"):
         found = json.loads(run(tmp_path, capsys, text, "solve", "CASE", "--json", "--stability", of))
         assert found["stiffness"]["value"] == pytest.approx(-75 / 16, rel=1e-9)
+
+
+RESTING = [name for name in FILES if name.startswith("equilibrium")]
+
+
+@pytest.mark.parametrize("name", sample(RESTING, 4, "own stability"))
+def test_a_stability_that_positions_do_not_have_is_refused(
+    name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Each position has its own by the datum that is asked for, which may be named; by another datum or by a
+    link it is that of a position as written, and what is no name of the case is told so."""
+    path, case = str(FILES[name]), icsolve.load(FILES[name])
+    own = [unknown.path for unknown in case.unknowns]
+    assert exit_status("solve", path, "--json") == 0
+    plain = capsys.readouterr()
+    assert own and '"positions": [{' in plain.out
+    for of in own:
+        assert exit_status("solve", path, "--json", "--stability", of) == 0
+        assert capsys.readouterr() == plain
+    link = next(link for link in case.links if link != case.ground)
+    other = next(datum for datum in numbers_of(case) if datum not in own)
+    for of in (link, other):
+        assert exit_status("solve", path, "--stability", of) == 1
+        assert f"own stability, by {' and '.join(own)}" in capsys.readouterr().err
+    for of in ("nobody", "angles.XYZW"):
+        assert exit_status("solve", path, "--stability", of) == 2
+        assert f"no stability by '{of}'" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

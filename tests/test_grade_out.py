@@ -21,6 +21,7 @@ from grade_shell import CASES, PRESS, Class
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.keys import NumberKey
+from shell import Ran
 from test_grade_verdict import ZERO
 
 ANSWERS = (
@@ -429,6 +430,34 @@ def band(item: ElementTree.Element) -> list[float]:
     return [float(item.findtext(f".//{QTI}{tag}") or "nan") for tag in ("varequal", "vargte", "varlte")]
 
 
+ENDINGS = {
+    "moodle-xml": (".xml",),
+    "gift": (".gift", ".txt"),
+    "qti": (".zip",),
+    "gradescope-zip": (".zip",),
+    "prairielearn": (".questions", ".v2"),
+}
+"""What the file, or the folder, of each kind may end in."""
+
+
+@pytest.mark.parametrize("kind", ENDINGS)
+def test_an_export_is_not_written_under_the_ending_of_something_else(kind: str, a_class: Class) -> None:
+    """Its own endings, also in capitals, and none at all; a folder may have any that no file has."""
+    cases = a_class.path("cases")
+
+    def ran(name: str) -> Ran:
+        return a_class.run("export", kind, str(cases), "-o", str(a_class.path(name)), "--count", "1")
+
+    for name in ("good", *(f"good{ending}" for ending in ENDINGS[kind]), f"GOOD{ENDINGS[kind][0].upper()}"):
+        assert ran(name).code in (0, 1) and a_class.path(name).exists()
+    said = f"should end in {ENDINGS[kind][0]}" if kind != "prairielearn" else "writes is a folder"
+    others = {".xml", ".gift", ".txt", ".zip", *({".csv", ".pdf"} if kind != "prairielearn" else ())}
+    for ending in others - {*ENDINGS[kind]}:
+        refused = ran(f"bad{ending}")
+        assert refused.code == 2 and f"{kind} writes" in refused.err and said in refused.err
+        assert not a_class.path(f"bad{ending}").exists()
+
+
 def test_questions_whose_answer_is_zero_are_exported(a_class: Class) -> None:
     for name in ("lever", "pusher", "dead"):
         a_class.path(f"cases/{name}.yaml").unlink()
@@ -455,7 +484,8 @@ def test_a_question_of_several_right_answers_takes_each_of_them(a_class: Class) 
         if a.get("fraction") == "100"
     ]
     bands.append([(float(value or 0), float(half or 0)) for value, half in rows])
-    out = {kind: a_class.path(f"bar.{kind}") for kind in ("gift", "qti", "prairielearn")}
+    names = {"gift": "bar.gift", "qti": "bar.zip", "prairielearn": "bar"}
+    out = {kind: a_class.path(name) for kind, name in names.items()}
     assert [a_class.run("export", kind, path, "-o", str(at)).code for kind, at in out.items()] == [0, 0, 0]
     found = re.findall(r"=%100%([-.\d]+):([-.\d]+)#", out["gift"].read_text())
     bands.append([(float(value), float(half)) for value, half in found])

@@ -257,7 +257,7 @@ def test_a_case_in_space_with_variables_is_refused_by_name_and_spoils_no_other(
     handed = a_class.run("variants", case, "--roster", roster, "-o", a_class.path("out"))
     assert handed.code == 2 and handed.err.strip() == told and not a_class.path("out").exists()
     for kind in ("gift", "moodle-xml", "qti", "prairielearn"):
-        made = a_class.run("export", kind, case, "-o", a_class.path(f"out.{kind}"))
+        made = a_class.run("export", kind, case, "-o", a_class.path(f"out-{kind}"))
         assert made.code == 1 and "space" in made.err and "fault" not in made.err
     ran = a_class.grade("student_id,case,answer\n1,lever,200\n1,shaft,3\n2,shaft:F12,3\n")
     assert [ran.row("1", "lever")["verdict"], ran.row("1", "shaft")["verdict"]] == ["right", "review"]

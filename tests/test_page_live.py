@@ -10,6 +10,7 @@ import math
 import random
 import re
 from collections.abc import Iterator
+from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ import pytest
 
 import icsolve
 from browser import Browser
+from icsolve.bench.promises import scissors
 from icsolve.errors import CaseError, SceneError
 from icsolve.explain import explain
 from icsolve.numbers.units import BOUNDS
@@ -226,6 +228,27 @@ def test_a_wheel_whose_centre_leaves_its_radius_is_refused_as_solve_does(shown: 
     path = ROOT / "dynamics/rolling_disk.yaml"
     seen = compare(shown(path), path, changes)
     assert seen == ["unsupported", "unsupported", "ok"]
+
+
+WHEELS = """icsolve: 1
+points: {O: [0, 0], Q: [5, 0], P: [2, 0]}
+joints: [{pin: [1, 2], at: O}, {pin: [1, 3], at: Q}, {roll: [2, 3], at: P, radii: [2, 3]}]
+loads: {M: {torque: 5, link: 2}, T: {torque: unknown, link: 3}}
+"""
+
+
+def test_radii_that_no_longer_fit_are_refused_as_solve_does(shown: Any) -> None:
+    """Of two wheels on pins, and of a pinion: to 0.2 % they fit, outside and inside of one another."""
+    size, fits = "joints.P.radii.", [0, 3, 6, 7]
+    changes = [{f"{size}0": "2.003"}, {f"{size}0": "2.005"}, {f"{size}1": "-3"}]
+    changes += [{"points.Q.x": "-1", f"{size}1": "-3"}, {"points.Q.x": "-1"}, {"points.P.y": "0.1"}]
+    changes += [{"points.P.y": "0.001"}, {"points.P.x": "1", f"{size}0": "1", f"{size}1": "4"}]
+    seen = compare(shown(WHEELS), WHEELS, changes)
+    assert [n for n, status in enumerate(seen) if status == "ok"] == fits
+    assert set(seen) == {"ok", "inconsistent"}
+    path = ROOT / "rolling/rack_and_pinion.yaml"
+    seen = compare(shown(path), path, [{f"{size}0": text} for text in ("40.05", "39", "45")])
+    assert seen == ["ok", "inconsistent", "inconsistent"]
 
 
 def test_a_rope_that_would_push_is_slack(shown: Any) -> None:
@@ -922,6 +945,143 @@ def test_a_page_has_the_number_of_solve_however_near_a_singular_position_is(
             assert float(value) == pytest.approx(right, rel=1e-9, abs=1e-300), change
             told += 1
     assert told >= 12 or (kind == "a kite" and asked == "force")
+
+
+PULL = """const [changes, handle, path, at] = arguments;
+const field = (path) => document.getElementById('number-' + path);
+function put([path, text]) {
+  field(path).value = text;
+  field(path).dispatchEvent(new Event('input', { bubbles: true }));
+}
+const fields = [...document.querySelectorAll('input[id^="number-"]')];
+const grip = document.getElementById('handle-' + handle);
+const keys = ['ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight'];
+const ways = keys.flatMap((key) => [...Array(241).keys()].map((k) => [key, (at + k * 0.05 - 6).toFixed(2)]));
+return changes.map((change) => {
+  for (const [key, from] of ways) {
+    document.getElementById('reset').click();
+    [...Object.entries(change), [path, from]].forEach(put);
+    grip.dispatchEvent(new KeyboardEvent('keydown', { key, bubbles: true }));
+    if (Number(field(path).value) !== at) continue;
+    ways.splice(0, ways.length, [key, from]);
+    const { value, status } = document.querySelector('[id^="answer-"]').dataset;
+    return [Object.fromEntries(fields.map((e) => [e.dataset.path, e.value])), value, status];
+  }
+});"""
+"""Types numbers, and presses an arrow key on a handle where that makes an angle what is asked."""
+PULLED = [kind for kind, (_, _, at, _) in LEVERS.items() if at == round(at)]
+
+
+@pytest.mark.parametrize("asked", ["torque", "force"])
+@pytest.mark.parametrize("kind", PULLED if FULL else PULLED[::3])
+def test_what_is_pulled_has_the_number_of_solve_however_near_a_singular_position_is(
+    kind: str, asked: str, shown: Any
+) -> None:
+    """A crank pulled to the angle of a singular position, which a coordinate has moved 1e-2 to 1e-13 aside:
+    the word of `solve` for the numbers in the fields, and its value to 1e-9."""
+    form, sizes, at, off = LEVERS[kind]
+    loads = {"p": "unknown", "t": 10} if asked == "force" else {"p": 30, "t": "unknown"}
+    text = form.format(at=at + off, **sizes, **loads)
+    path, base = ("points.D.y", 0.0) if form is BAR else ("points.C.y", float(sizes["d"]))
+    ks = range(2, 14) if FULL else (2, 5, 7, 9, 13)
+    changes = [{path: repr(base + side * 10.0**-k)} for k in ks for side in (1.0, -1.0)]
+    page, told = shown(text), 0
+    for fields, value, status in page.run(PULL, changes, "B", "angles.AB", at):
+        own = solved(text, fields)
+        assert own is not None and own[0] == status, fields
+        for right in own[1].values():
+            assert float(value) == pytest.approx(right, rel=1e-9, abs=1e-300), fields
+            told += 1
+    assert told >= 4
+
+
+LEVER = """icsolve: 1
+points: {A: [0, 0], B: [2, 0], D: [2.3, 2], F: [4, 0], G: [3, 0], O: [6, 0], Q: [7, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {rope: [B, D], on: [2, 1]}
+  - {pin: [1, 3], at: O}
+loads:
+  W: {force: 100, link: 2, at: F, angle: -90}
+  R: {force: 100, link: 2, at: G, angle: 77}
+  M: {weight: 10, link: 3, at: Q}
+  T: {torque: unknown, link: 3}
+"""
+SHARED = LEVER.replace("{pin: [1, 3]", "{rope: [F, E], on: [2, 1]}\n  - {pin: [1, 3]")
+SLACKENED = {
+    "a block on its guide": (ROPED, "loads.E1", 15),
+    "a block on a crank": (f"{TIED}  U: {{force: 6, link: 3, at: C, angle: 70}}\n", "loads.U", 15),
+    "a lever": (LEVER, "loads.R", 15),
+    "two ropes that share": (SHARED.replace("G:", "E: [4, 3], G:"), "loads.R", 11),
+}
+"""Ropes, a number beside the load W, and to how many digits the word is the same: what ropes share `solve`
+decides to 2^-48 of it."""
+
+
+@pytest.mark.parametrize("kind", SLACKENED)
+def test_however_near_a_rope_is_to_going_slack_a_page_says_what_solve_says(kind: str, shown: Any) -> None:
+    """The load at which a rope ceases to pull, found by the words of `solve`, and 1e-2 to 1e-15 aside."""
+    case, other, digits = SLACKENED[kind]
+    draw, page = random.Random(kind), shown(case)
+    for _ in range(8 if FULL else 2):
+        beside = {other: repr(round(draw.uniform(5, 30), 3))}
+
+        def word(load: Decimal, beside: dict[str, str] = beside) -> str:
+            return (solved(case, {**beside, "loads.W": f"{load:f}"}) or ("",))[0]
+
+        low, high = Decimal(-500), Decimal(500)
+        first = word(low)
+        assert {first, word(high)} == {"ok", "slack"}
+        while high - low > Decimal("1e-20"):
+            middle = ((low + high) / 2).quantize(Decimal("1e-22"))
+            low, high = (middle, high) if word(middle) == first else (low, middle)
+        loads = [low * (1 + side * Decimal(10) ** -k) for k in range(2, digits + 1) for side in (1, -1)]
+        seen = compare(page, case, [{**beside, "loads.W": f"{load:.22f}"} for load in loads])
+        assert abs(seen.count("slack") - len(loads) / 2) <= 1
+
+
+CHAINS = {
+    "lazy tongs, moved by a bar that no pin holds to the frame": ROOT / "tools/lazy_tongs.yaml",
+    "scissors by coordinates": ROOT / "tools/scissor_lift.yaml",
+    **{f"{n} scissors by flat triangles": scissors(n)(random.Random(n)) for n in (1, 2, 4)},
+}
+TURN = """const [number, text, degrees] = arguments;
+const put = (id, value) => {
+  document.getElementById(id).value = value;
+  document.getElementById(id).dispatchEvent(new Event('input'));
+};
+put('number-' + number, text);
+return degrees.map((at) => {
+  put('turn', at);
+  const { value, status } = document.querySelector('[id^="answer-"]').dataset;
+  return [value, status];
+});"""
+
+
+@pytest.mark.parametrize("kind", CHAINS)
+def test_chains_of_crossing_bars_are_turned_with_the_values_of_the_sweep(kind: str, shown: Any) -> None:
+    """With another load, forth and back, to 1e-9: where only the angle of the input follows, it is as typed;
+    flat triangles, whose three lengths say of every bar that it is straight, are not parted by rounding."""
+    case, degrees = CHAINS[kind], [3.0, -2.0, 7.0, -11.0, 15.0, 0.0]
+    page = shown(case, moves=True)
+    load = next(path for path in page.run(FIELDS)[0] if path.startswith("loads.") and path.count(".") == 1)
+    found = page.run(TURN, load, "77", degrees)
+    motion = page.run("return JSON.parse(document.getElementById('data').textContent).motion")
+    assert motion["verb"] == "turned"
+    rows = icsolve.sweep(icsolve.load(case, {load: "77"}), drive={motion["driver"]: degrees})
+    ((asked, values),) = rows.answers.items()
+    assert [status for _, status in found] == ["ok"] * len(degrees), asked
+    assert [float(value) for value, _ in found] == pytest.approx(values.tolist(), rel=1e-9)
+
+
+@pytest.mark.parametrize("kind", [kind for kind in CHAINS if "flat" in kind])
+def test_scissors_of_flat_triangles_are_pulled_to_the_answers_of_solve(kind: str, shown: Any) -> None:
+    page = shown(CHAINS[kind])
+    loads: list[dict[str, str]] = [{"loads.W": text} for text in ("10", "-3.5")]
+    for fields, value, status in page.run(PULL, loads, "C0", "angles.L0-C0", 44):
+        own, values = solved(CHAINS[kind], fields) or ("", {})
+        assert status == own == "ok"
+        assert float(value) == pytest.approx(values["F"], rel=1e-9)
 
 
 @pytest.mark.parametrize("unit", ["yd", "ft"])

@@ -460,6 +460,85 @@ def test_a_wheel_rolls_on_what_each_row_says_that_it_rolls_on(written: float) ->
         assert found.points["A"][n] == pytest.approx(alone.points["A"][0], abs=1e-12)
 
 
+ROLLING = {
+    "wheels": ("{pin: [1, 2], at: O}, {pin: [1, 3], at: Q}", "2", "3"),
+    "planet": ("{pin: [1, 3], at: Q}, {pin: [3, 2], at: O}", "2", "1"),
+    "rack": ("{pin: [1, 2], at: O}, {slide: [3, 1], at: R, along: @}", "2", "3"),
+    "on the flat": ("{pin: [3, 2], at: O}, {slide: [3, 1], at: O, along: @}", "2", "1"),
+}
+"""Two links that a third carries, by pins and guides: the joints, and which two roll."""
+MISFITS = (0.0, 5e-4, -8e-4, 6e-3, -0.01, 0.4, -2.0)
+"""By how much of it a radius is not that of the figure; 0.2 % fits."""
+
+
+@pytest.mark.parametrize("off", MISFITS)
+@pytest.mark.parametrize("kind", ROLLING)
+@pytest.mark.parametrize("seed", range(40 if FULL else 3))
+def test_radii_that_do_not_fit_the_figure_are_refused_in_scenes_and_rows(
+    kind: str, off: float, seed: int
+) -> None:
+    """Of two wheels that pins carry (outside and inside of one another), of a planet, of a rack and of a hub
+    on the flat: more data than the figure needs fit to 0.2 %, wherever the radius comes from."""
+    draw = random.Random(f"{kind} {seed}")
+    turn = cmath.rect(1.0, draw.uniform(-math.pi, math.pi))
+    r, s = draw.uniform(0.5, 3), draw.choice([1, -1]) * draw.uniform(3.5, 6)
+    places = {"O": -r * turn, "Q": s * turn, "P": 0 * turn, "R": (0.5 + 2j) * turn}
+    joints, one, two = ROLLING[kind]
+    straight = kind in ("rack", "on the flat")
+    along = repr(math.degrees(cmath.phase(turn)) + 90)
+
+    def rolling(radii: list[float]) -> Case:
+        points = ", ".join(f"{p}: [{z.real!r}, {z.imag!r}]" for p, z in places.items())
+        return icsolve.load(
+            f"icsolve: 1\npoints: {{{points}}}\n"
+            f"joints: [{joints.replace('@', along)}, {{roll: [{one}, {two}], at: P, radii: {radii}}}]\n"
+            "loads: {M: {torque: 5, link: 2}, F: {force: unknown, link: 3, at: [0.3, 7], slope: [2, 3]}}\n"
+        )
+
+    fitting = [r, 0.0 if straight else s]
+    k = 0 if straight else 1 if off == -2.0 else draw.choice([0, 1])
+    off = abs(off) if straight else off  # what rolls on a straight link is not hollow
+    given = [radius * (1 + off) if n == k else radius for n, radius in enumerate(fitting)]
+    wanted = "ok" if abs(off) < 2e-3 else "inconsistent"
+    case = rolling(given)
+    assert solved(case)[0] == wanted
+    radius = f"joints.P.radii.{k}"
+    rows = icsolve.sweep(rolling(fitting), {radius: [fitting[k], given[k], fitting[k]]})
+    assert rows.status.tolist() == ["ok", wanted, "ok"]
+    for vary, drive in (({"loads.M": [5.0, 6.0]}, {}), ({}, {"2": [0.0, 1.0]})):
+        if wanted == "ok":
+            found = icsolve.sweep(case, vary, drive=drive)
+            assert found.status.tolist() == ["ok", "ok"]
+            assert found.answers["F"][0] == pytest.approx(solved(case)[1]["F"][0], rel=5e-3)
+        else:
+            with pytest.raises(icsolve.SceneError, match="radii of links") as refusal:
+                icsolve.sweep(case, vary, drive=drive)
+            assert refusal.value.status == wanted
+
+
+@pytest.mark.parametrize("seed", range(40 if FULL else 4))
+def test_a_wheel_of_which_no_point_is_the_centre_is_noted_and_not_moved(seed: int) -> None:
+    """A wheel that nothing carries by its centre has any radius as it stands; where no point lies at one, or
+    those that do lie on one side of the contact and not on two, the scene notes what the sweep says."""
+    draw = random.Random(f"no centre {seed}")
+    r, off = draw.uniform(0.5, 3), draw.choice([0.0, 0.01, -0.3])
+    radii = [r * (1 + off), draw.choice([0, 2.0, -7.0])]
+    case = icsolve.load(
+        f"icsolve: 1\npoints: {{P: [0, 0], C: [0, {r!r}], D: [0, {radii[1]}]}}\nlinks: {{1: [D], 2: [C]}}\n"
+        f"joints: [{{roll: [2, 1], at: P, radii: {radii}}}]\n"
+        "loads: {M: {torque: 5, link: 2}, F: {force: unknown, link: 2, at: C, angle: 0}}\n"
+    )
+    is_told = bool(off) is not bool(radii[1])
+    answer = icsolve.solve(case)
+    assert answer.answers["F"].value == pytest.approx(5 / r, rel=1e-14)
+    told = [note for note in answer.notes if "cannot be moved" in note]
+    assert bool(told) is is_told
+    if told:
+        with pytest.raises(icsolve.SceneError) as refusal:
+            icsolve.sweep(case, drive={"2": [0, 1]})
+        assert [refusal.value.message] == told
+
+
 @pytest.mark.parametrize("corner", [14.25, -14.25, 60.0, 170.0])
 def test_a_centre_of_mass_that_data_place_anew_is_no_slip(corner: float) -> None:
     """A crank of another length turns the lever, and the angle on it that places its mass is another: G may

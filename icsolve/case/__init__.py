@@ -37,6 +37,7 @@ from icsolve.case.joints import (
     Pair,
     Pin,
     Roll,
+    Rolling,
     Slide,
     Slot,
     Thread,
@@ -178,6 +179,12 @@ class Case:
         """Those that a torque turns."""
         slides = (joint for joint in self.joints if isinstance(joint, Guided))
         return tuple(Screw(slide, slide.thread) for slide in slides if slide.thread is not None)
+
+    @cached_property
+    def rollings(self) -> tuple[Rolling, ...]:
+        """The joints that roll on given radii."""
+        rolling = (joint for joint in self.joints if isinstance(joint, Rolling))
+        return tuple(joint for joint in rolling if joint.radii is not None)
 
     def pivots(self, *links: str) -> list[str]:
         """The points about which a link is pinned, or several to each other, in the order of the joints."""

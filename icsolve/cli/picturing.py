@@ -25,7 +25,7 @@ from icsolve.cli.run import (
     refusing,
     sources,
 )
-from icsolve.files import together
+from icsolve.files import KeptError, check_ending, together
 from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
@@ -213,12 +213,13 @@ def form_of(verb: str, case: str, output: str | None, endings: Mapping[str, str]
     itself is refused when it comes to writing)."""
     ending = os.path.splitext(output or "")[1].lower()
     itself = output is not None and os.path.exists(output) and os.path.exists(case)
-    if ending in endings or not ending or (itself and os.path.samefile(output or "", case)):
-        return endings.get(ending, next(iter(endings.values())))
-    *some, last = filter(None, endings)
-    names = f"{', '.join(some)} or {last}" if some else last
-    complain(f"icsolve {verb}: {output} should end in {names}, which is what {verb} writes")
-    return None
+    try:
+        if not (itself and os.path.samefile(output or "", case)):
+            check_ending(output or "", endings, verb)
+    except KeptError as error:
+        complain(f"icsolve {verb}: {error}")
+        return None
+    return endings.get(ending, next(iter(endings.values())))
 
 
 def laid_out(

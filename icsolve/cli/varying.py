@@ -11,7 +11,7 @@ import click
 from icsolve.cli.commands import FORCE, Verb
 from icsolve.cli.output import watched
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, refusing
-from icsolve.files import can_fork, check_free, started, together, write_whole
+from icsolve.files import can_fork, check_ending, check_free, started, together, write_whole
 from icsolve.wording.sentences import plural
 
 if TYPE_CHECKING:
@@ -172,12 +172,18 @@ def _sheet_path(folder: str, task: VariantTask) -> str:
     return os.path.join(folder, "sheets", f"{file_name(task.person.student_id)}.html")
 
 
-QUESTIONS = ("moodle-xml", "gift", "qti", "prairielearn", "gradescope-zip")
-"""The kinds that are exported."""
+QUESTIONS = {
+    "moodle-xml": (".xml",),
+    "gift": (".gift", ".txt"),
+    "qti": (".zip",),
+    "prairielearn": (),
+    "gradescope-zip": (".zip",),
+}
+"""The kinds that are exported, and what their files end in; without that a folder."""
 
 
 @click.command("export", cls=Verb)
-@click.argument("kind", type=click.Choice(QUESTIONS))
+@click.argument("kind", type=click.Choice(tuple(QUESTIONS)))
 @click.argument("cases", metavar="CASES")
 @click.option("-o", "--output", metavar="FILE", required=True, help="The file; for prairielearn a folder.")
 @click.option(
@@ -211,8 +217,11 @@ def _exported(kind: str, cases: str, output: str, options: dict[str, Any]) -> in
     course = course_of(options["course"], cases, False, {"seed": options["seed"]})
     case_store = CaseStore(existing(cases), course)
     case_store.check_course()
-    if kind != "prairielearn":
+    if QUESTIONS[kind]:
         check_free(output, options["force"])
+        check_ending(output, QUESTIONS[kind], kind)
+    elif os.path.splitext(output)[1].lower() in {ending for some in QUESTIONS.values() for ending in some}:
+        raise ValueError(f"{output} ends as a file, and what {kind} writes is a folder")
     own = options["course"] or course_file(cases)
     drawn = (options["force"], options["figures"], options["count"])
     order = ExportOrder(case_store, output, *drawn, own, options["roster"] or "")

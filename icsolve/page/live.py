@@ -32,7 +32,7 @@ from icsolve.assembly.workspace import (
 )
 from icsolve.case import Coordinates, Motion, Number, Rope, Screw, TorsionSpring, is_angle
 from icsolve.case.figure import Unknown
-from icsolve.case.joints import Guided, Mesh, Rolling
+from icsolve.case.joints import Guided, Mesh
 from icsolve.draw.words import unit_word
 from icsolve.kinematics.accelerations import Moving, drives_of, moving, rate_rows
 from icsolve.kinematics.motion import TURN, needed_bonds
@@ -48,7 +48,7 @@ from icsolve.report.derivation.ratios import independent_motions
 from icsolve.scene.parts import AnswerBuilder
 from icsolve.scene.program import Evaluation, Program, Want, needed_points, prepare
 from icsolve.scene.refusals import HANGS, rubs
-from icsolve.screws.joints import OFF_RADIUS, at_radius, freedoms, guide_direction
+from icsolve.screws.joints import OFF_RADIUS, at_radius, freedoms, guide_direction, held_centres
 from icsolve.screws.plane import Triple, force_wrench
 from icsolve.screws.ropes import TOUCHING, RopePart, rope_parts
 from icsolve.statics import load_wrenches, power
@@ -407,6 +407,7 @@ class _ProgramWriter:
             "order": joint_order(case),
             "dynamic": is_loaded(case),
             "rolls": list(self._rolls(place)),
+            "held": list(self._held(place)),
             "offRadius": OFF_RADIUS,
             "heavy": [link for link in case.inertia if is_loaded(case)],
             "inexact": any(joint.has_written_centre for joint in case.joints),
@@ -468,12 +469,20 @@ class _ProgramWriter:
     def _rolls(self, place: Mapping[Key, int]) -> Iterable[list[Any]]:
         """The radii of links that roll: each with the contact, and the centre that lies at it."""
         points, scale = self.figure.points, self.figure.frame.scale
-        for joint in self.case.joints:
-            if isinstance(joint, Rolling):
-                for link, radius in zip(joint.links, joint.radii or (), strict=False):
-                    own = at_radius(self.case.carries.get(link, ()), joint.at, radius.value * scale, points)
-                    centre = place[own[0]] if own and own[0] in place else None
-                    yield [self.paths.index(radius.path), place.get(joint.at), centre]
+        for joint in self.case.rollings:
+            for link, radius in zip(joint.links, joint.radii or (), strict=True):
+                own = at_radius(self.case.carries.get(link, ()), joint.at, radius.value * scale, points)
+                centre = place[own[0]] if own and own[0] in place else None
+                yield [self.paths.index(radius.path), place.get(joint.at), centre]
+
+    def _held(self, place: Mapping[Key, int]) -> Iterable[list[Any]]:
+        """The contacts whose wheels one link carries, their radii, and the pins that may be their centres."""
+        for joint in self.case.rollings:
+            pairs = held_centres(joint, self.case) if joint.at in place else []
+            pairs = [pair for pair in pairs if all(p is None or p in place for p in pair)]
+            numbers = [self.paths.index(radius.path) for radius in joint.radii or ()]
+            if pairs:
+                yield [place[joint.at], numbers, [[p and place[p] for p in pair] for pair in pairs]]
 
     def _owners(self) -> dict[str, str]:
         """The link that takes each point along: of a pin any, of a block or a pin in a slot its own."""

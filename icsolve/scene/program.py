@@ -23,7 +23,7 @@ from icsolve.kinematics import motion, speeds
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing
 from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, HalfUnits, MoreDigits
 from icsolve.scene import refusals
-from icsolve.screws.joints import points_of
+from icsolve.screws.joints import carried_round, points_of
 from icsolve.screws.plane import Triple
 from icsolve.statics import load_wrenches, power
 from icsolve.statics.power import Bounded, Outcome, Value
@@ -81,12 +81,13 @@ def prepare(case: Case, want: Want) -> Program:
     bonds = motion.needed_bonds(plan, top)
     figure = _figure(case, top, bonds, want)
     refusals.refuse_no_hanging(case, figure.points, figure.frame.scale)
-    if any(bond.pivots for bond in top.bonds):
-        from icsolve.assembly.conditions import misfitting_belts, refuse_misfit
+    if case.rollings or any(bond.pivots for bond in top.bonds):
+        from icsolve.assembly.conditions import misfitting_belts, refuse_misfit, unmoved_rollings
 
         placed = case, figure.points, figure.frame.scale
         refuse_misfit(*placed)
-        figure = figure._replace(notes=(*figure.notes, *misfitting_belts(*placed)))
+        notes = (*figure.notes, *misfitting_belts(*placed), *unmoved_rollings(*placed))
+        figure = figure._replace(notes=notes)
     return Program(case, want, top, plan, figure, refusals.directions(case))
 
 
@@ -97,8 +98,8 @@ def without_plan(program: Program) -> Program:
 
 
 def _figure(case: Case, top: Topology, bonds: tuple[int, ...], want: Want) -> Figure:
-    """The points that are needed, and those whose velocities are told; of the latter only those that the
-    data place, for nothing hangs on the others."""
+    """The points that are needed, those whose velocities are told, and those that may be centres of wheels;
+    of the others only those that the data place, for nothing hangs on them."""
     needed = needed_points(case, top, bonds, want)
     if want.examine:
         try:
@@ -108,6 +109,7 @@ def _figure(case: Case, top: Topology, bonds: tuple[int, ...], want: Want) -> Fi
                 raise
         return placed_figure(case, names_of(case), needed)
     told = [p for link in case.links for p in speeds.moving_points(case, link)] if want.everything else []
+    told += [p for joint in case.rollings for own in carried_round(joint, case) for p in own]
     return placed_figure(case, list(dict.fromkeys((*needed, *told))), needed)
 
 

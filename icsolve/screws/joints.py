@@ -12,7 +12,7 @@ from itertools import product
 
 from icsolve.case import Case, Guide, Joint
 from icsolve.case.joints import CentreAt, CentreSquareTo, JointCentre, Mesh, Rolling
-from icsolve.numbers.arithmetic import Arithmetic
+from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.screws.plane import Point, Triple, normal_twist, pin_twist, slide_twist, unit_between
 from icsolve.structure.topology import Bond, topology
 
@@ -68,7 +68,26 @@ def _points(centre: JointCentre) -> tuple[str, ...]:
 
 
 OFF_RADIUS = 2e-3
-"""The centre of a wheel may miss its radius by this fraction of it."""
+"""The centre of a wheel may miss its radius by this fraction of it, and the line of the contact and the other
+centre by this fraction of the figure."""
+
+
+def circle_margin(centre: Point, contact: Point, radius: Scalar) -> Scalar:
+    """Not negative where a centre is at its radius from where its link rolls; in any arithmetic."""
+    x, y, square = contact[0] - centre[0], contact[1] - centre[1], radius * radius
+    off = x * x + y * y - square
+    return 4.0 * OFF_RADIUS**2 * square * square - off * off
+
+
+def line_margins(
+    centres: tuple[Point, Point], contact: Point, radii: tuple[Scalar, Scalar]
+) -> tuple[Scalar, Scalar]:
+    """Neither negative where the contact lies on the line of two centres, and as their radii say between or
+    beyond them; in any arithmetic."""
+    (px, py), (qx, qy), (x, y), (r, s) = *centres, contact, radii
+    ax, ay, bx, by = x - px, y - py, qx - x, qy - y
+    limit, off = OFF_RADIUS * (r * r + s * s), ax * by - ay * bx
+    return limit * limit - off * off, (ax * bx + ay * by) * r * s
 
 
 def at_radius(names: Iterable[str], contact: str, radius: float, points: Points) -> list[str]:
@@ -83,8 +102,16 @@ def at_radius(names: Iterable[str], contact: str, radius: float, points: Points)
     """
     r = abs(radius)
     placed = [p for p in names if p != contact and p in points]
-    off = {p: abs(math.dist(points[p], points[contact]) - r) for p in placed}
-    return sorted((p for p in off if off[p] <= OFF_RADIUS * r and r), key=off.__getitem__)
+    at = {p: (float(points[p][0]), float(points[p][1])) for p in (*placed, contact)}
+    found = [p for p in placed if r and circle_margin(at[p], at[contact], r) >= 0.0]
+    return sorted(found, key=lambda p: abs(math.dist(at[p], at[contact]) - r))
+
+
+def carried_round(joint: Rolling, case: Case) -> list[list[str]]:
+    """The points of each of two bodies that roll on each other, among which its centre is."""
+    top = topology(case)
+    bodies = (top.members[top.body_of[link]] for link in joint.links)
+    return [list(dict.fromkeys(p for name in body for p in case.carries.get(name, ()))) for body in bodies]
 
 
 def rolling_centres(
@@ -109,15 +136,20 @@ def rolling_centres(
         raise LookupError("without `radii` nothing says how the contact moves on. Add them")
     if all(radius.value == 0.0 for radius in joint.radii):
         raise LookupError("both `radii` are 0, and straight links cannot roll on one another. Correct them")
-    top, pins, sides = topology(case), case.pivots(), list(zip(joint.links, joint.radii, strict=True))
-    options = []
-    for link, radius in sides:
-        welded = top.members[top.body_of[link]]
-        own = dict.fromkeys(p for name in welded for p in case.carries.get(name, ()))
-        options.append(at_radius(own, joint.at, radius.value * scale, points))
+    pins, sides = case.pivots(), list(zip(joint.links, joint.radii, strict=True))
+    options = [
+        at_radius(names, joint.at, radius.value * scale, points)
+        for names, radius in zip(carried_round(joint, case), joint.radii, strict=True)
+    ]
     one, two = options
     if one and two:
-        return min(product(one, two), key=lambda pair: _bend(points[joint.at], *(points[p] for p in pair)))
+        pair = max(product(one, two), key=lambda pair: _in_line(joint, pair, points, scale))
+        if _in_line(joint, pair, points, scale) < 0.0:
+            raise LookupError(
+                f"{' and '.join(pair)} lie at their radii from {joint.at}, and not in line with it, on two "
+                "sides of it (on one where a radius is negative). Correct the radii or the points"
+            )
+        return pair
     for (link, _), found in zip(sides, options, strict=True):
         named = [name for name in found if name in pins] or found
         if len(named) > 1:
@@ -133,10 +165,25 @@ def rolling_centres(
     raise LookupError(f"{off}. Name its centre, under `links`")
 
 
-def _bend(at: Point, p: Point, q: Point) -> float:
-    """How far two centres and the contact are from one line."""
-    (ax, ay), (bx, by) = ((float(x - at[0]), float(y - at[1])) for x, y in (p, q))
-    return abs(ax * by - ay * bx) / (math.hypot(ax, ay) * math.hypot(bx, by))
+def _in_line(joint: Rolling, pair: tuple[str, str], points: Points, scale: float) -> float:
+    """The least of `line_margins` of two named centres."""
+    r, s = (radius.value * scale for radius in joint.radii or ())
+    return float(min(line_margins((points[pair[0]], points[pair[1]]), points[joint.at], (r, s))))
+
+
+def held_centres(joint: Rolling, case: Case) -> list[tuple[str | None, str | None]]:
+    """The pins by which one further link carries two that roll on each other, where it carries both: these
+    are their centres, for nothing else keeps them rolling. None of one that slides on it."""
+    body_of, carried = topology(case).body_of, []
+    for link in joint.links:
+        on: dict[int, str | None] = {}
+        for other in case.joints:
+            bodies = {body_of[name] for name in other.links}
+            if body_of[link] in bodies and (other.pivot is not None or other.keeps_direction):
+                on |= dict.fromkeys(bodies - {body_of[link]}, other.pivot)
+        carried.append(on)
+    one, two = carried
+    return [(one[c], two[c]) for c in one.keys() & two.keys() if one[c] or two[c]]
 
 
 def guide_direction(guide: Guide, points: Points, arithmetic: Arithmetic) -> Point:

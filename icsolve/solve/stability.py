@@ -30,10 +30,20 @@ def with_stability(case: Case, answer: Answer, of: str) -> Answer:
     ``of`` is a datum that poses the figure (``angles.AB``) or a link's name. Raises CaseError for what is
     neither, SceneError where the mechanism can't be moved by it.
     """
-    if answer.positions is not None:  # each has its own
-        return answer
     refuse_space(case)
+    own = [unknown.path for unknown in case.unknowns]
+    if answer.positions is not None and of in own:
+        return answer
     _refuse_unknown(case, of)
+    if answer.positions is not None:
+        if "." in of and find_number(case, of).path in own:
+            return answer
+        asked = " and ".join(own)
+        said = (
+            f"each position of equilibrium has its own stability, by {asked}: leave out --stability {of}, or "
+            f"give {asked} a number for that of one position."
+        )
+        raise SceneError(Status.UNSUPPORTED, said)
     held = holding(case, answer)
     rest = rest_as_written(held, of)
     return replace(answer, stability=rest.stability, stiffness=rest.stiffness, why_no_stiffness=rest.why)

@@ -10,7 +10,7 @@ from collections.abc import Collection, Sequence
 from contextlib import suppress
 
 from icsolve.assembly import Figure, Placement, place, placed_figure
-from icsolve.assembly.conditions import ahead, refuse_misfit, teeth_margins
+from icsolve.assembly.conditions import ahead, refuse_misfit, wheel_margins
 from icsolve.assembly.driven.constraints import Constraint, Turning
 from icsolve.assembly.driven.mechanism import Mechanism, mechanism, placed_late
 from icsolve.assembly.driven.motion import DrivenMotion, closing_of, set_moving
@@ -331,10 +331,10 @@ def _compiled(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -
         names = _written(setting.figure, placed)
         if inputs:
             lines = refusals.direction_margins(refusals.directions_of_joints(case), names)
-            teeth = teeth_margins(case, names, frame.scale, record)
+            wheels = wheel_margins(case, names, frame.scale, record)
             angles = [d for d in spare_data(setting.figure, case) if d.kind in (RAY, CORNER)]
             senses = tuple(m.index for m in (ahead(placed.workspace, d) for d in angles) if varies(m))
-            fits = (*(m.index for m in (*teeth, *lines) if varies(m)), *senses)
+            fits = (*(m.index for m in (*wheels, *lines) if varies(m)), *senses)
         if setting.moves:
             motion = _motion(setting, mechanism(case, frame, record, names), nudge, inputs, signs)
         else:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 
+from icsolve.assembly.conditions import why_not_rolled
 from icsolve.assembly.driven.constraints import (
     BodyLine,
     Constraint,
@@ -120,11 +121,6 @@ def _normal(joint: Rolling, sides: Iterable[RollingSide], ref: Mapping[str, Poin
             size = side.radius if abs(r - float(side.radius)) <= ROUNDED else r
             return (side.side * x / size, side.side * y / size)
     raise AssertionError(joint)
-
-
-def _refusal(joint: Rolling, why: str) -> SceneError:
-    what = f"the rolling of links {' and '.join(joint.links)} at {joint.at}"
-    return SceneError(Status.UNSUPPORTED, f"{what} cannot be moved: {why}.")
 
 
 class Mechanism(NamedTuple):
@@ -346,7 +342,7 @@ def _sides(joint: Rolling, place: PlacedCase) -> tuple[RollingSide, RollingSide]
     try:
         found = rolling_centres(joint, place.case, place.points, place.frame.scale)
     except LookupError as why:
-        raise _refusal(joint, why.args[0]) from None
+        raise SceneError(Status.UNSUPPORTED, why_not_rolled(joint, why)) from None
     given, scale = place.arithmetic.given, place.frame.scale
     one, two = (
         RollingSide(link, place.top.body_of[link], given(radius) * scale, centre, side)

@@ -43,10 +43,10 @@ function enter(n, value, half, text) {
   field.value = text;
   field.removeAttribute("aria-invalid");
 }
-function changed(dragged, driven, toward) {
+function changed(dragged, driven, toward, measured) {
   if (playing && !driven) stop();
   scene.changed = true;
-  resolve(dragged, toward);
+  resolve(dragged, toward, measured);
   row = LIVE;
   if (hint) hint.textContent = "";
   const words = data.statuses[scene.status] || "";
@@ -80,11 +80,13 @@ function drive(degrees, link = live.input) {
     enterAll(some);
     windUp();
   }
-  changed(true, true, some ? carriedTo : () => refuse("change-point"));
+  changed(true, true, some ? carriedTo : () => refuse("change-point"), isMeasured());
   const own = link === live.input ? slider : byId(`turn-${link}`);
   if (own) own.value = degrees;
   if (link === live.input && byId("angle")) byId("angle").textContent = `${number(abs(degrees), 5)}${motion ? motion.unit : "°"} ${motion ? motion.senses[degrees >= 0 ? 0 : 1] : ""}`;
 }
+/* Whether more numbers than there are inputs have followed, which are rounded each; a motion's direction is none. */
+const isMeasured = () => numbers.filter((v, n) => v !== mover.numbers[n] && !live.paths[n].startsWith("motion.")).length > mover.inputs.length;
 function enterAll(some) {
   some.forEach((value, n) => {
     if (value === numbers[n]) return;
@@ -129,7 +131,8 @@ function follow(r) {
     if (mover) windUp();
   }
   try {
-    lab[r === zero ? "typed" : "followed"](mover ? carriedTo : undefined);
+    if (r === zero) lab.typed();
+    else lab.followed(true, mover ? carriedTo : undefined);
   } catch (refusal) {
     refused(refusal);
   }

@@ -167,14 +167,14 @@ function fillAnswers(solved) {
   });
 }
 /* The scene for the present numbers: as they are typed, or on from where it is. */
-function resolve(dragged, toward) {
+function resolve(dragged, toward, measured) {
   let solved = null;
   [scene.status, scene.words, scene.placed] = ["ok", "", false];
   let stability = "";
   const before = live.posed.map((one) => numbers[one.number]);
   try {
     if (live.posed.length) stability = restOf(live, numbers, lab);
-    else if (dragged) lab.followed(toward);
+    else if (dragged) lab.followed(measured, toward);
     else lab.typed();
     scene.placed = true;
     fillPlaces();

@@ -6,7 +6,7 @@ const FEWER = 256;
 function powerAt(told, x, figure, value, before) {
   x[told.posed[0].number] = value;
   if (before) figure.adopt(before.state);
-  figure.followed();
+  figure.followed(true);
   const parts = figure.scene();
   const motions = motionsOf(told, parts, figure.points);
   if (motions.mobility !== 1) refuse(motions.redundant ? "change-point" : "mobility");

@@ -509,9 +509,9 @@ function figureOf(program, told, x) {
       again();
     },
     /* From where it is: the same branches, Newton's method from the last places; a point of which `toward` has
-       a place goes to the side on which that is. */
-    followed(toward = () => null) {
-      typed = false;
+       a place goes to the side on which that is. Numbers that a motion has measured are rounded. */
+    followed(measured, toward = () => null) {
+      typed = !measured;
       told.steps.forEach((step, n) => {
         if (step.start) {
           if (!iterate(n)) refuse("cannot-assemble", `the links do not meet at ${plain(step.p[0])}`);
@@ -733,6 +733,20 @@ function refuseMisfit(told, x, points) {
     if (abs(apart(plainly(points[a]), plainly(points[b])) / told.frame[2] - fit) > 2e-3 * fit)
       refuse("inconsistent", "the teeth do not fit the distance of the pivots");
   }
+  for (const [contact, radii, pairs] of told.held)
+    if (pairs.every((pair) => rollingMargins(told, x, points, contact, radii, pair).some((margin) => margin < 0)))
+      refuse("inconsistent", "the radii of two links that roll do not fit the figure");
+}
+/* Numbers of which none is negative where radii fit the centres of two links that roll; a straight one has none. */
+function rollingMargins(told, x, points, contact, radii, pair) {
+  const arms = pair.flatMap((k, n) => {
+    const r = plainly(x[radii[n]]) * told.frame[2];
+    return k === null || !r ? [] : [[minus(plainly(points[contact]), plainly(points[k])), r]];
+  });
+  const round = arms.map(([arm, r]) => (2 * told.offRadius * r * r) ** 2 - (dot(arm, arm) - r * r) ** 2);
+  if (arms.length < 2) return round;
+  const [[a, r], [b, s]] = arms;
+  return [...round, (told.offRadius * (r * r + s * s)) ** 2 - (a[1] * b[0] - a[0] * b[1]) ** 2, -dot(a, b) * r * s];
 }
 /* The basis twist that tells a joint's own centre, or the direction of its guide. */
 const ownOf = (told, bases) => bases.map((basis, k) => (told.bonds[k][2] ? basis[0] : basis[basis.length - 1]));
@@ -762,8 +776,7 @@ function movedAs(told, x, motions, points) {
 /* Whether a wheel has its radius still: its centre lies so far from where it touches. */
 function rollsOn(told, x, { points }, [n, contact, centre]) {
   if (!x[n] !== !told.numbers[n]) return false;
-  const r = abs(plainly(x[n]) * told.frame[2]);
-  return centre === null || abs(apart(plainly(points[contact]), plainly(points[centre])) - r) <= told.offRadius * r;
+  return rollingMargins(told, x, points, contact, [n], [centre]).every((margin) => margin >= 0);
 }
 /* The inertia forces of the given motion among the loads. */
 function withInertia(told, x, figure, motions, { meant, twists }, loads) {
@@ -812,11 +825,12 @@ function solvedScene(told, x, figure) {
   try {
     const placed = figure.inDigits();
     refuseMisfit(told, placed.numbers, placed.points);
-    solved = plainly(sceneOf(told, placed.numbers, placed));
+    const found = sceneOf(told, placed.numbers, placed);
+    refuseSlack(told, found);
+    solved = plainly(found);
   } finally {
     fine = false;
   }
-  refuseSlack(told, solved);
   return solved;
 }
 /* Of numbers that a motion has measured: refused where what rounding leaves of the places gives other loads. */
@@ -838,8 +852,7 @@ function solvedAsFollowed(told, x, figure) {
 function sceneAsPlaced(told, x, figure) {
   refuseUnfit(told, x, figure);
   const solved = sceneOf(told, x, figure);
-  refuseSlack(told, solved);
-  return solved;
+  return { ...solved, open: refuseSlack(told, solved) || solved.open };
 }
 /* What is refused before anything moves. */
 function refuseUnfit(told, x, figure) {
@@ -854,10 +867,12 @@ function refuseUnfit(told, x, figure) {
       refuse("inconsistent", "a weight hangs from a part of a rope that does not hang");
   });
 }
+/* Whether doubles leave open if all ropes pull; refused where one does not. */
 function refuseSlack(told, solved) {
-  if (!told.ropes.length || !(told.loads.some((load) => load.unknown) || told.posed.length || !solved.motions.mobility)) return;
-  const { ropes, most, shares } = reactionsOf({ solved });
-  if (!shares || ropes.some((pull) => pull !== null && pull < -1e-11 * most)) refuse("slack");
+  if (!told.ropes.length || !(told.loads.some((load) => load.unknown) || told.posed.length || !solved.motions.mobility)) return false;
+  const { ropes, most, shares, open } = reactionsOf({ solved });
+  if (!shares || ropes.some((pull) => pull !== null && pull < 0 && !isNothing(pull, most, 1e-11))) refuse("slack");
+  return open;
 }
 function sceneOf(told, x, figure) {
   const parts = figure.scene();

@@ -39,7 +39,7 @@ function stateBefore(r) {
 function shadowed(numbersNow) {
   numbersNow.forEach((value, n) => (shadow.numbers[n] = value));
   try {
-    shadow.figure.followed(mover ? carriedTo : undefined);
+    shadow.figure.followed(true, mover ? carriedTo : undefined);
     return stateOf(shadow.figure, solvedScene(live, shadow.numbers, shadow.figure));
   } catch (refusal) {
     refused(refusal);
@@ -196,65 +196,75 @@ function drawCentrodes(state, link) {
 
 /* Wrenches that a joint transmits, by its freedoms. */
 function transmitted(basis) {
-  if (basis.length === 2) {
-    const [a, b] = basis;
-    return [[a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]];
-  }
-  const [x, y, w] = basis[0];
-  return w === 0 ? [[0, 0, 1], [y, -x, 0]] : [[w, 0, -x], [0, w, -y]];
+  const [a, b] = basis;
+  if (b) return [[1, 2, 0].map((m, n) => times(a[m], b[3 - m - n]) - times(a[3 - m - n], b[m]))];
+  const [x, y, w] = a;
+  return w ? [[w, of(0), -x], [of(0), w, -y]] : [[of(0), of(0), of(1)], [y, -x, of(0)]];
 }
 /* The wrench of every joint on its second link, of every load, and the pull of every rope; null for what
-   statics leaves open. */
+   statics leaves open. Of any numbers; `open` where doubles do not tell whether ropes pull. */
 function reactionsOf({ solved }) {
+  const onBody = (v, body, by, on) => (live.body[by] === live.body[on] ? of(0) : live.body[on] === body ? v : live.body[by] === body ? -v : of(0));
+  const added = (some) => some.reduce((sum, v) => sum + v, of(0));
   const columns = live.bonds.flatMap((_, k) => transmitted(solved.bases[k]).map((w) => [k, w]));
   const pulled = (k, body, m) =>
-    live.ropes[k].parts.reduce((sum, [a, b], n) => sum + solved.courses[k][n][1 + m] * ((live.body[a] === body) - (live.body[b] === body)), 0);
-  const loadsNow = live.loads.map((load, n) => [0, 1, 2].map((m) => solved.loads[n][m] * solved.loads[n][3] * load.measure * solved.values[n]));
+    added(live.ropes[k].parts.map(([a, b], n) => onBody(solved.courses[k][n][1 + m], body, b, a)));
+  const loadsNow = live.loads.map((load, n) => {
+    const amount = times(times(solved.loads[n][3], of(load.measure)), solved.values[n]);
+    return [0, 1, 2].map((m) => times(solved.loads[n][m], amount));
+  });
   const rows = [];
-  const most = largest(loadsNow.flat()) || 1;
+  const most = largest(loadsNow.flat()) || of(1);
   for (let body = 0; body < live.bodies; body++) {
     if (body === live.ground) continue;
     for (let m = 0; m < 3; m++) {
-      const row = columns.map(([k, w]) => w[m] * ((live.body[live.bonds[k][1]] === body) - (live.body[live.bonds[k][0]] === body)));
-      const sum = loadsNow.reduce((all, w, n) => all + w[m] * ((live.body[live.loads[n].on] === body) - (live.body[live.loads[n].against] === body)), 0);
-      const driven = live.screws.reduce((all, [by, on], k) => all + solved.thrusts[k][m] * ((live.body[on] === body) - (live.body[by] === body)), 0);
-      rows.push([...row, ...live.ropes.map((_, k) => pulled(k, body, m)), (sum + driven) / most]);
+      const row = columns.map(([k, w]) => onBody(w[m], body, ...live.bonds[k]));
+      const sum = added(loadsNow.map((w, n) => onBody(w[m], body, live.loads[n].against, live.loads[n].on)));
+      const driven = added(live.screws.map(([by, on], k) => onBody(solved.thrusts[k][m], body, by, on)));
+      rows.push([...row, ...live.ropes.map((_, k) => pulled(k, body, m)), over(sum + driven, most)]);
     }
   }
   live.ropes.forEach((rope, k) => {
     if (!rope.end) return;
     const [x, y] = solved.courses[k][rope.parts.length - 1].slice(4);
     const own = loadsNow.filter((_, n) => live.loads[n].on === rope.end);
-    rows.push([...columns.map(() => 0), ...live.ropes.map((_, n) => (n === k ? -1 : 0)), own.reduce((sum, w) => sum + w[1] * x - w[0] * y, 0) / most]);
+    const pull = added(own.map((w) => times(w[1], x) - times(w[0], y)));
+    rows.push([...columns.map(() => of(0)), ...live.ropes.map((_, n) => of(n === k ? -1 : 0)), over(pull, most)]);
   });
   const count = columns.length + live.ropes.length;
-  const { basis } = nullSpace(rows, count + 1, 1e-12);
+  const { basis, pivots, dropped } = nullSpace(rows, count + 1, 1e-12);
   const first = basis.reduce((best, v) => (!best || abs(v[count]) > abs(best[count]) ? v : best), null);
-  if (!first || abs(first[count]) < 1e-9) return { loads: loadsNow, most, joints: live.bonds.map(() => null), ropes: live.ropes.map(() => null), shares: true };
-  const unit = first.map((v) => v / first[count]);
-  const open = basis.filter((v) => v !== first).map((v) => v.map((x, k) => x - v[count] * unit[k]));
-  const isOpen = (n) => open.some((v) => abs(v[n]) > 1e-9);
-  const ropes = live.ropes.map((_, k) => (isOpen(columns.length + k) ? null : unit[columns.length + k] * most));
-  const shares = canShare(live.ropes.map((_, k) => [unit, ...open].map((v) => v[columns.length + k])), open.length);
+  if (!first || isNothing(first[count], of(1), 1e-9)) return { loads: loadsNow, most, joints: live.bonds.map(() => null), ropes: live.ropes.map(() => null), shares: true, open: true };
+  const unit = first.map((v) => over(v, first[count]));
+  const left = basis.filter((v) => v !== first).map((v) => v.map((x, k) => x - times(v[count], unit[k])));
+  const isOpen = (n) => left.some((v) => !isNothing(v[n], of(1), 1e-9));
+  const pulls = live.ropes.map((_, k) => [unit, ...left].map((v) => v[columns.length + k]));
+  const ropes = live.ropes.map((_, k) => (isOpen(columns.length + k) ? null : times(unit[columns.length + k], most)));
+  const least = leastShared(pulls, left.length);
+  const shares = !(least < 0) || isNothing(least, of(1), 1e-11);
+  const told = [least, ...pulls.flatMap(([pull, ...more]) => [pull, ...more.filter((v) => v)])];
+  const open = dropped > 0 || [...pivots, ...told.map((v) => abs(v))].some((part) => part < SURE);
   const joints = live.bonds.map((_, k) => {
     const own = columns.map((c, n) => n).filter((n) => columns[n][0] === k);
     if (own.some(isOpen)) return null;
     const screw = live.screws.findIndex(([by, on]) => on === live.bonds[k][0] && by === live.bonds[k][1]);
-    const thrust = screw < 0 ? [0, 0, 0] : solved.thrusts[screw];
-    return [0, 1, 2].map((m) => own.reduce((sum, n) => sum + unit[n] * most * columns[n][1][m], -thrust[m]));
+    const thrust = screw < 0 ? [of(0), of(0), of(0)] : solved.thrusts[screw];
+    return [0, 1, 2].map((m) => own.reduce((sum, n) => sum + times(times(unit[n], most), columns[n][1][m]), -thrust[m]));
   });
-  return { loads: loadsNow, most, joints, ropes, shares };
+  return { loads: loadsNow, most, joints, ropes, shares, open };
 }
-/* Whether what is open, so many numbers, can be such that none of the rows, a value and the shares in these, is
-   less than zero: one number after the other is eliminated. Rows without a share are told by themselves. */
-function canShare(rows, count) {
-  let left = rows.map((row) => row.map((v, k) => (k && abs(v) <= 1e-9 ? 0 : v))).filter((row) => row.some((v, k) => k && v));
+/* What is open, so many numbers, can be such that none of the rows, a value and the shares in these, is less than
+   zero where what is given is not: one number after the other is eliminated. Rows without a share are told by
+   themselves. */
+function leastShared(rows, count) {
+  const nothing = (v) => isNothing(v, of(1), 1e-9);
+  let left = rows.map((row) => row.map((v, k) => (k && nothing(v) ? of(0) : v))).filter((row) => row.some((v, k) => k && v));
   for (let k = count; k; k--) {
     const above = left.filter((row) => row[k] > 0), below = left.filter((row) => row[k] < 0);
-    const between = above.flatMap((a) => below.map((b) => a.slice(0, k).map((v, n) => v / a[k] - b[n] / b[k])));
+    const between = above.flatMap((a) => below.map((b) => a.slice(0, k).map((v, n) => over(v, a[k]) - over(b[n], b[k]))));
     left = [...left.filter((row) => !row[k]), ...between];
   }
-  return left.every(([value]) => value >= -1e-11);
+  return left.reduce((least, [value]) => (value < least ? value : least), Infinity);
 }
 /* What acts on a link: names, forces, couples about where they act. */
 function actingOn(state, link) {

@@ -3,6 +3,8 @@
 const PLAIN = ["Pin", "Slide", "Slot", "Gears", "Belt"];
 const mover = live && !live.posed.length && !live.still && live.kinds.every((kind) => PLAIN.includes(kind)) && live.measures ? { inputs: [], at: {} } : null;
 const perp = ([x, y]) => [-y, x];
+/* Whether an input is told by its angle: others by how far they go. */
+const isTurned = (link) => live.turning.includes(link) || Boolean(motion && motion.verb === "turned" && motion.driver === link);
 
 /* Bodies at rest: where the mechanism now is. */
 function restHere() {
@@ -57,7 +59,7 @@ function conditions() {
     const body = live.body[link];
     const target = mover.at[link] || 0;
     const [t] = mover.twists[body];
-    if (live.turning.includes(link)) found.push([angleOf(body) - (target * PI) / 180, ...angle(body, 1)]);
+    if (isTurned(link)) found.push([angleOf(body) - (target * PI) / 180, ...angle(body, 1)]);
     else {
       const size = hypot(t[0], t[1]) || 1;
       const way = [t[1] / size, -t[0] / size];
@@ -130,7 +132,7 @@ function arrive() {
 function numbersMoved(targets) {
   meshesOf();
   const [from, first] = [{ ...mover.at }, mover.pose];
-  const ways = entries(targets).map(([link, v]) => [link, v - (from[link] || 0), live.turning.includes(link) ? PI / 180 : live.frame[2]]);
+  const ways = entries(targets).map(([link, v]) => [link, v - (from[link] || 0), isTurned(link) ? PI / 180 : live.frame[2]]);
   const steps = max(1, Math.ceil(max(...ways.map(([, v, unit]) => abs(v * unit))) / 0.02));
   let [pose, done, paces] = [first, 0, null];
   const stepTo = (n) => {
@@ -180,7 +182,7 @@ function chooseInputs(first) {
   const rows = [];
   for (const link of wish) {
     const ts = twists[live.body[link]];
-    const row = live.turning.includes(link) ? ts.map((t) => t[2]) : ts.map((t) => t[1] + 0.618 * t[0]);
+    const row = isTurned(link) ? ts.map((t) => t[2]) : ts.map((t) => t[1] + 0.618 * t[0]);
     if (chosen.length < mobility && nullSpace([...rows, row], mobility, 1e-9, largest(twists.flat(2))).rank === rows.length + 1) {
       rows.push(row);
       chosen.push(link);
