@@ -39,7 +39,7 @@ from icsolve.solve import friction_ranges
 from icsolve.solve import mode_limits as limits_room
 from icsolve.solve.rest_position import AT_LIMIT
 from icsolve.solve.stability import holding_values, neutral_values, with_stability
-from icsolve.sweep.numbers import numbers_of
+from icsolve.sweep.varied_numbers import numbers_of
 from library import FILES, sample
 from shell import Shell, exit_status
 from sizes import FULL
