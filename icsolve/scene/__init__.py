@@ -147,18 +147,33 @@ def standing(case: Case) -> Standing:
 
     Raises SceneError where the scene can't be built, and where that is open.
     """
-    from icsolve.cams.solving import placed
     from icsolve.scene import free_bodies
+
+    return free_bodies.standing(_with_known_loads(case))
+
+
+def jammed(case: Case) -> str:
+    """The sentence on contacts that push by friction alone where known loads are held; empty where none does.
+
+    Raises SceneError where the scene can't be built.
+    """
+    from icsolve.scene import free_bodies
+
+    return free_bodies.jammed(_with_known_loads(case))
+
+
+def _with_known_loads(case: Case) -> EvaluatedScene:
+    """A scene whose loads are all known; a structure too."""
+    from icsolve.cams.solving import placed
 
     case = placed(case)
     program = prepare(case, wanted(case, Want(bodies=True)))
     try:
-        scene = balanced(AnswerBuilder(EvaluatedScene(program, certain=True))).scene
+        return balanced(AnswerBuilder(EvaluatedScene(program, certain=True))).scene
     except SceneError as refusal:
         if refusal.status != Status.STRUCTURE:
             raise
-        scene = EvaluatedScene(program, True, run=evaluate_still)
-    return free_bodies.standing(scene)
+        return EvaluatedScene(program, True, run=evaluate_still)
 
 
 INEXACT = (Status.STRUCTURE, Status.MOBILITY, Status.NEAR_SINGULAR, Status.CONTRADICTORY)

@@ -65,8 +65,19 @@ def standing(scene: EvaluatedScene) -> Standing:
     def ask(question: Callable[[Position, Balance, Showing], T]) -> T:
         return scene.ask(lambda one: question(_position(one), one.outcome.balance, one.arithmetic))
 
+    return found(RestingScene(*_in_floats(scene), ask))
+
+
+def jammed(scene: EvaluatedScene) -> str:
+    """The sentence on contacts that push by friction alone; empty where none does."""
+    from icsolve.statics.friction.lifting import jammed as found
+
+    return found(*_in_floats(scene))
+
+
+def _in_floats(scene: EvaluatedScene) -> tuple[Position, Balance]:
     first = scene.ask(lambda one: one._replace(outcome=plain(one.outcome), arithmetic=FLOATS))
-    return found(RestingScene(_position(first), first.outcome.balance, ask))
+    return _position(first), first.outcome.balance
 
 
 def _enclose(parts: AnswerBuilder) -> Enclose:

@@ -14,7 +14,7 @@ from icsolve.case.joints import without_friction
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.arithmetic import largest_of
-from icsolve.scene import solve_scene, standing
+from icsolve.scene import jammed, solve_scene, standing
 from icsolve.solve.rest import PROBE, holding, probes
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.senses import reach_of, unit_of
@@ -24,14 +24,13 @@ Range = tuple[float, float]
 
 class Held(NamedTuple):
     """From what to what value of a load it holds still, turned about where nowhere; how far off these may be;
-    up to where it may hold as friction was left, and where again; what is to be said where that is a jam."""
+    up to where it may hold as friction was left, and where again."""
 
     low: float
     high: float
     error: float = 0.0
     possible: Range = (math.inf, -math.inf)
     again: tuple[Range, ...] = ()
-    jams: str = ""
 
 
 NOWHERE = Held(math.inf, -math.inf)
@@ -209,7 +208,7 @@ def _held(said: SaidCase, load: str, alone: bool) -> Held:
     error = UNPROVEN * largest if found.error is None else found.error
     if friction is None or friction.possible is None:
         return Held(*found.holds, error)
-    return Held(*found.holds, error, friction.possible, friction.again, friction.jams)
+    return Held(*found.holds, error, friction.possible, friction.again)
 
 
 def _of_all(case: Case) -> Held:
@@ -254,6 +253,8 @@ def judged(answer: Answer, case: Case) -> Answer:
             said = _of_motion(case)
         else:
             holds, said = _at_rest(case)
+            if holds and (jams := jammed(replace(case, expect=()))):
+                said = f"{said} But {jams}"
     except SceneError as refusal:
         said = OPEN.format(refusal.message)
     return replace(answer, notes=(*answer.notes, said), holds_still=holds)
@@ -273,8 +274,7 @@ def _at_rest(case: Case) -> tuple[bool | None, str]:
     reach = reach_of((low, high), unit_of(found.load, case), lambda end: f"{end + 0.0:.6g}", None)
     what = f"{_named(found.load)} {reach}"
     if found.holds:
-        jams = found.held.jams
-        return True, f"{HOLDS} So it does with {what}.{jams and ' But '}{jams}"
+        return True, f"{HOLDS} So it does with {what}."
     if found.open:
         return None, OPEN.format(LEFT.format(what))
     return False, f"{SLIPS} It would hold with {what}." if low <= high else SLIPS

@@ -40,9 +40,9 @@ from icsolve.statics.friction.interface import (
     shared,
     unknowns_by_power,
 )
+from icsolve.statics.friction.lifting import ROUNDED, jammed
 from icsolve.statics.friction.limits import Slid, jams_at_last, slid
 from icsolve.statics.friction.static_range import (
-    ROUNDED,
     SAME,
     End,
     StaticRange,
@@ -506,9 +506,9 @@ def solved(
     found, (root,) = rest.range, (w.load.name for w in scene.balance.wrenches if is_unknown(w.load))
     answer = answer_with({root: Value(0.0, rest.bound, rest.why)})
     answers = {name: _held(scene, name, found, shown) for name, shown in answer.answers.items()}
-    jams = LIFTED.format(listed(found.lifted)) if found.lifted else ""
+    jams = jammed(scene.position, scene.balance, root, (found.least, found.most))
     notes = (*answer.notes, *notes_at_rest(root, found), *([jams] if jams else ()))
-    friction = FrictionFound((), 0.0, 0.0, found.how, possible=found.possible, again=found.again, jams=jams)
+    friction = FrictionFound((), 0.0, 0.0, found.how, possible=found.possible, again=found.again)
     bare = replace(answer, answers=answers, terms=(), advantage=None, sensitivities=Deferred(_no_slopes))
     ends = Later(lambda: list(_about_to_move(rest, answer_with)))
     return replace(bare, notes=notes, friction=friction, about_to_move=ends)
@@ -641,12 +641,6 @@ def notes_in_motion(statics: Statics, found: Slid, rates: Sequence[float]) -> Se
     if not found.unique:
         notes.append("there are too many rubbing joints to count all solutions: there may be others.")
     return notes
-
-
-LIFTED = (
-    "it holds as a jam: the contact {} pushes by friction alone, and would have to pull without it. Loads "
-    "that grow from nothing lift it off; it holds where it was pressed together before."
-)
 
 
 def notes_at_rest(root: str, found: StaticRange) -> Sequence[str]:
