@@ -212,6 +212,54 @@ def refused() -> Iterator[list[str]]:
         found.append(refusal.status)
 
 
+@pytest.mark.parametrize("seed", range(60 if FULL else 8))
+def test_several_unknown_loads_are_found_in_a_motion_and_one_by_one(seed: int) -> None:
+    """A crate on a crate, both pushed: at rest one push hangs on the other, and the refusal names two ways
+    on. In a motion of both the pushes follow from the weights, to 1e-12; a thousandth less holds, as one
+    known and one unknown and as both known, and a thousandth more does not."""
+    dice = Random(f"both {seed}")
+    low, high, one, two = (dice.uniform(*ends) for ends in ((0.1, 0.5), (0.1, 0.5), (50, 200), (50, 200)))
+    below, above = dice.choice((-1, 1)), dice.choice((-1, 1))
+    upper = above * high * two
+    lower = below * low * (one + two) - upper
+    text = f"""icsolve: 1
+points: {{A: [0, 0], B: [2, 0], C: [0.1, 0.1], D: [1.9, 0.1], G: [1, 0], H: [1, 0.1]}}
+joints:
+  - {{contact: [1, 2], at: A, normal: 90, mu: {low!r}}}
+  - {{contact: [1, 2], at: B, normal: 90, mu: {low!r}}}
+  - {{contact: [2, 3], at: C, normal: 90, mu: {high!r}}}
+  - {{contact: [2, 3], at: D, normal: 90, mu: {high!r}}}
+loads:
+  V: {{weight: {one!r}, link: 2, at: G}}
+  W: {{weight: {two!r}, link: 3, at: H}}
+  P: {{force: LOWER, link: 2, at: G, angle: 0}}
+  Q: {{force: UPPER, link: 3, at: H, angle: 0}}
+"""
+    motion = f"""motion:
+  - {{point: A, link: 2, speed: 1, angle: {0 if below > 0 else 180}}}
+  - {{point: C, link: 3, speed: {abs(below + 2 * above)}, angle: {0 if above > 0 else 180}}}
+"""
+
+    def case(lower: str, upper: str) -> icsolve.Case:
+        return icsolve.load(text.replace("LOWER", lower).replace("UPPER", upper))
+
+    both = case("unknown", "unknown")
+    with pytest.raises(icsolve.SceneError, match=r"P and Q.*Give `motion`.*Or leave one load") as refusal:
+        icsolve.solve(both)
+    assert refusal.value.status == "mobility"
+    moving = icsolve.load(text.replace("LOWER", "unknown").replace("UPPER", "unknown") + motion)
+    found = {name: load.value for name, load in icsolve.solve(moving).answers.items()}
+    assert found == pytest.approx({"P": lower, "Q": upper}, rel=1e-12)
+    for grown, holds in ((0.999, True), (1.001, False)):
+        given = repr(grown * lower), repr(grown * upper)
+        assert icsolve.solve(case(*given)).holds_still is holds
+        least, most = math.inf, -math.inf
+        with refused() as refusals:
+            least, most = icsolve.solve(case(given[0], "unknown")).answers["Q"].holds
+        assert (least <= grown * upper <= most) is holds
+        assert refusals in ([], ["no-value"])
+
+
 STACK = """icsolve: 1
 points: {A: [0, 0], B: [1, 0], C: [0.1, 0.5], D: [0.9, 0.5], G: [0.5, 0.25], H: [0.5, 0.75], K: [0.2, 0.6]}
 joints:

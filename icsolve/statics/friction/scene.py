@@ -208,10 +208,12 @@ def at_rest(scene: FrictionScene) -> AtRest:
     if rates is None:
         if len(unknown_loads(scene.balance)) == 1:
             return _of_several_freedoms(scene)
+        unknown = [w.root for w in unknown_loads(scene.balance)]
         message = (
-            f"friction at {plural(mobility, 'degree')} of freedom needs `motion`, one for each: without it "
-            "each unknown load has a range that depends on the others. Or give all but one a number: then "
-            "its range is found."
+            f"the loads {listed(unknown)} are unknown on {plural(mobility, 'degree')} of freedom with "
+            "friction: at rest the range of each may hang on the others. Give `motion`, one for each "
+            "freedom: the loads that keep it up are found. Or leave one load unknown, a force along one "
+            "line: the range in which it holds is found."
         )
         raise SceneError(Status.MOBILITY, message)
     if any(rope.slips for rope in scene.position.case.ropes):
