@@ -16,7 +16,7 @@ import pytest
 import icsolve
 import rough_scenes as rs
 import standing
-from icsolve.solve.stability import holding_values
+from icsolve.solve.stability import holding_values, is_still
 from icsolve.sweep.numbers import find_number, with_numbers
 from rough_scenes import Rough
 from shell import Shell
@@ -200,6 +200,21 @@ def test_one_load_on_several_freedoms_has_a_range(kind: Callable[[Random], str],
                 assert held(far) is holds, (text, value, ranges)
                 compared += 1
     assert compared > 0
+
+
+@pytest.mark.parametrize("kind", [standing.five_bar, standing.joined])
+@pytest.mark.parametrize("part", range(20 if FULL else 1))
+def test_a_search_asks_of_one_value_what_a_whole_range_says(kind: Callable[[Random], str], part: int) -> None:
+    """Of a coefficient of friction, with loads within and beyond what is held; open is not held."""
+    dice = Random(f"{kind.__name__} asked {part}")
+    for _ in range(8):
+        link, at = PUSHED[kind]
+        push = f"force: {dice.choice((5, 30, 90))}, link: {link}, at: {at}, angle: {dice.randint(0, 359)}"
+        case = icsolve.load(f"{kind(dice)}  F: {{{push}}}\n")
+        path = find_number(case, "joints.A.mu").path
+        for mu in (0.05, dice.uniform(0.1, 0.6), 0.95):
+            holds = icsolve.solve(with_numbers(case, {path: mu})).holds_still is True
+            assert is_still(case, path, mu) is holds, (case.loads, mu)
 
 
 @contextmanager

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer
 from icsolve.case import Case
@@ -20,7 +20,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.balls import is_long
 from icsolve.scene import refusals
 from icsolve.scene.parts import AnswerBuilder
-from icsolve.scene.program import EvaluatedScene, Want, evaluate_still, prepare
+from icsolve.scene.program import EvaluatedScene, HeldAt, Want, evaluate_still, prepare
 from icsolve.statics.power import has_friction, is_unknown
 from icsolve.tuples import replace
 
@@ -37,7 +37,7 @@ def solve_scene(
     bound: bool = True,
     reactions: bool = False,
     dynamic: bool = False,
-    alone: bool = False,
+    alone: bool | HeldAt = False,
 ) -> Answer:
     """Solve a case whose figure is given; the options are those of `icsolve.solve`, ``alone`` is that of
     `Want`.
@@ -45,7 +45,8 @@ def solve_scene(
     Inertia forces and contacts of profiles are worked out first: with them it is a case like any other.
     Raises SceneError where the scene has no answer.
     """
-    asked = {"all_centres": all_centres, "rates": rates, "examine": examine, "bound": bound, "alone": alone}
+    asked: dict[str, Any] = {"all_centres": all_centres, "rates": rates, "examine": examine, "bound": bound}
+    asked["alone"] = alone
     if case.space is not None:
         if without_inertia(case, dynamic):
             raise SceneError(Status.UNSUPPORTED, AT_REST)

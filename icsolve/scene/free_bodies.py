@@ -11,7 +11,15 @@ from icsolve.answer import Answer
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS, Showing
 from icsolve.scene.parts import AnswerBuilder, speed_of
-from icsolve.scene.program import EvaluatedScene, Evaluation, Program, evaluate_still, plain, points_shown
+from icsolve.scene.program import (
+    EvaluatedScene,
+    Evaluation,
+    HeldAt,
+    Program,
+    evaluate_still,
+    plain,
+    points_shown,
+)
 from icsolve.statics.free_bodies import FreeBodies, free_bodies
 from icsolve.statics.power import Balance, Value, has_friction, is_unknown
 from icsolve.statics.reaction_basis import Position, rope_ties
@@ -50,7 +58,8 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     position = _position(parts.first._replace(outcome=outcome, arithmetic=FLOATS))
     enclose, alone = _enclose(parts) if parts.scene.certain else None, parts.program.want.alone
     place = position, outcome.balance, outcome.solution, lambda: parts.speed
-    scene = FrictionScene(*place, lambda: parts.traced, enclose, alone)
+    at = alone.load if isinstance(alone, HeldAt) else None
+    scene = FrictionScene(*place, lambda: parts.traced, enclose, bool(alone), at)
     return solved(scene, answer_with, reactions)
 
 

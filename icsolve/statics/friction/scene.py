@@ -261,7 +261,7 @@ def _of_several_freedoms(scene: FrictionScene) -> AtRest:
     refuse_fit(_resting(scene))
     ties = ties_of(scene.position)
     statics = equilibrium(scene.position, ties, scene.balance, rubs_of(scene.position, ties))
-    within = limited.held(_resting(scene))
+    within = limited.held(_resting(scene), scene.at)
     if not within.ranges:
         raise SceneError(Status.NO_VALUE, NEVER_HELD.format(statics.roots[0]))
     own, again = within.nearest(0.0)
@@ -439,7 +439,7 @@ def _statics(scene: FrictionScene, ties: Sequence[Tie], flanks: Mapping[int, flo
         forces_of(statics)
     except LookupError as error:
         tie = ties[error.args[0]]
-        raise SceneError(Status.UNSUPPORTED, shared(tie, ties)) from None
+        raise shared(tie, ties) from None
     return statics
 
 
@@ -599,6 +599,8 @@ class FrictionScene(NamedTuple):
     """the same on balls, of as many digits as that takes, where bounds are asked for"""
     alone: bool
     """whether what is said of other solutions is left out"""
+    at: float | None
+    """of several freedoms the load of which alone it is asked whether friction holds it"""
 
 
 def rubbing_of(scene: FrictionScene, solved: Solved, rates: Sequence[float]) -> tuple[Rubbing, ...]:
