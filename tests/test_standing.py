@@ -16,7 +16,7 @@ import pytest
 import icsolve
 import rough_scenes as rs
 import standing
-from icsolve.solve.stability import holding_values
+from icsolve.solve.stability import holding_values, is_still
 from icsolve.sweep.varied_numbers import find_number, with_numbers
 from rough_scenes import Rough
 from shell import Shell
@@ -231,6 +231,21 @@ def test_one_load_on_several_freedoms_has_a_range(kind: Callable[[Random], str],
     assert compared > 0
 
 
+@pytest.mark.parametrize("kind", [standing.five_bar, standing.joined])
+@pytest.mark.parametrize("part", range(20 if FULL else 1))
+def test_a_search_asks_of_one_value_what_a_whole_range_says(kind: Callable[[Random], str], part: int) -> None:
+    """Of a coefficient of friction, with loads within and beyond what is held; open is not held."""
+    dice = Random(f"{kind.__name__} asked {part}")
+    for _ in range(8):
+        link, at = PUSHED[kind]
+        push = f"force: {dice.choice((5, 30, 90))}, link: {link}, at: {at}, angle: {dice.randint(0, 359)}"
+        case = icsolve.load(f"{kind(dice)}  F: {{{push}}}\n")
+        path = find_number(case, "joints.A.mu").path
+        for mu in (0.05, dice.uniform(0.1, 0.6), 0.95):
+            holds = icsolve.solve(with_numbers(case, {path: mu})).holds_still is True
+            assert is_still(case, path, mu) is holds, (case.loads, mu)
+
+
 @contextmanager
 def refused() -> Iterator[list[str]]:
     """The status of what is refused within."""
@@ -239,6 +254,54 @@ def refused() -> Iterator[list[str]]:
         yield found
     except icsolve.SceneError as refusal:
         found.append(refusal.status)
+
+
+@pytest.mark.parametrize("seed", range(60 if FULL else 8))
+def test_several_unknown_loads_are_found_in_a_motion_and_one_by_one(seed: int) -> None:
+    """A crate on a crate, both pushed: at rest one push hangs on the other, and the refusal names two ways
+    on. In a motion of both the pushes follow from the weights, to 1e-12; a thousandth less holds, as one
+    known and one unknown and as both known, and a thousandth more does not."""
+    dice = Random(f"both {seed}")
+    low, high, one, two = (dice.uniform(*ends) for ends in ((0.1, 0.5), (0.1, 0.5), (50, 200), (50, 200)))
+    below, above = dice.choice((-1, 1)), dice.choice((-1, 1))
+    upper = above * high * two
+    lower = below * low * (one + two) - upper
+    text = f"""icsolve: 1
+points: {{A: [0, 0], B: [2, 0], C: [0.1, 0.1], D: [1.9, 0.1], G: [1, 0], H: [1, 0.1]}}
+joints:
+  - {{contact: [1, 2], at: A, normal: 90, mu: {low!r}}}
+  - {{contact: [1, 2], at: B, normal: 90, mu: {low!r}}}
+  - {{contact: [2, 3], at: C, normal: 90, mu: {high!r}}}
+  - {{contact: [2, 3], at: D, normal: 90, mu: {high!r}}}
+loads:
+  V: {{weight: {one!r}, link: 2, at: G}}
+  W: {{weight: {two!r}, link: 3, at: H}}
+  P: {{force: LOWER, link: 2, at: G, angle: 0}}
+  Q: {{force: UPPER, link: 3, at: H, angle: 0}}
+"""
+    motion = f"""motion:
+  - {{point: A, link: 2, speed: 1, angle: {0 if below > 0 else 180}}}
+  - {{point: C, link: 3, speed: {abs(below + 2 * above)}, angle: {0 if above > 0 else 180}}}
+"""
+
+    def case(lower: str, upper: str) -> icsolve.Case:
+        return icsolve.load(text.replace("LOWER", lower).replace("UPPER", upper))
+
+    both = case("unknown", "unknown")
+    with pytest.raises(icsolve.SceneError, match=r"P and Q.*Give `motion`.*Or leave one load") as refusal:
+        icsolve.solve(both)
+    assert refusal.value.status == "mobility"
+    moving = icsolve.load(text.replace("LOWER", "unknown").replace("UPPER", "unknown") + motion)
+    found = {name: load.value for name, load in icsolve.solve(moving).answers.items()}
+    assert found == pytest.approx({"P": lower, "Q": upper}, rel=1e-12)
+    for grown, holds in ((0.999, True), (1.001, False)):
+        given = repr(grown * lower), repr(grown * upper)
+        assert icsolve.solve(case(*given)).holds_still is holds
+        least, most = math.inf, -math.inf
+        with refused() as refusals:
+            least, most = icsolve.solve(case(given[0], "unknown")).answers["Q"].holds
+        assert (least <= grown * upper <= most) is holds
+        assert refusals in ([], ["no-value"])
 
 
 STACK = """icsolve: 1

@@ -214,8 +214,7 @@ class FrictionFound(NamedTuple):
     ``unique`` says how
     it is known that there is no other solution, '' where that is not known. At rest ``possible`` has
     the range of the unknown load in which friction within its limits can hold, ``unique`` says how
-    it was found, and ``again`` has the ranges beyond it in which it may hold again; ``jams`` is the
-    sentence on contacts that push by friction alone.
+    it was found, and ``again`` has the ranges beyond it in which it may hold again.
     """
 
     rubbing: tuple[Rubbing, ...]
@@ -226,7 +225,6 @@ class FrictionFound(NamedTuple):
     efficiency: float | None = None
     possible: tuple[float, float] | None = None
     again: tuple[tuple[float, float], ...] = ()
-    jams: str = ""
 
 
 # --- contacts by profiles -------------------------------------------------------------------------------

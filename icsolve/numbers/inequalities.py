@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from operator import mul
+from operator import mul, sub
 from typing import Any
 
 from icsolve.numbers.arithmetic import largest_of
-from icsolve.numbers.linear import SPENT, eliminate
+from icsolve.numbers.linear import eliminate
 from icsolve.tuples import NamedTuple
 
 Form = tuple[float, ...]
@@ -164,13 +164,25 @@ def deepest(forms: Sequence[Form], counts: Sequence[float] | None = None) -> Dee
     """
     counts = [1.0] * len(forms) if counts is None else counts
     found = _simplex(forms, counts)
-    if not found.is_proven(forms, counts):  # rounding led to rows that hang on each other
-        from fractions import Fraction
+    if not found.is_proven(forms, counts):  # pivots add up roundings, of the point first
+        found = _solved_again(found, forms, counts)
+        if not found.is_proven(forms, counts):  # they led to rows that hang on each other
+            from fractions import Fraction
 
-        exact = [tuple(map(Fraction, form)) for form in forms]
-        found = _simplex(exact, list(map(Fraction, counts)))
+            exact = [tuple(map(Fraction, form)) for form in forms]
+            found = _simplex(exact, list(map(Fraction, counts)))
     point, shares = (tuple(map(float, own)) for own in (found.point, found.shares))
     return Deepest(float(found.depth), found.of, point, shares)
+
+
+def _solved_again(found: Deepest, forms: Sequence[Form], counts: Sequence[float]) -> Deepest:
+    """The same with its point from the forms that set it."""
+    if math.isinf(found.depth):
+        return found
+    ends = [dict(enumerate((*forms[k][1:], forms[k][0] - counts[k] * found.depth))) for k in found.of]
+    count = len(found.point)
+    point = eliminate(ends, count).solved
+    return found._replace(point=tuple([point.get(j, {}).get(count, 0.0) for j in range(count)]))
 
 
 def _simplex(forms: Sequence[Sequence[Any]], counts: Sequence[Any]) -> Deepest:
@@ -178,55 +190,51 @@ def _simplex(forms: Sequence[Sequence[Any]], counts: Sequence[Any]) -> Deepest:
     count, last = len(forms[0]) - 1 if forms else 0, len(forms)
     zero, one = (counts[0] * 0, counts[0] * 0 + 1) if counts else (0.0, 1.0)
     nothing = CLOSE if isinstance(one, float) else 0
-    table = [[form[j] for form in forms] + [zero, zero] for j in range(1, count + 1)]
-    table.append([*counts, one, one])  # the last form is 1, wherever it is asked
+    # shares, how often each equation is taken, right side; the last form is 1, wherever it is asked
+    table = [[form[j] for form in forms] + [zero] * (count + 2) for j in range(1, count + 1)]
+    for j, row in enumerate(table):
+        row[last + 1 + j] = one
+    table.append([*counts, one, *[zero] * count, one])
     costs = [*(form[0] for form in forms), one]
+    table.append([*map(sub, costs, counts), *[zero] * (count + 1), -one])
     basis = [-1] * count + [last]
     for r in range(count):  # nothing has a share yet: any place will do
         c = max(range(last), key=lambda k: abs(table[r][k]), default=last)
         if abs(table[r][c]) > nothing:
-            _pivot(table, basis, r, c, nothing)
+            _pivot(table, basis, r, c)
     rows = [r for r, c in enumerate(basis) if c >= 0]
-    for _ in range(MOST_PIVOTS):
-        prices = [costs[basis[r]] for r in rows]
-        taken = ([table[r][c] for r in rows] for c in range(last + 1))
-        worth = (costs[c] - sum(map(mul, prices, own)) for c, own in enumerate(taken))
-        enters = next((c for c, w in enumerate(worth) if w < -nothing and c not in basis), None)
-        ratios = (
-            []
-            if enters is None
-            else [(table[r][-1] / table[r][enters], basis[r], r) for r in rows if table[r][enters] > nothing]
-        )
-        if enters is None:
+    for pivots in range(MOST_PIVOTS):
+        worth = table[-1][: last + 1]
+        enters = worth.index(min(worth)) if pivots < STEEPEST else None
+        if enters is None or enters in basis:
+            enters = next((c for c, w in enumerate(worth) if w < -nothing and c not in basis), None)
+        if enters is None or worth[enters] >= -nothing:
             break
+        ratios = [(table[r][-1] / table[r][enters], basis[r], r) for r in rows if table[r][enters] > nothing]
         if not ratios:
             both = {**{basis[r]: -table[r][enters] for r in rows}, enters: one}
             of = tuple(sorted(c for c in both if c < last))
             return Deepest(-math.inf, of, (zero,) * count, tuple([both[c] for c in of]))
-        _pivot(table, basis, min(ratios)[2], enters, nothing)
+        _pivot(table, basis, min(ratios)[2], enters)
     depth = sum(costs[basis[r]] * table[r][-1] for r in rows)
     shares = {basis[r]: table[r][-1] for r in rows if basis[r] < last}
     of = tuple(sorted(shares))
-    ends = [dict(enumerate((*forms[k][1:], forms[k][0] - counts[k] * depth))) for k in of]
-    point = eliminate(ends, count, SPENT if nothing else 0.0).solved
-    at = tuple([point.get(j, {}).get(count, zero) for j in range(count)])
-    return Deepest(depth, of, at, tuple([shares[k] for k in of]))
+    point = tuple(table[-1][last + 1 : -1])
+    return Deepest(depth, of, point, tuple([shares[k] for k in of]))
 
 
 MOST_PIVOTS = 10_000
 """Rounding may lead around in a circle."""
+STEEPEST = 40
+"""So many times the form that makes the sum least by its share enters, thereafter the first that does: that
+leads around in no circle."""
 
 
-def _pivot(table: list[list[Any]], basis: list[int], r: int, c: int, nothing: float) -> None:
+def _pivot(table: list[list[Any]], basis: list[int], r: int, c: int) -> None:
     """Take a place into the basis, in the row of another."""
-    table[r] = [a / table[r][c] for a in table[r]]
+    entry = table[r][c]
+    own = table[r] = [a / entry for a in table[r]]
     for k, row in enumerate(table):
-        if k != r and row[c]:
-            table[k] = [_difference(a, row[c] * b, nothing) for a, b in zip(row, table[r], strict=True)]
+        if k != r and (share := row[c]):
+            table[k] = [a - share * b for a, b in zip(row, own, strict=True)]
     basis[r] = c
-
-
-def _difference(a: Any, b: Any, nothing: float) -> Any:
-    """A difference, zero where that is rounding."""
-    total = a - b
-    return total if not nothing or abs(total) > NOTHING * max(abs(a), abs(b)) else 0.0

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer
 from icsolve.case import Case
@@ -20,7 +20,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.balls import is_long
 from icsolve.scene import refusals
 from icsolve.scene.parts import AnswerBuilder
-from icsolve.scene.program import EvaluatedScene, Want, evaluate_still, prepare
+from icsolve.scene.program import EvaluatedScene, HeldAt, Want, evaluate_still, prepare
 from icsolve.statics.power import has_friction, is_unknown
 from icsolve.tuples import replace
 
@@ -37,7 +37,7 @@ def solve_scene(
     bound: bool = True,
     reactions: bool = False,
     dynamic: bool = False,
-    alone: bool = False,
+    alone: bool | HeldAt = False,
 ) -> Answer:
     """Solve a case whose figure is given; the options are those of `icsolve.solve`, ``alone`` is that of
     `Want`.
@@ -45,7 +45,8 @@ def solve_scene(
     Inertia forces and contacts of profiles are worked out first: with them it is a case like any other.
     Raises SceneError where the scene has no answer.
     """
-    asked = {"all_centres": all_centres, "rates": rates, "examine": examine, "bound": bound, "alone": alone}
+    asked: dict[str, Any] = {"all_centres": all_centres, "rates": rates, "examine": examine, "bound": bound}
+    asked["alone"] = alone
     if case.space is not None:
         if without_inertia(case, dynamic):
             raise SceneError(Status.UNSUPPORTED, AT_REST)
@@ -147,18 +148,33 @@ def standing(case: Case) -> Standing:
 
     Raises SceneError where the scene can't be built, and where that is open.
     """
-    from icsolve.cams.solving import placed
     from icsolve.scene import free_bodies
+
+    return free_bodies.standing(_with_known_loads(case))
+
+
+def jammed(case: Case) -> str:
+    """The sentence on contacts that push by friction alone where known loads are held; empty where none does.
+
+    Raises SceneError where the scene can't be built.
+    """
+    from icsolve.scene import free_bodies
+
+    return free_bodies.jammed(_with_known_loads(case))
+
+
+def _with_known_loads(case: Case) -> EvaluatedScene:
+    """A scene whose loads are all known; a structure too."""
+    from icsolve.cams.solving import placed
 
     case = placed(case)
     program = prepare(case, wanted(case, Want(bodies=True)))
     try:
-        scene = balanced(AnswerBuilder(EvaluatedScene(program, certain=True))).scene
+        return balanced(AnswerBuilder(EvaluatedScene(program, certain=True))).scene
     except SceneError as refusal:
         if refusal.status != Status.STRUCTURE:
             raise
-        scene = EvaluatedScene(program, True, run=evaluate_still)
-    return free_bodies.standing(scene)
+        return EvaluatedScene(program, True, run=evaluate_still)
 
 
 INEXACT = (Status.STRUCTURE, Status.MOBILITY, Status.NEAR_SINGULAR, Status.CONTRADICTORY)

@@ -11,7 +11,15 @@ from icsolve.answer import Answer
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Showing
 from icsolve.scene.parts import AnswerBuilder, speed_of
-from icsolve.scene.program import EvaluatedScene, Evaluation, Program, evaluate_still, plain, points_shown
+from icsolve.scene.program import (
+    EvaluatedScene,
+    Evaluation,
+    HeldAt,
+    Program,
+    evaluate_still,
+    plain,
+    points_shown,
+)
 from icsolve.statics.free_bodies import FreeBodies, Reach, free_bodies
 from icsolve.statics.power import Balance, Value, has_friction, is_unknown
 from icsolve.statics.reaction_basis import Position, rope_ties
@@ -83,7 +91,8 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     position = _position(parts.first._replace(outcome=outcome, arithmetic=FLOATS))
     enclose, alone = _enclose(parts) if parts.scene.certain else None, parts.program.want.alone
     place = position, outcome.balance, outcome.solution, lambda: parts.speed
-    scene = FrictionScene(*place, lambda: parts.traced, enclose, alone)
+    at = alone.load if isinstance(alone, HeldAt) else None
+    scene = FrictionScene(*place, lambda: parts.traced, enclose, bool(alone), at)
     return solved(scene, answer_with, reactions)
 
 
@@ -98,8 +107,19 @@ def standing(scene: EvaluatedScene) -> Standing:
     def ask(question: Callable[[Position, Balance, Showing], T]) -> T:
         return scene.ask(lambda one: question(_position(one), one.outcome.balance, one.arithmetic))
 
+    return found(RestingScene(*_in_floats(scene), ask))
+
+
+def jammed(scene: EvaluatedScene) -> str:
+    """The sentence on contacts that push by friction alone; empty where none does."""
+    from icsolve.statics.friction.lifting import jammed as found
+
+    return found(*_in_floats(scene))
+
+
+def _in_floats(scene: EvaluatedScene) -> tuple[Position, Balance]:
     first = scene.ask(lambda one: one._replace(outcome=plain(one.outcome), arithmetic=FLOATS))
-    return found(RestingScene(_position(first), first.outcome.balance, ask))
+    return _position(first), first.outcome.balance
 
 
 def _enclose(parts: AnswerBuilder) -> Enclose:

@@ -37,6 +37,12 @@ else:  # with inertia forces alone
     accelerations = LateModule("icsolve.kinematics.accelerations")
 
 
+class HeldAt(NamedTuple):
+    """With friction it is asked whether a load holds alone; of several freedoms not from where to where."""
+
+    load: float
+
+
 class Want(NamedTuple):
     """What is asked of a scene beside its unknown loads."""
 
@@ -45,7 +51,7 @@ class Want(NamedTuple):
     examine: bool = False
     bodies: bool = False
     """reactions or friction: the equilibrium of every link"""
-    alone: bool = False
+    alone: bool | HeldAt = False
     """with friction the answer alone, not what is said of other solutions beside it"""
 
     @property

@@ -14,8 +14,10 @@ from icsolve.case.joints import without_friction
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.arithmetic import largest_of
-from icsolve.scene import solve_scene, standing
+from icsolve.scene import jammed, solve_scene, standing
+from icsolve.scene.program import HeldAt
 from icsolve.solve.rest_position import PROBE, holding, probes
+from icsolve.statics.friction.interface import SharedError
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.senses import reach_of, unit_of
 
@@ -24,14 +26,13 @@ Range = tuple[float, float]
 
 class Held(NamedTuple):
     """From what to what value of a load it holds still, turned about where nowhere; how far off these may be;
-    up to where it may hold as friction was left, and where again; what is to be said where that is a jam."""
+    up to where it may hold as friction was left, and where again."""
 
     low: float
     high: float
     error: float = 0.0
     possible: Range = (math.inf, -math.inf)
     again: tuple[Range, ...] = ()
-    jams: str = ""
 
 
 NOWHERE = Held(math.inf, -math.inf)
@@ -59,11 +60,12 @@ class AskedLoad(NamedTuple):
         return low <= self.value <= high and not self.holds
 
 
-def asked_of(case: Case, path: str = "") -> AskedLoad | None:
+def asked_of(case: Case, path: str = "", here: bool = False) -> AskedLoad | None:
     """Where a mechanism under known loads holds still as written, by one load; None where none does work.
 
     First that whose number has this ``path`` is asked, then the others; where none of its own does work, one
-    more.
+    more. It may be asked whether it holds ``here`` alone, unless that number varies: of several freedoms the
+    range is then one that holds, perhaps in a wider one.
 
     Raises SceneError where no load says.
     """
@@ -75,11 +77,11 @@ def asked_of(case: Case, path: str = "") -> AskedLoad | None:
         value, varied = number.value, bool(path) and number.path == path
         try:
             said = SaidCase(one)
-            held = _held(said, load.name, not varied)
+            held = _about(_held(said, load.name, HeldAt(value) if here and not varied else not varied), value)
             if not held.low <= value <= held.high and _may_hold(case):
-                held = _held(said, load.name, False)
-                low, high = next((one for one in held.again if one[0] <= value <= one[1]), held[:2])
-                held = held._replace(low=low, high=high)
+                held = _about(_held(said, load.name, False), value)
+        except SharedError:  # of joints, whichever load is asked
+            raise
         except SceneError as error:
             refusal = error
             continue
@@ -87,6 +89,12 @@ def asked_of(case: Case, path: str = "") -> AskedLoad | None:
     if refusal is not None:
         raise refusal
     return None
+
+
+def _about(held: Held, value: float) -> Held:
+    """Of several ranges the one with a value in it."""
+    low, high = next((one for one in held.again if one[0] <= value <= one[1]), held[:2])
+    return held._replace(low=low, high=high)
 
 
 def _may_hold(case: Case) -> bool:
@@ -109,7 +117,7 @@ def moving_loads(case: Case, path: str = "") -> Held:
     """
     found = None
     with suppress(SceneError):
-        found = asked_of(case, path)
+        found = asked_of(case, path, here=True)
     if found is None:
         return _of_all(replace(case, motion=(), expect=()))
     return Held(found.held.low - found.value, found.held.high - found.value, found.held.error)
@@ -190,7 +198,7 @@ def _works(said: SaidCase) -> bool:
 
 
 @lru_cache(maxsize=256)
-def _held(said: SaidCase, load: str, alone: bool) -> Held:
+def _held(said: SaidCase, load: str, alone: bool | HeldAt) -> Held:
     """Where it holds still; with ``alone`` it is not told where it holds again beyond a range without end."""
     case = said.case
     try:
@@ -209,7 +217,7 @@ def _held(said: SaidCase, load: str, alone: bool) -> Held:
     error = UNPROVEN * largest if found.error is None else found.error
     if friction is None or friction.possible is None:
         return Held(*found.holds, error)
-    return Held(*found.holds, error, friction.possible, friction.again, friction.jams)
+    return Held(*found.holds, error, friction.possible, friction.again)
 
 
 def _of_all(case: Case) -> Held:
@@ -254,6 +262,8 @@ def judged(answer: Answer, case: Case) -> Answer:
             said = _of_motion(case)
         else:
             holds, said = _at_rest(case)
+            if holds and (jams := jammed(replace(case, expect=()))):
+                said = f"{said} But {jams}"
     except SceneError as refusal:
         said = OPEN.format(refusal.message)
     return replace(answer, notes=(*answer.notes, said), holds_still=holds)
@@ -273,8 +283,7 @@ def _at_rest(case: Case) -> tuple[bool | None, str]:
     reach = reach_of((low, high), unit_of(found.load, case), lambda end: f"{end + 0.0:.6g}", None)
     what = f"{_named(found.load)} {reach}"
     if found.holds:
-        jams = found.held.jams
-        return True, f"{HOLDS} So it does with {what}.{jams and ' But '}{jams}"
+        return True, f"{HOLDS} So it does with {what}."
     if found.open:
         return None, OPEN.format(LEFT.format(what))
     return False, f"{SLIPS} It would hold with {what}." if low <= high else SLIPS

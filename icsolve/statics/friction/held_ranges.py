@@ -21,7 +21,6 @@ from icsolve.statics.friction.pushing import (
     RestingScene,
     at,
     every_flanks,
-    halves,
     limits_in_floats,
     limits_of,
     rows_of,
@@ -90,13 +89,14 @@ class HeldRanges(NamedTuple):
         return own, tuple([(one.low, one.high) for one in self.ranges if one is not own])
 
 
-def held(scene: RestingScene) -> HeldRanges:
-    """The ranges of the one unknown load in which friction within its limits holds."""
+def held(scene: RestingScene, at: float | None = None) -> HeldRanges:
+    """The ranges of the one unknown load in which friction within its limits holds; where it is asked only
+    whether it holds ``at`` a load [case units], some that hold, with that in one of them if it does."""
     found, complete = list[HeldRange](), True
     for flanks in every_flanks(scene):
         limits = limits_in_floats(scene, flanks)
         search = _Search(limits, flanks)
-        complete &= search.is_complete()
+        complete &= search.is_complete(None if at is None else at * limits.scale)
         unit = 1.0 / limits.scale
         found += [one._replace(low=one.low * unit, high=one.high * unit) for one in search.found]
     return HeldRanges(tuple(joined(found)), complete)
@@ -113,8 +113,8 @@ class _Search:
         self.found: list[HeldRange] = []
         self.is_pin = [len(rub.forces) > 1 for rub in limits.rubs]
 
-    def is_complete(self) -> bool:
-        """Look at every part; whether all lie in ranges that hold."""
+    def is_complete(self, at: float | None = None) -> bool:
+        """Look at every part, or at those that have a load in them; whether all lie in ranges that hold."""
         if not self.reduced.balances:
             return True
         parts, sure = [self.limits.pushing], True
@@ -123,12 +123,12 @@ class _Search:
                 return sure
             toward = parts.pop()
             ends = self.ends(toward)
-            if ends is None or self.holds(ends):
+            if ends is None or self.holds(ends) or _is_beside(at, ends):
                 continue
             beyond = [end for end, one in enumerate(ends) if not self.holds((one, one))]
             for end in beyond or (0, 1):
                 self.look(toward, ends, end)
-            if self.holds(ends):
+            if self.holds(ends) or (at is not None and self.holds((_End(at, ()), _End(at, ())))):
                 continue
             halves = list(self.cut(toward, [one.point for one in ends]))
             parts += halves
@@ -147,7 +147,7 @@ class _Search:
 
     def forms(self, toward: Sequence[Pointing | None]) -> list[Form]:
         """The inequalities of a part, each over its largest number, in the order of `rows_of`."""
-        found = [self.reduced.form(row) for row, *_ in rows_of(self.limits, toward)]
+        found = [form for form, *_ in self.reduced.rows(toward)]
         return [tuple([a / size for a in form]) if (size := largest_of(form)) else form for form in found]
 
     def ends(self, toward: Sequence[Pointing | None]) -> tuple[_End, _End] | None:
@@ -207,15 +207,12 @@ class _Search:
         self, toward: tuple[Pointing | None, ...], points: Sequence[Sequence[float]]
     ) -> Iterator[tuple[Pointing | None, ...]]:
         """A part, cut by whereto the force points that bounds its friction least."""
-        spare = {
-            k: min(self.reduced.spare(k, point) for point in points)
-            for k, to in enumerate(toward)
-            if to is None or to.half > NARROW
-        }
+        open_ = [k for k, to in enumerate(toward) if to is None or to.half > NARROW]
+        spare = {(k, n): self.reduced.spare(k, point) for k in open_ for n, point in enumerate(points)}
         if spare:
-            k = min(spare, key=lambda k: (min(spare[k], -ROUNDED), -_half(toward[k])))
-            for half in halves(toward[k], self.is_pin[k]):
-                yield (*toward[:k], half, *toward[k + 1 :])
+            k, n = min(spare, key=lambda of: (min(spare[of], -ROUNDED), -_half(toward[of[0]])))
+            for angle in self.reduced.cut(k, toward[k], points[n]):
+                yield (*toward[:k], angle, *toward[k + 1 :])
 
     def equations(self, vertex: Vertex) -> tuple[frozenset[int], ...]:
         """Sets of inequalities, by their places, of each of which as equations an end follows: those that are
@@ -240,6 +237,11 @@ class _Search:
             rest = [sum_of((a, share * b)) for a, b in zip(form, base, strict=True)]
             found.append((rest[0], share * self.unit / self.load[gone], *rest[1:gone], *rest[gone + 1 :]))
         return found
+
+
+def _is_beside(at: float | None, ends: tuple[_End, _End]) -> bool:
+    """Whether a load, if any, lies not between two ends."""
+    return at is not None and not ends[0].load <= at <= ends[1].load
 
 
 def _half(to: Pointing | None) -> float:

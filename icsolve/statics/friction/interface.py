@@ -110,8 +110,12 @@ def _rate(position: Position, tie: Tie, rub: Rub, motion: int) -> Scalar:
     return rate if tie.screw is None else rate + rub.spin * position.twists[tie.screw.rotor][motion][2]
 
 
-def shared(tie: Tie, ties: Sequence[Tie]) -> str:
-    """That the friction of a joint hangs on a force that equilibrium leaves open, and what would mend it."""
+class SharedError(SceneError):
+    """Friction that hangs on a force that equilibrium leaves open, whatever the loads are."""
+
+
+def shared(tie: Tie, ties: Sequence[Tie]) -> SharedError:
+    """That the friction of a joint hangs on such a force, and what would mend it."""
     remedy = "Take out `mu` there, or make the joints fewer (a pin in a slot in place of a slide)."
     cause = "the joints are redundant and share the load by their fit"
     meshes = [other.joint for other in ties if other.pivots]
@@ -120,9 +124,10 @@ def shared(tie: Tie, ties: Sequence[Tie]) -> str:
     elif any(mesh.pulls for mesh in meshes):
         cause = "it hangs on the initial tension of the belt"
         remedy = "Take out `mu` there, or in place of the belt put its two pulls on the pulleys as loads."
-    return (
+    return SharedError(
+        Status.UNSUPPORTED,
         f"the friction of links {tie.by} and {tie.on}{place_of(tie)} depends on a force that equilibrium "
-        f"leaves open: {cause}. {remedy}"
+        f"leaves open: {cause}. {remedy}",
     )
 
 

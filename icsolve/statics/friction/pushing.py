@@ -173,22 +173,23 @@ class Pointing(NamedTuple):
     middle: float
     half: float = 0.0
 
-    def halves(self) -> tuple[Pointing, ...]:
-        """The two halves of an angle."""
-        quarter = 0.5 * self.half
-        return Pointing(self.middle - quarter, quarter), Pointing(self.middle + quarter, quarter)
+    def cut(self, at: float) -> tuple[Pointing, ...]:
+        """The two parts of an angle beside a direction in it, neither much narrower than the other."""
+        off = math.remainder(at - self.middle, 2.0 * math.pi)
+        off = max(-LEAST * self.half, min(off, LEAST * self.half))
+        low, high = 0.5 * (self.half + off), 0.5 * (self.half - off)
+        return Pointing(self.middle - self.half + low, low), Pointing(self.middle + self.half - high, high)
 
 
-LAPPED = 1.01
-"""Angles lap over one another, so that rounding loses no force that points along an end of two."""
+LAPPED = 2.0**-36
+"""So far angles lap over one another [rad]: rounding loses no force that points along an end of two."""
+LEAST = 0.9
+"""A cut leaves the narrower of two parts a twentieth of an angle."""
 SENSES = (Pointing(1.0), Pointing(-1.0))
-CIRCLE = tuple([Pointing(2.0 * math.pi * k / 3.0, math.pi / 3.0) for k in range(3)])
 
 
-def halves(to: Pointing | None, is_pin: bool) -> tuple[Pointing, ...]:
-    """Whereto a force may point, cut: a guide's in either sense, a pin's within narrower angles."""
-    whole = CIRCLE if is_pin else SENSES
-    return whole if to is None else to.halves()
+ReducedRow = tuple[Form, float, int | None]
+"""What is not less than zero, whether its depth counts (1.0), and the rub that it limits."""
 
 
 class ReducedLimits:
@@ -211,6 +212,8 @@ class ReducedLimits:
         self.units = [1.0 / (largest_of(own) or 1.0) for own in sizes]
         self.rubs = [tuple(map(self.form, (*rub.forces, rub.friction))) for rub in limits.rubs]
         self.sizes = [largest_of([a for form in rub for a in form]) or 1.0 for rub in self.rubs]
+        self.always = [(self.form(row), 1.0, None) for row in (*limits.normals.values(), *limits.rows)]
+        self.bounds: dict[tuple[int, Pointing | None], list[ReducedRow]] = {}
 
     def _placed(self, row: Row) -> Row:
         return {self.place[c]: a for c, a in row.items()}
@@ -225,10 +228,33 @@ class ReducedLimits:
         open_ = zip(self.open, self.units, strict=True)
         return (sums.get(self.last, 0.0), *(sums.get(n, 0.0) * unit for n, unit in open_))
 
+    def rows(self, toward: Sequence[Pointing | None]) -> list[ReducedRow]:
+        """`rows_of` in these variables; what parts have in common is worked out once."""
+        found: list[ReducedRow] = [*self.always]
+        for key in enumerate(toward):
+            if key not in self.bounds:
+                self.bounds[key] = [
+                    (self.form(row), many, of) for row, many, of in bounds_of(self.limits, *key)
+                ]
+            found += self.bounds[key]
+        return found
+
     def spare(self, k: int, point: Sequence[float]) -> float:
         """How far a friction is from its limit at a point (w, x), whereto its force may point there."""
         *forces, friction = self.rubs[k]
         return (math.hypot(*(at(form, point) for form in forces)) - abs(at(friction, point))) / self.sizes[k]
+
+    def cut(self, k: int, to: Pointing | None, point: Sequence[float]) -> tuple[Pointing, ...]:
+        """Whereto the force of a rub may point, cut: a guide's in either sense, a pin's within narrower
+        angles, that end where it points at a point (w, x): there they say of it what is so."""
+        x, *y = (at(form, point) for form in self.rubs[k][:-1])
+        if not y:
+            return SENSES
+        here = math.atan2(y[0], x)
+        if to is not None:
+            return to.cut(here)
+        third = math.pi / 3.0
+        return tuple([Pointing(here + n * third, third) for n in (1, 3, 5)])
 
     def toward(self, part: Sequence[Pointing | None], point: Sequence[float]) -> tuple[Pointing | None, ...]:
         """Whereto the forces that press point at a point (w, x) of a part; as this where one is none."""
@@ -266,18 +292,24 @@ def rows_of(
     """What is not less than zero in a part, whether its depth counts (1.0), and the rub that it limits."""
     for row in (*limits.normals.values(), *limits.rows):
         yield row, 1.0, None
-    for k, ((_, forces, friction), to) in enumerate(zip(limits.rubs, toward, strict=True)):
-        if to is None:
-            continue
-        shares = [to.middle] if len(forces) == 1 else [math.cos(to.middle), math.sin(to.middle)]
-        if to.half:
-            wide = LAPPED * to.half
-            far = math.cos(wide)
-            shares = [math.cos(to.middle) / far, math.sin(to.middle) / far]
-            for end, side in ((to.middle - wide, 1.0), (to.middle + wide, -1.0)):
-                yield _summed(forces, (-side * math.sin(end), side * math.cos(end))), 0.0, None
-        for side in (1.0, -1.0):
-            yield _summed((*forces, friction), (*shares, side)), 1.0, k
+    for k, to in enumerate(toward):
+        yield from bounds_of(limits, k, to)
+
+
+def bounds_of(limits: FrictionLimits, k: int, to: Pointing | None) -> Iterator[tuple[Row, float, int | None]]:
+    """Those of one rub."""
+    _, forces, friction = limits.rubs[k]
+    if to is None:
+        return
+    shares = [to.middle] if len(forces) == 1 else [math.cos(to.middle), math.sin(to.middle)]
+    if to.half:
+        wide = to.half + LAPPED
+        far = math.cos(wide)
+        shares = [math.cos(to.middle) / far, math.sin(to.middle) / far]
+        for end, side in ((to.middle - wide, 1.0), (to.middle + wide, -1.0)):
+            yield _summed(forces, (-side * math.sin(end), side * math.cos(end))), 0.0, None
+    for side in (1.0, -1.0):
+        yield _summed((*forces, friction), (*shares, side)), 1.0, k
 
 
 def _summed(rows: Sequence[Row], shares: Sequence[float]) -> Row:

@@ -40,9 +40,9 @@ from icsolve.statics.friction.interface import (
     shared,
     unknowns_by_power,
 )
+from icsolve.statics.friction.lifting import ROUNDED, jammed
 from icsolve.statics.friction.limits import Slid, jams_at_last, slid
 from icsolve.statics.friction.static_range import (
-    ROUNDED,
     SAME,
     End,
     StaticRange,
@@ -208,10 +208,12 @@ def at_rest(scene: FrictionScene) -> AtRest:
     if rates is None:
         if len(unknown_loads(scene.balance)) == 1:
             return _of_several_freedoms(scene)
+        unknown = [w.root for w in unknown_loads(scene.balance)]
         message = (
-            f"friction at {plural(mobility, 'degree')} of freedom needs `motion`, one for each: without it "
-            "each unknown load has a range that depends on the others. Or give all but one a number: then "
-            "its range is found."
+            f"the loads {listed(unknown)} are unknown on {plural(mobility, 'degree')} of freedom with "
+            "friction: at rest the range of each may hang on the others. Give `motion`, one for each "
+            "freedom: the loads that keep it up are found. Or leave one load unknown, a force along one "
+            "line: the range in which it holds is found."
         )
         raise SceneError(Status.MOBILITY, message)
     if any(rope.slips for rope in scene.position.case.ropes):
@@ -259,7 +261,7 @@ def _of_several_freedoms(scene: FrictionScene) -> AtRest:
     refuse_fit(_resting(scene))
     ties = ties_of(scene.position)
     statics = equilibrium(scene.position, ties, scene.balance, rubs_of(scene.position, ties))
-    within = limited.held(_resting(scene))
+    within = limited.held(_resting(scene), scene.at)
     if not within.ranges:
         raise SceneError(Status.NO_VALUE, NEVER_HELD.format(statics.roots[0]))
     own, again = within.nearest(0.0)
@@ -437,7 +439,7 @@ def _statics(scene: FrictionScene, ties: Sequence[Tie], flanks: Mapping[int, flo
         forces_of(statics)
     except LookupError as error:
         tie = ties[error.args[0]]
-        raise SceneError(Status.UNSUPPORTED, shared(tie, ties)) from None
+        raise shared(tie, ties) from None
     return statics
 
 
@@ -506,9 +508,9 @@ def solved(
     found, (root,) = rest.range, (w.load.name for w in scene.balance.wrenches if is_unknown(w.load))
     answer = answer_with({root: Value(0.0, rest.bound, rest.why)})
     answers = {name: _held(scene, name, found, shown) for name, shown in answer.answers.items()}
-    jams = LIFTED.format(listed(found.lifted)) if found.lifted else ""
+    jams = jammed(scene.position, scene.balance, root, (found.least, found.most))
     notes = (*answer.notes, *notes_at_rest(root, found), *([jams] if jams else ()))
-    friction = FrictionFound((), 0.0, 0.0, found.how, possible=found.possible, again=found.again, jams=jams)
+    friction = FrictionFound((), 0.0, 0.0, found.how, possible=found.possible, again=found.again)
     bare = replace(answer, answers=answers, terms=(), advantage=None, sensitivities=Deferred(_no_slopes))
     ends = Later(lambda: list(_about_to_move(rest, answer_with)))
     return replace(bare, notes=notes, friction=friction, about_to_move=ends)
@@ -597,6 +599,8 @@ class FrictionScene(NamedTuple):
     """the same on balls, of as many digits as that takes, where bounds are asked for"""
     alone: bool
     """whether what is said of other solutions is left out"""
+    at: float | None
+    """of several freedoms the load of which alone it is asked whether friction holds it"""
 
 
 def rubbing_of(scene: FrictionScene, solved: Solved, rates: Sequence[float]) -> tuple[Rubbing, ...]:
@@ -641,12 +645,6 @@ def notes_in_motion(statics: Statics, found: Slid, rates: Sequence[float]) -> Se
     if not found.unique:
         notes.append("there are too many rubbing joints to count all solutions: there may be others.")
     return notes
-
-
-LIFTED = (
-    "it holds as a jam: the contact {} pushes by friction alone, and would have to pull without it. Loads "
-    "that grow from nothing lift it off; it holds where it was pressed together before."
-)
 
 
 def notes_at_rest(root: str, found: StaticRange) -> Sequence[str]:

@@ -35,7 +35,6 @@ from icsolve.statics.friction.pushing import (
     RestingScene,
     at,
     every_flanks,
-    halves,
     limits_in_floats,
     limits_of,
     rows_of,
@@ -85,7 +84,7 @@ def standing(scene: RestingScene) -> Standing:
     sure = max((one for one in found if isinstance(one, Standing)), key=lambda one: one.depth, default=None)
     fitted = next((one for one in found if isinstance(one, Pressed)), None)
     if fitted is not None and (sure is None or sure.depth < 0.0):
-        raise SceneError(Status.UNSUPPORTED, shared(ties[fitted.tie], ties))
+        raise shared(ties[fitted.tie], ties)
     assert sure is not None
     return sure
 
@@ -142,6 +141,7 @@ class ForcePart(NamedTuple):
     sure : at least so deep, at a point
     of : the places of the rows that set the depth
     sizes : of all rows, 0.0 of those whose depth does not count
+    point : (w, x), the deepest
     worst : the rub that is the least deep there, for which its force is to be told closer; None where none is
     """
 
@@ -150,6 +150,7 @@ class ForcePart(NamedTuple):
     sure: float
     of: tuple[int, ...]
     sizes: tuple[float, ...]
+    point: tuple[float, ...]
     worst: int | None
 
 
@@ -165,8 +166,8 @@ def _deepest_part(limits: FrictionLimits) -> ForcePart:
         if part.worst is None or part.depth < -ROUNDED:
             return part
         k = part.worst
-        for n, half in enumerate(halves(part.toward[k], len(limits.rubs[k].forces) > 1)):
-            one = _part(reduced, (*part.toward[:k], half, *part.toward[k + 1 :]))
+        for n, angle in enumerate(reduced.cut(k, part.toward[k], part.point)):
+            one = _part(reduced, (*part.toward[:k], angle, *part.toward[k + 1 :]))
             heapq.heappush(parts, (-one.depth, 3 * made + n + 1, one))
     raise SceneError(Status.UNSUPPORTED, TOO_MANY)
 
@@ -174,13 +175,10 @@ def _deepest_part(limits: FrictionLimits) -> ForcePart:
 def _part(reduced: ReducedLimits, toward: tuple[Pointing | None, ...]) -> ForcePart:
     """How deep a part is."""
     if not reduced.balances:
-        return ForcePart(toward, -math.inf, -math.inf, (), (), None)
-    rows = list(rows_of(reduced.limits, toward))
-    forms = [reduced.form(row) for row, *_ in rows]
-    sizes = [
-        counts * (largest_of(form) if k is None else reduced.sizes[k])
-        for form, (_, counts, k) in zip(forms, rows, strict=True)
-    ]
+        return ForcePart(toward, -math.inf, -math.inf, (), (), (), None)
+    rows = reduced.rows(toward)
+    forms = [form for form, *_ in rows]
+    sizes = [counts * (largest_of(form) if k is None else reduced.sizes[k]) for form, counts, k in rows]
     kept = [n for n, form in enumerate(forms) if any(form)]
     nothing = (1.0, *[0.0] * len(reduced.open))  # says no more than how deep the deepest is
     deep = [tuple([a / (sizes[n] or largest_of(forms[n])) for a in forms[n]]) for n in kept]
@@ -192,7 +190,7 @@ def _part(reduced: ReducedLimits, toward: tuple[Pointing | None, ...]) -> ForceP
     worst = min(short, key=lambda k: (toward[k] is not None, spare[k]), default=None)
     if 2.0 * sure > depth > 0.0 and all(toward[k] for k in short):
         worst = None  # angles that are narrower would not say other
-    return ForcePart(toward, depth, sure, kept_by, tuple(sizes), worst)
+    return ForcePart(toward, depth, sure, kept_by, tuple(sizes), (1.0, *point), worst)
 
 
 def _exactly(limits: FrictionLimits, part: ForcePart, a: Showing) -> tuple[float, float]:
@@ -222,7 +220,7 @@ def refuse_fit(scene: RestingScene) -> None:
     ties = ties_of(scene.position)
     for flanks in every_flanks(scene):
         if pressed := _pressed_by_fit(limits_in_floats(scene, flanks)):
-            raise SceneError(Status.UNSUPPORTED, shared(ties[pressed.tie], ties))
+            raise shared(ties[pressed.tie], ties)
 
 
 def _pressed_by_fit(limits: FrictionLimits) -> Pressed | None:

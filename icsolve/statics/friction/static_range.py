@@ -20,7 +20,6 @@ from typing import TYPE_CHECKING
 
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import largest_of
-from icsolve.numbers.linear import Row
 from icsolve.numbers.roots import zero_between
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.friction.equations import (
@@ -37,7 +36,7 @@ from icsolve.statics.friction.equations import (
     shared_normals,
     without_friction,
 )
-from icsolve.statics.friction.interface import place_of
+from icsolve.statics.friction.lifting import ROUNDED, pulling
 from icsolve.statics.friction.limits import SHORT, parting, too_many, well_told
 from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording.sentences import listed
@@ -84,8 +83,6 @@ class StaticRange(NamedTuple):
     ends : those ends at which it is about to move
     again : other ranges in which friction within its limits can hold
     parts : at which ends a contact would have to pull: there it parts, before the end
-    lifted : where nothing holds without the unknown load, contacts that push by friction alone: without it
-        they would have to pull
     presses : the load does no work: it holds by what it presses
     """
 
@@ -97,7 +94,6 @@ class StaticRange(NamedTuple):
     ends: tuple[End, ...] = ()
     again: tuple[tuple[float, float], ...] = ()
     parts: tuple[float, ...] = ()
-    lifted: tuple[str, ...] = ()
     presses: bool = False
 
 
@@ -187,9 +183,7 @@ def of_limits(statics: Statics, senses: Sequence[float], within: HeldRanges, alo
         same = (end for end in moving if abs(end.value - value) <= room)
         parts = End(value, tuple(senses), pushes=math.isinf(value), vertex=vertex)
         ends.append(next(same, parts))
-    jams = loads_from_power(statics) is not None and not own.low <= 0.0 <= own.high
-    lifted = _pulling(statics, smooth) if jams else ()
-    return range_of(ends)._replace(how=within.how, again=others, lifted=lifted)
+    return range_of(ends)._replace(how=within.how, again=others)
 
 
 SAME = 1e-9
@@ -202,29 +196,13 @@ def smooth_load(statics: Statics) -> float | None:
     return None if loads is None else loads[0].get(statics.known, 0.0) / statics.scale
 
 
-def _pulling(statics: Statics, load: float) -> tuple[str, ...]:
-    """The contacts that would have to pull without friction at a load."""
-    (root,) = statics.roots
-    parameters, free = statics.parameters({root: load}), set(statics.general.free)
-    return tuple(
-        f"of links {tie.by} and {tie.on}{place_of(tie)}"
-        for tie, column in zip(statics.ties, statics.first, strict=True)
-        if tie.joint.only_pushes and not statics.general.of(column).keys() & free
-        if statics.value(column, parameters) < -ROUNDED * _size_of(statics, column, parameters)
-    )
-
-
-def _size_of(statics: Statics, column: int, parameters: Row) -> float:
-    """The largest term of a column."""
-    return largest_of([a * parameters.get(c, 0.0) for c, a in statics.general.of(column).items()])
-
-
 def _lost(statics: Statics, smooth: float) -> str:
     """Which contacts would have to pull, at the load without friction."""
-    pulling = _pulling(statics, smooth)
-    what = f"the contact {listed(pulling)}" if pulling else "a contact"
+    root = statics.roots[0]
+    lost = pulling(statics, {root: smooth})
+    what = f"the contact {listed(lost)}" if lost else "a contact"
     return (
-        f"no value of {statics.roots[0]} holds: {what} is lost, its normal force would have to pull. The "
+        f"no value of {root} holds: {what} is lost, its normal force would have to pull. The "
         "links part there, and tip or lift off."
     )
 
@@ -325,10 +303,6 @@ def _moving(statics: Statics, equations: Reduced, senses: Sequence[float], y: Se
     if not pushes and (part := _where_one_parts(equations, y, 1.0)) is not None:
         return End(part / statics.scale, tuple(senses), pushes=False)
     return End(equations.load(y)[0] / statics.scale, tuple(senses), equations.friction(y), pushes)
-
-
-ROUNDED = 2.0**-48
-"""A normal force is zero below this fraction of its terms."""
 
 
 def _where_one_parts(equations: Reduced, last: Sequence[float], far: float) -> float | None:
