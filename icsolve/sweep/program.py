@@ -12,11 +12,12 @@ from contextlib import suppress
 from icsolve.assembly import Figure, Placement, place, placed_figure
 from icsolve.assembly.conditions import ahead, refuse_misfit, wheel_margins
 from icsolve.assembly.driven.constraints import Constraint, Turning
+from icsolve.assembly.driven.groups import LIMIT_AS_WRITTEN
 from icsolve.assembly.driven.mechanism import Mechanism, mechanism, placed_late
 from icsolve.assembly.driven.motion import DrivenMotion, closing_of, set_moving
 from icsolve.assembly.steps import Meet, Polar, spare_data
 from icsolve.assembly.workspace import CORNER, RAY, PlacedCase, data_in, names_of, number_of
-from icsolve.case import Case, Pair, TorsionSpring, is_angle
+from icsolve.case import Case, Pair, TorsionSpring, is_angle, pair_name
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import by_loops
 from icsolve.kinematics.speeds import speed_of
@@ -45,7 +46,7 @@ from icsolve.sweep.recorded_scene import (
     RecordedScene,
     RecordedStatics,
     RestingContact,
-    centre,
+    centres,
     link_accelerations,
     motion_fits,
     moved_scene,
@@ -306,11 +307,7 @@ def compile_sweep(setting: Setting, asked: RowRequest, signs: Signs = ()) -> Com
             return compiled
     if refusal is not None and refusal.status == Status.STRUCTURE and setting.moves:
         raise SceneError(Status.STRUCTURE, YIELDS_HERE) from refusal
-    raise refusal or SceneError(
-        Status.CHANGE_POINT,
-        "the position as written is a limit: the mechanism assembles there, but not beside it. Write the "
-        "case in another position.",
-    )
+    raise refusal or SceneError(Status.CHANGE_POINT, LIMIT_AS_WRITTEN)
 
 
 def _compiled(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> CompiledSweep:
@@ -480,10 +477,9 @@ def _outputs(
     if asked.terms:
         out |= {("terms", load): (factor,) for load, factor in unit_powers(scene, found)}
     out |= _in_motion(scene, asked, found)
-    for pair in asked.centres:
-        triple = centre(scene, found.motions, pair)
-        if triple is not None:
-            out["centres", f"{pair[0]}-{pair[1]}"] = triple
+    if asked.centres:
+        told = centres(scene, found.motions, asked.centres)
+        out |= {("centres", pair_name(scene.case, pair)): triple for pair, triple in told}
     if asked.contacts and found.answers:
         normals = pressing(scene, found, asked.contacts).contacts
         out |= {("contact", at): (force,) for at, force in normals.items()}

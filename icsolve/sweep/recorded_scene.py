@@ -612,19 +612,26 @@ def _signed(scene: RecordedScene, v: Point, forward: bool) -> Scalar:
     return size if forward else -size
 
 
-def centre(scene: RecordedScene, found: motion.Motions, pair: Pair) -> Triple | None:
-    """Relative centre in case units, homogeneous; None where the pair has no one centre."""
-    own = _own(scene, pair)
-    if own is None:
-        relative = [subtract(b, a) for a, b in zip(*(found.twists[link] for link in pair), strict=True)]
-        largest = speeds.fastest(found.twists)
-        moving = [t for t in relative if not all(scene.record.vanishes(x, largest) for x in t)]
-        if len(moving) != 1:
-            return None
-        (own,) = moving
-    x, y, w = own
+def centres(
+    scene: RecordedScene, found: motion.Motions, wanted: Iterable[Pair]
+) -> Iterator[tuple[Pair, Triple]]:
+    """Relative centres in case units, homogeneous, of the pairs that have one; of several freedoms in the
+    given motion."""
+    twists, largest = found.twists, speeds.fastest(found.twists)
+    if scene.case.motion and found.mobility > 1:
+        speed = speeds.speed_of(scene.place, twists)
+        twists = {link: speeds.meant(twists, speed, link) for link in twists}
     ox, oy, scale = scene.frame
-    return (x / scale + ox * w, y / scale + oy * w, w)
+    for pair in wanted:
+        own = _own(scene, pair)
+        if own is None:
+            relative = [subtract(b, a) for a, b in zip(*(twists[link] for link in pair), strict=True)]
+            moving = [t for t in relative if not all(scene.record.vanishes(x, largest) for x in t)]
+            if len(moving) != 1:
+                continue
+            (own,) = moving
+        x, y, w = own
+        yield pair, (x / scale + ox * w, y / scale + oy * w, w)
 
 
 def _own(scene: RecordedScene, pair: Pair) -> Triple | None:

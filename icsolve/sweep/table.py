@@ -13,8 +13,9 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.answer import Answer, by_load
-from icsolve.case import Case, Coordinates, is_named, link_order
+from icsolve.case import Case, Coordinates, is_named, pair_name
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import turn_of
 from icsolve.numbers.replay import Array
 from icsolve.numbers.tape import UNIT
 from icsolve.statics.power import is_unknown
@@ -269,7 +270,7 @@ class Table:
                 self.put("terms", term.load, row, term.factor)
         for pair in asked.centres if centres else ():
             triple = _triple(answer, pair)
-            name = "-".join(sorted(pair, key=lambda link: link_order(case, link)))
+            name = pair_name(case, pair)
             if triple is not None:
                 self.put("centres", name, row, triple, _centre_error(answer, pair))
             else:
@@ -341,8 +342,7 @@ def _triple(answer: Answer, pair: tuple[str, str]) -> tuple[float, float, float]
     if centre.kind == "at":
         return (centre.place[0], centre.place[1], 1.0)
     if centre.kind == "toward":
-        angle = np.radians(centre.place[0])
-        return (float(np.cos(angle)), float(np.sin(angle)), 0.0)
+        return (*turn_of(centre.place[0]), 0.0)
     return (0.0, 0.0, 0.0)
 
 

@@ -159,6 +159,10 @@ def _refusal(mechanism: Mechanism, order: AssemblyOrder, left: Sequence[int]) ->
 # --- a group of links that Newton's method places: its equations on a record, and their solution on rows ---
 
 
+LIMIT_AS_WRITTEN = (
+    "the position as written is a limit: the mechanism assembles there, but not beside it. Write the case in "
+    "another position."
+)
 ROUNDS = 25
 CLOSE = 1e-9
 """A step that is smaller (normalised, radians) leaves an error below rounding."""
@@ -244,12 +248,18 @@ def _threes(values: Sequence[Scalar]) -> Iterator[tuple[Scalar, Scalar, Scalar]]
 
 
 def _at_record(record: Record, equations: Implicit) -> Array:
-    """The solution at the values that the record was made with."""
+    """The solution at the values that the record was made with.
+
+    Raises SceneError where there is none: in the position as written, which has one, what is zero by chance
+    would be taken as zero in every row.
+    """
     solver = Solver(record, equations)
     env = {k: np.array([node.value]) for k, node in enumerate(record.nodes) if node.op == Op.INPUT}
     start = np.array([[record.nodes[k].value for k in equations.guesses]])
     q, good = solver.solve(env, start)
-    found: Array = q[0] if good[0] else start[0]
+    if not good[0]:
+        raise SceneError(Status.CHANGE_POINT, LIMIT_AS_WRITTEN)
+    found: Array = q[0]
     return found
 
 
