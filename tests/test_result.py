@@ -173,8 +173,10 @@ loads:
     [
         ("1", "zero, the loads are in equilibrium"),
         ("6", "-10, the loads are not in equilibrium"),
-        ("1.00000000000001", "-2e-14, the loads are not in equilibrium"),
-        ("0.99999999999999999999999", "2e-23, the loads are not in equilibrium"),
+        ("1.26", "-0.52, the loads are not in equilibrium"),  # 0.5 of P and twice 0.005 of Q are 0.51
+        ("1.25", "-0.5, which is within half a unit of the last decimals"),
+        ("1.00000000000001", "-2e-14, which is within half a unit of the last decimals"),
+        ("0.99999999999999999999999", "2e-23, which is within half a unit of the last decimals"),
     ],
 )
 def test_known_loads_alone_are_said_to_balance_only_where_they_do(force: str, said: str) -> None:

@@ -343,6 +343,22 @@ REFUSED = {
     "revolute": ("pin: [1, 2]", "revolute: [1, 2]", 9, 6, "did you mean 'pin'?"),
     "hinge": ("pin: [1, 2]", "hinge: [1, 2]", 9, 6, "take a joint of the plane, a pin"),
     "prismatic": ("pin: [1, 2]", "prismatic: [1, 2]", 9, 6, "did you mean 'slide'?"),
+    "a chain": ("pin: [1, 2]", "chain: [1, 2]", 9, 6, "did you mean 'belt'?"),
+    "radii of gears": (
+        "{pin: [2, 3], at: B}",
+        "{gears: [2, 3], radii: [20, 30]}",
+        10,
+        21,
+        "did you mean 'teeth'?",
+    ),
+    "a published value with its room": (
+        "loads:",
+        "expect: {T12: 33.8 ± 0.1}\nloads:",
+        13,
+        15,
+        "under `expect` its room stands beside it",
+    ),
+    "an atmosphere": ("{force: 100", "{pressure: 8 atm, bore: 2", 14, 17, "1 atm is 1.01325 bar"),
     "type of a joint": (
         "{pin: [1, 2]",
         "{type: revolute, links: [1, 2]",

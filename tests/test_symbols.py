@@ -164,6 +164,40 @@ def test_wedges_lie_between_the_planes_of_their_guides() -> None:
     assert min(faces[0]) == pytest.approx(max(faces[1]), abs=0.1)
 
 
+def test_what_its_contacts_touch_square_and_as_far_is_round() -> None:
+    """Two smooth cylinders in a box, by the places where they touch: about the points where their weights
+    act. A crate on two edges, as far from its weight, is not."""
+    cylinders = """
+icsolve: 1
+points: {A: [0.3, 0.3], B: [0.7, unknown]}
+lengths: {AB: 0.6, AF: 0.3, AL: 0.3, AT: 0.3, BR: 0.3}
+angles: {AF: -90, AL: 180, BAT: 0, BR: 0}
+near: {B: [0.7, 0.75]}
+joints:
+  - {contact: [1, 2], at: F, normal: 90}
+  - {contact: [1, 2], at: L, normal: 0}
+  - {contact: [2, 3], at: T, normal: 48.19}
+  - {contact: [1, 3], at: R, normal: 180}
+loads:
+  W1: {weight: 100, link: 2, at: A}
+  W2: {weight: 100, link: 3, at: B}
+"""
+    crate = """
+icsolve: 1
+points: {A: [0, 0], B: [0.6, 0], G: [0.3, 0.4]}
+joints:
+  - {contact: [1, 2], at: A, normal: 90}
+  - {contact: [1, 2], at: B, normal: 90}
+loads: {W: {weight: 500, link: 2, at: G}}
+"""
+    both = [drawn(text).root.iter(f"{SVG}circle") for text in (cylinders, crate)]
+    circles, none = ([circle(e) for e in some if e.get("class") == "body"] for some in both)
+    assert len(circles) == 2 and not none
+    (left, right), (a, b) = [one.centroid for one in circles], [one.area for one in circles]
+    assert a == pytest.approx(b, rel=1e-3)
+    assert left.distance(right) == pytest.approx(2.0 * math.sqrt(a / math.pi), rel=0.01)
+
+
 @pytest.mark.parametrize("end", [80, -80, 5])
 @pytest.mark.parametrize("links", ["[2, 3]", "[3, 2]"])
 def test_what_slides_on_the_frame_is_no_wheel(links: str, end: int) -> None:

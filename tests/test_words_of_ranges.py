@@ -263,3 +263,25 @@ def test_between_impending_motion_and_what_friction_can_hold_it_is_open(
     assert (one["from"], one["to"]) == ("holds", "slips")
     assert one["at"]["loads.L2"] == pytest.approx(high, rel=1e-12)
     assert any(LEFT in note for note in found["notes"])
+
+
+@pytest.mark.parametrize("turns", ["", ", turns: cw"])
+def test_no_end_of_a_range_is_minus_nothing(turns: str) -> None:
+    """A cylinder in a rough corner, which the least couple rolls out of it: it parts from the wall at 0."""
+    answer = icsolve.solve(
+        icsolve.load(f"""icsolve: 1
+points: {{O: [0.2, 0.2], F: [0.2, 0], L: [0, 0.2]}}
+joints:
+  - {{contact: [1, 2], at: F, normal: 90, mu: 0.3}}
+  - {{contact: [1, 2], at: L, normal: 0, mu: 0.3}}
+loads:
+  W: {{weight: 100, link: 2, at: O}}
+  M: {{torque: unknown, link: 2{turns}}}
+""")
+    )
+    told = [note for note in answer.notes if "a contact would have to pull" in note]
+    assert told and "by M = 0 a contact" in told[0]
+    held = answer.answers["M"].holds
+    assert held is not None
+    most = 100 * 0.2 * 0.3 * 1.3 / 1.09  # both rub at their limits
+    assert sorted(map(abs, held)) == [0.0, pytest.approx(most, rel=1e-12)]

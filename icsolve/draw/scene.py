@@ -241,8 +241,9 @@ def _ratchet(case: Case, joint: Sliding, points: Mapping[str, Point]) -> Ratchet
 def _disc(
     case: Case, link: str, at: Point, side: Point, points: Mapping[str, Point], *, free: bool
 ) -> Wheel | None:
-    """A circle about a point of the common normal on the link's side: a pin of it, or a point of no link."""
-    pins = case.pivots(link)
+    """A circle about a point of the common normal on the link's side: a pin of it, a point in which the
+    normals of all its contacts meet, or a point of no link."""
+    pins = [*case.pivots(link), *_hubs(case, link, points)]
     owned = {p for ps in case.carries.values() for p in ps} | {getattr(j, "at", None) for j in case.joints}
     loose = [p for p in points if p not in owned] if free else []
     for name in (*loose, *pins):
@@ -253,6 +254,21 @@ def _disc(
         if gap > 0.0 and abs(dx * side[1] - dy * side[0]) <= 0.01 * gap:
             return Wheel(link, points[name], math.hypot(dx, dy), "cam")
     return None
+
+
+def _hubs(case: Case, link: str, points: Mapping[str, Point]) -> Iterable[str]:
+    """The points of a link from which all its contacts, two or more, are as far and along their normals."""
+    touching = [j for j in case.joints if isinstance(j, Sliding) and j.only_pushes and link in j.links]
+    both = [(points[j.at], normal_of(j)) for j in touching if j.at in points]
+    for name in case.carries.get(link, ()) if len(both) == len(touching) > 1 else ():
+        if name not in points:
+            continue
+        gaps = [(points[name][0] - x, points[name][1] - y) for (x, y), _ in both]
+        radius = math.hypot(*gaps[0])
+        alike = all(abs(math.hypot(*gap) - radius) <= NEAR * radius for gap in gaps)
+        normals = zip(gaps, (n for _, n in both), strict=True)
+        if radius and alike and all(abs(x * b - y * a) <= 0.01 * radius for (x, y), (a, b) in normals):
+            yield name
 
 
 class Geneva(NamedTuple):

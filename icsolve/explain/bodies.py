@@ -12,8 +12,10 @@ from icsolve.case.joints import Friction
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, Trig, product
 from icsolve.explain.worked import Worked, load_name
+from icsolve.report.bars import bars_of
 from icsolve.report.derivation.known import Known, acting_loads, rope_pulls
 from icsolve.report.derivation.spatial import InSpace, in_space
+from icsolve.report.text import axial_words
 from icsolve.screws.plane import subtract
 from icsolve.screws.space import ZERO, Vec, size, spatial, times
 from icsolve.tuples import NamedTuple
@@ -58,11 +60,21 @@ def bodies_sections(work: Worked) -> Iterable[Section]:
     told = reactions_section(work, heading, rows)
     open_ones = sorted({r.why for r in reactions.values() if None in (r.x, r.y, r.moment) and r.why})
     more = (Items(tuple((f"? : {why}",) for why in open_ones)),) if open_ones else ()
-    yield told._replace(blocks=(*told.blocks, *more))
+    yield told._replace(blocks=(*told.blocks, *more, *_bars(work)))
     for link in work.case.links:
         if link != work.case.ground:
             forces = list(_acting_on(work.known, link))
             yield link_section(work, link, forces, _about(work.known, link), work.known.size, "xy")
+
+
+def _bars(work: Worked) -> Iterable[Block]:
+    """What pulls or pushes the bars that two forces load."""
+    found = bars_of(work.answer)
+    if found:
+        yield words("Two forces alone hold these bars, so they act along them:")
+        unit = work.units.force
+        entries = ((work.number(abs(force)), f" {unit}, {axial_words(force)}") for force in found.values())
+        yield Items(tuple((f"link {q}: ", *entry) for q, entry in zip(found, entries, strict=True)))
 
 
 def reactions_section(

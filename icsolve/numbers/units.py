@@ -252,6 +252,7 @@ _MEANT = {
     "ton": "'tonf' (2000 lbf) or 't' (1000 kg)",
     "tons": "'tonf' (2000 lbf) or 't' (1000 kg)",
     "lbm's": "'lbm'",
+    "atm": "'bar' (1 atm is 1.01325 bar)",
     "K": "'kip' or 'kN'",
     "k": "'kip' or 'kN'",
     **{f"{prefix}J": f"'{prefix}N*m'" for prefix in ("", "k", "M")},

@@ -302,6 +302,7 @@ def _is_of_radians(value: float, numeral: Numeral) -> bool:
 
 
 _NO_UNITS = {
+    r"(?:±|\+/?-)": "write the value alone; under `expect` its room stands beside it, {value: 70, within: 1}",
     r",\d": "write a decimal point, not a comma",
     r"[- ]?\d+/\d": "write the fraction as decimals, 3.5 for 3 1/2",
     r"['’]\s*\d+(?:\.\d+)?\s*[\"”]$": "write feet and inches as one number with one unit, 14 in for 1'2\"",

@@ -375,7 +375,7 @@ def _bodies(answer: Answer, show: Format) -> list[str]:
         return _space(answer, answer.spatial, show)
     if answer.reactions is None and answer.friction is None:
         return []
-    blocks = [_reactions(answer, show), _tensions(answer, show)]
+    blocks = [_reactions(answer, show), _bars(answer, show), _tensions(answer, show)]
     if answer.friction is not None:
         blocks.append(_friction(answer.friction, answer.case.units, show))
     blocks.append(_witnesses(answer.witnesses, show))
@@ -389,6 +389,21 @@ def _reactions(answer: Answer, show: Format) -> list[str]:
     couples = any(reaction.moment for reaction in answer.reactions.values())
     rows = ((name, *_columns(reaction, show)) for name, reaction in answer.reactions.items())
     return [_title_of_forces(answer.case.units, couples), *table(rows)]
+
+
+def _bars(answer: Answer, show: Format) -> list[str]:
+    """A line for each bar that two forces pull or push."""
+    if not answer.reactions:
+        return []
+    from icsolve.report.bars import bars_of
+
+    rows = [(f"link {link}", f"{show(abs(f))}", axial_words(f)) for link, f in bars_of(answer).items()]
+    return [f"Bars, {answer.case.units.force}: the force along each", *table(rows)] if rows else []
+
+
+def axial_words(force: float) -> str:
+    """Whether a bar is pulled or pushed."""
+    return "tension" if force > 0.0 else "compression" if force else "no force"
 
 
 def _title_of_forces(units: Units, couples: bool) -> str:

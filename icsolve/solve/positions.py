@@ -49,7 +49,6 @@ from icsolve.solve.refinement import (
 from icsolve.solve.rest_position import RestPosition, taut
 from icsolve.sweep.varied_numbers import find_number, points_of
 from icsolve.tuples import NamedTuple, replace
-from icsolve.wording import sentences
 
 BESIDE = 5e-4
 """Beside a change point a branch is looked at in steps of this fraction of the range."""
@@ -178,6 +177,9 @@ def functions_of(
         return _moving_from(case, path, start, span)
     refuse_ropes(case, path)
     functions, complete = load_functions(case, path, *span, whole)
+    ends = {*points_of(path)}
+    if path.startswith("lengths.") and any(ends <= {*points} for points in case.carries.values()):
+        refuse_unposed(functions[0])  # of one link, which it shapes, wherever that is written
     refuse_unwritten(case, path, functions[0].links, bounded)
     refuse_unposed(functions[0])
     return functions, complete
@@ -324,10 +326,7 @@ def _moving_from(
 def refuse_unwritten(case: Case, path: str, links: Sequence[str], bounded: bool) -> None:
     """Refuse what counts from a position as written, on links that turn, where none is written; and a torsion
     spring whose turns nothing counts from, not even the middle of a range."""
-    turning, ends = set(links), {*points_of(path)}
-    own = any(ends <= {*points} for points in case.carries.values())
-    if own and path.startswith("lengths."):  # of one link, which it shapes
-        raise SceneError(Status.UNSUPPORTED, sentences.poses_nothing(path))
+    turning = set(links)
     for what, link in _history(case):
         if link in turning:
             raise SceneError(

@@ -655,7 +655,8 @@ def notes_at_rest(root: str, found: StaticRange) -> Sequence[str]:
     if found.self_locking and found.least <= 0.0 <= found.most:
         notes.append(f"self-locking: it holds still with {root} = 0.")
     if found.parts:
-        ends = listed(f"{end:.6g}" for end in dict.fromkeys(found.parts) if math.isfinite(end))
+        finite = (end + 0.0 for end in found.parts if math.isfinite(end))  # no -0
+        ends = listed(f"{end:.6g}" for end in dict.fromkeys(finite))
         where = f"by {root} = {ends}" if ends else "from some value on"
         notes.append(
             f"{where} a contact would have to pull: it parts there, and the links tip or lift off before "
