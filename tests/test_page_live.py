@@ -1084,6 +1084,30 @@ def test_scissors_of_flat_triangles_are_pulled_to_the_answers_of_solve(kind: str
         assert float(value) == pytest.approx(values["F"], rel=1e-9)
 
 
+ALONG = """icsolve: 1
+points: {A: [2.4359, -2.5502], D: [2.9601, -3.0021], E: [0.1201, -3.6867], B: [3.15078588668, -5.09993203842]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [4, 1], at: D}
+  - {slide: [3, 4], at: B, along: 335, through: E}
+loads:
+  P: {force: 47, link: 4, at: E, angle: 143.4}
+  U: {torque: unknown, link: 2}
+"""
+
+
+def test_places_that_the_slider_has_rounded_agree_to_their_last_digit(shown: Any) -> None:
+    """A block on a guide that turns, through a point of its own: places and direction are rounded to ten
+    digits each, as the fields have them, and do not contradict each other."""
+    page, degrees = shown(ALONG, moves=True), [float(n) for n in range(-60, 61, 4)]
+    found = page.run(TURN, "loads.P", "30", degrees)
+    driver = page.run("return JSON.parse(document.getElementById('data').textContent).motion.driver")
+    rows = icsolve.sweep(icsolve.load(ALONG, {"loads.P": "30"}), drive={driver: degrees})
+    assert [status for _, status in found] == rows.status.tolist() == ["ok"] * len(degrees)
+    assert [float(value) for value, _ in found] == pytest.approx(rows.answers["U"].tolist(), rel=1e-6)
+
+
 @pytest.mark.parametrize("unit", ["yd", "ft"])
 def test_numbers_that_no_decimal_tells_are_exact_in_a_page_too(unit: str, shown: Any, tmp_path: Path) -> None:
     """Inches in feet and yards: a parallelogram of such lengths has its change point where `solve` has it,

@@ -91,7 +91,7 @@ function enterAll(some) {
   some.forEach((value, n) => {
     if (value === numbers[n]) return;
     const shown = Number(value.toPrecision(10));
-    enter(n, shown, 0, String(shown));
+    enter(n, shown, halfOf(String(shown)), String(shown));
   });
 }
 /* The choice of the input, and a slider for every other freedom. */
