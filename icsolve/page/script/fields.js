@@ -278,6 +278,7 @@ function fromAddress() {
 if (live) {
   live.firstHalves = [...live.halves];
   live.texts = live.paths.map((_, n) => (fieldOf(n) ? fieldOf(n).value : ""));
+  live.typed = (n) => (fieldOf(n) && fieldOf(n).value !== live.texts[n] ? textOf(n).toLowerCase() : null);
   live.text = live.text || { set: [], at: [], near: {} };
   const fine = byId("fine");
   live.paths.forEach((path, n) => {
