@@ -10,7 +10,7 @@ import math
 import random
 import re
 from collections.abc import Iterator
-from decimal import Decimal
+from decimal import Decimal, localcontext
 from pathlib import Path
 from typing import Any
 
@@ -1082,6 +1082,45 @@ def test_scissors_of_flat_triangles_are_pulled_to_the_answers_of_solve(kind: str
         own, values = solved(CHAINS[kind], fields) or ("", {})
         assert status == own == "ok"
         assert float(value) == pytest.approx(values["F"], rel=1e-9)
+
+
+ALONG = """icsolve: 1
+points: {A: [2.4359, -2.5502], D: [2.9601, -3.0021], E: [0.1201, -3.6867], B: [3.15078588668, -5.09993203842]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [4, 1], at: D}
+  - {slide: [3, 4], at: B, along: 335, through: E}
+loads:
+  P: {force: 47, link: 4, at: E, angle: 143.4}
+  U: {torque: unknown, link: 2}
+"""
+
+
+def test_places_that_the_slider_has_rounded_agree_to_their_last_digit(shown: Any) -> None:
+    """A block on a guide that turns, through a point of its own: places and direction are rounded to ten
+    digits each, as the fields have them, and do not contradict each other."""
+    page, degrees = shown(ALONG, moves=True), [float(n) for n in range(-60, 61, 4)]
+    found = page.run(TURN, "loads.P", "30", degrees)
+    driver = page.run("return JSON.parse(document.getElementById('data').textContent).motion.driver")
+    rows = icsolve.sweep(icsolve.load(ALONG, {"loads.P": "30"}), drive={driver: degrees})
+    assert [status for _, status in found] == rows.status.tolist() == ["ok"] * len(degrees)
+    assert [float(value) for value, _ in found] == pytest.approx(rows.answers["U"].tolist(), rel=1e-6)
+
+
+@pytest.mark.parametrize("kind", [kind for kind in PULLED if kind != "a kite"][:3])
+def test_more_digits_are_typed_than_a_double_has(kind: str, shown: Any) -> None:
+    """1e-16 to 1e-40 degree beside a singular position the word and the value of `solve`, to 1e-9."""
+    form, sizes, at, off = LEVERS[kind]
+    case = form.format(at=at + off, p="unknown", t=10, **sizes)
+    with localcontext(prec=60):
+        angles = [Decimal(at) + side * Decimal(10) ** -k for k in (16, 23, 40) for side in (1, -1)]
+    changes = [{"angles.AB": f"{angle:f}"} for angle in angles]
+    seen = shown(case).run(TYPE, changes)
+    for change, (value, status) in zip(changes, (one["P"] for one in seen), strict=True):
+        own, values = solved(case, change) or ("", {})
+        assert status == own == "ok"
+        assert float(value) == pytest.approx(values["P"], rel=1e-9), change
 
 
 @pytest.mark.parametrize("unit", ["yd", "ft"])

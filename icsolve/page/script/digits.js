@@ -42,8 +42,10 @@ const halfTurn = (() => {
   };
   return () => (made ||= 16n * inverse(5n) - 4n * inverse(239n));
 })();
-/* A number of the case as its file has it: a numeral, or a ratio times a power of pi. */
-function asWritten(value, exact) {
+/* A number of the case as its field has it, which may have more digits than a double, else as its file has it: a
+   numeral, or a ratio times a power of pi. */
+function asWritten(value, exact, typed) {
+  if (Number(typed) === value && /^-?[\d.]+(e[-+]?\d+)?$/.test(typed)) return decimal(typed);
   if (!exact) return decimal(String(value));
   const [num, den, power] = exact;
   const found = (BigInt(num) << BITS) / BigInt(den);

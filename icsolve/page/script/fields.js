@@ -91,7 +91,7 @@ function enterAll(some) {
   some.forEach((value, n) => {
     if (value === numbers[n]) return;
     const shown = Number(value.toPrecision(10));
-    enter(n, shown, 0, String(shown));
+    enter(n, shown, halfOf(String(shown)), String(shown));
   });
 }
 /* The choice of the input, and a slider for every other freedom. */
@@ -278,6 +278,7 @@ function fromAddress() {
 if (live) {
   live.firstHalves = [...live.halves];
   live.texts = live.paths.map((_, n) => (fieldOf(n) ? fieldOf(n).value : ""));
+  live.typed = (n) => (fieldOf(n) && fieldOf(n).value !== live.texts[n] ? textOf(n).toLowerCase() : null);
   live.text = live.text || { set: [], at: [], near: {} };
   const fine = byId("fine");
   live.paths.forEach((path, n) => {

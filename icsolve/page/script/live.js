@@ -26,6 +26,7 @@ function poseOf(link) {
 }
 const guideOf = (k, own) => [own[k][1], -own[k][0]];
 if (live) {
+  live.typed = () => null;
   lab.typed();
   scene.solved = scene.first = solvedScene(live, numbers, lab);
   for (const one of live.posed) scene.first.at = numbers[one.number];

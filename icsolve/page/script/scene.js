@@ -472,7 +472,7 @@ function figureOf(program, told, x) {
     }),
     /* The figure as it stands, of the numbers as written, in digits. */
     inDigits() {
-      const X = x.map((v, n) => asWritten(v, v === told.numbers[n] ? told.exact[n] : null));
+      const X = x.map((v, n) => asWritten(v, v === told.numbers[n] ? told.exact[n] : null, told.typed(n)));
       const [S, Q, T, R, P] = [[], [], [], [], []];
       const made = program(DIGITS, X, S, Q, T, R, w.map(exactly));
       const put = (n) => {
