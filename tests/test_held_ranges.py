@@ -93,6 +93,40 @@ def test_no_friction_within_its_limits_holds_a_load_that_is_not_told(part: int) 
     assert compared > 10
 
 
+def geared(dice: Random) -> str:
+    """Two wheels on rough pivots, heavy beside the torque that the second bears: on which flank its teeth
+    carry is for its friction to say."""
+    outer = dice.choice((-60, 25, 40))
+    return f"""icsolve: 1
+points: {{O: [0, 0], Q: [2, {dice.uniform(-1, 1):.2f}]}}
+joints:
+  - {{pin: [1, 2], at: O, mu: {dice.uniform(0.1, 0.6):.2f}, radius: {dice.uniform(0.05, 0.3):.2f}}}
+  - {{pin: [1, 3], at: Q, mu: {dice.uniform(0.1, 0.6):.2f}, radius: {dice.uniform(0.05, 0.3):.2f}}}
+  - {{gears: [2, 3], teeth: [20, {outer}], pressure angle: {dice.choice((14.5, 20, 25))}}}
+loads:
+  V: {{force: {dice.uniform(10, 100):.1f}, link: 2, at: O, angle: {dice.randint(0, 359)}}}
+  W: {{force: {dice.uniform(10, 100):.1f}, link: 3, at: Q, angle: {dice.randint(0, 359)}}}
+  T: {{torque: {dice.uniform(-8, 8):.2f}, link: 3}}
+  U: {{torque: unknown, link: 2}}
+"""
+
+
+@pytest.mark.parametrize("part", range(20 if FULL else 2))
+def test_the_teeth_of_a_range_carry_on_the_flank_on_which_they_push(part: int) -> None:
+    """A thousandth of the range within each end all loads at once are held, and so much beyond they are not;
+    in the motion that begins at an end the torque is that of the end, to 1e-12."""
+    for seed in range(10 * part, 10 * part + 10):
+        text = geared(Random(f"geared {seed}"))
+        low, high = icsolve.solve(icsolve.load(text)).answers["U"].holds
+        room = 1e-3 * (high - low)
+        for end, inward, turns in ((low, room, "cw"), (high, -room, "ccw")):
+            for value, held in ((end + inward, True), (end - inward, False)):
+                given = icsolve.load(text.replace("unknown", repr(value)))
+                assert (all_loads(given).depth >= 0.0) is held, (seed, value, (low, high))
+            moved = icsolve.solve(icsolve.load(f"{text}motion: {{link: 2, turns: {turns}}}\n"))
+            assert moved.answers["U"].value == pytest.approx(end, rel=1e-12), seed
+
+
 def pushes(case: icsolve.Case, x: Array) -> bool:
     """Whether no contact pulls."""
     return all(x[column] >= -1e-9 for column in standing.pushing(case))

@@ -47,6 +47,7 @@ from icsolve.statics.friction.static_range import (
     End,
     StaticRange,
     end_of,
+    impending,
     pressed,
     range_of,
     smooth_load,
@@ -220,20 +221,35 @@ def at_rest(scene: FrictionScene) -> AtRest:
         found, ends = _range_with_ropes(scene, rates)
     else:
         ties, workless, senses = ties_of(scene.position), _is_workless(scene), rates.senses.rubs
-        statics = _statics(scene, ties, _flanks(scene, ties, workless))
+        flanks = _flanks(scene, ties, workless)
+        statics = _statics(scene, ties, flanks)
         driven = scene.solution.verdict == "no value"
         within = partial(limited.held, _resting(scene))
-        found = (
-            pressed(statics, senses, driven, within)
-            if workless
-            else static_range(statics, senses, scene.alone, within)
-        )
+        if workless:
+            found = pressed(statics, senses, driven, within)
+        else:
+            moving = [_on_flanks(scene, statics, flanks, [way * s for s in senses]) for way in (1.0, -1.0)]
+            found = static_range(statics, senses, scene.alone, within, moving)
         ways = [1.0 if end.senses == senses else -1.0 for end in found.ends]
+        of = [end.statics or statics for end in found.ends]
         ends = [
-            EndOfRange(way, scene, statics, end, _proven_end(scene, statics, end))
-            for way, end in zip(ways, found.ends, strict=True)
+            EndOfRange(way, scene, own, end, _proven_end(scene, own, end))
+            for way, own, end in zip(ways, of, found.ends, strict=True)
         ]
     return _told(found, ends, rates)
+
+
+def _on_flanks(
+    scene: FrictionScene, statics: Statics, flanks: Mapping[int, float], senses: Sequence[float]
+) -> End:
+    """The load at which it is about to move, with teeth on the flanks on which they push there; ``statics``
+    has them on the given ones."""
+
+    def end(own: Mapping[int, float]) -> End:
+        on_these = statics if own == flanks else _statics(scene, ties_of(scene.position), own)
+        return impending(on_these, senses)._replace(statics=on_these)
+
+    return on_flanks(flanks, end)
 
 
 def _told(found: StaticRange, ends: Sequence[EndOfRange], rates: RubbingRates) -> AtRest:

@@ -22,6 +22,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import largest_of
 from icsolve.numbers.roots import zero_between
 from icsolve.statics.equilibrium import Statics
+from icsolve.statics.free_bodies import carrying
 from icsolve.statics.friction.equations import (
     NOTHING,
     Reduced,
@@ -62,6 +63,7 @@ class End(NamedTuple):
         move
     pushes : whether every contact pushes there
     vertex : of an end of linear inequalities, which these are
+    statics : whose equilibrium it is, of an end at which the teeth of the wheels push
     """
 
     value: float
@@ -69,6 +71,14 @@ class End(NamedTuple):
     friction: tuple[float, ...] = ()
     pushes: bool = True
     vertex: Vertex | None = None
+    statics: Statics | None = None
+
+    def carrying(self, t: int) -> float:
+        """Sign of the force in a mesh along its first unit; 1 where nothing is about to move."""
+        if self.statics is None or not self.friction:
+            return 1.0
+        unknowns = {self.statics.roots[0]: self.value}
+        return carrying(self.statics, self.statics.parameters(unknowns, self.friction), t)
 
 
 class StaticRange(NamedTuple):
@@ -101,13 +111,16 @@ Within = Callable[[], "HeldRanges"]
 """Finds the ranges in which friction within its limits holds."""
 
 
-def static_range(statics: Statics, senses: Sequence[float], alone: bool, within: Within) -> StaticRange:
+def static_range(
+    statics: Statics, senses: Sequence[float], alone: bool, within: Within, ends: Sequence[End]
+) -> StaticRange:
     """The interval of the one unknown load.
 
     Parameters
     ----------
     statics : of one motion and one unknown load, with friction as parameters
     senses : (rubs,), those of the rubs in the motion, 1, -1 or 0
+    ends : where it is about to move so, and the opposite way
     alone : whether what friction that is not about to slip can hold is not looked for
     within : finds where it can
 
@@ -116,15 +129,14 @@ def static_range(statics: Statics, senses: Sequence[float], alone: bool, within:
     StaticRange
         Self-locking: it holds with the unknown at zero (against loads), or no value moves it one way.
     """
-    ends = [_end(statics, [d * s for s in senses]) for d in (1.0, -1.0)]
     locks = all(math.isinf(end.value) for end in ends)  # where contacts push, one way at most
     parts = _may_part(statics) and (locks or not all(end.pushes for end in ends))
     parts = parts or bool(shared_normals(statics))
     if parts or _nothing_presses(statics, senses):
-        return of_limits(statics, senses, within(), alone)
+        return of_limits(statics, senses, within(), alone, ends)
     if alone and all(math.isfinite(end.value) for end in ends):
         return range_of(ends)
-    if _is_proven(statics, senses):
+    if all(_is_proven(end.statics or statics, senses) for end in ends):
         return range_of(ends)._replace(how=PROVEN)
     found = within()
     if not found.ranges:
@@ -166,7 +178,9 @@ def _nothing_presses(statics: Statics, senses: Sequence[float]) -> bool:
     return equations is not None and all(a <= least for a in without_friction(equations.equations))
 
 
-def of_limits(statics: Statics, senses: Sequence[float], within: HeldRanges, alone: bool) -> StaticRange:
+def of_limits(
+    statics: Statics, senses: Sequence[float], within: HeldRanges, alone: bool, ends: Sequence[End] = ()
+) -> StaticRange:
     """The range, of those in which friction within its limits holds, that is nearest to the load without
     friction. It ends where the mechanism is about to move, or where a contact parts.
 
@@ -176,14 +190,14 @@ def of_limits(statics: Statics, senses: Sequence[float], within: HeldRanges, alo
     if not within.ranges:
         raise SceneError(Status.NO_VALUE, _lost(statics, smooth))
     own, others = within.nearest(smooth)
-    moving = [] if alone else _about_to_move(statics, senses)
-    ends = []
+    moving = [] if alone else [*(end for end in ends if end.friction), *_about_to_move(statics, senses)]
+    told = []
     for value, vertex in zip((own.low, own.high), own.vertices, strict=True):
         room = SAME * abs(value) if math.isfinite(value) else -1.0
         same = (end for end in moving if abs(end.value - value) <= room)
         parts = End(value, tuple(senses), pushes=math.isinf(value), vertex=vertex)
-        ends.append(next(same, parts))
-    return range_of(ends)._replace(how=within.how, again=others)
+        told.append(next(same, parts))
+    return range_of(told)._replace(how=within.how, again=others)
 
 
 SAME = 1e-9
@@ -243,10 +257,10 @@ def without_ends(found: StaticRange, ends: Sequence[End]) -> StaticRange:
 
 def end_of(statics: Statics, senses: Sequence[float]) -> End | None:
     """The unknown load at full friction of these senses; None where power does not give it."""
-    return None if reduced(statics, senses) is None else _end(statics, senses)
+    return None if reduced(statics, senses) is None else impending(statics, senses)
 
 
-def _end(statics: Statics, senses: Sequence[float]) -> End:
+def impending(statics: Statics, senses: Sequence[float]) -> End:
     """The unknown load at full friction of these senses; infinite where the forces grow without bound.
 
     Raises SceneError where the equilibrium ends and nothing says at which load.
