@@ -799,3 +799,23 @@ links: {{1: [O, Q, G]}}
         for query in (Query("value", "U", 1e3), Query("max"), Query("dead")):
             spots = find(icsolve.load(case), whole, query)
             assert all(-1e-6 < spot.at - (along - turned) < 180.0 + 1e-6 for spot in spots), (case, query)
+
+
+@pytest.mark.parametrize("span", [(-7.0, 11.0), (-5.0, 0.0), (-4.9, -4.7)])
+def test_a_limit_beyond_which_a_turn_the_other_way_leads_is_told(span: tuple[float, float]) -> None:
+    """The rocker of problem 13.12 stops at -4.798 degrees, where its load does no work. It comes to what lies
+    beyond by nearly a turn the other way, in another way of assembling, whose rows begin right there."""
+    case = icsolve.load(FILES["ch13/13_12_five_links.yaml"])
+    (limit,) = find(case, None, Query("dead"), drive={"5": np.array(span)})
+    assert limit.kind == "limit" and limit.error < 1e-14
+    rows = icsolve.sweep(case, drive={"5": [limit.at + 1e-9, limit.at + 4e-9, limit.at - 1e-9, -5.0]})
+    assert rows.status.tolist() == ["ok", "ok", "cannot-assemble", "ok"]
+    assert rows.answers["T12"][1] == pytest.approx(2.0 * rows.answers["T12"][0], rel=1e-3)  # as a root
+    assert rows.answers["T12"][3] > 100.0
+
+
+@pytest.mark.parametrize(("link", "sense"), [("2", -1.0), ("3", 1.0)])
+def test_a_change_point_of_several_branches_is_told_once(link: str, sense: float) -> None:
+    case = icsolve.load(FILES["tools/lazy_tongs.yaml"])
+    spots = find(case, None, Query("dead"), drive={link: sense * np.array([0.0, 36.0])})
+    assert [(spot.kind, spot.at) for spot in spots] == [("change-point", sense * 28.0)]

@@ -189,7 +189,9 @@ class RangeSearch:
     def _dead(self, answer: Scalar, load: str) -> Iterator[FoundPosition]:
         """Where the unknown does no work, where the links reach their limit, where branches meet. Where the
         known loads do none either, any value balances, or the quotient goes through: no dead centre."""
-        seen = {s: NEAR for touch in self.touches for s in self._inside(touch)}
+        # several branches may change in one place
+        places = {float(s): s for touch in self.touches for s in self._inside(touch)}
+        seen = dict.fromkeys(places.values(), NEAR)
         yield from (self._spot(s, "change-point", None) for s in seen)
         for s, near in self._passages():
             if all(abs(s - other) > near for other in seen):
@@ -479,24 +481,13 @@ class RangeSearch:
         return self.edges
 
     def _ends_of_groups(self) -> Iterator[tuple[Decimal, float]]:
-        """Where groups are followed no further: about where by doubles, which stop short of it and are let on
-        a little beyond, and the nearest double by decimals, which tell whether the links reach a place."""
+        """Where groups are followed no further: about where by the steps, which stop short of it, and the
+        nearest double by decimals, which tell whether the links reach a place along the same path."""
         tracker = self.along.tracker
         assert tracker is not None
-        beside = 4.0 * tracker.slack
-        at = np.r_[self.ends[0] - beside, np.linspace(*self.ends, PLACES + 1), self.ends[1] + beside]
-        good = self.along.floats(self.name, at)[1]
-        k = np.flatnonzero(good[:-1] != good[1:])
-        low, high, holds = at[k], at[k + 1], good[k]
-        size = np.maximum(np.maximum(abs(low), abs(high)), 1.0)
-        while (wide := np.flatnonzero(high - low > 4.0 * UNIT * size)).size:
-            middle = 0.5 * (low[wide] + high[wide])
-            same = self.along.floats(self.name, middle)[1] == holds[wide]
-            low[wide], high[wide] = np.where(same, middle, low[wide]), np.where(same, high[wide], middle)
-        for one, two, first in zip(low.tolist(), high.tolist(), holds.tolist(), strict=True):
-            aside = 2.0 * tracker.slack * (1.0 if first else -1.0)
-            inside, outside = (one - aside, two + aside) if first else (two - aside, one + aside)
-            last, beyond = self._limit(inside, outside)
+        for segment, end, sense in tracker.limits():
+            with self.along.on(segment):
+                last, beyond = self._limit(end - sense * tracker.slack, end + 3.0 * sense * tracker.slack)
             error = abs(beyond - last)
             yield from ((s, error) for s in self._inside(as_written(last), Decimal(error)))
 

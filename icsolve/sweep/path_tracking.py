@@ -154,6 +154,17 @@ class PathTracker:
         """Whether the groups were followed from one place to another without a break."""
         return any(segment.s[0] <= low and high <= segment.s[-1] for segment in self.segments)
 
+    def limits(self) -> Iterator[tuple[PathSegment, float, float]]:
+        """Where the groups were followed no further: the part of the path, its end, and whether that is the
+        upper one (1) or the lower (-1). Others end where they would repeat, or were asked for no more."""
+        done = (*self.reach, *self.ends)
+        for segment in self.segments:
+            for k, sense in ((0, -1.0), (-1, 1.0)):
+                end = float(segment.s[k])
+                cut = any(abs(end - place) <= self.line.widest * SHORTEST for place in done)
+                if (self._is_main(segment) and end in self.ends) or not (self._is_main(segment) or cut):
+                    yield segment, end, sense
+
     def passages(self) -> list[float]:
         """The singular positions that groups go through."""
         return [self._passage(one, two) for one, two in self.breaks]
@@ -372,12 +383,16 @@ class PathTracker:
         """How far beyond a last step the links may reach."""
         return self.line.widest * SHORTEST * 16.0
 
+    def _is_main(self, segment: PathSegment) -> bool:
+        """Whether the path leads there from the position as written, and not from a turn away."""
+        return bool(segment.s[0] <= self.line.start <= segment.s[-1])
+
     def _interpolated(self, s: Array) -> tuple[Array, Array, Mask]:
         """States between the steps, by the cubic through the four nearest."""
         q = np.full((len(s), self.start.q.size), np.nan)
         turns = np.zeros((len(s), self.start.turns.size))
         good = np.zeros(len(s), dtype=bool)
-        for segment in self.segments:
+        for segment in sorted(self.segments, key=self._is_main):  # beside a limit that counts, the last
             here = (s >= segment.s[0] - self.slack) & (s <= segment.s[-1] + self.slack)
             if here.any():
                 at = np.clip(s[here], segment.s[0], segment.s[-1])

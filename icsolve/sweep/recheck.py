@@ -9,7 +9,7 @@ row then has. Nothing here looks at another row.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from decimal import Decimal, localcontext
 
 import numpy as np
@@ -19,6 +19,7 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.decimals import CONTEXT, as_written
 from icsolve.numbers.replay import Array
+from icsolve.sweep.continuation import PathSegment
 from icsolve.sweep.exact_record import APART, ZERO, RowScenes, Unreached, lowest
 from icsolve.sweep.row_parts import SweepPart, SweepParts
 
@@ -176,6 +177,20 @@ class Recheck:
                 yield self._place(branch, place)
 
     # --- groups -----------------------------------------------------------------------------------
+
+    @contextmanager
+    def on(self, segment: PathSegment) -> Iterator[None]:
+        """With the groups on one part of their path alone: where another begins at a limit, a turn of the
+        driven link away, it counts for nothing."""
+        tracker = self.tracker
+        assert tracker is not None
+        every, tracker.segments, tracker.last = tracker.segments, [segment], None
+        solved, unreached, self.solved, self.unreached = self.solved, self.unreached, None, set()
+        try:
+            yield
+        finally:
+            tracker.segments, tracker.last = every, None
+            self.solved, self.unreached = solved, unreached
 
     def _states(self, s: float) -> dict[int, Decimal]:
         """The states of groups near a singular position, by the polynomial through states around it: the line
