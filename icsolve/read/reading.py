@@ -408,11 +408,11 @@ def _no_number(node: Scalar, text: str, dimension: str, path: str) -> str:
     if dimension == "angle" and text.lower() in COMPASS:
         return f"an angle is in degrees counterclockwise from +x: write {COMPASS[text.lower()]} for '{text}'"
     if text == "unknown":
-        wanted = f"{wanted} is wanted"
+        wanted = f"{wanted} is wanted:"
         if path.startswith("loads.") and path.endswith(".angle"):
-            wanted = "a force of unknown direction is 'force: [unknown, unknown]'; where its size is known"
+            wanted = "a force of unknown direction is 'force: [unknown, unknown]'; where its size is known,"
         swept = path.startswith(("joints.", "loads."))
-        return f"'unknown' cannot stand here; {wanted}{', ' + SWEPT.format(path) if swept else ''}"
+        return f"'unknown' cannot stand here; {f'{wanted} {SWEPT.format(path)}' if swept else wanted.rstrip(':')}"
     if text.startswith("unknown "):
         return "write 'unknown' alone; its unit follows from those of the case"
     likely = suggestion(text, ("unknown",)) or _meant(text, dimension, path)
