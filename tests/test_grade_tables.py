@@ -127,6 +127,18 @@ def test_moodle_questions_without_a_map_are_asked_for(a_class: Class) -> None:
     assert "--map" in ran.err
 
 
+@pytest.mark.parametrize(
+    ("header", "missing", "own"), [("student,case,P", "answer", "P"), ("student,task,answer", "case", "task")]
+)
+def test_of_a_table_of_a_row_an_answer_the_column_that_is_missing_is_named(
+    a_class: Class, header: str, missing: str, own: str
+) -> None:
+    table = f"{header}\n7,lever,200\n"
+    ran = a_class.grade(table)
+    assert ran.code == 2 and f'--map {missing}="..."' in ran.err
+    assert [r["verdict"] for r in a_class.grade(table, "--map", f"{missing}={own}").rows()] == ["right"]
+
+
 def test_a_mapped_column_that_is_missing_is_named_with_the_way_out(a_class: Class) -> None:
     ran = a_class.grade("student_id,case,answer\n7,lever,200\n", "--map", "student_id=Email Address")
     assert ran.code == 2

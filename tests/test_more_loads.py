@@ -100,6 +100,25 @@ def test_an_unknown_pressure_is_answered_in_the_unit_of_its_trade(units: str, un
     assert found.value == pytest.approx({"MPa": 3.0, "psi": 435.1132}.get(unit, 3e-3), rel=1e-6)
 
 
+@pytest.mark.parametrize("angle", range(15, 360, 30))
+def test_a_fluid_that_would_have_to_suck_is_told(angle: int) -> None:
+    """A cylinder on a lever with a weight, in all directions: told where its pressure is negative, and only
+    there; the rod's side, turned round, then carries the load and is told nothing."""
+    text = """icsolve: 1
+units: {{length: mm, force: N}}
+points: {{A: [0, 0], B: [150, 60], C: [400, 0]}}
+joints: [{{pin: [1, 2], at: A}}]
+loads:
+  W: {{weight: 700, link: 2, at: C}}
+  p: {{pressure: unknown, bore: 50, {rod}link: 2, at: B, angle: {angle}}}
+"""
+    whole = icsolve.solve(icsolve.load(text.format(rod="", angle=angle)))
+    back = icsolve.solve(icsolve.load(text.format(rod="rod: 20, ", angle=angle + 180)))
+    told = [any("a fluid only pushes" in note for note in one.notes) for one in (whole, back)]
+    assert told == [one.answers["p"].value < 0.0 for one in (whole, back)]
+    assert sorted(told) == [False, True]
+
+
 def spread(first: float, last: float, n: int = 4000) -> float:
     """The torque against many small forces along CD: a force to the left has the arm y about D."""
     answer = icsolve.solve(press("{force: 1, link: 4, at: E, angle: 180}"))

@@ -408,11 +408,11 @@ def _no_number(node: Scalar, text: str, dimension: str, path: str) -> str:
     if dimension == "angle" and text.lower() in COMPASS:
         return f"an angle is in degrees counterclockwise from +x: write {COMPASS[text.lower()]} for '{text}'"
     if text == "unknown":
-        wanted = f"{wanted} is wanted"
+        said = f"'unknown' cannot stand here; {wanted} is wanted"
         if path.startswith("loads.") and path.endswith(".angle"):
-            wanted = "a force of unknown direction is 'force: [unknown, unknown]'; where its size is known"
-        swept = path.startswith(("joints.", "loads."))
-        return f"'unknown' cannot stand here; {wanted}{', ' + SWEPT.format(path) if swept else ''}"
+            free = "a force of unknown direction is 'force: [unknown, unknown]'"
+            return f"'unknown' cannot stand here; {free}; where its size is known, {SWEPT.format(path)}"
+        return f"{said}: {SWEPT.format(path)}" if path.startswith(("joints.", "loads.")) else said
     if text.startswith("unknown "):
         return "write 'unknown' alone; its unit follows from those of the case"
     likely = suggestion(text, ("unknown",)) or _meant(text, dimension, path)

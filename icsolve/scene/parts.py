@@ -9,7 +9,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
-from icsolve.case import Case, Number, Pair, link_order
+from icsolve.case import Area, Case, Force, Load, Number, Pair, link_order
 from icsolve.errors import SceneError, refuse_overflow
 from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
@@ -212,6 +212,7 @@ class AnswerBuilder:
             with suppress(SceneError):  # where no digits tell that a link stands still
                 notes += self.scene.ask(_at_rest)
         notes += self._known_alone()
+        notes += [sentences.sucks(load.name) for load in self.case.loads if _sucks(load, answers)]
         if self.scene.certain and self.given is None and self.case.profiles is None:
             notes += sensitivity.unsettled(self.case, answers, self._change())
         return notes
@@ -498,6 +499,12 @@ def _notes(found: Evaluation) -> list[str]:
         ends = sentences.free_ends(program.top, program.case)
         notes.append(f"{count} in which no load does work{': ' if ends else ''}{ends}.")
     return notes
+
+
+def _sucks(load: Load, answers: Mapping[str, Found]) -> bool:
+    """Whether a load is a pressure that is found to be less than none."""
+    pressure = isinstance(load, Force) and isinstance(load.over, Area)
+    return pressure and load.name in answers and answers[load.name].value < 0.0
 
 
 def _at_rest(found: Evaluation) -> list[str]:

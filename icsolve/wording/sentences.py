@@ -157,6 +157,14 @@ def known_at_rest(loads: Sequence[str], link: str) -> str:
     return f"{link_words(link)} stands still in this position: {listed(loads)} {verb} no work on it."
 
 
+def sucks(load: str) -> str:
+    """A pressure that would have to be less than none."""
+    return (
+        f"{load} is negative, and a fluid only pushes: it would have to suck here. Let the other side of the "
+        "piston carry the load, with its own area and the opposite direction."
+    )
+
+
 def idle_load(load: str, links: Sequence[str], couple: bool, slack: bool) -> str:
     """Why a load does no work on links that move; ``slack``: a spring that is neither stretched nor wound."""
     here, *other = map(link_words, links)

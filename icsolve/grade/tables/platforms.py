@@ -133,6 +133,12 @@ def _wide(columns: TableColumns, kind: str) -> TableLayout:
     ids = _ids(columns, kind)
     asked, strange = _questions(columns, set(ids))
     if not asked:
+        if (columns.field("case") is None) != (columns.field("answer") is None):  # a row an answer
+            there, other = ("answer", "case") if columns.field("case") is None else ("case", "answer")
+            raise HeaderError(
+                f"a table with a column '{there}' has a column '{other}' too, an answer a row, and there is "
+                f'none: {columns.listed()}; name it with --map {other}="..."'
+            )
         raise HeaderError(
             f'no column names a case: {columns.listed()}; name them with --map, such as --map "Q3=press"'
         )
