@@ -217,6 +217,27 @@ def test_a_search_asks_of_one_value_what_a_whole_range_says(kind: Callable[[Rand
             assert is_still(case, path, mu) is holds, (case.loads, mu)
 
 
+@pytest.mark.parametrize("seed", range(40 if FULL else 6))
+def test_what_nothing_presses_has_no_friction(seed: int) -> None:
+    """Light wheels on a light arm, all pins rough, under torques alone: a tooth force would turn the outer
+    wheel, farther out than its pin rubs, so nothing presses the pins, and no torque is held."""
+    dice = Random(f"light {seed}")
+    rough = (f"mu: {dice.uniform(0.1, 0.6):.2f}, radius: {dice.uniform(0.05, 0.3):.2f}" for _ in "OOQ")
+    one, two, three = rough
+    text = f"""icsolve: 1
+points: {{O: [0, 0], Q: [{dice.uniform(-4, 4):.2f}, {dice.uniform(2, 4):.2f}]}}
+joints:
+  - {{pin: [1, 2], at: O, {one}}}
+  - {{pin: [1, 4], at: O, {two}}}
+  - {{pin: [4, 3], at: Q, {three}}}
+  - {{gears: [2, 3], teeth: [{dice.randint(20, 40)}, {dice.randint(20, 40)}], pressure angle: 20, carrier: 4}}
+loads:
+  T: {{torque: {dice.choice((-1, 1)) * dice.uniform(1, 40):.2f}, link: 2, against: 4}}
+  U: {{torque: {dice.uniform(-100, 100):.2f}, link: {dice.choice("24")}}}
+"""
+    assert icsolve.solve(icsolve.load(text)).holds_still is False
+
+
 @contextmanager
 def refused() -> Iterator[list[str]]:
     """The status of what is refused within."""
