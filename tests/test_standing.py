@@ -377,6 +377,24 @@ def test_a_crate_on_three_legs_tips_where_its_weight_is_beyond_them(reach: float
     assert any("share the load" in note for note in answer.notes) is holds
 
 
+@pytest.mark.parametrize("seed", range(60 if FULL else 8))
+def test_a_push_on_three_rough_legs_has_a_range(seed: int) -> None:
+    """Each leg of its own coefficient: however they share the weight, all that some way holds, as the cone of
+    what the legs can do says a thousandth of the range within each end and beyond it. A note says so."""
+    dice = Random(f"three legs {seed}")
+    text = LEGS.replace("10,", "PUSH,").replace("REACH", f"{dice.uniform(0.2, 1.8):.2f}")
+    for _ in "ABC":
+        text = text.replace("MU", f", mu: {dice.uniform(0.05, 0.9):.2f}", 1)
+    answer = icsolve.solve(icsolve.load(text.replace("PUSH", "unknown")))
+    low, high = answer.answers["P"].holds
+    assert any("share the load" in note for note in answer.notes)
+    room = 1e-3 * (high - low)
+    for value, held in ((low + room, True), (high - room, True), (low - room, False), (high + room, False)):
+        given = icsolve.load(text.replace("PUSH", repr(value)))
+        assert (standing.off(given) <= 1e-9) is held
+        assert icsolve.solve(given).holds_still is held
+
+
 def table(dice: Random, joints: str, load: str) -> tuple[str, float, float]:
     """A table on three to five smooth legs, in any order, and from where to where they reach."""
     legs = [round(dice.uniform(-2.0, 2.0), 2) for _ in range(dice.randint(3, 5))]

@@ -208,12 +208,16 @@ def _is_shared(limits: FrictionLimits) -> bool:
     return any(abs(row.get(c, 0.0)) > ROUNDED * size for row, size in sizes for c in limits.free)
 
 
-def refuse_fit(scene: RestingScene) -> None:
-    """Refuse joints that rub and that their fit alone may press together."""
-    ties = ties_of(scene.position)
+def refuse_fit(scene: RestingScene) -> bool:
+    """Refuse joints that rub and that their fit alone may press together; whether equilibrium leaves open how
+    the others share the load."""
+    ties, open_ = ties_of(scene.position), False
     for flanks in every_flanks(scene):
-        if pressed := _pressed_by_fit(limits_in_floats(scene, flanks)):
+        limits = limits_in_floats(scene, flanks)
+        if pressed := _pressed_by_fit(limits):
             raise shared(ties[pressed.tie], ties)
+        open_ |= _is_shared(limits)
+    return open_
 
 
 def _pressed_by_fit(limits: FrictionLimits) -> Pressed | None:
