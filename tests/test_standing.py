@@ -217,6 +217,28 @@ def test_a_search_asks_of_one_value_what_a_whole_range_says(kind: Callable[[Rand
             assert is_still(case, path, mu) is holds, (case.loads, mu)
 
 
+@pytest.mark.parametrize("kind", [standing.five_bar, standing.joined, standing.crates])
+@pytest.mark.parametrize("part", range(20 if FULL else 1))
+def test_a_load_on_several_freedoms_ceases_to_hold_where_its_range_ends(
+    kind: Callable[[Random], str], part: int
+) -> None:
+    """Along its own number, to 1e-9 of the larger end: it is asked as the unknown, however many freedoms."""
+    dice = Random(f"{kind.__name__} ends {part}")
+    for _ in range(5):
+        link, at = PUSHED[kind]
+        push = f"  F: {{force: LOAD, link: {link}, at: {at}, angle: {dice.randint(0, 359)}}}\n"
+        text = f"{kind(dice)}{push}"
+        ends = list[float]()
+        with refused():
+            friction = icsolve.solve(icsolve.load(text.replace("LOAD", "unknown"))).friction
+            if friction is not None and friction.possible is not None:
+                ends = [end for one in (friction.possible, *friction.again) for end in one]
+        case = icsolve.load(text.replace("LOAD", "1"))
+        found = [one.value for one in holding_values(case, "loads.F", -500.0, 600.0)]
+        within = sorted(end for end in ends if -500.0 < end < 600.0)
+        assert icsolve.solve(case).mobility == 1 or found == pytest.approx(within, rel=1e-9), text
+
+
 @pytest.mark.parametrize("seed", range(40 if FULL else 6))
 def test_what_nothing_presses_has_no_friction(seed: int) -> None:
     """Light wheels on a light arm, all pins rough, under torques alone: a tooth force would turn the outer

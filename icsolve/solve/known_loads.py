@@ -73,9 +73,9 @@ def asked_of(case: Case, path: str = "", here: bool = False) -> AskedLoad | None
     case = replace(case, motion=(), expect=())
     refusal: SceneError | None = None
     for one, load, number in _one_unknown(case, path):
-        if not _works(SaidCase(smooth(one))):
-            continue
         value, varied = number.value, bool(path) and number.path == path
+        if not _works(SaidCase(smooth(one)), varied):
+            continue
         try:
             said = SaidCase(one)
             held = _about(_held(said, load.name, HeldAt(value) if here and not varied else not varied), value)
@@ -188,13 +188,13 @@ class SaidCase:
 
 
 @lru_cache(maxsize=256)
-def _works(said: SaidCase) -> bool:
-    """Whether an unknown load does work, in a case without friction: one that does none holds by the friction
-    alone that it makes."""
+def _works(said: SaidCase, several: bool = False) -> bool:
+    """Whether an unknown load does work, in a case without friction (of ``several`` freedoms too): one that
+    does none holds by the friction alone that it makes."""
     try:
         solve_scene(said.case)
-    except SceneError:
-        return False
+    except SceneError as refusal:
+        return refusal.status == Status.SLACK or (several and refusal.status == Status.MOBILITY)
     return True
 
 
