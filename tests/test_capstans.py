@@ -7,6 +7,7 @@ With D from a point to the centre of a circle, the line that touches it leans fr
 from __future__ import annotations
 
 import math
+import re
 from random import Random
 from typing import Any
 
@@ -17,6 +18,7 @@ from mpmath import mp, mpf
 import icsolve
 from icsolve.errors import SceneError
 from icsolve.scene.sensitivity import influences
+from icsolve.solve.stability import holding_values
 from sizes import MORE
 
 mp.dps = 60
@@ -346,3 +348,26 @@ def test_a_rope_that_slips_holds_what_friction_within_its_limits_holds(posts: in
         if answer.answers["U"].self_locking:
             assert low <= 0.0 <= high or math.isinf(low) or math.isinf(high)
     assert min(met.values()) >= 5, met
+
+
+@pytest.mark.parametrize("posts", [1, 2])
+def test_along_its_own_number_a_load_ceases_to_hold_where_its_range_ends(posts: int) -> None:
+    """The cranks on rough pins; also where the rope would have to push without friction: the load does work
+    all the same. To 1e-9."""
+    compared = 0
+    for seed in range(20 * MORE):
+        text, _ = two_cranks(seed, posts)
+        text = re.sub("at: ([AB])}", r"at: \1, mu: 0.2, radius: 0.3}", text)
+        try:
+            answer = icsolve.solve(icsolve.load(text))
+        except SceneError:
+            continue
+        assert answer.friction is not None
+        ranges = [answer.answers["U"].holds, *answer.friction.again]
+        ends = sorted(end for one in ranges for end in one if math.isfinite(end))
+        low, high = (side * 2.0 * max(map(abs, ends), default=1.0) for side in (-1.0, 1.0))
+        case = icsolve.load(text.replace("torque: unknown", "torque: 1"))
+        found = [one.value for one in holding_values(case, "loads.U", low, high)]
+        assert found == pytest.approx(ends, rel=1e-9), seed
+        compared += len(found)
+    assert compared > 4

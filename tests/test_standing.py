@@ -246,6 +246,49 @@ def test_a_search_asks_of_one_value_what_a_whole_range_says(kind: Callable[[Rand
             assert is_still(case, path, mu) is holds, (case.loads, mu)
 
 
+@pytest.mark.parametrize("kind", [standing.five_bar, standing.joined, standing.crates])
+@pytest.mark.parametrize("part", range(20 if FULL else 1))
+def test_a_load_on_several_freedoms_ceases_to_hold_where_its_range_ends(
+    kind: Callable[[Random], str], part: int
+) -> None:
+    """Along its own number, to 1e-9 of the larger end: it is asked as the unknown, however many freedoms."""
+    dice = Random(f"{kind.__name__} ends {part}")
+    for _ in range(5):
+        link, at = PUSHED[kind]
+        push = f"  F: {{force: LOAD, link: {link}, at: {at}, angle: {dice.randint(0, 359)}}}\n"
+        text = f"{kind(dice)}{push}"
+        ends = list[float]()
+        with refused():
+            friction = icsolve.solve(icsolve.load(text.replace("LOAD", "unknown"))).friction
+            if friction is not None and friction.possible is not None:
+                ends = [end for one in (friction.possible, *friction.again) for end in one]
+        case = icsolve.load(text.replace("LOAD", "1"))
+        found = [one.value for one in holding_values(case, "loads.F", -500.0, 600.0)]
+        within = sorted(end for end in ends if -500.0 < end < 600.0)
+        assert icsolve.solve(case).mobility == 1 or found == pytest.approx(within, rel=1e-9), text
+
+
+@pytest.mark.parametrize("seed", range(40 if FULL else 6))
+def test_what_nothing_presses_has_no_friction(seed: int) -> None:
+    """Light wheels on a light arm, all pins rough, under torques alone: a tooth force would turn the outer
+    wheel, farther out than its pin rubs, so nothing presses the pins, and no torque is held."""
+    dice = Random(f"light {seed}")
+    rough = (f"mu: {dice.uniform(0.1, 0.6):.2f}, radius: {dice.uniform(0.05, 0.3):.2f}" for _ in "OOQ")
+    one, two, three = rough
+    text = f"""icsolve: 1
+points: {{O: [0, 0], Q: [{dice.uniform(-4, 4):.2f}, {dice.uniform(2, 4):.2f}]}}
+joints:
+  - {{pin: [1, 2], at: O, {one}}}
+  - {{pin: [1, 4], at: O, {two}}}
+  - {{pin: [4, 3], at: Q, {three}}}
+  - {{gears: [2, 3], teeth: [{dice.randint(20, 40)}, {dice.randint(20, 40)}], pressure angle: 20, carrier: 4}}
+loads:
+  T: {{torque: {dice.choice((-1, 1)) * dice.uniform(1, 40):.2f}, link: 2, against: 4}}
+  U: {{torque: {dice.uniform(-100, 100):.2f}, link: {dice.choice("24")}}}
+"""
+    assert icsolve.solve(icsolve.load(text)).holds_still is False
+
+
 @contextmanager
 def refused() -> Iterator[list[str]]:
     """The status of what is refused within."""
@@ -383,6 +426,24 @@ def test_a_crate_on_three_legs_tips_where_its_weight_is_beyond_them(reach: float
     answer = icsolve.solve(icsolve.load(text))
     assert answer.holds_still is holds
     assert any("share the load" in note for note in answer.notes) is holds
+
+
+@pytest.mark.parametrize("seed", range(60 if FULL else 8))
+def test_a_push_on_three_rough_legs_has_a_range(seed: int) -> None:
+    """Each leg of its own coefficient: however they share the weight, all that some way holds, as the cone of
+    what the legs can do says a thousandth of the range within each end and beyond it. A note says so."""
+    dice = Random(f"three legs {seed}")
+    text = LEGS.replace("10,", "PUSH,").replace("REACH", f"{dice.uniform(0.2, 1.8):.2f}")
+    for _ in "ABC":
+        text = text.replace("MU", f", mu: {dice.uniform(0.05, 0.9):.2f}", 1)
+    answer = icsolve.solve(icsolve.load(text.replace("PUSH", "unknown")))
+    low, high = answer.answers["P"].holds
+    assert any("share the load" in note for note in answer.notes)
+    room = 1e-3 * (high - low)
+    for value, held in ((low + room, True), (high - room, True), (low - room, False), (high + room, False)):
+        given = icsolve.load(text.replace("PUSH", repr(value)))
+        assert (standing.off(given) <= 1e-9) is held
+        assert icsolve.solve(given).holds_still is held
 
 
 def table(dice: Random, joints: str, load: str) -> tuple[str, float, float]:

@@ -26,13 +26,14 @@ Range = tuple[float, float]
 
 class Held(NamedTuple):
     """From what to what value of a load it holds still, turned about where nowhere; how far off these may be;
-    up to where it may hold as friction was left, and where again."""
+    up to where it may hold as friction was left, and where again; whether joints share what they carry."""
 
     low: float
     high: float
     error: float = 0.0
     possible: Range = (math.inf, -math.inf)
     again: tuple[Range, ...] = ()
+    shared: bool = False
 
 
 NOWHERE = Held(math.inf, -math.inf)
@@ -72,9 +73,9 @@ def asked_of(case: Case, path: str = "", here: bool = False) -> AskedLoad | None
     case = replace(case, motion=(), expect=())
     refusal: SceneError | None = None
     for one, load, number in _one_unknown(case, path):
-        if not _works(SaidCase(smooth(one))):
-            continue
         value, varied = number.value, bool(path) and number.path == path
+        if not _works(SaidCase(smooth(one)), varied):
+            continue
         try:
             said = SaidCase(one)
             held = _about(_held(said, load.name, HeldAt(value) if here and not varied else not varied), value)
@@ -187,13 +188,13 @@ class SaidCase:
 
 
 @lru_cache(maxsize=256)
-def _works(said: SaidCase) -> bool:
-    """Whether an unknown load does work, in a case without friction: one that does none holds by the friction
-    alone that it makes."""
+def _works(said: SaidCase, several: bool = False) -> bool:
+    """Whether an unknown load does work, in a case without friction (of ``several`` freedoms too): one that
+    does none holds by the friction alone that it makes."""
     try:
         solve_scene(said.case)
-    except SceneError:
-        return False
+    except SceneError as refusal:
+        return refusal.status == Status.SLACK or (several and refusal.status == Status.MOBILITY)
     return True
 
 
@@ -217,7 +218,7 @@ def _held(said: SaidCase, load: str, alone: bool | HeldAt) -> Held:
     error = UNPROVEN * largest if found.error is None else found.error
     if friction is None or friction.possible is None:
         return Held(*found.holds, error)
-    return Held(*found.holds, error, friction.possible, friction.again)
+    return Held(*found.holds, error, friction.possible, friction.again, friction.shared)
 
 
 def _of_all(case: Case) -> Held:
@@ -244,7 +245,7 @@ def smooth(case: Case) -> Case:
 
 HOLDS = "friction is enough: under the known loads the mechanism holds still."
 SLIPS = "friction is not enough: under the known loads the mechanism moves."
-SHARED = "So it does as its joints share the load, which equilibrium leaves open, in one way at least."
+SHARED = "as its joints share the load, which equilibrium leaves open, in one way at least."
 OPEN = "whether friction is enough for the known loads is open: {}"
 LEFT = (
     "it is if it was left the other way round at some joint, and the mechanism moves under loads that grew "
@@ -278,12 +279,12 @@ def _at_rest(case: Case) -> tuple[bool | None, str]:
         depth, _, shared = standing(replace(case, expect=()))
         if depth < 0.0:
             return False, SLIPS
-        return True, f"{HOLDS} {SHARED}" if shared else HOLDS
+        return True, f"{HOLDS} So it does {SHARED}" if shared else HOLDS
     low, high = found.held[:2]
     reach = reach_of((low, high), unit_of(found.load, case), lambda end: f"{end + 0.0:.6g}", None)
     what = f"{_named(found.load)} {reach}"
     if found.holds:
-        return True, f"{HOLDS} So it does with {what}."
+        return True, f"{HOLDS} So it does with {what}{', ' + SHARED if found.held.shared else '.'}"
     if found.open:
         return None, OPEN.format(LEFT.format(what))
     return False, f"{SLIPS} It would hold with {what}." if low <= high else SLIPS

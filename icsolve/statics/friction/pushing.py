@@ -181,8 +181,9 @@ class Pointing(NamedTuple):
         return Pointing(self.middle - self.half + low, low), Pointing(self.middle + self.half - high, high)
 
 
-LAPPED = 2.0**-36
-"""So far angles lap over one another [rad]: rounding loses no force that points along an end of two."""
+LAPPED = 1.01
+"""Angles lap over one another, so that rounding loses no force that points along an end of two, and is not
+taken for one that points beyond."""
 LEAST = 0.9
 """A cut leaves the narrower of two parts a twentieth of an angle."""
 SENSES = (Pointing(1.0), Pointing(-1.0))
@@ -303,7 +304,7 @@ def bounds_of(limits: FrictionLimits, k: int, to: Pointing | None) -> Iterator[t
         return
     shares = [to.middle] if len(forces) == 1 else [math.cos(to.middle), math.sin(to.middle)]
     if to.half:
-        wide = to.half + LAPPED
+        wide = LAPPED * to.half
         far = math.cos(wide)
         shares = [math.cos(to.middle) / far, math.sin(to.middle) / far]
         for end, side in ((to.middle - wide, 1.0), (to.middle + wide, -1.0)):

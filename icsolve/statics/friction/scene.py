@@ -34,6 +34,7 @@ from icsolve.statics.friction.enclosure import (
 from icsolve.statics.friction.equations import forces_of
 from icsolve.statics.friction.interface import (
     RubbingRates,
+    SharedError,
     place_of,
     rubbing_rates,
     rubs_of,
@@ -222,7 +223,10 @@ def at_rest(scene: FrictionScene) -> AtRest:
     else:
         ties, workless, senses = ties_of(scene.position), _is_workless(scene), rates.senses.rubs
         flanks = _flanks(scene, ties, workless)
-        statics = _statics(scene, ties, flanks)
+        try:
+            statics = _statics(scene, ties, flanks)
+        except SharedError:  # no one motion begins: each way of sharing has its own
+            return _of_several_freedoms(scene)
         driven = scene.solution.verdict == "no value"
         within = partial(limited.held, _resting(scene))
         if workless:
@@ -267,14 +271,14 @@ def _told(found: StaticRange, ends: Sequence[EndOfRange], rates: RubbingRates) -
 
 
 def _of_several_freedoms(scene: FrictionScene) -> AtRest:
-    """The range of the one unknown load where friction holds several freedoms: there is no motion that would
-    begin at its ends.
+    """The range of the one unknown load where friction holds several freedoms, or equilibrium leaves open how
+    joints that rub share it: there is no one motion that would begin at its ends.
 
     Raises SceneError where there is none, and where the fit of joints alone presses what rubs.
     """
     from icsolve.statics.friction.standing import refuse_fit
 
-    refuse_fit(_resting(scene))
+    shared = refuse_fit(_resting(scene))
     ties = ties_of(scene.position)
     statics = equilibrium(scene.position, ties, scene.balance, rubs_of(scene.position, ties))
     within = limited.held(_resting(scene), scene.at)
@@ -284,7 +288,7 @@ def _of_several_freedoms(scene: FrictionScene) -> AtRest:
     both = zip((own.low, own.high), own.vertices, strict=True)
     ends = [End(value, (), (), True, vertex) for value, vertex in both]
     presses = not any(row.get(statics.root(0)) for row in statics.general.left)
-    found = range_of(ends)._replace(how=within.how, again=again, presses=presses)
+    found = range_of(ends)._replace(how=within.how, again=again, presses=presses, shared=shared)
     finite = (end for end in ends if math.isfinite(end.value))
     of = [EndOfRange(1.0, scene, statics, end, _proven_end(scene, statics, end)) for end in finite]
     return _told(found._replace(self_locking=found.self_locking and not presses), of, RubbingRates((), ()))
@@ -526,7 +530,9 @@ def solved(
     answers = {name: _held(scene, name, found, shown) for name, shown in answer.answers.items()}
     jams = jammed(scene.position, scene.balance, root, (found.least, found.most))
     notes = (*answer.notes, *notes_at_rest(root, found), *([jams] if jams else ()))
-    friction = FrictionFound((), 0.0, 0.0, found.how, possible=found.possible, again=found.again)
+    friction = FrictionFound(
+        (), 0.0, 0.0, found.how, possible=found.possible, again=found.again, shared=found.shared
+    )
     bare = replace(answer, answers=answers, terms=(), advantage=None, sensitivities=Deferred(_no_slopes))
     ends = Later(lambda: list(_about_to_move(rest, answer_with)))
     return replace(bare, notes=notes, friction=friction, about_to_move=ends)
@@ -663,11 +669,16 @@ def notes_in_motion(statics: Statics, found: Slid, rates: Sequence[float]) -> Se
     return notes
 
 
+SHARED = "it holds so as its joints share the load, which equilibrium leaves open, in one way at least."
+
+
 def notes_at_rest(root: str, found: StaticRange) -> Sequence[str]:
     """Sentences about the range."""
     notes = [
         "without `motion` the friction at the joints, and with it their reactions, is open within its limits."
     ]
+    if found.shared:
+        notes.append(SHARED)
     if found.self_locking and found.least <= 0.0 <= found.most:
         notes.append(f"self-locking: it holds still with {root} = 0.")
     if found.parts:

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import heapq
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from itertools import product
 
@@ -108,15 +108,20 @@ def _standing(
 ) -> Standing | Pressed:
     """With some contacts lost; where it holds only as the fit of the others presses them together, these."""
     own = limits.without(lost)
-    part, open_ = _deepest_part(own), _is_shared(own)
-    depth, error = (part.depth, ROUNDED) if part.depth < 0.0 else (part.sure, part.depth - part.sure)
-    if part.of and depth == part.depth:
-        with suppress(SceneError):
-            depth, error = scene.ask(
-                lambda position, balance, a: _exactly(
-                    limits_of(position, balance, flanks).without(lost), part, a
+    open_ = _is_shared(own)
+
+    def exactly(part: ForcePart) -> tuple[float, float]:
+        found = (part.depth, ROUNDED) if part.depth < 0.0 else (part.sure, part.depth - part.sure)
+        if part.of and found[0] == part.depth:
+            with suppress(SceneError):
+                return scene.ask(
+                    lambda position, balance, a: _exactly(
+                        limits_of(position, balance, flanks).without(lost), part, a
+                    )
                 )
-            )
+        return found
+
+    depth, error = _deepest(own, exactly)
     if abs(depth) <= error:  # no digits tell it from the limit
         depth = 0.0
     found = Standing(depth, error, open_)
@@ -154,8 +159,11 @@ class ForcePart(NamedTuple):
     worst: int | None
 
 
-def _deepest_part(limits: FrictionLimits) -> ForcePart:
-    """The deepest part; the first that is looked at where it is found to be less than nothing.
+def _deepest(
+    limits: FrictionLimits, exactly: Callable[[ForcePart], tuple[float, float]]
+) -> tuple[float, float]:
+    """How deep the deepest part is, and the error of that; of the first that is looked at where it is found
+    to be less than nothing, ``exactly`` too: in narrow angles rounding may say so of what is not.
 
     Raises SceneError where that takes too many parts.
     """
@@ -164,7 +172,9 @@ def _deepest_part(limits: FrictionLimits) -> ForcePart:
     for made in range(MOST_PARTS):
         _, _, part = heapq.heappop(parts)
         if part.worst is None or part.depth < -ROUNDED:
-            return part
+            depth, error = exactly(part)
+            if part.worst is None or depth < -error:
+                return depth, error
         k = part.worst
         for n, angle in enumerate(reduced.cut(k, part.toward[k], part.point)):
             one = _part(reduced, (*part.toward[:k], angle, *part.toward[k + 1 :]))
@@ -215,12 +225,16 @@ def _is_shared(limits: FrictionLimits) -> bool:
     return any(abs(row.get(c, 0.0)) > ROUNDED * size for row, size in sizes for c in limits.free)
 
 
-def refuse_fit(scene: RestingScene) -> None:
-    """Refuse joints that rub and that their fit alone may press together."""
-    ties = ties_of(scene.position)
+def refuse_fit(scene: RestingScene) -> bool:
+    """Refuse joints that rub and that their fit alone may press together; whether equilibrium leaves open how
+    the others share the load."""
+    ties, open_ = ties_of(scene.position), False
     for flanks in every_flanks(scene):
-        if pressed := _pressed_by_fit(limits_in_floats(scene, flanks)):
+        limits = limits_in_floats(scene, flanks)
+        if pressed := _pressed_by_fit(limits):
             raise shared(ties[pressed.tie], ties)
+        open_ |= _is_shared(limits)
+    return open_
 
 
 def _pressed_by_fit(limits: FrictionLimits) -> Pressed | None:

@@ -94,6 +94,7 @@ class StaticRange(NamedTuple):
     again : other ranges in which friction within its limits can hold
     parts : at which ends a contact would have to pull: there it parts, before the end
     presses : the load does no work: it holds by what it presses
+    shared : it holds as joints share the load, which equilibrium leaves open, in one way at least
     """
 
     least: float
@@ -105,6 +106,7 @@ class StaticRange(NamedTuple):
     again: tuple[tuple[float, float], ...] = ()
     parts: tuple[float, ...] = ()
     presses: bool = False
+    shared: bool = False
 
 
 Within = Callable[[], "HeldRanges"]
