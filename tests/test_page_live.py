@@ -6,6 +6,7 @@ Fixed seeds; with ICSOLVE_FULL=1 every case of the library and more changes of e
 
 from __future__ import annotations
 
+import json
 import math
 import random
 import re
@@ -17,6 +18,7 @@ from typing import Any
 import pytest
 
 import icsolve
+import mechanisms
 from browser import Browser
 from icsolve.bench.promises import scissors
 from icsolve.errors import CaseError, SceneError
@@ -1121,6 +1123,64 @@ def test_more_digits_are_typed_than_a_double_has(kind: str, shown: Any) -> None:
         own, values = solved(case, change) or ("", {})
         assert status == own == "ok"
         assert float(value) == pytest.approx(values["P"], rel=1e-9), change
+
+
+SLOTTED = """icsolve: 1
+points: {A: [-0.7461, -3.2306], D: [-0.2234, 0.3074], B: [-1.684958180169085, -1.3799879278369311]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {slot: [2, 3], at: B, along: [D, B]}
+  - {pin: [3, 1], at: D}
+loads:
+  P: {force: 30, link: 2, at: B, angle: 58.86}
+  L: {force: 40, link: 3, at: B, angle: 94.89}
+  U: {torque: unknown, link: 2}
+"""
+
+
+@pytest.mark.parametrize("link", ["2", "3"])
+def test_a_load_stays_with_the_link_that_it_is_on(link: str, shown: Any) -> None:
+    """On the pin in a slot it goes with the pin, on the slotted link it stays where the pin was: such a point
+    has two places, and is turned as the case is written."""
+    case, degrees = SLOTTED.replace("link: 3, at: B", f"link: {link}, at: B"), [20.0, -30.0, -110.0]
+    page = shown(case, moves=True)
+    rows = icsolve.sweep(icsolve.load(case), drive={"2": degrees}).answers["U"].tolist()
+    changed_rows = icsolve.sweep(icsolve.load(case, {"loads.P": "45"}), drive={"2": degrees})
+    found = page.run(TURN, "loads.P", "45", degrees)
+    wanted = changed_rows.answers["U"].tolist() if link == "2" else rows
+    assert [float(value) for value, _ in found] == pytest.approx(wanted, rel=1e-7)
+
+
+@pytest.mark.parametrize(
+    "kind", [mechanisms.stephenson, mechanisms.butterfly, mechanisms.inverted_slider_crank]
+)
+@pytest.mark.parametrize("seed", range(40) if FULL else (0, 11))
+def test_a_changed_mechanism_stops_where_its_links_do_not_meet(kind: Any, seed: int, shown: Any) -> None:
+    """With another load it is turned to and fro: it has the values of the sweep (to 1e-5, where an answer
+    grows without bound too), or says beyond where the links do not meet; it goes over to no other branch."""
+    draw = random.Random(f"{kind.__name__} {seed}")
+    drawn = {"icsolve": 1, **kind(draw)}
+    moving = max(link for joint in drawn["joints"] for link in next(iter(joint.values())))
+    last = drawn["joints"][-1]["at"]
+    drawn["loads"] = {
+        "P": {"force": 10, "link": next(iter(drawn["joints"][-1].values()))[0], "at": last, "angle": 33},
+        "U": {"torque": "unknown", "link": moving},
+    }
+    text = f"{json.dumps(drawn)}\n"
+    page = shown(text, moves=True)
+    motion = page.run("return JSON.parse(document.getElementById('data').textContent).motion")
+    if motion is None or motion["verb"] != "turned":
+        return
+    first, last_row = motion["first"], motion["rows"] - 1
+    degrees = [first + motion["step"] * draw.randrange(last_row) for _ in range(12)]
+    found = page.run(TURN.replace("status];", "status, document.getElementById('hint').textContent];"),
+                     "loads.P", "17", degrees)  # fmt: skip
+    rows = icsolve.sweep(icsolve.load(text, {"loads.P": "17"}), drive={motion["driver"]: degrees})
+    for n, (value, status, hint) in enumerate(found):
+        if "do not meet" not in hint:
+            assert status == rows.status[n], degrees[n]
+            if status == "ok":
+                assert float(value) == pytest.approx(rows.answers["U"][n], rel=1e-5, abs=1e-5), degrees[n]
 
 
 @pytest.mark.parametrize("unit", ["yd", "ft"])

@@ -507,7 +507,7 @@ class _ProgramWriter:
         """How each number that a motion changes is measured: kind, number, points or the link it turns with;
         None where one can't be."""
         case, found = self.case, list[list[Any]]()
-        if case.ropes or case.screws:
+        if case.ropes or case.screws or self._is_torn():
             return None
         number = {path: n for n, path in enumerate(self.paths)}
         for name, at in case.points.items():
@@ -532,6 +532,24 @@ class _ProgramWriter:
             if turner:
                 found.append(["link", number[load.heading.path], turner])  # type: ignore[union-attr]
         return found
+
+    def _is_torn(self) -> bool:
+        """Whether a motion takes a point of a load, a mass or a given speed to several places: one that links
+        carry which do not turn about it."""
+        case, body_of, owners = self.case, self.top.body_of, self._owners()
+        pinned: dict[str, set[int]] = {}
+        for joint in case.joints:
+            if joint.pivot is not None:
+                pinned.setdefault(joint.pivot, set()).update(body_of[link] for link in joint.links)
+        held = [(mass.centre, link) for link, mass in case.inertia.items()]
+        held += [(given.point, given.link) for given in case.motion]
+        for load in case.loads:
+            over = getattr(load, "over", None)
+            ends = (getattr(load, "at", None), getattr(over, "a", None), getattr(over, "b", None))
+            held += [(p, load.link) for p in ends]
+            held.append((getattr(load, "to", None), getattr(load, "against", None) or case.ground))
+        pairs = [(p, {body_of[link], body_of[owners[p]]}) for p, link in held if p in owners]
+        return any(len(bodies) > 1 and not bodies <= pinned.get(p, set()) for p, bodies in pairs)
 
     def _wound(self) -> list[list[int]]:
         """The bodies between which torsion springs turn, in the order in which their angles are counted."""

@@ -110,7 +110,7 @@ function inputs() {
     select.addEventListener("change", () => {
       live.input = select.value;
       document.querySelector("label.turn").firstChild.data = `Link ${live.input} turned: `;
-      changed(true);
+      changed(true, false, null, !lab.isTyped());
     });
     label("Input: link", select);
   }

@@ -137,9 +137,11 @@ function numbersMoved(targets) {
   let [pose, done, paces] = [first, 0, null];
   const stepTo = (n) => {
     paces ||= ways.map(([link, v, unit]) => (paceOf(link) || pose.map(() => 0)).map((d) => (d * v * unit) / steps));
-    mover.pose = pose.map((v, k) => v + paces.reduce((sum, pace) => sum + pace[k] * (n - done), 0));
+    const ahead = pose.map((v, k) => v + paces.reduce((sum, pace) => sum + pace[k] * (n - done), 0));
+    mover.pose = [...ahead];
     for (const [link, v] of ways) mover.at[link] = (from[link] || 0) + (v * n) / steps;
-    return arrive();
+    const off = (one) => hypot(...one.map((v, k) => v - ahead[k]));
+    return arrive() && off(mover.pose) <= (off(pose) || Infinity); // farther from the tangent is another branch
   };
   for (let n = 1; n <= steps; n++) {
     if (stepTo(n)) [pose, done, paces] = [mover.pose, n, null];
