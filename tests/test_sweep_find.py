@@ -814,8 +814,10 @@ def test_a_limit_beyond_which_a_turn_the_other_way_leads_is_told(span: tuple[flo
     assert rows.answers["T12"][3] > 100.0
 
 
-@pytest.mark.parametrize(("link", "sense"), [("2", -1.0), ("3", 1.0)])
+@pytest.mark.parametrize(("link", "sense"), [("2", -1.0), ("3", 1.0), ("4", -1.0), ("6", 1.0), ("7", -1.0)])
 def test_a_change_point_of_several_branches_is_told_once(link: str, sense: float) -> None:
+    """Within its error, which is that of doubles where a group has its singular position there too."""
     case = icsolve.load(FILES["tools/lazy_tongs.yaml"])
-    spots = find(case, None, Query("dead"), drive={link: sense * np.array([0.0, 36.0])})
-    assert [(spot.kind, spot.at) for spot in spots] == [("change-point", sense * 28.0)]
+    (spot,) = find(case, None, Query("dead"), drive={link: sense * np.array([0.0, 36.0])})
+    assert spot.kind == "change-point"
+    assert abs(spot.at - sense * 28.0) <= spot.error <= (1e-5 if link in "467" else 1e-14)

@@ -161,6 +161,7 @@ class Branches:
             for power in (1, 2):  # what has a corner where it vanishes is smooth in its square
                 with localcontext(CONTEXT), suppress(Unreached):
                     at = lowest(exact, node, partial(_given, function), near, reach, power)
+                    at = as_written(near) if at is None else at
                     (least,) = exact.values([record.nodes[node]], _given(function, at))
                     found.append((abs(least), least, float(at)))
             if found:

@@ -14,7 +14,7 @@ from decimal import localcontext
 
 import numpy as np
 
-from icsolve.numbers.decimals import CONTEXT
+from icsolve.numbers.decimals import CONTEXT, as_written
 from icsolve.numbers.record import Root, live
 from icsolve.numbers.replay import BLOCK, Array, code_of
 from icsolve.sweep.continuation import ChangePoints, InputLine, State
@@ -180,7 +180,8 @@ class Radicands:
             return margin
         exact, along = exact_record(self.compiled), self.tracker.exactly
         with localcontext(CONTEXT), suppress(Unreached):
-            (more,) = exact.margins([root], along(lowest(exact, root.radicand, along, at)))
+            found = lowest(exact, root.radicand, along, at)
+            (more,) = exact.margins([root], along(as_written(at) if found is None else found))
             return float(more) if abs(more) > ZERO else 0.0
         return margin if abs(margin) > TOUCH else 0.0
 

@@ -54,6 +54,8 @@ SHORTER = Decimal("1e-9")
 """A step longer than this and than the last leads to no solution near: beyond a fold there is none."""
 AGREED = Decimal("1e-9")
 """Conditions that were not needed to place the links are met to this (normalised)."""
+FLAT = Decimal(10) ** (60 - DIGITS)
+"""A value that bends by less (normalised, over a step) is zero all along: of another way of assembling."""
 LEAST = Decimal("1e-145")
 """Places of a row (normalised) are multiples of this."""
 SHORT = Context(prec=160)
@@ -290,7 +292,7 @@ def lowest(
     near: float,
     reach: Decimal = Decimal("1e-3"),
     power: int = 1,
-) -> Decimal:
+) -> Decimal | None:
     """Where on a line a value is lowest: a branch comes nearest to changing where its radicand is.
 
     Parameters
@@ -304,7 +306,7 @@ def lowest(
     Returns
     -------
     Decimal
-        ``near`` itself where it does not lead there.
+        None where it does not lead there.
     """
     at, value = as_written(near), exact.record.nodes[node]
     with localcontext(CONTEXT):
@@ -313,13 +315,13 @@ def lowest(
                 values = (exact.values([value], along(at + k * STEP))[0] for k in (-1, 0, 1))
                 low, here, high = (v**power for v in values)
             except Unreached:
-                return as_written(near)
+                return None
             bend = (high - 2 * here + low) / STEP
-            if not bend > 0:
-                return at
+            if not bend > FLAT:
+                return None
             move = (low - high) / (2 * bend)
             if abs(move) > reach:
-                return as_written(near)
+                return None
             at += move
             if abs(move) < STEP:
                 break

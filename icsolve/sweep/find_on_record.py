@@ -128,7 +128,11 @@ class RangeSearch:
         """the inputs at every place that was looked at, groups solved; None where these have no solution"""
         self.edges: list[Decimal] | None = None
         low, high = map(as_written, self.ends)
-        self.touches = sorted({s for s in self.along.touching(name) if low <= s <= high})
+        touching = {s: exact for s, exact in self.along.touching(name) if low <= s <= high}
+        self.touches = sorted(touching)
+        self.rough = Decimal(SAME * self.along.widest)
+        """as far off may a place be that doubles alone tell"""
+        self.about = {s for s, exact in touching.items() if not exact}
 
     def found(self) -> list[FoundPosition]:
         """All positions of the kind that is asked, in order."""
@@ -189,10 +193,13 @@ class RangeSearch:
     def _dead(self, answer: Scalar, load: str) -> Iterator[FoundPosition]:
         """Where the unknown does no work, where the links reach their limit, where branches meet. Where the
         known loads do none either, any value balances, or the quotient goes through: no dead centre."""
-        # several branches may change in one place
-        places = {float(s): s for touch in self.touches for s in self._inside(touch)}
-        seen = dict.fromkeys(places.values(), NEAR)
-        yield from (self._spot(s, "change-point", None) for s in seen)
+        seen: dict[Decimal, Decimal] = {}
+        for touch in sorted(self.touches, key=self.about.__contains__):  # those that are exact first
+            off = self.rough if touch in self.about else NEAR
+            for s in self._inside(touch, off):
+                if all(abs(s - other) > off for other in seen):  # several branches may change in one place
+                    seen[s] = off
+                    yield self._spot(s, "change-point", None, None if off is NEAR else float(off))
         for s, near in self._passages():
             if all(abs(s - other) > near for other in seen):
                 seen[s] = Decimal(near)
@@ -208,9 +215,8 @@ class RangeSearch:
     def _passages(self) -> Iterator[tuple[Decimal, float]]:
         """Singular positions of groups through which these go on, as doubles tell them, and their error."""
         if self._follows_groups:
-            error = SAME * self.along.widest
             for place in self.along.tracker.passages() if self.along.tracker else ():
-                yield from ((s, error) for s in self._inside(as_written(place), Decimal(error)))
+                yield from ((s, float(self.rough)) for s in self._inside(as_written(place), self.rough))
 
     def _divisors(self, answer: Scalar) -> Iterator[Traced]:
         """What is divided by on the way to the answer: without its zeros that is bounded."""

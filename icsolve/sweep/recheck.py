@@ -44,7 +44,7 @@ class Recheck:
         self.compiled = part.runner.compiled
         self.scenes: RowScenes = part.runner.cases
         self.tracker = part.followed.tracker if part.followed else None
-        self.change_points: dict[tuple[str, float], Decimal] = {}
+        self.change_points: dict[tuple[str, float], Decimal | None] = {}
         self.solved: tuple[Decimal, dict[int, Decimal]] | None = None
         self.unreached: set[Decimal] = set()
         self.last: tuple[int, dict[int, Decimal]] = (-1, {})
@@ -168,13 +168,14 @@ class Recheck:
         """The longest step of the line."""
         return self.tracker.line.widest if self.tracker is not None else 0.0
 
-    def touching(self, name: str) -> Iterator[Decimal]:
-        """The exact places of change points along a number."""
+    def touching(self, name: str) -> Iterator[tuple[Decimal, bool]]:
+        """The places of change points along a number, and whether they are exact."""
         if self.part.followed is None or name not in self.part.followed.tracker.line.slope:
             return
         for branch, passing in self.part.followed.passed.items():
             for place in passing.change_points:
-                yield self._place(branch, place)
+                exact = self._exact_place(branch, place)
+                yield (as_written(place), False) if exact is None else (exact, True)
 
     # --- groups -----------------------------------------------------------------------------------
 
@@ -239,7 +240,13 @@ class Recheck:
         return place if period is None else place + period * round((s - place) / period)
 
     def _place(self, name: str, near: float) -> Decimal:
-        """Where exactly a branch changes: its radicand is lowest there."""
+        """Where exactly a branch changes; else about there."""
+        exact = self._exact_place(name, near)
+        return as_written(near) if exact is None else exact
+
+    def _exact_place(self, name: str, near: float) -> Decimal | None:
+        """Where a branch changes: its radicand is lowest there. None where nothing leads to that, as where a
+        group has a singular position too."""
         if (name, near) not in self.change_points:
             assert self.tracker is not None
             motion = self.compiled.motion
