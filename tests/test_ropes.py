@@ -770,7 +770,8 @@ WHOLE = ("answers", "status", "points", "rates", "velocities")
 def test_rows_of_ropes_are_on_the_record_and_are_the_scenes(monkeypatch: pytest.MonkeyPatch) -> None:
     """Rows in which every rope pulls are no scenes of their own; statuses are those of the scenes, numbers to
     1e-9. A row in which an end has come into its pulley does not assemble."""
-    scenes, start = (import_module(f"icsolve.sweep.{name}") for name in ("scenes", "start"))
+    rooms = ("rows_by_scenes", "starting_position")
+    scenes, start = (import_module(f"icsolve.sweep.{room}") for room in rooms)
     one, hides, solved_alone = scenes._one, start.Start.hides, []
     monkeypatch.setattr(scenes, "_one", lambda *all: (solved_alone.append(all), one(*all))[1])
     told: Counter[str] = Counter()
