@@ -17,7 +17,7 @@ from icsolve.numbers.arithmetic import largest_of
 from icsolve.scene import jammed, solve_scene, standing
 from icsolve.scene.program import HeldAt
 from icsolve.solve.rest_position import PROBE, holding, probes
-from icsolve.statics.friction.interface import SharedError
+from icsolve.statics.friction.interface import AS_SHARED, SharedError
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.senses import reach_of, unit_of
 
@@ -245,7 +245,6 @@ def smooth(case: Case) -> Case:
 
 HOLDS = "friction is enough: under the known loads the mechanism holds still."
 SLIPS = "friction is not enough: under the known loads the mechanism moves."
-SHARED = "as its joints share the load, which equilibrium leaves open, in one way at least."
 OPEN = "whether friction is enough for the known loads is open: {}"
 LEFT = (
     "it is if it was left the other way round at some joint, and the mechanism moves under loads that grew "
@@ -279,12 +278,12 @@ def _at_rest(case: Case) -> tuple[bool | None, str]:
         depth, _, shared = standing(replace(case, expect=()))
         if depth < 0.0:
             return False, SLIPS
-        return True, f"{HOLDS} So it does {SHARED}" if shared else HOLDS
+        return True, f"{HOLDS} So it does {AS_SHARED}" if shared else HOLDS
     low, high = found.held[:2]
     reach = reach_of((low, high), unit_of(found.load, case), lambda end: f"{end + 0.0:.6g}", None)
     what = f"{_named(found.load)} {reach}"
     if found.holds:
-        return True, f"{HOLDS} So it does with {what}{', ' + SHARED if found.held.shared else '.'}"
+        return True, f"{HOLDS} So it does with {what}{', ' + AS_SHARED if found.held.shared else '.'}"
     if found.open:
         return None, OPEN.format(LEFT.format(what))
     return False, f"{SLIPS} It would hold with {what}." if low <= high else SLIPS

@@ -159,10 +159,10 @@ class PathTracker:
         upper one (1) or the lower (-1). Others end where they would repeat, or were asked for no more."""
         done = (*self.reach, *self.ends)
         for segment in self.segments:
-            for k, sense in ((0, -1.0), (-1, 1.0)):
-                end = float(segment.s[k])
+            main = self._is_main(segment)
+            for end, sense in ((float(segment.s[0]), -1.0), (float(segment.s[-1]), 1.0)):
                 cut = any(abs(end - place) <= self.line.widest * SHORTEST for place in done)
-                if (self._is_main(segment) and end in self.ends) or not (self._is_main(segment) or cut):
+                if end in self.ends if main else not cut:
                     yield segment, end, sense
 
     def passages(self) -> list[float]:

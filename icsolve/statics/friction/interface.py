@@ -110,6 +110,10 @@ def _rate(position: Position, tie: Tie, rub: Rub, motion: int) -> Scalar:
     return rate if tie.screw is None else rate + rub.spin * position.twists[tie.screw.rotor][motion][2]
 
 
+AS_SHARED = "as its joints share the load, which equilibrium leaves open, in one way at least."
+"""How it holds where some of the ways in which joints that rub share the load balance it."""
+
+
 class SharedError(SceneError):
     """Friction that hangs on a force that equilibrium leaves open, whatever the loads are."""
 

@@ -33,6 +33,7 @@ from icsolve.statics.friction.enclosure import (
 )
 from icsolve.statics.friction.equations import forces_of
 from icsolve.statics.friction.interface import (
+    AS_SHARED,
     RubbingRates,
     SharedError,
     place_of,
@@ -669,16 +670,13 @@ def notes_in_motion(statics: Statics, found: Slid, rates: Sequence[float]) -> Se
     return notes
 
 
-SHARED = "it holds so as its joints share the load, which equilibrium leaves open, in one way at least."
-
-
 def notes_at_rest(root: str, found: StaticRange) -> Sequence[str]:
     """Sentences about the range."""
     notes = [
         "without `motion` the friction at the joints, and with it their reactions, is open within its limits."
     ]
     if found.shared:
-        notes.append(SHARED)
+        notes.append(f"it holds so {AS_SHARED}")
     if found.self_locking and found.least <= 0.0 <= found.most:
         notes.append(f"self-locking: it holds still with {root} = 0.")
     if found.parts:

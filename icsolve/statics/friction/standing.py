@@ -92,10 +92,10 @@ def standing(scene: RestingScene) -> Standing:
 def held_bodies(position: Position, balance: Balance, a: Showing) -> FreeBodies:
     """The reactions of known loads that friction holds, as far as equilibrium says how much of it acts: at
     rest a joint that rubs carries what acts along it too."""
-    rubbing = {rub.tie: rub.unit for rub in rubs_of(position, ties_of(position))}
+    bare = ties_of(position)
+    rubbing = {rub.tie: rub.unit for rub in rubs_of(position, bare)}
     ties = [
-        tie._replace(units=(*tie.units, rubbing[t])) if t in rubbing else tie
-        for t, tie in enumerate(ties_of(position))
+        tie._replace(units=(*tie.units, rubbing[t])) if t in rubbing else tie for t, tie in enumerate(bare)
     ]
     solved = with_tooth_forces(
         position, ties, lambda flanked: Solved(equilibrium(position, flanked, balance), {})
