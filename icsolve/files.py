@@ -10,7 +10,6 @@ Below that, work in processes that share what was read and solved; where systems
 from __future__ import annotations
 
 import os
-import signal
 import stat
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -204,6 +203,8 @@ def together() -> Iterator[None]:
 @contextmanager
 def _undisturbed() -> Iterator[None]:
     """Signals to end wait until it is over."""
+    import signal  # here: it makes enumerations, at every start
+
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return

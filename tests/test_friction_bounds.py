@@ -30,7 +30,7 @@ from icsolve.scene.program import Want, evaluate, prepare
 from icsolve.scene.sensitivity import influences
 from icsolve.statics.equilibrium import Statics, equations_of
 from icsolve.statics.free_bodies import Solved
-from icsolve.statics.friction import scene as friction
+from icsolve.statics.friction import in_motion as friction
 from icsolve.statics.friction import solutions as homotopy
 from icsolve.statics.friction.enclosure import SceneOnBalls, enclosed
 from icsolve.statics.friction.equations import Lengths, error_of, fixed_point, newton, scale_at

@@ -26,7 +26,7 @@ from icsolve.statics.reaction_basis import Position, rope_ties
 
 if TYPE_CHECKING:
     from icsolve.statics.friction.enclosure import SceneOnBalls
-    from icsolve.statics.friction.scene import Enclose
+    from icsolve.statics.friction.in_motion import Enclose
     from icsolve.statics.friction.standing import Standing
 
 T = TypeVar("T")
@@ -80,7 +80,7 @@ def _bodies(
 
 def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     """The answer with friction, from free bodies; its motion or the range in which it holds."""
-    from icsolve.statics.friction.scene import FrictionScene, solved
+    from icsolve.statics.friction.in_motion import FrictionScene, moving
 
     def answer_with(values: Mapping[str, Value]) -> Answer:
         own = copy(parts)  # the ends of a range have values of their own
@@ -93,7 +93,11 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     place = position, outcome.balance, outcome.solution, lambda: parts.speed
     at = alone.load if isinstance(alone, HeldAt) else None
     scene = FrictionScene(*place, lambda: parts.traced, enclose, bool(alone), at)
-    return solved(scene, answer_with, reactions)
+    if position.case.motion:
+        return moving(scene, answer_with, reactions)
+    from icsolve.statics.friction.at_rest import held
+
+    return held(scene, answer_with)
 
 
 def standing(scene: EvaluatedScene) -> Standing:

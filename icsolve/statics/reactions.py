@@ -8,18 +8,24 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from icsolve.answer.bodies import Reaction, Reactions, Tension, names_of
 from icsolve.case import Case, Rope, is_link, ordered_pair
 from icsolve.case.joints import Mesh, Sliding
 from icsolve.errors import SceneError, Status, refuse_overflow
 from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, largest_of, size_of, zero_of
-from icsolve.numbers.inequalities import NOTHING, deepest
 from icsolve.numbers.linear import Row
 from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Equilibrium, Statics, T, Transmits, value_of
 from icsolve.statics.reaction_basis import Position, Tie, axial_shares, tangent_and_separating
+from icsolve.tuples import LateModule
 from icsolve.wording.sentences import listed, plural
+
+if TYPE_CHECKING:
+    from icsolve.numbers import inequalities
+else:  # where several joints share what presses them
+    inequalities = LateModule("icsolve.numbers.inequalities")
 
 
 def reactions_of(
@@ -111,7 +117,7 @@ def can_share(statics: Statics, parameters: Mapping[int, Scalar], rows: Sequence
             value = value_of(row, parameters)
             form = (0.0 if a.vanishes(value, largest) else float(value), *shares)
             forms.append(tuple([part / largest_of(form) for part in form]))
-    return not forms or deepest(forms).depth >= -NOTHING
+    return not forms or inequalities.deepest(forms).depth >= -inequalities.NOTHING
 
 
 SHARED = "the joints share the load in a way that equilibrium alone does not determine"

@@ -15,6 +15,7 @@ from icsolve.numbers.arithmetic import FLOATS, largest_of
 from icsolve.numbers.linear import Row, eliminate
 from icsolve.statics.equilibrium import Statics, equilibrium, value_of
 from icsolve.statics.friction.interface import place_of
+from icsolve.statics.friction.limits import ROUNDED
 from icsolve.statics.load_wrenches import Wrench, number_of
 from icsolve.statics.load_wrenches import place_of as place_of_load
 from icsolve.statics.power import Balance, force_scale
@@ -22,8 +23,6 @@ from icsolve.statics.reaction_basis import Position, slipping, ties_of
 from icsolve.statics.reactions import can_share
 from icsolve.wording.sentences import listed
 
-ROUNDED = 2.0**-48
-"""A force is zero below this fraction of its terms."""
 MOST_CHOICES = 2000
 """Of the loads that may give way so many choices are looked at at most."""
 LIFTED = (

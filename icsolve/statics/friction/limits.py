@@ -34,6 +34,8 @@ else:  # where one is not proven to be the only one
     coordinates = LateModule("icsolve.statics.friction.conditioning")
     every = LateModule("icsolve.statics.friction.solutions")
 
+ROUNDED = 2.0**-48
+"""A force is zero below this fraction of its terms."""
 CONTRACTS = "the friction equations contract: Banach's theorem gives one solution and no other"
 COUNTED = "all solutions were counted"
 

@@ -37,8 +37,8 @@ from icsolve.statics.friction.equations import (
     shared_normals,
     without_friction,
 )
-from icsolve.statics.friction.lifting import ROUNDED, pulling
-from icsolve.statics.friction.limits import SHORT, parting, too_many, well_told
+from icsolve.statics.friction.lifting import pulling
+from icsolve.statics.friction.limits import ROUNDED, SHORT, parting, too_many, well_told
 from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording.sentences import listed
 
