@@ -111,14 +111,14 @@ EQUIVALENT: dict[str, str] = {
     "icsolve/assembly/driven/poses.py Moved.degrees #1: 1.0 -> 2.0": "a size is no part of an angle",
     "icsolve/assembly/walk.py Walk._close #3: d <= TOO_CLOSE -> d < TOO_CLOSE": "the two are equal nowhere",
     "icsolve/statics/friction/scene.py solved #2: 0.0 -> 1.0": "the value is replaced by its range",
-    "icsolve/numbers/arithmetic.py module #9: 64 -> 96.0": "bounds decide",
+    "icsolve/numbers/__init__.py module #9: 64 -> 96.0": "bounds decide",
     "icsolve/kinematics/centres.py ordered #0: i < j -> i > j": "one order of a pair or the other",
     "icsolve/assembly/driven/mechanism.py _base #0: not spots[line.body] -> spots[line.body]": "one at 0, 0",
     "icsolve/numbers/intervals.py _turning #13: 2.0 -> 3.0": "beyond -1, where the cosine ends",
     "icsolve/numbers/balls.py widest #1: 0.0 -> 1.0": "balls are among the values",
     "icsolve/numbers/balls.py _context #1: 0 -> 1": "no exponent is near the limits",
     "icsolve/scene/program.py _arithmetics #25: dear > MOST -> dear >= MOST": "as many digits either way",
-    "icsolve/numbers/arithmetic.py Floats.rounded #1: value + 0.0 -> value - 0.0": "the sign of a zero",
+    "icsolve/numbers/__init__.py Floats.rounded #1: value + 0.0 -> value - 0.0": "the sign of a zero",
 }
 """Mutants, as they are listed, that change no answer, with the reason."""
 

@@ -19,7 +19,7 @@ from icsolve.assembly.refusals import step_words
 from icsolve.assembly.walk import _middle_of_gap
 from icsolve.assembly.workspace import Workspace, data_of, frame_of, names_of, normalised
 from icsolve.errors import SceneError
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers import FLOATS
 
 ALL = icsolve.load("""
 icsolve: 1

@@ -17,7 +17,7 @@ from icsolve.assembly import case_point, placed_figure, solve_figure
 from icsolve.assembly.driven.groups import Solver
 from icsolve.assembly.driven.mechanism import mechanism
 from icsolve.numbers.record import Record
-from icsolve.structure.topology import topology
+from icsolve.structure import topology
 from icsolve.sweep.drivers import closed_drive, drive_of
 from icsolve.sweep.program import RowRequest, compile_sweep, setting_of, wanted_points
 from icsolve.sweep.varied_numbers import numbers_of, with_numbers

@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 from icsolve.assembly.exclusion import _Link, _narrow_length
-from icsolve.numbers.arithmetic import ZERO
+from icsolve.numbers import ZERO
 from icsolve.numbers.balls import INEXACT, Ball, Balls, MoreDigits
 from icsolve.numbers.inequalities import deepest, region
 from icsolve.numbers.linear import (

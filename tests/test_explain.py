@@ -30,9 +30,9 @@ from icsolve.explain import explain
 from icsolve.explain.document import ShownTable
 from icsolve.explain.given import exercise
 from icsolve.manual import template
-from icsolve.numbers.arithmetic import turn_of
+from icsolve.numbers import turn_of
 from icsolve.report.derivation.known import known_of
-from icsolve.screws.plane import velocity
+from icsolve.screws import velocity
 from icsolve.tuples import replace
 from library import FILES, sample
 from rough_scenes import KINDS, Rough

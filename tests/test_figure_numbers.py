@@ -16,7 +16,7 @@ from icsolve.assembly import Figure, case_point, place, solve_figure
 from icsolve.assembly.refusals import step_words
 from icsolve.case import Case, Coordinates, Number
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Floats, Scalar, turn_of
+from icsolve.numbers import Floats, Scalar, turn_of
 from icsolve.numbers.balls import Balls
 from icsolve.numbers.tape import Tape
 from icsolve.read import load

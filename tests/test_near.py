@@ -16,7 +16,7 @@ from icsolve.assembly.steps import PointGroup
 from icsolve.assembly.workspace import LENGTH, Workspace, data_of, frame_of, normalised
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers import FLOATS
 from icsolve.read import load
 from icsolve.solve import solve
 from sizes import MORE

@@ -26,7 +26,7 @@ from icsolve.explain import explain
 from icsolve.page import page_html
 from icsolve.read.document import parse
 from icsolve.scene.program import evaluate
-from icsolve.structure.topology import topology
+from icsolve.structure import topology
 from icsolve.sweep.program import setting_of
 
 CASES = Path(__file__).parent.parent / "cases"

@@ -25,7 +25,7 @@ import pytest
 import icsolve
 from icsolve.case import Pin
 from icsolve.draw.bodies import pushes_on
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers import FLOATS
 from icsolve.page import page_html
 from icsolve.page.document import equation_of
 from icsolve.page.live import live_of

@@ -13,8 +13,8 @@ import mechanisms
 import transcribe
 from chains import BUTTERFLY, FLIER
 from icsolve.errors import SceneError
+from icsolve.structure import Topology, topology
 from icsolve.structure.plan import Matching, Plan, make_plan
-from icsolve.structure.topology import Topology, topology
 
 
 def chain_of_four_bars(loops: int) -> Topology:

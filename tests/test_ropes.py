@@ -21,7 +21,7 @@ import icsolve
 from icsolve.answer import Answer
 from icsolve.case import Case, Force, Number, Rope
 from icsolve.errors import CaseError, SceneError
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers import FLOATS
 from icsolve.numbers.decimals import decimal_of
 from icsolve.screws.ropes import rope_parts
 from icsolve.solve.positions import find_along

@@ -23,8 +23,8 @@ from icsolve.assembly.steps import Meet
 from icsolve.assembly.walk import Gap, _rounded
 from icsolve.assembly.workspace import Apart, LineDirection
 from icsolve.case import Number
+from icsolve.numbers import FLOATS
 from icsolve.numbers.adjoint import gradient, still_noise
-from icsolve.numbers.arithmetic import FLOATS
 from icsolve.numbers.backward import Backward
 from icsolve.numbers.balls import INEXACT, Ball, Balls
 from icsolve.numbers.intervals import Interval, enclose

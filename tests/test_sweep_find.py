@@ -18,7 +18,7 @@ import icsolve
 from icsolve.assembly import newton
 from icsolve.bench.full_turn import FOUR_BAR_CASE
 from icsolve.errors import SceneError
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers import Scalar
 from icsolve.numbers.decimals import CONTEXT
 from icsolve.numbers.record import Record
 from icsolve.numbers.roots import closed_in

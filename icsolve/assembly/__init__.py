@@ -26,8 +26,8 @@ from icsolve.assembly.workspace import (
 )
 from icsolve.case import Case, bare_name
 from icsolve.errors import SceneError
-from icsolve.numbers.arithmetic import FLOATS
-from icsolve.screws.plane import Point
+from icsolve.numbers import FLOATS
+from icsolve.screws import Point
 from icsolve.tuples import LateModule
 
 if TYPE_CHECKING:

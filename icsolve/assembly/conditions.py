@@ -31,10 +31,10 @@ from icsolve.assembly.workspace import (
 from icsolve.case import Case, Number
 from icsolve.case.joints import Mesh, Rolling
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, decider
+from icsolve.numbers import FLOATS, Arithmetic, Scalar, decider
+from icsolve.screws import Point
 from icsolve.screws.joints import Points, circle_margin, held_centres, line_margins, rolling_centres
-from icsolve.screws.plane import Point
-from icsolve.structure.topology import Bond, topology
+from icsolve.structure import Bond, topology
 from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from icsolve.assembly.loci import Axis, PlacedLine, intersection, sine_between
 from icsolve.assembly.steps import PointGroup
 from icsolve.assembly.workspace import GUIDE, LENGTH, RAY, Workspace, X, Y, data_in
 from icsolve.numbers.quadratics import SLACK, Array, Mask, Narrowing, Quadratics, every_zero
-from icsolve.screws.plane import Point
+from icsolve.screws import Point
 from icsolve.tuples import NamedTuple
 
 SHALLOW = 1e-3

@@ -12,8 +12,8 @@ import math
 from typing import TYPE_CHECKING
 
 from icsolve.assembly.workspace import Datum, Key, LineDirection, Span, Workspace, X
-from icsolve.numbers.arithmetic import Arithmetic, Scalar
-from icsolve.screws.plane import Point
+from icsolve.numbers import Arithmetic, Scalar
+from icsolve.screws import Point
 from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:

@@ -39,8 +39,8 @@ from icsolve.assembly.workspace import (
 )
 from icsolve.case import Case, bare_name
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS, Scalar
-from icsolve.screws.plane import Point
+from icsolve.numbers import FLOATS, Scalar
+from icsolve.screws import Point
 from icsolve.tuples import LateModule, NamedTuple, replace
 from icsolve.wording.sentences import listed
 

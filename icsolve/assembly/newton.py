@@ -21,7 +21,7 @@ from icsolve.assembly.steps import Given, Meet, Miss, PointGroup, Step, needs, n
 from icsolve.assembly.workspace import CORNER, LENGTH, LINE, ROPE, Frame, Key, Workspace, data_in, facts_of
 from icsolve.case import Case, Centroid, Coordinates, Corner, Direction, Joint, Length, Rope, Units
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers import FLOATS
 from icsolve.numbers.linear import inverse
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed

@@ -42,8 +42,8 @@ from icsolve.assembly.workspace import (
 )
 from icsolve.case import Case, Rope
 from icsolve.errors import SceneError, Status
+from icsolve.structure import reached
 from icsolve.structure.plan import determined, loose, matched
-from icsolve.structure.topology import reached
 from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording.sentences import listed
 

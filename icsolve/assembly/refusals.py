@@ -51,7 +51,7 @@ from icsolve.assembly.workspace import (
 )
 from icsolve.case import Number, bare_name
 from icsolve.errors import Status
-from icsolve.numbers.arithmetic import Floats, turn_of
+from icsolve.numbers import Floats, turn_of
 from icsolve.numbers.units import numbers_in
 from icsolve.wording.sentences import listed
 

@@ -34,8 +34,8 @@ from icsolve.assembly.workspace import (
     keys_in,
 )
 from icsolve.case import Case
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, magnitude
-from icsolve.screws.plane import Point
+from icsolve.numbers import FLOATS, Arithmetic, Scalar, magnitude
+from icsolve.screws import Point
 from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:

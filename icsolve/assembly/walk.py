@@ -20,8 +20,8 @@ from icsolve.assembly.loci import PlacedCircle, gaps_of, is_ray, is_round, side
 from icsolve.assembly.order import Order
 from icsolve.assembly.steps import CLOSED_FORMS, Meet, Miss, Step, aims, needs
 from icsolve.assembly.workspace import LENGTH, Datum, Key, Workspace, normalised
-from icsolve.numbers.arithmetic import Scalar
-from icsolve.screws.plane import Point
+from icsolve.numbers import Scalar
+from icsolve.screws import Point
 from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:

@@ -15,9 +15,9 @@ from functools import lru_cache
 from icsolve.case import Case, Centroid, Coordinates, Corner, Guide, Number, Rope, is_named
 from icsolve.case.joints import Guided
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Arithmetic, Scalar, Showing, largest_of
-from icsolve.screws.plane import Point, unit_between
-from icsolve.structure.topology import Topology, topology
+from icsolve.numbers import Arithmetic, Scalar, Showing, largest_of
+from icsolve.screws import Point, unit_between
+from icsolve.structure import Topology, topology
 from icsolve.tuples import NamedTuple
 
 X, Y, MEAN, GUIDE, LINE, LENGTH, RAY, CORNER = "x", "y", "mean", "guide", "line", "length", "ray", "corner"

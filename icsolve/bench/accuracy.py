@@ -18,12 +18,12 @@ from icsolve.case import Case, Force, Number, Pair
 from icsolve.errors import SceneError
 from icsolve.files import can_fork, started
 from icsolve.kinematics import speeds
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers import FLOATS
 from icsolve.numbers.units import ExactRatio, numbers_in
 from icsolve.read import load
 from icsolve.scene import refusals
 from icsolve.scene.program import Program, Want, evaluate, evaluate_bounded, prepare
-from icsolve.screws.plane import subtract
+from icsolve.screws import subtract
 from icsolve.solve import solve
 from icsolve.statics.power import Outcome
 from icsolve.sweep import sweep

@@ -23,8 +23,8 @@ import numpy.typing as npt
 
 from icsolve.assembly.loci import PlacedCircle, intersection
 from icsolve.bench.gates import once
-from icsolve.numbers.arithmetic import FLOATS, turn_of
-from icsolve.screws.plane import Triple, cross, dyad_twists, pairing, pin_twist
+from icsolve.numbers import FLOATS, turn_of
+from icsolve.screws import Triple, cross, dyad_twists, pairing, pin_twist
 from icsolve.tuples import NamedTuple
 
 Array = npt.NDArray[np.float64]

@@ -40,7 +40,7 @@ from icsolve.bench.speed import FRESH_CASES
 from icsolve.case import Case, Number, Torque
 from icsolve.files import scratch
 from icsolve.manual import template
-from icsolve.numbers.arithmetic import turn_of
+from icsolve.numbers import turn_of
 from icsolve.read import load
 from icsolve.solve import solve
 from icsolve.sweep import sweep

@@ -13,13 +13,13 @@ import numpy.typing as npt
 from icsolve.assembly.workspace import Frame, PlacedCase
 from icsolve.case import Case, Coordinates
 from icsolve.kinematics.twists import Bases
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers import FLOATS
 from icsolve.scene.program import Program, Want, prepare
+from icsolve.screws import Point, Triple, cross, pairing, times
 from icsolve.screws.joints import freedoms, transmitted
-from icsolve.screws.plane import Point, Triple, cross, pairing, times
 from icsolve.solve import solve
 from icsolve.statics import load_wrenches, power
-from icsolve.structure.topology import Topology
+from icsolve.structure import Topology
 from icsolve.tuples import NamedTuple
 
 Twists = Sequence[Triple]

@@ -61,7 +61,7 @@ from icsolve.case.profiles import (
     points_of,
 )
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Scalar, turn_of
+from icsolve.numbers import Scalar, turn_of
 from icsolve.numbers.balls import Balls, BelowZero, MoreDigits
 from icsolve.tuples import NamedTuple, replace
 

@@ -25,7 +25,7 @@ from icsolve.case.profiles import (
     Shape,
 )
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import turn_of
+from icsolve.numbers import turn_of
 from icsolve.tuples import NamedTuple
 
 CORNER = 1e-9

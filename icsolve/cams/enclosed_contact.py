@@ -22,7 +22,7 @@ from icsolve.cams.curve import Curve, Foot
 from icsolve.cams.pieces import TURN, CircularArc, Point, PolarPiece, Spline, Straight, spline
 from icsolve.case import Case, Number
 from icsolve.case.profiles import Arc, Arcs, Circle, Follower, Line, Polygon, Radii, Roller, Shape
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers import Scalar
 from icsolve.numbers.balls import INEXACT, UP, Ball, Balls, MoreDigits
 from icsolve.numbers.decimals import WIDE
 from icsolve.numbers.krawczyk import enclosed_root

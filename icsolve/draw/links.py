@@ -24,7 +24,7 @@ from icsolve.draw.scene import (
     normal_of,
     outlines,
 )
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers import FLOATS
 from icsolve.screws.joints import guide_direction
 from icsolve.tuples import NamedTuple
 

@@ -18,7 +18,7 @@ from icsolve.draw.place import Label, Soft
 from icsolve.draw.scene import BeltLoop, Part, Scene, Wheel, around
 from icsolve.draw.words import quantity
 from icsolve.errors import SceneError
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers import FLOATS
 from icsolve.numbers.units import Number
 from icsolve.report.derivation.known import tension_name
 from icsolve.screws.ropes import offsets_of, rope_parts

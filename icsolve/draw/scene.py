@@ -16,10 +16,10 @@ from icsolve.case.profiles import Circle, Flat, Knife, Roller, points_of
 from icsolve.draw.marks import Box, Mark, MarkGroup, Point, View, along
 from icsolve.draw.place import Label, Placer, Soft
 from icsolve.errors import SceneError
-from icsolve.numbers.arithmetic import FLOATS, turn_of
+from icsolve.numbers import FLOATS, turn_of
 from icsolve.report.derivation.known import Known
 from icsolve.screws.joints import guide_direction, mesh_weights
-from icsolve.structure.topology import Bond, topology
+from icsolve.structure import Bond, topology
 from icsolve.tuples import NamedTuple
 
 NEAR = 0.02

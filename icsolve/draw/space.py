@@ -37,7 +37,7 @@ from icsolve.draw.scene import HALF, PIN, Part, aims, around, together, with_lab
 from icsolve.draw.words import force_runs, name_runs, quantity
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.spatial import InSpace, Push, in_space
-from icsolve.screws.plane import add, cross, subtract
+from icsolve.screws import add, cross, subtract
 from icsolve.screws.space import AXES, ZERO, Vec, dot, size, times
 from icsolve.statics.space.reaction_basis import SpatialTie
 from icsolve.tuples import NamedTuple

@@ -16,7 +16,7 @@ from icsolve.report.bars import bars_of
 from icsolve.report.derivation.known import Known, acting_loads, rope_pulls
 from icsolve.report.derivation.spatial import InSpace, in_space
 from icsolve.report.text import axial_words
-from icsolve.screws.plane import subtract
+from icsolve.screws import subtract
 from icsolve.screws.space import ZERO, Vec, size, spatial, times
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed

@@ -18,7 +18,7 @@ from icsolve.explain.worked import Worked, exerted_name, load_name
 from icsolve.report.derivation.known import Acting, Known, acting_loads, known_at
 from icsolve.report.derivation.ratios import OneMotion, independent_motions, speed_words
 from icsolve.report.text import place_text
-from icsolve.screws.plane import Point, Triple, velocity
+from icsolve.screws import Point, Triple, velocity
 from icsolve.wording.senses import NOTHING
 
 WORK = (

@@ -35,7 +35,7 @@ from icsolve.explain.formula import (
 from icsolve.explain.worked import Worked, exerted_name, gain_names, lever, load_name
 from icsolve.report.derivation.known import Acting, Known
 from icsolve.report.derivation.ratios import OneMotion, Ratios, independent_motions, speed_words
-from icsolve.screws.plane import velocity
+from icsolve.screws import velocity
 from icsolve.tuples import NamedTuple
 from icsolve.wording.senses import NOTHING, plain_vector
 from icsolve.wording.sentences import link_words

@@ -25,11 +25,11 @@ from icsolve.explain.formula import (
     total,
 )
 from icsolve.explain.worked import Lever, Worked, gain_names, lever, load_name
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers import FLOATS
 from icsolve.report.derivation.known import Acting, Known, Pull, acting_loads, rope_pulls, tension_name
 from icsolve.report.derivation.ratios import Ratio, Ratios
+from icsolve.screws import velocity
 from icsolve.screws.joints import guide_direction
-from icsolve.screws.plane import velocity
 from icsolve.screws.ropes import rope_parts, wrap_angle
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed

@@ -23,7 +23,7 @@ from icsolve.kinematics.twists import FRAME
 from icsolve.report.derivation.known import Known, acting_loads
 from icsolve.report.derivation.ratios import Step, all_steps, answer_ratios, needed_steps
 from icsolve.report.text import positions_text
-from icsolve.screws.plane import velocity
+from icsolve.screws import velocity
 from icsolve.statics.power import is_unknown
 from icsolve.wording.senses import direction_words, holding, plain_vector, spelt
 from icsolve.wording.sentences import provenance

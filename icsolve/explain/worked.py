@@ -38,9 +38,9 @@ from icsolve.explain.formula import (
     rewritten,
     worth,
 )
-from icsolve.numbers.arithmetic import turn_of
+from icsolve.numbers import turn_of
 from icsolve.report.derivation.known import Known
-from icsolve.screws.plane import Point
+from icsolve.screws import Point
 from icsolve.tuples import NamedTuple
 from icsolve.wording.senses import NOTHING
 from icsolve.wording.sentences import link_words

@@ -25,7 +25,7 @@ from icsolve.grade.tables.columns import StoredAnswer
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.written.two_numbers import WrittenPlace
 from icsolve.scene.parts import scene_of
-from icsolve.screws.plane import Triple
+from icsolve.screws import Triple
 from icsolve.tuples import NamedTuple
 
 _NOTHING = 1e-9

@@ -17,13 +17,13 @@ from icsolve.case import Joint, Motion, Rope
 from icsolve.case.joints import CentreAt, JointCentre, JointKind, Mesh, Radius, RadiusOfRow, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import LOOSE, NO_SPEED, fastest, meant, path_of, speed_of
-from icsolve.numbers.arithmetic import Scalar, all_vanish, decider, largest_of
+from icsolve.numbers import Scalar, all_vanish, decider, largest_of
 from icsolve.numbers.linear import SPENT, General, Row, eliminate
 from icsolve.numbers.tape import UNIT
+from icsolve.screws import Point, Triple, add, cross, pairing, subtract, unit_between, velocity
 from icsolve.screws.joints import centre_twist, freedoms, mesh_weights, rolling_centres, transmitted
-from icsolve.screws.plane import Point, Triple, add, cross, pairing, subtract, unit_between, velocity
 from icsolve.screws.ropes import part_changes, rope_parts
-from icsolve.structure.topology import Bond, Topology
+from icsolve.structure import Bond, Topology
 from icsolve.tuples import NamedTuple
 from icsolve.wording.joints import why_no_acceleration
 from icsolve.wording.sentences import listed

@@ -19,12 +19,12 @@ from icsolve.kinematics.twists import (
     is_singular,
     run,
 )
-from icsolve.numbers.arithmetic import Arithmetic, decider
+from icsolve.numbers import Arithmetic, decider
 from icsolve.numbers.units import Number
+from icsolve.screws import Triple, cross, subtract, velocity
 from icsolve.screws.joints import freedoms, guide_direction
-from icsolve.screws.plane import Triple, cross, subtract, velocity
+from icsolve.structure import Topology
 from icsolve.structure.plan import Plan
-from icsolve.structure.topology import Topology
 from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording.sentences import near_structure, structure
 

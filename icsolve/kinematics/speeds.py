@@ -15,7 +15,7 @@ from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import Case, is_named
 from icsolve.case import Motion as Given
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import (
+from icsolve.numbers import (
     FLOATS,
     Arithmetic,
     Scalar,
@@ -25,7 +25,7 @@ from icsolve.numbers.arithmetic import (
     size_of,
     zero_of,
 )
-from icsolve.screws.plane import Point, Triple, velocity
+from icsolve.screws import Point, Triple, velocity
 from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:

@@ -3,7 +3,7 @@
 Each group gives a factor D that multiplies all that was known before it, so a dead centre of the virtual
 input (D = 0) is a value like any other: the bodies before the group then stand still.
 
-Twists are triples (X, Y, W) [frame length/s, frame length/s, rad/s] as in `icsolve.screws.plane`, all of
+Twists are triples (X, Y, W) [frame length/s, frame length/s, rad/s] as in `icsolve.screws`, all of
 one scene to one common scale that is not told: only their ratios mean anything until a speed is given.
 Groups are those of L. V. Assur (1914): dyads by Cramer's rule, larger ones by elimination of their loop
 equations: every body hangs on a known one by a path of joints; each joint that closes a loop says that the
@@ -17,9 +17,8 @@ import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from icsolve.numbers.arithmetic import ZERO, Arithmetic, Scalar, all_vanish, decider, magnitude
-from icsolve.screws.joints import transmitted, weights_of
-from icsolve.screws.plane import (
+from icsolve.numbers import ZERO, Arithmetic, Scalar, all_vanish, decider, magnitude
+from icsolve.screws import (
     Point,
     Triple,
     add,
@@ -33,8 +32,9 @@ from icsolve.screws.plane import (
     subtract,
     times,
 )
+from icsolve.screws.joints import transmitted, weights_of
+from icsolve.structure import Bond, Topology
 from icsolve.structure.plan import Group, Plan
-from icsolve.structure.topology import Bond, Topology
 from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:

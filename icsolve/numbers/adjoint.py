@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterable
 from typing import TypeVar
 
-from icsolve.numbers.arithmetic import RADIAN, Scalar
+from icsolve.numbers import RADIAN, Scalar
 from icsolve.numbers.record import Op, Record, Traced, live
 from icsolve.numbers.tape import TURN_NOISE, UNIT
 from icsolve.tuples import Protocol

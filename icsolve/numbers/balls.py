@@ -17,7 +17,7 @@ from collections.abc import Sequence
 from decimal import Decimal
 from typing import Union, final
 
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers import Scalar
 from icsolve.numbers.decimals import (
     GUARD,
     WIDE,
@@ -255,7 +255,7 @@ def _exact_quotient(above: Ball, below: Ball, value: Decimal) -> int | None:
 
 
 class Balls:
-    """The arithmetic of `Ball` at a number of digits; an `icsolve.numbers.arithmetic.Arithmetic`.
+    """The arithmetic of `Ball` at a number of digits; an `icsolve.numbers.Arithmetic`.
 
     ``highest`` says that no more digits will be asked for: then what is zero to within 1e-40 of its terms
     is zero. With ``carried`` 0 a ball has its own rounding alone: along very long chains radii explode that

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from operator import mul, sub
 from typing import Any
 
-from icsolve.numbers.arithmetic import largest_of
+from icsolve.numbers import largest_of
 from icsolve.numbers.linear import eliminate
 from icsolve.tuples import NamedTuple
 

@@ -17,7 +17,7 @@ from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal, Overflow
 from typing import TypeVar
 
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers import Scalar
 from icsolve.numbers.balls import INEXACT, TINY, UP, Ball, Balls, MoreDigits
 
 System = Callable[[Sequence[Scalar]], tuple[Sequence[Scalar], Sequence[Mapping[int, Scalar]]]]

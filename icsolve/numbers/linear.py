@@ -13,7 +13,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Callable, Mapping, Sequence
 
-from icsolve.numbers.arithmetic import ZERO, Scalar, largest_of, magnitude
+from icsolve.numbers import ZERO, Scalar, largest_of, magnitude
 from icsolve.tuples import NamedTuple
 
 SINGULAR = 1e-14

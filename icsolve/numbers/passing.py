@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from icsolve.numbers import RADIAN
 from icsolve.numbers.adjoint import ANGLE_NOISE, ROUNDINGS, shares
-from icsolve.numbers.arithmetic import RADIAN
 from icsolve.numbers.record import Implicit, Op, Record, Traced
 from icsolve.numbers.replay import Array, Code, Step
 from icsolve.numbers.tape import UNIT

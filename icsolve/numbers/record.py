@@ -12,7 +12,7 @@ from collections.abc import Callable, Container, Iterable, Sequence
 from typing import Any, cast
 from weakref import ref
 
-from icsolve.numbers.arithmetic import DEGREE, HALF_TURN, ROUNDING_NOISE, Scalar, turn_of
+from icsolve.numbers import DEGREE, HALF_TURN, ROUNDING_NOISE, Scalar, turn_of
 from icsolve.numbers.tape import UNIT, decimal_noise
 from icsolve.numbers.units import ExactRatio, Number, nearest
 from icsolve.tuples import NamedTuple
@@ -173,7 +173,7 @@ def varies(value: Scalar) -> bool:
 
 
 class Record:
-    """The nodes in order; an `icsolve.numbers.arithmetic.Arithmetic` whose numbers are `Traced` or floats."""
+    """The nodes in order; an `icsolve.numbers.Arithmetic` whose numbers are `Traced` or floats."""
 
     def __init__(self) -> None:
         self.itself = cast("Callable[[], Record]", ref(self))

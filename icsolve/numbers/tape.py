@@ -14,7 +14,7 @@ from collections.abc import Iterable
 from decimal import Decimal
 from typing import Union
 
-from icsolve.numbers.arithmetic import Scalar, turn_of
+from icsolve.numbers import Scalar, turn_of
 from icsolve.numbers.units import ExactRatio, Number, nearest
 from icsolve.tuples import NamedTuple
 
@@ -179,7 +179,7 @@ class BackwardPass(NamedTuple):
 
 
 class Tape:
-    """The record; an `icsolve.numbers.arithmetic.Arithmetic` whose numbers are `Taped`."""
+    """The record; an `icsolve.numbers.Arithmetic` whose numbers are `Taped`."""
 
     def __init__(self) -> None:
         self.nodes: list[Node] = [(*NONE, 0.0)]

@@ -38,7 +38,7 @@ from icsolve.kinematics.accelerations import Moving, drives_of, moving, rate_row
 from icsolve.kinematics.motion import TURN, needed_bonds
 from icsolve.kinematics.speeds import joint_order
 from icsolve.kinematics.twists import ORIGIN, Bases, Tree, loop_rows, rope_row, span
-from icsolve.numbers.arithmetic import HALF_TURN, Scalar
+from icsolve.numbers import HALF_TURN, Scalar
 from icsolve.numbers.record import Record, Traced
 from icsolve.numbers.source import JAVASCRIPT, straight_line
 from icsolve.numbers.units import BOUNDS
@@ -48,12 +48,12 @@ from icsolve.report.derivation.ratios import independent_motions
 from icsolve.scene.parts import AnswerBuilder
 from icsolve.scene.program import Evaluation, Program, Want, needed_points, prepare
 from icsolve.scene.refusals import HANGS, rubs
+from icsolve.screws import Triple, force_wrench
 from icsolve.screws.joints import OFF_RADIUS, at_radius, freedoms, guide_direction, held_centres
-from icsolve.screws.plane import Triple, force_wrench
 from icsolve.screws.ropes import TOUCHING, RopePart, rope_parts
 from icsolve.statics import load_wrenches, power
 from icsolve.statics.load_wrenches import COUPLE, FORCE, inertia_forces, is_loaded
-from icsolve.structure.topology import Bond
+from icsolve.structure import Bond
 from icsolve.sweep.program import wanted_points
 from icsolve.sweep.varied_numbers import numbers_of
 from icsolve.tuples import NamedTuple

@@ -38,7 +38,7 @@ from icsolve.report.derivation.known import Known, known_at
 from icsolve.report.derivation.ratios import loaded_links
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
-from icsolve.screws.plane import Point, Triple
+from icsolve.screws import Point, Triple
 from icsolve.statics.load_wrenches import as_given
 from icsolve.statics.power import is_unknown
 from icsolve.sweep import Sweep, sweep

@@ -13,9 +13,9 @@ import numpy as np
 
 from icsolve.case import Rope
 from icsolve.errors import SceneError
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers import FLOATS
 from icsolve.report.derivation.known import Known
-from icsolve.screws.plane import Point
+from icsolve.screws import Point
 from icsolve.screws.ropes import rope_length, rope_parts
 from icsolve.sweep import Sweep
 from icsolve.tuples import NamedTuple

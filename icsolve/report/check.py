@@ -27,9 +27,9 @@ from icsolve.case.expected import (
     TensionIs,
 )
 from icsolve.errors import SceneError
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers import FLOATS
 from icsolve.scene.parts import scene_of, sense_with
-from icsolve.screws.plane import add, cross, subtract
+from icsolve.screws import add, cross, subtract
 from icsolve.screws.space import size, spatial, times
 from icsolve.statics.load_wrenches import number_taken, vector_size
 from icsolve.tuples import NamedTuple

@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any
 from icsolve.answer import Answer
 from icsolve.case import Case
 from icsolve.case.joints import Guided
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing, size_of
+from icsolve.numbers import FLOATS, Arithmetic, Scalar, Showing, size_of
 from icsolve.scene.parts import scene_of
 from icsolve.scene.program import places_in
-from icsolve.structure.topology import topology
+from icsolve.structure import topology
 from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from icsolve.case import Case, ForceVector, Load, Torque, is_named
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.accelerations import Moving, moving
 from icsolve.kinematics.speeds import OPEN, moving_points
-from icsolve.numbers.arithmetic import Scalar, Showing
+from icsolve.numbers import Scalar, Showing
 from icsolve.numbers.units import Number
 from icsolve.scene.program import EvaluatedScene, Evaluation, Want, prepare
 from icsolve.statics.load_wrenches import COUPLE, FORCE, as_given, inertia_forces, inertia_of_one

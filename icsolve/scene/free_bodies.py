@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.answer import Answer
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS, Showing
+from icsolve.numbers import FLOATS, Showing
 from icsolve.scene.parts import AnswerBuilder, speed_of
 from icsolve.scene.program import (
     EvaluatedScene,

@@ -14,7 +14,7 @@ from icsolve.errors import SceneError, refuse_overflow
 from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
 from icsolve.kinematics.speeds import Speed
-from icsolve.numbers.arithmetic import Scalar, largest_of, zero_of
+from icsolve.numbers import Scalar, largest_of, zero_of
 from icsolve.numbers.balls import PRECISIONS, BelowZero, MoreDigits, MovedBalls
 from icsolve.numbers.units import numbers_in
 from icsolve.scene.program import (
@@ -29,7 +29,7 @@ from icsolve.scene.program import (
     slopes,
     unknown_values,
 )
-from icsolve.screws.plane import Triple
+from icsolve.screws import Triple
 from icsolve.statics import load_wrenches, power
 from icsolve.statics.load_wrenches import Wrench
 from icsolve.statics.power import Bounded, Outcome, Value, known_value, load_value

@@ -20,15 +20,15 @@ from icsolve.assembly.workspace import PlacedCase, case_places, names_of
 from icsolve.case import Case, is_named
 from icsolve.errors import SceneError, Status, refuse_overflow
 from icsolve.kinematics import motion, speeds
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing
+from icsolve.numbers import FLOATS, Arithmetic, Scalar, Showing
 from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, HalfUnits, MoreDigits
 from icsolve.scene import refusals
+from icsolve.screws import Triple
 from icsolve.screws.joints import carried_round, points_of
-from icsolve.screws.plane import Triple
 from icsolve.statics import load_wrenches, power
 from icsolve.statics.power import Bounded, Outcome, Value
+from icsolve.structure import Topology, topology
 from icsolve.structure.plan import Plan, make_plan
-from icsolve.structure.topology import Topology, topology
 from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:

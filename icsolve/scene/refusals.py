@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 from icsolve.case import Case, TorsionSpring, Weight
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import Motions
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, all_vanish
+from icsolve.numbers import FLOATS, Arithmetic, Scalar, all_vanish
 from icsolve.screws.joints import Points
 from icsolve.statics import load_wrenches, power
-from icsolve.structure.topology import Topology, reached, topology
+from icsolve.structure import Topology, reached, topology
 from icsolve.tuples import LateModule
 from icsolve.wording import sentences
 from icsolve.wording.senses import direction_words

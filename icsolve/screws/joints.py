@@ -12,9 +12,9 @@ from itertools import product
 
 from icsolve.case import Case, Guide, Joint
 from icsolve.case.joints import CentreAt, CentreSquareTo, JointCentre, Mesh, Rolling
-from icsolve.numbers.arithmetic import Arithmetic, Scalar
-from icsolve.screws.plane import Point, Triple, normal_twist, pin_twist, slide_twist, unit_between
-from icsolve.structure.topology import Bond, topology
+from icsolve.numbers import Arithmetic, Scalar
+from icsolve.screws import Point, Triple, normal_twist, pin_twist, slide_twist, unit_between
+from icsolve.structure import Bond, topology
 
 Points = Mapping[str, Point]
 

@@ -16,8 +16,8 @@ from itertools import pairwise
 
 from icsolve.case import Rope
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import DEGREE, FLOATS, Arithmetic, Scalar, exponential
-from icsolve.screws.plane import Point, Triple, force_wrench, pairing, velocity
+from icsolve.numbers import DEGREE, FLOATS, Arithmetic, Scalar, exponential
+from icsolve.screws import Point, Triple, force_wrench, pairing, velocity
 from icsolve.tuples import NamedTuple
 
 TOUCHING = 5e-8

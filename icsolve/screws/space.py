@@ -12,8 +12,8 @@ from __future__ import annotations
 
 import math
 
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
-from icsolve.screws.plane import add, cross, subtract
+from icsolve.numbers import FLOATS, Arithmetic, Scalar
+from icsolve.screws import add, cross, subtract
 
 Vec = tuple[Scalar, Scalar, Scalar]
 Components = tuple[Scalar, ...]

@@ -18,7 +18,7 @@ from icsolve.answer.equilibrium import Stiffness
 from icsolve.assembly.modes import ways_of
 from icsolve.case import Case, Coordinates, Direction, Number, Torque, is_angle, is_named
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import RADIAN
+from icsolve.numbers import RADIAN
 from icsolve.numbers.decimals import as_written
 from icsolve.numbers.replay import Array, Code
 from icsolve.scene import solve_scene

@@ -25,15 +25,15 @@ from icsolve.assembly.steps import Meet, PointGroup, Step
 from icsolve.assembly.workspace import Workspace, frame_of
 from icsolve.case import Case, Coordinates, Number, TorsionSpring, is_angle, is_named
 from icsolve.errors import SceneError, Status
+from icsolve.numbers import FLOATS, Arithmetic, Scalar
 from icsolve.numbers.adjoint import gradient
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.numbers.intervals import Interval
 from icsolve.numbers.record import Record, varies
 from icsolve.numbers.replay import Array, Code
 from icsolve.scene import refusals
-from icsolve.screws.plane import velocity
+from icsolve.screws import velocity
 from icsolve.statics import load_wrenches, power
-from icsolve.structure.topology import topology
+from icsolve.structure import topology
 from icsolve.sweep.branches import may_vanish
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.program import (

@@ -13,8 +13,8 @@ import numpy as np
 from icsolve.answer.equilibrium import Stiffness
 from icsolve.case import Case, Coordinates, Torque, is_angle
 from icsolve.errors import SceneError
+from icsolve.numbers import DEGREE
 from icsolve.numbers.adjoint import gradient
-from icsolve.numbers.arithmetic import DEGREE
 from icsolve.numbers.decimals import CONTEXT, as_written, decimal_ratio
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import terms_of

@@ -19,14 +19,14 @@ from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
 from icsolve.assembly.modes import ways_of
 from icsolve.case import Case, TorsionSpring, is_angle, is_named
 from icsolve.errors import SceneError, Status
+from icsolve.numbers import DEGREE, Scalar
 from icsolve.numbers.adjoint import gradient
-from icsolve.numbers.arithmetic import DEGREE, Scalar
 from icsolve.numbers.decimals import CONTEXT, as_written, decimal_ratio
 from icsolve.numbers.intervals import Ends
 from icsolve.numbers.record import varies
 from icsolve.numbers.replay import Array, Code
 from icsolve.scene import solve_scene
-from icsolve.screws.plane import velocity
+from icsolve.screws import velocity
 from icsolve.solve.branches import nearest
 from icsolve.solve.load_function import (
     PARTS,

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import accumulate
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
+from icsolve.numbers import Arithmetic, Scalar, decider
 from icsolve.numbers.linear import General, Row, eliminate
 from icsolve.statics.load_wrenches import L, UnitWrench, Wrench, number_of, place_of
 from icsolve.statics.power import Balance, PowerFactors, force_scale, unknown_loads

@@ -14,10 +14,10 @@ from icsolve.answer.bodies import FrictionFound, Reactions, Tension, Witness
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.kinematics.twists import FRAME
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing, largest_of
+from icsolve.numbers import FLOATS, Arithmetic, Scalar, Showing, largest_of
 from icsolve.numbers.linear import Row
 from icsolve.numbers.units import numbers_in
-from icsolve.screws.plane import velocity
+from icsolve.screws import velocity
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import Equilibrium, Statics, T, equilibrium
 from icsolve.statics.friction.interface import efficiency, friction_terms

@@ -30,9 +30,9 @@ from icsolve.case import (
     Weight,
 )
 from icsolve.case.loads import name_of_inertia
-from icsolve.numbers.arithmetic import FLOATS, HALF_TURN, Arithmetic, Scalar, all_vanish, magnitude
+from icsolve.numbers import FLOATS, HALF_TURN, Arithmetic, Scalar, all_vanish, magnitude
 from icsolve.numbers.units import exact_ratio, parse_unit
-from icsolve.screws.plane import Point, Triple, force_wrench, unit_between
+from icsolve.screws import Point, Triple, force_wrench, unit_between
 from icsolve.tuples import Generic, LateModule, NamedTuple, replace
 
 if TYPE_CHECKING:

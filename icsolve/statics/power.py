@@ -17,7 +17,7 @@ from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import Case, ForceVector, Friction, Joint, Like, Load, Number
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import Motions
-from icsolve.numbers.arithmetic import (
+from icsolve.numbers import (
     FLOATS,
     Arithmetic,
     Scalar,

@@ -19,10 +19,10 @@ from icsolve.case import Case, Guide, Joint, Number, Pin, Rope, Screw, Slide, Th
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import TURN
-from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.numbers import Arithmetic, Scalar
+from icsolve.screws import Point, Triple, basis_at, shift, subtract, unit_between
 from icsolve.screws.joints import Points, freedoms, guide_direction, pitch_point, rolling_centres, transmitted
-from icsolve.screws.plane import Point, Triple, basis_at, shift, subtract, unit_between
-from icsolve.structure.topology import Bond, Topology, pairs_of, topology
+from icsolve.structure import Bond, Topology, pairs_of, topology
 from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:

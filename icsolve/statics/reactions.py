@@ -14,9 +14,9 @@ from icsolve.answer.bodies import Reaction, Reactions, Tension, names_of
 from icsolve.case import Case, Rope, is_link, ordered_pair
 from icsolve.case.joints import Mesh, Sliding
 from icsolve.errors import SceneError, Status, refuse_overflow
-from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, largest_of, size_of, zero_of
+from icsolve.numbers import Scalar, Showing, all_vanish, largest_of, size_of, zero_of
 from icsolve.numbers.linear import Row
-from icsolve.screws.plane import velocity
+from icsolve.screws import velocity
 from icsolve.statics.equilibrium import Equilibrium, Statics, T, Transmits, value_of
 from icsolve.statics.reaction_basis import Position, Tie, axial_shares, tangent_and_separating
 from icsolve.tuples import LateModule

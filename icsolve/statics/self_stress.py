@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from icsolve.assembly.workspace import PlacedCase
 from icsolve.errors import SceneError
-from icsolve.numbers.arithmetic import Scalar, decider
+from icsolve.numbers import Scalar, decider
 from icsolve.numbers.linear import eliminate
+from icsolve.screws import Triple
 from icsolve.screws.joints import freedoms, transmitted
-from icsolve.screws.plane import Triple
 from icsolve.screws.ropes import rope_parts
 from icsolve.statics.reaction_basis import Position, line_of_action
-from icsolve.structure.topology import Bond, reached
+from icsolve.structure import Bond, reached
 from icsolve.tuples import NamedTuple
 
 Pushes = tuple[tuple[int, float, Triple], ...]

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 from icsolve.answer.bodies import Witness
 from icsolve.errors import SceneError, Status, overflow, refuse_overflow
-from icsolve.numbers.arithmetic import Scalar, Showing, decider, largest_of
+from icsolve.numbers import Scalar, Showing, decider, largest_of
 from icsolve.numbers.linear import Row, inverse, solve_square
-from icsolve.screws.plane import velocity
+from icsolve.screws import velocity
 from icsolve.statics.equilibrium import Components, Equilibrium, T
 from icsolve.statics.load_wrenches import L
 from icsolve.statics.power import PowerFactors, known_sizes

@@ -17,7 +17,7 @@ from collections.abc import Callable, Collection, Container, Hashable, Iterable,
 from functools import lru_cache
 from typing import TypeVar
 
-from icsolve.structure.topology import Skeleton, Topology, reached
+from icsolve.structure import Skeleton, Topology, reached
 from icsolve.tuples import NamedTuple
 
 T = TypeVar("T", bound=Hashable)

@@ -37,7 +37,7 @@ from icsolve.cams.words import not_guided
 from icsolve.case import Case, Contact, Coordinates, Length, Number, is_named
 from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Radii, Roller, Shape, points_of
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import turn_of
+from icsolve.numbers import turn_of
 from icsolve.numbers.balls import Balls
 from icsolve.numbers.decimals import CONTEXT, as_written
 from icsolve.numbers.replay import Array

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from icsolve.numbers.arithmetic import RADIAN
+from icsolve.numbers import RADIAN
 from icsolve.numbers.replay import Array
 from icsolve.sweep.program import CompiledSweep
 from icsolve.tuples import NamedTuple

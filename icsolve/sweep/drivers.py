@@ -39,9 +39,9 @@ from icsolve.assembly.workspace import CORNER, LENGTH, RAY, Datum, X, Y, data_of
 from icsolve.case import Case, Coordinates, Number, is_named
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers import Scalar
 from icsolve.numbers.linear import Row, eliminate
-from icsolve.screws.plane import Point
+from icsolve.screws import Point
 from icsolve.sweep.varied_numbers import with_numbers
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed, plural

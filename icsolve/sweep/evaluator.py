@@ -17,8 +17,8 @@ import numpy.typing as npt
 from icsolve.assembly.steps import PointGroup
 from icsolve.case import Case, is_angle, refuse_no_case
 from icsolve.errors import SceneError, Status
+from icsolve.numbers import turn_of
 from icsolve.numbers.adjoint import gradient
-from icsolve.numbers.arithmetic import turn_of
 from icsolve.numbers.record import Op, live, varies
 from icsolve.numbers.replay import BLOCK, Array, Code
 from icsolve.numbers.source import PYTHON, straight_line

@@ -13,7 +13,7 @@ from decimal import Context, Decimal, localcontext
 from icsolve.assembly.steps import PointGroup, place
 from icsolve.case import Case, Centroid, Coordinates, Number
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers import Scalar
 from icsolve.numbers.balls import Ball, Balls, BelowZero, MoreDigits
 from icsolve.numbers.decimals import (
     CONTEXT,

@@ -22,7 +22,7 @@ import numpy.typing as npt
 from icsolve.answer import by_load
 from icsolve.case import Case, refuse_no_case
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers import Scalar
 from icsolve.numbers.decimals import CONTEXT, as_written
 from icsolve.numbers.jets import BallArray, Cells, Jet
 from icsolve.numbers.record import Op, Record, Traced, live, terms_of

@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from icsolve.kinematics.motion import Motions
 from icsolve.kinematics.speeds import fastest
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers import Scalar
 from icsolve.numbers.record import Traced, varies
 from icsolve.numbers.replay import Array
 from icsolve.statics.equilibrium import Statics, equilibrium

@@ -21,14 +21,14 @@ from icsolve.case import Case, Pair, TorsionSpring, is_angle, pair_name
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import by_loops
 from icsolve.kinematics.speeds import speed_of
+from icsolve.numbers import FLOATS, Scalar
 from icsolve.numbers.adjoint import BoundedRecord
-from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.numbers.record import Record, Root, Traced, live, varies
 from icsolve.scene import refusals
-from icsolve.screws.plane import Point
+from icsolve.screws import Point
 from icsolve.screws.ropes import part_rooms
 from icsolve.statics.load_wrenches import counted_about, points_of, spring_angle
-from icsolve.structure.topology import Topology, topology
+from icsolve.structure import Topology, topology
 from icsolve.sweep.drivers import (
     Drive,
     Pose,

@@ -38,16 +38,16 @@ from icsolve.case.joints import Guided, Mesh, Radius, RadiusOfRow
 from icsolve.errors import SceneError
 from icsolve.kinematics import accelerations, motion, speeds
 from icsolve.kinematics.accelerations import Moving
-from icsolve.numbers.arithmetic import FLOATS, Scalar, all_vanish, largest_of, turn_of
+from icsolve.numbers import FLOATS, Scalar, all_vanish, largest_of, turn_of
 from icsolve.numbers.record import Record, varies
 from icsolve.scene import refusals
+from icsolve.screws import Point, Triple, subtract, velocity
 from icsolve.screws.joints import freedoms, pitch_point
-from icsolve.screws.plane import Point, Triple, subtract, velocity
 from icsolve.statics import load_wrenches, power
 from icsolve.statics.equilibrium import equilibrium
 from icsolve.statics.reaction_basis import Position, rope_ties, ties_of
+from icsolve.structure import Topology, topology
 from icsolve.structure.plan import make_plan
-from icsolve.structure.topology import Topology, topology
 from icsolve.tuples import NamedTuple, replace
 
 Points = dict[str, Point]

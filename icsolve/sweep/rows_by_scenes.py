@@ -19,7 +19,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.files import can_fork, started
 from icsolve.numbers.replay import Array
 from icsolve.scene import solve_scene
-from icsolve.screws.plane import Point
+from icsolve.screws import Point
 from icsolve.sweep.program import wanted_points
 from icsolve.sweep.record_runner import Progress, Rows
 from icsolve.sweep.request import Columns

@@ -13,7 +13,7 @@ from icsolve.assembly.steps import Meet, PointGroup, spare_data
 from icsolve.assembly.workspace import Workspace
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers import FLOATS
 from icsolve.sweep.exact_record import hides
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, Signs, compile_sweep, setting_of
 from icsolve.sweep.record_runner import Runner

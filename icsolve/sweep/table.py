@@ -15,7 +15,7 @@ import numpy.typing as npt
 from icsolve.answer import Answer, by_load
 from icsolve.case import Case, Coordinates, is_named, pair_name
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import turn_of
+from icsolve.numbers import turn_of
 from icsolve.numbers.replay import Array
 from icsolve.numbers.tape import UNIT
 from icsolve.statics.power import is_unknown

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from icsolve.case import Case, is_link, is_named
-from icsolve.structure.topology import Topology
+from icsolve.structure import Topology
 
 
 def listed(names: Iterable[str]) -> str:

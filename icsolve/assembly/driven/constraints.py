@@ -15,9 +15,9 @@ from icsolve.assembly.driven.poses import Places, Rotation, Shape, Spot, dot, mi
 from icsolve.assembly.workspace import Datum, Workspace
 from icsolve.case import Rope
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers import Scalar
 from icsolve.numbers.record import Record
-from icsolve.screws.plane import Point, Triple
+from icsolve.screws import Point, Triple
 from icsolve.screws.ropes import RopePart, part_between
 from icsolve.tuples import NamedTuple
 

@@ -17,11 +17,11 @@ from icsolve.assembly.driven.order import AssemblyOrder, AssurGroup, touching
 from icsolve.assembly.driven.poses import Moved, Places, Rotation, Spot, plus, rotated
 from icsolve.assembly.workspace import Workspace
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS, RADIAN, Scalar
+from icsolve.numbers import FLOATS, RADIAN, Scalar
 from icsolve.numbers.linear import Row, eliminate
 from icsolve.numbers.record import Implicit, Op, Record, Traced
 from icsolve.numbers.replay import BLOCK, Array, Code
-from icsolve.screws.plane import Point
+from icsolve.screws import Point
 from icsolve.structure.plan import determined, matched
 from icsolve.tuples import NamedTuple, cached_property
 from icsolve.wording.sentences import listed

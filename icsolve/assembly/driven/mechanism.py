@@ -26,12 +26,12 @@ from icsolve.assembly.workspace import Frame, PlacedCase, Workspace
 from icsolve.case import Case, Centroid, Guide, Joint, Rope, Toward
 from icsolve.case.joints import CentreAt, Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS, Scalar
+from icsolve.numbers import FLOATS, Scalar
 from icsolve.numbers.record import Record
+from icsolve.screws import Point
 from icsolve.screws.joints import guide_direction, joint_freedoms, rolling_centres, transmitted
-from icsolve.screws.plane import Point
 from icsolve.screws.ropes import offsets_of, rope_parts
-from icsolve.structure.topology import Bond, Topology, topology
+from icsolve.structure import Bond, Topology, topology
 from icsolve.tuples import NamedTuple
 from icsolve.wording.joints import why_not_moved
 

@@ -37,9 +37,9 @@ from icsolve.assembly.driven.order import (
 from icsolve.assembly.driven.poses import Arm, Moved, Rotation, Spot, dot, minus, rotated, square
 from icsolve.assembly.loci import PlacedCircle, PlacedLocus, crossing_sine, intersection, side
 from icsolve.assembly.workspace import Workspace
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers import Scalar
 from icsolve.numbers.record import Traced, varies
-from icsolve.screws.plane import Point, Triple, velocity
+from icsolve.screws import Point, Triple, velocity
 from icsolve.tuples import NamedTuple
 
 

@@ -36,9 +36,9 @@ from icsolve.assembly.driven.poses import (
 )
 from icsolve.assembly.loci import PlacedCircle, PlacedLine, PlacedLocus, crossing_sine
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers import Scalar
 from icsolve.numbers.record import Record, varies
-from icsolve.screws.plane import Point
+from icsolve.screws import Point
 from icsolve.tuples import NamedTuple
 
 FLUSH = 1e-15

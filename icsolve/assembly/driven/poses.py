@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers import Scalar
 from icsolve.numbers.record import Record
-from icsolve.screws.plane import Point
+from icsolve.screws import Point
 from icsolve.tuples import NamedTuple
 
 Spot = tuple[int, str]

@@ -34,7 +34,7 @@ from icsolve.case import (
 )
 from icsolve.case.joints import Guided, Mesh, Sliding
 from icsolve.case.joints import without_friction as smooth
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers import FLOATS
 from icsolve.screws.ropes import rope_parts, wrap_angle
 from icsolve.statics.load_wrenches import as_given
 from icsolve.tuples import NamedTuple, replace

@@ -24,9 +24,9 @@ from icsolve.case import (
 )
 from icsolve.case.figure import Unknown
 from icsolve.errors import SceneError
-from icsolve.numbers.arithmetic import FLOATS, turn_of
+from icsolve.numbers import FLOATS, turn_of
 from icsolve.scene.parts import AnswerBuilder, scene_of
-from icsolve.screws.plane import Point, Triple
+from icsolve.screws import Point, Triple
 from icsolve.screws.ropes import rope_parts
 from icsolve.solve import Attempt, attempt
 from icsolve.statics.load_wrenches import Wrench, as_given, place_of, points_of, wrenches

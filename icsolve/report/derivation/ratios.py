@@ -21,7 +21,7 @@ from icsolve.case import Case, Pair, Rope, Screw, is_link, link_order
 from icsolve.report.derivation.known import Known, moving_names
 from icsolve.scene.parts import wanted_pairs
 from icsolve.scene.program import Want
-from icsolve.screws.plane import Triple
+from icsolve.screws import Triple
 from icsolve.statics.load_wrenches import reacting
 from icsolve.statics.power import is_unknown
 from icsolve.tuples import NamedTuple

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, TypeVar
 from icsolve.answer import AboutToMove, Answer, Deferred, Found, Later
 from icsolve.answer.bodies import FrictionFound
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS, Showing
+from icsolve.numbers import FLOATS, Showing
 from icsolve.statics.equilibrium import Statics, equilibrium
 from icsolve.statics.free_bodies import Solved, on_flanks
 from icsolve.statics.friction.enclosure import TOO_CLOSE, UNBOUND, UNSURE, Proven

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from icsolve.numbers.arithmetic import Scalar, largest_of
+from icsolve.numbers import Scalar, largest_of
 from icsolve.numbers.balls import Ball, MoreDigits
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.friction.equations import Form, Lengths, Reduced, forces_of, smooth_normals, touching_of

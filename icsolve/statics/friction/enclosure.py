@@ -20,7 +20,7 @@ from types import MappingProxyType
 
 from icsolve.answer.bodies import Reactions, Tension
 from icsolve.kinematics.speeds import Speed
-from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, size_of
+from icsolve.numbers import Scalar, Showing, all_vanish, size_of
 from icsolve.numbers.balls import Balls, MoreDigits
 from icsolve.numbers.krawczyk import enclosed_root
 from icsolve.numbers.linear import Row, eliminate

@@ -17,7 +17,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from operator import mul
 
-from icsolve.numbers.arithmetic import largest_of
+from icsolve.numbers import largest_of
 from icsolve.numbers.linear import Row, inverse, solve_square
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.witness import independent

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from icsolve.numbers.arithmetic import Showing, largest_of
+from icsolve.numbers import Showing, largest_of
 from icsolve.numbers.inequalities import Form, deepest, region
 from icsolve.statics.friction.pushing import (
     ROUNDED,

@@ -15,7 +15,7 @@ from icsolve.answer import Answer, Deferred
 from icsolve.answer.bodies import FrictionFound, Rubbing, Tension
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import Speed, fastest
-from icsolve.numbers.arithmetic import FLOATS, largest_of
+from icsolve.numbers import FLOATS, largest_of
 from icsolve.numbers.linear import General, Row
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import Statics, equilibrium

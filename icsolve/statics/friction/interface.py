@@ -18,10 +18,10 @@ from icsolve.answer import Term, bodies
 from icsolve.case import Case, Friction, Number, Rope, Screw
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import Speed, fastest
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
+from icsolve.numbers import FLOATS, Arithmetic, Scalar
 from icsolve.numbers.linear import solve_square
+from icsolve.screws import pairing, subtract, velocity
 from icsolve.screws.joints import guide_direction
-from icsolve.screws.plane import pairing, subtract, velocity
 from icsolve.statics.equilibrium import Rub, Statics
 from icsolve.statics.power import Balance, force_scale, friction_of, known_power
 from icsolve.statics.reaction_basis import COUPLE, Force, Position, RopeTie, Tie, thread, ties_of

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations, islice
 
-from icsolve.numbers.arithmetic import FLOATS, largest_of
+from icsolve.numbers import FLOATS, largest_of
 from icsolve.numbers.linear import Row, eliminate
 from icsolve.statics.equilibrium import Statics, equilibrium, value_of
 from icsolve.statics.friction.interface import place_of

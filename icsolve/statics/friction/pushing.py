@@ -19,7 +19,7 @@ from itertools import product
 from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, decider, largest_of, zero_of
+from icsolve.numbers import Scalar, Showing, all_vanish, decider, largest_of, zero_of
 from icsolve.numbers.inequalities import Form
 from icsolve.numbers.linear import Row, eliminate
 from icsolve.statics.equilibrium import Action, Rub, Statics, actions_of, columns_of, solve_statics

@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 
-from icsolve.numbers.arithmetic import largest_of
+from icsolve.numbers import largest_of
 from icsolve.numbers.linear import solve_square
 from icsolve.statics.friction.equations import (
     Form,

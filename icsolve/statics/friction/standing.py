@@ -21,7 +21,7 @@ from contextlib import suppress
 from itertools import product
 
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Showing, largest_of
+from icsolve.numbers import Showing, largest_of
 from icsolve.numbers.inequalities import deepest
 from icsolve.statics.equilibrium import equilibrium
 from icsolve.statics.free_bodies import FreeBodies, Solved, told, with_tooth_forces

@@ -19,7 +19,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import largest_of
+from icsolve.numbers import largest_of
 from icsolve.numbers.roots import zero_between
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.free_bodies import carrying

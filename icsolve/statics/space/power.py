@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from icsolve.case import Case, Spring, Weight
 from icsolve.case.space import Load, SpatialForce, SpatialForceVector, SpatialTorque, TorqueVector
-from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider, largest_of
+from icsolve.numbers import Arithmetic, Scalar, decider, largest_of
 from icsolve.numbers.linear import Row, eliminate
 from icsolve.screws.space import AXES, ZERO, Components, Vec, moved
 from icsolve.statics.equilibrium import (

@@ -33,8 +33,8 @@ from icsolve.case.space import (
     Vector,
 )
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, largest_of
-from icsolve.screws.plane import add, cross, subtract
+from icsolve.numbers import FLOATS, Arithmetic, Scalar, largest_of
+from icsolve.screws import add, cross, subtract
 from icsolve.screws.space import AXES, ZERO, Components, Vec, dot, size, square_to, times, unit
 from icsolve.tuples import NamedTuple
 

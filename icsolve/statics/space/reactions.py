@@ -24,16 +24,16 @@ from icsolve.case.space import (
     Vector,
 )
 from icsolve.errors import SceneError, Status, refuse_overflow
-from icsolve.numbers.arithmetic import Arithmetic, Scalar, Showing, decider, largest_of, zero_of
+from icsolve.numbers import Arithmetic, Scalar, Showing, decider, largest_of, zero_of
 from icsolve.numbers.linear import Row
-from icsolve.screws.plane import cross, subtract
+from icsolve.screws import cross, subtract
 from icsolve.screws.space import AXES, Vec, dot, size, square_to, times, unit
 from icsolve.statics.equilibrium import value_of
 from icsolve.statics.power import unknown_loads
 from icsolve.statics.reactions import REDUNDANT, SHARED, left_open, names_by_tie
 from icsolve.statics.space.power import NEARLY, SpatialBalance, SpatialSolution, SpatialWrench, is_couple
 from icsolve.statics.space.reaction_basis import SpatialFigure, SpatialTie
-from icsolve.structure.topology import reached
+from icsolve.structure import reached
 from icsolve.wording import senses, sentences
 from icsolve.wording.sentences import at_words, plural, wrong_count
 

@@ -16,7 +16,7 @@ from icsolve.answer import Answer, Deferred, Found
 from icsolve.answer.bodies import Spatial
 from icsolve.case import Case, is_named
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS, Showing
+from icsolve.numbers import FLOATS, Showing
 from icsolve.numbers.balls import PRECISIONS, Balls, HalfUnits, MoreDigits, is_long
 from icsolve.numbers.units import numbers_in
 from icsolve.statics.free_bodies import on_flanks
