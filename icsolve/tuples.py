@@ -15,6 +15,7 @@ __all__ = [
     "LateModule",
     "NamedTuple",
     "Protocol",
+    "TypeVar",
     "cached_property",
     "dataclass",
     "field",
@@ -40,7 +41,7 @@ class LateModule:
 if TYPE_CHECKING:
     from dataclasses import dataclass, field, replace
     from functools import cached_property
-    from typing import Generic, NamedTuple, Protocol
+    from typing import Generic, NamedTuple, Protocol, TypeVar
 else:
     from operator import itemgetter
     from types import FunctionType
@@ -63,33 +64,42 @@ else:
 
     Protocol = Generic
 
-    class _Fields(tuple):
-        """What all named tuples share."""
+    def TypeVar(_name: str, *_of: object, **_bound: object) -> type:  # noqa: N802
+        """What only a type checker reads too; that of `typing` compiles the words of its bound."""
+        return Generic
 
-        __slots__ = ()
+    @classmethod
+    def _make(cls, values):
+        made = tuple.__new__(cls, values)
+        if len(made) != len(cls._fields):
+            raise TypeError(f"Expected {len(cls._fields)} arguments, got {len(made)}")
+        return made
 
-        @classmethod
-        def _make(cls, values):
-            made = tuple.__new__(cls, values)
-            if len(made) != len(cls._fields):
-                raise TypeError(f"Expected {len(cls._fields)} arguments, got {len(made)}")
-            return made
+    def _replace(self, /, **changed):
+        made = self._make(map(changed.pop, self._fields, self))
+        if changed:
+            raise ValueError(f"Got unexpected field names: {list(changed)!r}")
+        return made
 
-        def _replace(self, /, **changed):
-            made = self._make(map(changed.pop, self._fields, self))
-            if changed:
-                raise ValueError(f"Got unexpected field names: {list(changed)!r}")
-            return made
+    def _asdict(self) -> dict[str, Any]:
+        return dict(zip(self._fields, self, strict=True))
 
-        def _asdict(self) -> dict[str, Any]:
-            return dict(zip(self._fields, self, strict=True))
+    def _repr(self) -> str:
+        inside = ", ".join(f"{name}={value!r}" for name, value in zip(self._fields, self, strict=True))
+        return f"{type(self).__name__}({inside})"
 
-        def __repr__(self) -> str:
-            inside = ", ".join(f"{name}={value!r}" for name, value in zip(self._fields, self, strict=True))
-            return f"{type(self).__name__}({inside})"
+    def _values(self) -> tuple[Any, ...]:
+        return tuple(self)
 
-        def __getnewargs__(self) -> tuple[Any, ...]:
-            return tuple(self)
+    _SHARED = {
+        "__slots__": (),
+        "__repr__": _repr,
+        "__getnewargs__": _values,
+        "_make": _make,
+        "_replace": _replace,
+        "_asdict": _asdict,
+    }
+    """What all named tuples share; put into each, as a class is made the faster the fewer it stands on."""
 
     class _Maker(type):
         """Makes a plain class of what stands in a class statement over `NamedTuple`."""
@@ -98,15 +108,16 @@ else:
             annotations = inside.get("__annotations__", {})
             fields = tuple(annotations)
             defaults = {field: inside[field] for field in fields if field in inside}
-            if fields[len(fields) - len(defaults) :] != tuple(defaults):
+            if defaults and fields[-len(defaults) :] != tuple(defaults):
                 raise TypeError(f"{name}: a field without a default follows one that has one")
             code = _MAKERS[len(fields)].__code__.replace(co_varnames=("_cls", *fields))
             new = FunctionType(code, _MADE_BY, "__new__", tuple(defaults.values()))
             new.__annotations__ = annotations
             inside.update(zip(fields, _GETTERS, strict=False))
-            inside |= {"_fields": fields, "_field_defaults": defaults, "__match_args__": fields}
-            inside |= {"__new__": new, "__slots__": ()}
-            return type(name, tuple(_Fields if base is NamedTuple else base for base in bases), inside)
+            inside["__new__"], inside["_field_defaults"] = new, defaults
+            inside["_fields"] = inside["__match_args__"] = fields
+            on = (tuple,) if bases == _ALONE else tuple([tuple if b is NamedTuple else b for b in bases])
+            return type(name, on, _SHARED | inside)
 
     class _Makers(dict):
         """What makes a tuple of so many fields; the usual ones need not be compiled at each start."""
@@ -137,6 +148,8 @@ else:
     _GETTERS = [field_of(place, "") for place in range(64)]
 
     NamedTuple = type.__new__(_Maker, "NamedTuple", (), {})
+    _ALONE = (NamedTuple,)
+    _ALONE = (NamedTuple,)
 
     class _Made:
         """The default of a field that is made anew for every object."""

@@ -10,8 +10,8 @@ import pytest
 
 import icsolve
 from icsolve.explain import explain
+from icsolve.report import answer_text
 from icsolve.report.bars import bars_of
-from icsolve.report.text import answer_text
 
 
 def truss(dice: Random, nodes: int) -> tuple[str, dict[str, float]]:

@@ -20,7 +20,7 @@ from equilibrium import push
 from icsolve.answer import Answer
 from icsolve.answer.bodies import Reaction
 from icsolve.errors import SceneError
-from icsolve.report.text import answer_text
+from icsolve.report import answer_text
 from icsolve.solve import attempt
 from sizes import FULL
 

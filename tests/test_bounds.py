@@ -23,7 +23,7 @@ from icsolve.case import Number
 from icsolve.errors import SceneError
 from icsolve.numbers.jets import BallArray, Jet
 from icsolve.numbers.tape import decimal_noise
-from icsolve.report.text import answer_text
+from icsolve.report import answer_text
 from icsolve.scene.program import EvaluatedScene, Want, evaluate, prepare, unknown_values
 from more_digits import SixtyDigits
 from sizes import FULL

@@ -34,9 +34,9 @@ from icsolve.draw.scene import geneva_of
 from icsolve.draw.words import figure_number
 from icsolve.errors import SceneError
 from icsolve.explain import explain
+from icsolve.report import answer_text
 from icsolve.report.derivation.known import Known, known_of
 from icsolve.report.derivation.ratios import needed_steps
-from icsolve.report.text import answer_text
 from library import FILES, LIBRARY, sample
 from pictures import Picture, on_arrows, outside, overlaps, parsed, shapes
 from sizes import FULL

@@ -32,8 +32,8 @@ from icsolve.manual import template
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import Record
 from icsolve.numbers.roots import zero_between
+from icsolve.report import answer_text
 from icsolve.report.derivation.known import known_of
-from icsolve.report.text import answer_text
 from icsolve.scene import solve_scene
 from icsolve.solve import friction_ranges
 from icsolve.solve import mode_limits as limits_room

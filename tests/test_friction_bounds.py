@@ -25,16 +25,16 @@ import transcribe
 from growth import random_mechanism
 from icsolve.answer.bodies import Witness
 from icsolve.case import Motion
-from icsolve.report.text import answer_text
+from icsolve.report import answer_text
 from icsolve.scene.program import Want, evaluate, prepare
 from icsolve.scene.sensitivity import influences
 from icsolve.statics.equilibrium import Statics, equations_of
 from icsolve.statics.free_bodies import Solved
 from icsolve.statics.friction import in_motion as friction
+from icsolve.statics.friction import rubs_of
 from icsolve.statics.friction import solutions as homotopy
 from icsolve.statics.friction.enclosure import SceneOnBalls, enclosed
 from icsolve.statics.friction.equations import Lengths, error_of, fixed_point, newton, scale_at
-from icsolve.statics.friction.interface import rubs_of
 from icsolve.statics.load_wrenches import Wrench
 from icsolve.statics.reaction_basis import Position, ties_of
 from icsolve.statics.reactions import names_by_tie

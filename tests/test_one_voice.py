@@ -32,14 +32,14 @@ from icsolve.errors import SceneError, Status
 from icsolve.explain import explain
 from icsolve.manual import template
 from icsolve.page import page_html
+from icsolve.report import answer_text
 from icsolve.report.check import value_of
 from icsolve.report.derivation.known import Known, known_of
 from icsolve.report.derivation.ratios import answer_ratios
-from icsolve.report.text import answer_text
 from icsolve.statics.load_wrenches import reacting
 from icsolve.sweep import find_by_scenes
 from icsolve.sweep.find_on_record import Query, find
-from icsolve.wording.senses import direction_words, holding, spelt
+from icsolve.wording import direction_words, holding, spelt
 from library import FILES, PAGED, page_of, sample
 from loading import drawn
 from shell import exit_status

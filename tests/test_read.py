@@ -595,7 +595,7 @@ def test_a_solve_loads_nothing_of_what_its_case_does_not_ask() -> None:
     """Without published values, as text and as JSON: a start does not pay for these, nor for stability."""
     code = (
         "import sys; from icsolve.read import load; from icsolve.solve import solve; "
-        "from icsolve.report.text import answer_text; "
+        "from icsolve.report import answer_text; "
         "from icsolve.answer.as_json import to_dict; "
         "answer = solve(load(sys.argv[1])); answer_text(answer), to_dict(answer); "
         "ends = ('.expected', '.expect', 'answer.equilibrium'); "

@@ -11,7 +11,7 @@ from icsolve.answer import Centre, Found, Term
 from icsolve.answer.as_json import pair_name, refusal_dict, to_dict
 from icsolve.case import Coordinates, Motion, Torque, Units
 from icsolve.errors import SceneError, Status
-from icsolve.report.text import answer_text
+from icsolve.report import answer_text
 from icsolve.scene.parts import _directed
 from icsolve.tuples import replace
 from made import four_bar_answer, four_bar_case, number

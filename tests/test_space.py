@@ -16,9 +16,9 @@ from icsolve.answer.bodies import SpatialReaction
 from icsolve.errors import CaseError, SceneError
 from icsolve.explain import explain
 from icsolve.page import page_html
+from icsolve.report import answer_text
 from icsolve.report.check import AGREES, compare
 from icsolve.report.derivation.known import known_of
-from icsolve.report.text import answer_text
 from shell import exit_status
 
 CHAPTER = Path(__file__).parent.parent / "cases" / "ch13"

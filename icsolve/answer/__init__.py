@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar, overload
+from typing import TYPE_CHECKING, Any, overload
 
 from icsolve.case import Case, Pair, is_named
 from icsolve.errors import SceneError
-from icsolve.tuples import NamedTuple, cached_property, dataclass, field
+from icsolve.tuples import NamedTuple, TypeVar, cached_property, dataclass, field
 
 if TYPE_CHECKING:
     from icsolve.answer.bodies import FrictionFound, Reactions, Spatial, Tension, Touching, Witness

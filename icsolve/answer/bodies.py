@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from types import MappingProxyType
-from typing import TypeVar
 
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, TypeVar
 
 Parts = tuple[float | None, float | None, float | None]
 """Components along x, y and z; None for one that equilibrium leaves open."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from icsolve.assembly.conditions import size_of
 from icsolve.assembly.order import Order, order_of
@@ -41,7 +41,7 @@ from icsolve.case import Case, bare_name
 from icsolve.errors import SceneError, Status
 from icsolve.numbers import FLOATS, Scalar
 from icsolve.screws import Point
-from icsolve.tuples import LateModule, NamedTuple, replace
+from icsolve.tuples import LateModule, NamedTuple, TypeVar, replace
 from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from icsolve.assembly.conditions import TOO_CLOSE, agrees, is_vague, residual, size_of
 from icsolve.assembly.loci import PlacedCircle, gaps_of, is_ray, is_round, side
@@ -22,7 +22,7 @@ from icsolve.assembly.steps import CLOSED_FORMS, Meet, Miss, Step, aims, needs
 from icsolve.assembly.workspace import LENGTH, Datum, Key, Workspace, normalised
 from icsolve.numbers import Scalar
 from icsolve.screws import Point
-from icsolve.tuples import LateModule, NamedTuple
+from icsolve.tuples import LateModule, NamedTuple, TypeVar
 
 if TYPE_CHECKING:
     from icsolve.assembly import refusals

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from icsolve.assembly.workspace import Frame, PlacedCase
 from icsolve.case import Case, Coordinates
-from icsolve.kinematics.twists import Bases
+from icsolve.kinematics import Bases
 from icsolve.numbers import FLOATS
 from icsolve.scene.program import Program, Want, prepare
 from icsolve.screws import Point, Triple, cross, pairing, times

@@ -10,7 +10,7 @@ from icsolve.cams.curve import Curve, Foot, table_spline
 from icsolve.cams.pieces import CircularArc, Point, PolarPiece
 from icsolve.case import Number
 from icsolve.case.profiles import Arcs, Circle, Polygon, Radii, Shape
-from icsolve.wording.senses import direction_words
+from icsolve.wording import direction_words
 from icsolve.wording.sentences import listed, plural
 
 if TYPE_CHECKING:

@@ -5,12 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import TypeVar
 
 from icsolve.case.figure import is_link
 from icsolve.case.joints import Guided, Thread
 from icsolve.numbers.units import ExactRatio, Number
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, TypeVar
 
 T = TypeVar("T")
 

@@ -201,7 +201,7 @@ def _value(case: Case, name: str, text: str) -> float:
 
 def _unit(case: Case, name: str) -> str | None:
     """The unit of a load; None where there is none of this name."""
-    from icsolve.wording.senses import unit_of
+    from icsolve.wording import unit_of
 
     return next((unit_of(load, case) for load in case.loads if load.name == name), None)
 

@@ -6,12 +6,13 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager, nullcontext
-from typing import Any, TypeVar
+from typing import Any
 
 import click
 
 from icsolve.cli.run import DONE, UNREADABLE, complain, sources
 from icsolve.files import KeptError, folder_of, whole_file
+from icsolve.tuples import TypeVar
 
 OUTPUT = click.option("-o", "--output", metavar="FILE", help="Write here instead of standard output.")
 

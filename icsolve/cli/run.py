@@ -7,14 +7,14 @@ import os
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from icsolve.cli import BUG, bug_report
 from icsolve.errors import CaseError, NotACase, Problem, SceneError, overflow
 from icsolve.files import KeptError, can_fork, files_of, is_plain, note, reading, started
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, TypeVar
 
 if TYPE_CHECKING:
     from icsolve.case import Case

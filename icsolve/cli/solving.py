@@ -141,7 +141,7 @@ def _printer(several: bool) -> Callable[[tuple[str, str]], int]:
 
 def _as_text(options: Options) -> Work[tuple[str, str]]:
     def work(case: Case, path: str) -> tuple[str, str]:
-        from icsolve.report.text import answer_text
+        from icsolve.report import answer_text
 
         answer, report = _solved(case, options)
         sections = [answer_text(answer, options.digits)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -12,6 +12,7 @@ from icsolve.cli.commands import FORCE, Verb
 from icsolve.cli.output import watched
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, refusing
 from icsolve.files import can_fork, check_ending, check_free, started, together, write_whole
+from icsolve.tuples import TypeVar
 from icsolve.wording.sentences import plural
 
 if TYPE_CHECKING:

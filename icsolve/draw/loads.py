@@ -30,7 +30,7 @@ from icsolve.draw.place import Label, Soft, area, joined
 from icsolve.draw.scene import BLOCK, HALF, RAIL, Part, Scene
 from icsolve.draw.words import figure_number, name_runs, quantity, unit_word
 from icsolve.report.derivation.known import Acting, acting_loads
-from icsolve.wording.senses import sense_of
+from icsolve.wording import sense_of
 
 ARROW = 56.0
 """Length of a load's arrow."""

@@ -13,7 +13,7 @@ from icsolve.draw.words import figure_number, name_runs, unit_word, wrapped
 from icsolve.errors import SceneError, Status
 from icsolve.statics.power import is_unknown
 from icsolve.tuples import NamedTuple
-from icsolve.wording.senses import unit_of
+from icsolve.wording import unit_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt

@@ -12,11 +12,11 @@ from icsolve.case.loads import name_of_inertia
 from icsolve.draw.marks import Mark, MarkGroup, TextMark, TextRun, bounds, text_width
 from icsolve.draw.svg import runs_of
 from icsolve.errors import refuse_overflow
+from icsolve.report import positions_text
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ratios import Step
-from icsolve.report.text import positions_text
+from icsolve.wording import holding, spelt
 from icsolve.wording.joints import joint_of_normal, normal_name
-from icsolve.wording.senses import holding, spelt
 from icsolve.wording.sentences import plural, provenance
 
 DIGITS = 4

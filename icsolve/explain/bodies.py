@@ -12,10 +12,10 @@ from icsolve.case.joints import Friction
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, Trig, product
 from icsolve.explain.worked import Worked, load_name
+from icsolve.report import axial_words
 from icsolve.report.bars import bars_of
 from icsolve.report.derivation.known import Known, acting_loads, rope_pulls
 from icsolve.report.derivation.spatial import InSpace, in_space
-from icsolve.report.text import axial_words
 from icsolve.screws import subtract
 from icsolve.screws.space import ZERO, Vec, size, spatial, times
 from icsolve.tuples import NamedTuple

@@ -13,7 +13,7 @@ from icsolve.draw import tikz
 from icsolve.draw.marks import Mark, kinds_of
 from icsolve.draw.svg import escaped
 from icsolve.explain.formula import LATEX, MATHML, PLAIN, Expr, Notation, Quantity
-from icsolve.report.text import table
+from icsolve.report import table
 from icsolve.tuples import NamedTuple
 
 Inline = str | Expr

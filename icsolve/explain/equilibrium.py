@@ -15,11 +15,11 @@ from icsolve.explain.document import Block, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, product, total
 from icsolve.explain.power import AGREE, factor_of, gain_of, sprung, torque_words
 from icsolve.explain.worked import Worked, exerted_name, load_name
+from icsolve.report import place_text
 from icsolve.report.derivation.known import Acting, Known, acting_loads, known_at
 from icsolve.report.derivation.ratios import OneMotion, independent_motions, speed_words
-from icsolve.report.text import place_text
 from icsolve.screws import Point, Triple, velocity
-from icsolve.wording.senses import NOTHING
+from icsolve.wording import NOTHING
 
 WORK = (
     "Let the unknown q grow by dq, in radians for an angle, while the mechanism moves as its joints allow. "

@@ -19,13 +19,13 @@ from icsolve.explain.given import asked_section, given_section
 from icsolve.explain.power import motions_section, power_section
 from icsolve.explain.ropes import ropes_section, screws_section
 from icsolve.explain.worked import Worked, exerted_name, load_name, rate_name, worked
-from icsolve.kinematics.twists import FRAME
+from icsolve.kinematics import FRAME
+from icsolve.report import positions_text
 from icsolve.report.derivation.known import Known, acting_loads
 from icsolve.report.derivation.ratios import Step, all_steps, answer_ratios, needed_steps
-from icsolve.report.text import positions_text
 from icsolve.screws import velocity
 from icsolve.statics.power import is_unknown
-from icsolve.wording.senses import direction_words, holding, plain_vector, spelt
+from icsolve.wording import direction_words, holding, plain_vector, spelt
 from icsolve.wording.sentences import provenance
 
 SEARCHED = (

@@ -21,7 +21,7 @@ from operator import attrgetter
 from icsolve.answer import Centre
 from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import Pair, is_named, ordered_pair
-from icsolve.kinematics.twists import Closure, is_dead, products, rate_sizes
+from icsolve.kinematics import Closure, is_dead, products, rate_sizes
 from icsolve.numbers import ROUNDING, ROUNDING_NOISE, Arithmetic, Showing, all_vanish
 from icsolve.screws import Point, Triple, cross, subtract
 from icsolve.screws.joints import freedoms, joint_freedoms, joint_points, pitch_point

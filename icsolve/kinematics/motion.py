@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from icsolve.assembly.workspace import PlacedCase
 from icsolve.errors import SceneError, Status
-from icsolve.kinematics.twists import (
+from icsolve.kinematics import (
     ORIGIN,
     Bases,
     Closure,

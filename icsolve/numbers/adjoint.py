@@ -10,12 +10,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TypeVar
 
 from icsolve.numbers import RADIAN, Scalar
 from icsolve.numbers.record import Op, Record, Traced, live
 from icsolve.numbers.tape import TURN_NOISE, UNIT
-from icsolve.tuples import Protocol
+from icsolve.tuples import Protocol, TypeVar
 
 ROUNDINGS = {Op.NEG: 0.0, Op.NEAREST: 0.0, Op.COS: TURN_NOISE, Op.SIN: TURN_NOISE, Op.ANGLE: 0.0}
 """Relative rounding error of an operation's own; of all others it is `UNIT`."""

@@ -15,10 +15,10 @@ import math
 import operator
 from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal, Overflow
-from typing import TypeVar
 
 from icsolve.numbers import Scalar
 from icsolve.numbers.balls import INEXACT, TINY, UP, Ball, Balls, MoreDigits
+from icsolve.tuples import TypeVar
 
 System = Callable[[Sequence[Scalar]], tuple[Sequence[Scalar], Sequence[Mapping[int, Scalar]]]]
 """Values of the equations at a point or box, and their derivatives by the unknowns that bear on each."""

@@ -34,10 +34,10 @@ from icsolve.case import Coordinates, Motion, Number, Rope, Screw, TorsionSpring
 from icsolve.case.figure import Unknown
 from icsolve.case.joints import Guided, Mesh
 from icsolve.draw.words import unit_word
+from icsolve.kinematics import ORIGIN, Bases, Tree, loop_rows, rope_row, span
 from icsolve.kinematics.accelerations import Moving, drives_of, moving, rate_rows
 from icsolve.kinematics.motion import TURN, needed_bonds
 from icsolve.kinematics.speeds import joint_order
-from icsolve.kinematics.twists import ORIGIN, Bases, Tree, loop_rows, rope_row, span
 from icsolve.numbers import HALF_TURN, Scalar
 from icsolve.numbers.record import Record, Traced
 from icsolve.numbers.source import JAVASCRIPT, straight_line

@@ -40,7 +40,7 @@ from icsolve.page.pictures import PageFigure
 from icsolve.page.poses import FINE, Array, compact, exact, moved, moves
 from icsolve.report.derivation.known import Acting, Known, acting_loads, resting
 from icsolve.report.derivation.ratios import Step
-from icsolve.wording.senses import holding, sense_of, spelt, unit_of
+from icsolve.wording import holding, sense_of, spelt, unit_of
 
 # --- loads through a motion ------------------------------------------------------------------------------
 

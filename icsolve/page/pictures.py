@@ -27,7 +27,7 @@ from icsolve.page.poses import FINE, Array, compact, moved
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ratios import Step
 from icsolve.tuples import NamedTuple
-from icsolve.wording.senses import unit_of
+from icsolve.wording import unit_of
 
 ROOM = (430.0, 350.0)
 """The largest that the mechanism is drawn, through all its positions."""

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Callable, Container
 from collections.abc import Mapping as Table
 from itertools import chain, count
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from icsolve.case import (
     Belt,
@@ -48,6 +48,7 @@ from icsolve.read.keys import (
 )
 from icsolve.read.names import is_name, meant_by, shown, suggestion
 from icsolve.read.reading import Reading
+from icsolve.tuples import TypeVar
 from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Container
 from collections.abc import Mapping as Table
-from typing import Any, TypeVar
+from typing import Any
 
 from icsolve.case import (
     Area,
@@ -27,7 +27,7 @@ from icsolve.read.entry import Entry, Values
 from icsolve.read.keys import LOADS, MOTION_OF_LINK, MOTION_OF_POINT, PULLS, EntryKind
 from icsolve.read.names import is_name, meant_by, point_key, shown, suggestion, why_no_name
 from icsolve.read.reading import Reading
-from icsolve.tuples import Generic, NamedTuple
+from icsolve.tuples import Generic, NamedTuple, TypeVar
 
 VECTORS = {"force": "vector", "torque": "couple"}
 """Kinds that can be given by components, and what they are called then."""

@@ -33,7 +33,7 @@ from icsolve.screws import add, cross, subtract
 from icsolve.screws.space import size, spatial, times
 from icsolve.statics.load_wrenches import number_taken, vector_size
 from icsolve.tuples import NamedTuple
-from icsolve.wording.senses import (
+from icsolve.wording import (
     bearing,
     direction_words,
     holding,

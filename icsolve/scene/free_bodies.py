@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from copy import copy
 from functools import partial
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from icsolve.answer import Answer
 from icsolve.errors import SceneError, Status
@@ -23,6 +23,7 @@ from icsolve.scene.program import (
 from icsolve.statics.free_bodies import FreeBodies, Reach, free_bodies
 from icsolve.statics.power import Balance, Value, has_friction, is_unknown
 from icsolve.statics.reaction_basis import Position, rope_ties
+from icsolve.tuples import TypeVar
 
 if TYPE_CHECKING:
     from icsolve.statics.friction.enclosure import SceneOnBalls

@@ -34,8 +34,7 @@ from icsolve.statics import load_wrenches, power
 from icsolve.statics.load_wrenches import Wrench
 from icsolve.statics.power import Bounded, Outcome, Value, known_value, load_value
 from icsolve.tuples import LateModule, NamedTuple, cached_property, replace
-from icsolve.wording import sentences
-from icsolve.wording.senses import direction_words, sense_of, unit_of
+from icsolve.wording import direction_words, sense_of, sentences, unit_of
 from icsolve.wording.sentences import at_words, link_words
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import lru_cache, partial
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from icsolve.assembly import Figure, place, placed_figure, solve_figure
 from icsolve.assembly.workspace import PlacedCase, case_places, names_of
@@ -29,7 +29,7 @@ from icsolve.statics import load_wrenches, power
 from icsolve.statics.power import Bounded, Outcome, Value
 from icsolve.structure import Topology, topology
 from icsolve.structure.plan import Plan, make_plan
-from icsolve.tuples import LateModule, NamedTuple
+from icsolve.tuples import LateModule, NamedTuple, TypeVar
 
 if TYPE_CHECKING:
     from icsolve.kinematics import accelerations

@@ -14,8 +14,7 @@ from icsolve.screws.joints import Points
 from icsolve.statics import load_wrenches, power
 from icsolve.structure import Topology, reached, topology
 from icsolve.tuples import LateModule
-from icsolve.wording import sentences
-from icsolve.wording.senses import direction_words
+from icsolve.wording import direction_words, sentences
 
 if TYPE_CHECKING:
     from icsolve.screws import ropes as rope_screws

@@ -17,9 +17,9 @@ from icsolve.numbers import largest_of
 from icsolve.scene import jammed, solve_scene, standing
 from icsolve.scene.program import HeldAt
 from icsolve.solve.rest_position import PROBE, holding, probes
-from icsolve.statics.friction.interface import AS_SHARED, SharedError
+from icsolve.statics.friction import AS_SHARED, SharedError
 from icsolve.tuples import NamedTuple, replace
-from icsolve.wording.senses import reach_of, unit_of
+from icsolve.wording import reach_of, unit_of
 
 Range = tuple[float, float]
 

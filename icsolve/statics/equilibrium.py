@@ -9,14 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import accumulate
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from icsolve.numbers import Arithmetic, Scalar, decider
 from icsolve.numbers.linear import General, Row, eliminate
 from icsolve.statics.load_wrenches import L, UnitWrench, Wrench, number_of, place_of
 from icsolve.statics.power import Balance, PowerFactors, force_scale, unknown_loads
 from icsolve.statics.reaction_basis import Force, Position, RopeTie, Tie
-from icsolve.tuples import Generic, LateModule, NamedTuple, Protocol
+from icsolve.tuples import Generic, LateModule, NamedTuple, Protocol, TypeVar
 
 if TYPE_CHECKING:
     from icsolve.screws import space

@@ -7,20 +7,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TypeVar
 
 from icsolve.answer import Answer
 from icsolve.answer.bodies import FrictionFound, Reactions, Tension, Witness
 from icsolve.errors import SceneError, Status
+from icsolve.kinematics import FRAME
 from icsolve.kinematics.speeds import joint_order
-from icsolve.kinematics.twists import FRAME
 from icsolve.numbers import FLOATS, Arithmetic, Scalar, Showing, largest_of
 from icsolve.numbers.linear import Row
 from icsolve.numbers.units import numbers_in
 from icsolve.screws import velocity
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import Equilibrium, Statics, T, equilibrium
-from icsolve.statics.friction.interface import efficiency, friction_terms
+from icsolve.statics.friction import efficiency, friction_terms
 from icsolve.statics.load_wrenches import Wrench
 from icsolve.statics.power import Balance, force_scale, has_friction, is_unknown, known_power, power_of
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
@@ -32,8 +31,8 @@ from icsolve.statics.witness import (
     terms_of,
     unknowns_of,
 )
-from icsolve.tuples import NamedTuple, Protocol, replace
-from icsolve.wording.senses import direction_words
+from icsolve.tuples import NamedTuple, Protocol, TypeVar, replace
+from icsolve.wording import direction_words
 from icsolve.wording.sentences import listed
 
 

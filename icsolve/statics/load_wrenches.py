@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import (
@@ -33,10 +33,10 @@ from icsolve.case.loads import name_of_inertia
 from icsolve.numbers import FLOATS, HALF_TURN, Arithmetic, Scalar, all_vanish, magnitude
 from icsolve.numbers.units import exact_ratio, parse_unit
 from icsolve.screws import Point, Triple, force_wrench, unit_between
-from icsolve.tuples import Generic, LateModule, NamedTuple, replace
+from icsolve.tuples import Generic, LateModule, NamedTuple, TypeVar, replace
 
 if TYPE_CHECKING:
-    from icsolve.case.space import Load as SpatialLoad
+    from icsolve.case.space import Load as SpatialLoad  # noqa: F401  of a bound
     from icsolve.kinematics import accelerations
     from icsolve.screws import ropes as rope_screws
 else:

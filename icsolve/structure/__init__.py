@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import lru_cache
-from typing import TypeVar
 
 from icsolve.case import Case, Joint, Rope
 from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, TypeVar
 
 T = TypeVar("T")
 

@@ -15,10 +15,9 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Collection, Container, Hashable, Iterable, Mapping
 from functools import lru_cache
-from typing import TypeVar
 
 from icsolve.structure import Skeleton, Topology, reached
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, TypeVar
 
 T = TypeVar("T", bound=Hashable)
 Row = TypeVar("Row", bound=Hashable)

@@ -19,8 +19,8 @@ from icsolve.numbers import Scalar
 from icsolve.numbers.record import Traced, varies
 from icsolve.numbers.replay import Array
 from icsolve.statics.equilibrium import Statics, equilibrium
+from icsolve.statics.friction import rates_of, rubs_of
 from icsolve.statics.friction.equations import forces_of
-from icsolve.statics.friction.interface import rates_of, rubs_of
 from icsolve.statics.power import Balance
 from icsolve.statics.reaction_basis import Position, meshes, ties_of
 from icsolve.sweep.recorded_scene import RecordedScene

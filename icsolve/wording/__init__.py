@@ -1,1 +1,232 @@
-"""The words of an answer: numbers, senses, ranges, sentences, its text and its JSON."""
+"""What is said of a load's value: its sense, the range in which friction lets it be, its unit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+from icsolve.answer import Found
+from icsolve.case import (
+    Area,
+    Case,
+    Force,
+    Load,
+    Spring,
+    Stretch,
+    Torque,
+    TorsionSpring,
+    Toward,
+    Weight,
+    is_link,
+)
+
+if TYPE_CHECKING:
+    from icsolve.case.space import Load as SpatialLoad
+from collections.abc import Mapping
+
+SPELT = {"ccw": "counterclockwise", "cw": "clockwise"}
+
+
+NOTHING = 1e-12
+"""A component is nothing beside a vector of which it is less: what rounding leaves of a zero."""
+
+
+def plain_vector(vector: Sequence[float], size: float | None = None) -> tuple[float, float]:
+    """A vector of the plane as people are told it: a component that is nothing beside ``size``, by default
+    its own, is 0."""
+    least = NOTHING * (math.hypot(*vector) if size is None else size)
+    x, y = (c if abs(c) > least else 0.0 for c in vector)
+    return x, y
+
+
+def sense_of(load: Load, value: float, gain: float, degrees: float) -> str:
+    """Sense of a load with this value, whose unit exerts ``gain`` in the direction ``degrees``: ``ccw``,
+    ``at 210 deg``, ``toward A``, ``pull``; '' for zero.
+    """
+    if value == 0.0:
+        return ""
+    match load:
+        case Torque():
+            return "ccw" if (value > 0) == (load.positive == "ccw") else "cw"
+        case TorsionSpring():
+            return "ccw" if value * gain > 0 else "cw"
+        case Spring():
+            return "pull" if value * gain > 0 else "push"
+        case Force(link=link) if not is_link(link):
+            return "pull" if value > 0 else "push"
+        case Force(heading=Toward() as heading):
+            if load.against is not None:
+                return "pull" if (value > 0) != heading.away else "push"
+            if (value > 0) != heading.away:
+                return f"toward {heading.point}"
+    return f"at {direction_words(degrees if value > 0 else degrees + 180.0)}"
+
+
+def direction_words(degrees: float) -> str:
+    """A direction counterclockwise from +x, to six digits, in [0, 360): what rounds to a whole turn is 0."""
+    rounded = float(f"{round(degrees % 360.0, 6):.6g}")
+    return f"{rounded % 360.0:.6g} deg"
+
+
+Show = Callable[[float], str]
+"""A number with the digits that are wanted."""
+
+
+def spelt(sense: str, show: Show | None = None) -> str:
+    """``ccw`` spelt out; with ``show`` the degrees of ``at 339.778 deg`` by their sign."""
+    if show is not None and sense.startswith("at ") and sense.endswith(" deg"):
+        return f"at {show(float(sense[3:-4]))}°"
+    return SPELT.get(sense, sense)
+
+
+def reach_of(holds: tuple[float, float], unit: str, show: Show, error: float | None) -> str:
+    """A range of values: ``from 3 to 4 N``, ``only at 3 N`` where its ends are one within the error."""
+    least, most = holds
+    if most - least <= 2.0 * (error or 0.0):
+        return f"only at {show(least)} {unit}"
+    if math.isfinite(least) and math.isfinite(most):
+        return f"from {show(least)} to {show(most)} {unit}"
+    if math.isfinite(least):
+        return f"from {show(least)} {unit} up"
+    return f"up to {show(most)} {unit}" if math.isfinite(most) else "at any value"
+
+
+def holding(found: Found, show: Show) -> str:
+    """``holds still from 3 to 4 N``, and whether it locks itself."""
+    reach = reach_of(found.holds or (math.nan, math.nan), found.unit, show, found.error)
+    return f"holds still {reach}" + (", self-locking" if found.self_locking else "")
+
+
+def unit_of(load: Load | SpatialLoad, case: Case) -> str:
+    """Unit in which a load's number is given and printed."""
+    match load:
+        case Torque():
+            return case.units.torque
+        case Weight(mass=True):
+            return "kg"
+        case Spring() | Force(over=Stretch()):
+            return f"{case.units.force}/{case.units.length}"
+        case TorsionSpring():
+            return f"{case.units.torque}/rad"
+        case Force(over=Area()):
+            return case.units.pressure
+    return case.units.force
+
+
+# --- senses as directions: ``right``, ``at 30 deg``, ``toward P``, ``pull`` -----------------------------
+
+
+Places = Mapping[str, tuple[float, float]]
+
+_WORDS = {"right": 0.0, "up": 90.0, "left": 180.0, "down": 270.0}
+_LOOSE = 45.0
+"""Degrees within which a direction may be called by one of the four words."""
+_CLOSE = 1.0
+"""Degrees within which it may be called by an angle or by a point."""
+
+
+def same_way(published: str, found: str, load: Load, places: Places) -> bool:
+    """Whether a force of sense ``found`` goes the way that ``published`` says, as books round directions."""
+    theirs, ours = bearing(published, load, places), bearing(found, load, places)
+    if theirs is None or ours is None:
+        return published == found
+    return turned_at_most(theirs, ours, published)
+
+
+def same_way_in_space(
+    published: str, found: str, load: SpatialLoad, places: Mapping[str, Sequence[float]]
+) -> bool:
+    """Whether a load in space of sense ``found`` goes the way that ``published`` says: ``along -z`` may be
+    published as ``down``, or as ``away from P`` where P lies above.
+    """
+    theirs, ours = (_along(sense, load, places) for sense in (published, found))
+    if theirs is None or ours is None:
+        return published == found
+    cosine = sum(a * b for a, b in zip(theirs, ours, strict=True))
+    room = _LOOSE if published in ("up", "down") else _CLOSE
+    return cosine >= math.cos(math.radians(room)) - 1e-12
+
+
+def _along(
+    sense: str, load: SpatialLoad, places: Mapping[str, Sequence[float]]
+) -> tuple[float, float, float] | None:
+    """The unit vector of a sense in space; None where the words alone do not give one."""
+    if sense in ("up", "down"):
+        return (0.0, 0.0, 1.0 if sense == "up" else -1.0)
+    lead, _, rest = sense.partition(" ")
+    start, end = places.get(getattr(load, "at", "")), places.get(rest.removeprefix("from "))
+    back = lead in ("away", "push")
+    if lead in ("pull", "push"):
+        heading = getattr(load, "heading", None)
+        end = places.get(heading.point if isinstance(heading, Toward) else getattr(load, "to", ""))
+    elif lead in ("along", "about"):
+        one, _, other = rest.partition(" to ")
+        start, end = places.get(one), places.get(other)
+        if not other:
+            start, end = (0.0, 0.0, 0.0), _components(rest)
+    if start is None or end is None:
+        return None
+    x, y, z = (b - a for a, b in zip(start, end, strict=True))
+    size = math.hypot(x, y, z) * (-1.0 if back else 1.0)
+    return (x / size, y / size, z / size) if size else None
+
+
+def _components(words: str) -> tuple[float, float, float] | None:
+    """``-z``, ``[0, 0.6, -0.8]``."""
+    sign, axis = (-1.0, words[1:]) if words.startswith("-") else (1.0, words)
+    if axis in ("x", "y", "z"):
+        return (sign * (axis == "x"), sign * (axis == "y"), sign * (axis == "z"))
+    try:
+        x, y, z = (float(part) for part in words.strip("[]()").split(","))
+    except ValueError:
+        return None
+    return x, y, z
+
+
+def turned_at_most(theirs: float, ours: float, published: str) -> bool:
+    """Whether two directions in degrees differ by no more than the published words leave open."""
+    room = _LOOSE if published in _WORDS else _CLOSE
+    return abs(math.remainder(theirs - ours, 360.0)) <= room + 1e-9
+
+
+def bearing(
+    sense: str, load: Load | None, places: Places, start: tuple[float, float] | None = None
+) -> float | None:
+    """Direction of a sense in degrees ccw from +x; None where the words alone do not give one. The sense is
+    that of a load, or of what acts or moves at ``start``.
+    """
+    lead, _, rest = sense.partition(" ")
+    if sense in _WORDS:
+        return _WORDS[sense]
+    if lead == "at":
+        return _degrees(rest)
+    start = start or places.get(getattr(load, "at", ""))
+    if lead == "toward":
+        return _from(start, places.get(rest))
+    if lead in {"pull", "push"}:
+        along = _from(start, places.get(_far_end(load)))
+        return along if along is None or lead == "pull" else along + 180.0
+    return None
+
+
+def _degrees(text: str) -> float | None:
+    try:
+        return float(text.split(maxsplit=1)[0])
+    except (ValueError, IndexError):
+        return None
+
+
+def _from(start: tuple[float, float] | None, end: tuple[float, float] | None) -> float | None:
+    if start is None or end is None or start == end:
+        return None
+    return math.degrees(math.atan2(end[1] - start[1], end[0] - start[0]))
+
+
+def _far_end(load: Load | None) -> str:
+    """The point that a pull draws a load's own point to."""
+    if isinstance(load, Spring):
+        return load.to
+    if isinstance(load, Force) and isinstance(load.heading, Toward):
+        return load.heading.point
+    return ""

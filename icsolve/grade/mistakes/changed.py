@@ -7,7 +7,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from itertools import islice
-from typing import TypeVar
 
 from icsolve.answer import Answer
 from icsolve.case import (
@@ -37,7 +36,7 @@ from icsolve.case.joints import without_friction as smooth
 from icsolve.numbers import FLOATS
 from icsolve.screws.ropes import rope_parts, wrap_angle
 from icsolve.statics.load_wrenches import as_given
-from icsolve.tuples import NamedTuple, replace
+from icsolve.tuples import NamedTuple, TypeVar, replace
 
 Place = tuple[float, float]
 MOST_MODES = 12

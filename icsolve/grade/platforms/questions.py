@@ -25,7 +25,7 @@ from icsolve.grade.mistakes.lookup import ORDER, Wrong, message
 from icsolve.grade.written.words import factors_between
 from icsolve.numbers.units import parse_unit
 from icsolve.tuples import NamedTuple
-from icsolve.wording.senses import direction_words
+from icsolve.wording import direction_words
 
 
 def figure(case: Case) -> str:

@@ -35,7 +35,7 @@ from icsolve.sweep.recorded_scene import pairs
 from icsolve.sweep.request import SweepRequest
 from icsolve.sweep.varied_numbers import numbers_of, with_numbers
 from icsolve.tuples import replace
-from icsolve.wording.senses import unit_of
+from icsolve.wording import unit_of
 
 _NEARER = 0.81
 """Of two ways one is the nearer to `near` without doubt, where its squared distance is this part of the

@@ -24,7 +24,7 @@ from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import Draw, VariantRecord, Varied
 from icsolve.grade.written.numerals import figures
 from icsolve.tuples import NamedTuple
-from icsolve.wording.senses import direction_words
+from icsolve.wording import direction_words
 from icsolve.wording.statement import Statement
 
 VALUES, KEYS = "values.csv", "key.csv"

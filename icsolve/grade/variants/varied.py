@@ -8,7 +8,6 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
-from typing import TypeVar
 
 from icsolve.answer import Answer
 from icsolve.case import Case
@@ -25,7 +24,7 @@ from icsolve.read.document import Scalar, parse
 from icsolve.read.names import Problems
 from icsolve.read.variables import count, first_values, value_at
 from icsolve.sweep.varied_numbers import numbers_of
-from icsolve.tuples import NamedTuple, cached_property
+from icsolve.tuples import NamedTuple, TypeVar, cached_property
 
 TRIALS = 60
 """Draws of one student, until one suits."""

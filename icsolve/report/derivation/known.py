@@ -32,7 +32,7 @@ from icsolve.solve import Attempt, attempt
 from icsolve.statics.load_wrenches import Wrench, as_given, place_of, points_of, wrenches
 from icsolve.statics.power import known_value
 from icsolve.tuples import NamedTuple, replace
-from icsolve.wording.senses import unit_of
+from icsolve.wording import unit_of
 
 
 class Known(NamedTuple):

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from icsolve.answer import AboutToMove, Answer, Deferred, Found, Later
 from icsolve.answer.bodies import FrictionFound
@@ -17,6 +17,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers import FLOATS, Showing
 from icsolve.statics.equilibrium import Statics, equilibrium
 from icsolve.statics.free_bodies import Solved, on_flanks
+from icsolve.statics.friction import AS_SHARED, RubbingRates, SharedError, rubs_of
 from icsolve.statics.friction.enclosure import TOO_CLOSE, UNBOUND, UNSURE, Proven
 from icsolve.statics.friction.in_motion import (
     NO_SLOPES,
@@ -31,7 +32,6 @@ from icsolve.statics.friction.in_motion import (
     statics_of,
     with_bodies,
 )
-from icsolve.statics.friction.interface import AS_SHARED, RubbingRates, SharedError, rubs_of
 from icsolve.statics.friction.lifting import jammed
 from icsolve.statics.friction.limits import Slid
 from icsolve.statics.friction.static_range import (
@@ -49,7 +49,7 @@ from icsolve.statics.friction.static_range import (
 from icsolve.statics.power import Balance, Value, is_unknown, unknown_loads
 from icsolve.statics.reaction_basis import Position, ties_of
 from icsolve.statics.reactions import tensions_of
-from icsolve.tuples import LateModule, NamedTuple, replace
+from icsolve.tuples import LateModule, NamedTuple, TypeVar, replace
 from icsolve.wording.sentences import listed, plural
 
 if TYPE_CHECKING:

@@ -26,8 +26,8 @@ from icsolve.numbers.krawczyk import enclosed_root
 from icsolve.numbers.linear import Row, eliminate
 from icsolve.statics.equilibrium import Rub, Statics, equations_of, equilibrium
 from icsolve.statics.free_bodies import Solved, carrying_flanks
+from icsolve.statics.friction import rubbing_rates, rubs_of
 from icsolve.statics.friction.equations import forces_of
-from icsolve.statics.friction.interface import rubbing_rates, rubs_of
 from icsolve.statics.load_wrenches import Wrench
 from icsolve.statics.power import Balance, Bounded
 from icsolve.statics.reaction_basis import Position, meshes, rope_ties, slipping, ties_of, with_flanks

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from icsolve.answer import Answer, Deferred
 from icsolve.answer.bodies import FrictionFound, Rubbing, Tension
@@ -20,6 +20,14 @@ from icsolve.numbers.linear import General, Row
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import Statics, equilibrium
 from icsolve.statics.free_bodies import FreeBodies, Solved, carrying_flanks, frictionless, on_flanks, told
+from icsolve.statics.friction import (
+    RubbingRates,
+    place_of,
+    rubbing_rates,
+    rubs_of,
+    shared,
+    unknowns_by_power,
+)
 from icsolve.statics.friction.enclosure import (
     MISSED,
     TOO_CLOSE,
@@ -31,20 +39,12 @@ from icsolve.statics.friction.enclosure import (
     slopes,
 )
 from icsolve.statics.friction.equations import forces_of
-from icsolve.statics.friction.interface import (
-    RubbingRates,
-    place_of,
-    rubbing_rates,
-    rubs_of,
-    shared,
-    unknowns_by_power,
-)
 from icsolve.statics.friction.limits import ROUNDED, Slid, jams_at_last, slid
 from icsolve.statics.power import Balance, Bounded, Solution, Value
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import names_by_tie, reactions_of, tensions_of
 from icsolve.statics.witness import refuse_doubt, residual, terms_of
-from icsolve.tuples import LateModule, NamedTuple, Protocol, replace
+from icsolve.tuples import LateModule, NamedTuple, Protocol, TypeVar, replace
 from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from itertools import combinations, islice
 from icsolve.numbers import FLOATS, largest_of
 from icsolve.numbers.linear import Row, eliminate
 from icsolve.statics.equilibrium import Statics, equilibrium, value_of
-from icsolve.statics.friction.interface import place_of
+from icsolve.statics.friction import place_of
 from icsolve.statics.friction.limits import ROUNDED
 from icsolve.statics.load_wrenches import Wrench, number_of
 from icsolve.statics.load_wrenches import place_of as place_of_load

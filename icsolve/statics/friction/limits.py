@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from icsolve.errors import SceneError, Status
 from icsolve.statics.equilibrium import Statics
+from icsolve.statics.friction import place_of
 from icsolve.statics.friction.equations import (
     Lengths,
     Reduced,
@@ -23,7 +24,6 @@ from icsolve.statics.friction.equations import (
     reduced_workless,
     without_friction,
 )
-from icsolve.statics.friction.interface import place_of
 from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording.sentences import listed
 

@@ -16,19 +16,19 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import product
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from icsolve.errors import SceneError, Status
 from icsolve.numbers import Scalar, Showing, all_vanish, decider, largest_of, zero_of
 from icsolve.numbers.inequalities import Form
 from icsolve.numbers.linear import Row, eliminate
 from icsolve.statics.equilibrium import Action, Rub, Statics, actions_of, columns_of, solve_statics
+from icsolve.statics.friction import rubs_of
 from icsolve.statics.friction.equations import combined
-from icsolve.statics.friction.interface import rubs_of
 from icsolve.statics.power import Balance
 from icsolve.statics.reaction_basis import Position, Tie, meshes, slipping, ties_of, with_flanks
 from icsolve.statics.witness import refuse_doubt
-from icsolve.tuples import LateModule, NamedTuple, Protocol
+from icsolve.tuples import LateModule, NamedTuple, Protocol, TypeVar
 
 if TYPE_CHECKING:
     from icsolve.screws import ropes as rope_screws

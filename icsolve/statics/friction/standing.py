@@ -25,7 +25,7 @@ from icsolve.numbers import Showing, largest_of
 from icsolve.numbers.inequalities import deepest
 from icsolve.statics.equilibrium import equilibrium
 from icsolve.statics.free_bodies import FreeBodies, Solved, told, with_tooth_forces
-from icsolve.statics.friction.interface import rubs_of, shared
+from icsolve.statics.friction import rubs_of, shared
 from icsolve.statics.friction.pushing import (
     ROUNDED,
     TOO_MANY,

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 
+from icsolve import wording
 from icsolve.answer import Term
 from icsolve.answer.bodies import SpatialReaction, SpatialReactions
 from icsolve.case import Case, Spring, Toward, Weight, is_named, ordered_pair
@@ -34,13 +35,13 @@ from icsolve.statics.reactions import REDUNDANT, SHARED, left_open, names_by_tie
 from icsolve.statics.space.power import NEARLY, SpatialBalance, SpatialSolution, SpatialWrench, is_couple
 from icsolve.statics.space.reaction_basis import SpatialFigure, SpatialTie
 from icsolve.structure import reached
-from icsolve.wording import senses, sentences
+from icsolve.wording import sentences
 from icsolve.wording.sentences import at_words, plural, wrong_count
 
 
 def unit_of(load: Load, case: Case) -> str:
     """Unit in which a load's number is given and printed."""
-    return case.units.torque if is_couple(load) else senses.unit_of(load, case)
+    return case.units.torque if is_couple(load) else wording.unit_of(load, case)
 
 
 def way_words(w: SpatialWrench) -> str:
