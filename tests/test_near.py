@@ -13,6 +13,7 @@ from figure_drafts import Draft, Place, framework, sequence
 from icsolve.assembly import Figure, case_point, modes, newton, solve_figure
 from icsolve.assembly.conditions import FigureEquation
 from icsolve.assembly.steps import PointGroup
+from icsolve.assembly.ways import ways_of
 from icsolve.assembly.workspace import LENGTH, Workspace, data_of, frame_of, normalised
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
@@ -97,7 +98,7 @@ def test_of_all_ways_of_a_group_none_is_nearer_however_rough_near_is(links: int)
         if AT_NEAR not in refusal(case):
             places = unless_even(case)
         if places is not None:
-            ways = modes.ways_of(case)
+            ways = ways_of(case)
             assert ways.complete
             nearest = min(off(draft.near, way.points) for way in ways.ways)
             assert off(draft.near, places) <= nearest * (1.0 + 1e-9), (links, seed)
@@ -438,7 +439,7 @@ def figure_or_refusal(case: Case) -> tuple[Figure | None, SceneError | None]:
 def any_way(case: Case) -> bool:
     """Whether the figure assembles in some way, by exclusion."""
     try:
-        return bool(modes.ways_of(case).ways)
+        return bool(ways_of(case).ways)
     except SceneError:
         return False
 

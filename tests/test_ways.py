@@ -16,8 +16,8 @@ from figure_drafts import Draft, Place, framework, sequence
 from icsolve import solve
 from icsolve.assembly import case_point, exclusion, newton, solve_figure, walk
 from icsolve.assembly.conditions import residual
-from icsolve.assembly.modes import Ways, ways_of
 from icsolve.assembly.steps import PointGroup
+from icsolve.assembly.ways import Ways, ways_of
 from icsolve.assembly.workspace import Workspace, data_in
 from icsolve.bench.promises import scissors
 from icsolve.case import Case

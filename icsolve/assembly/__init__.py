@@ -76,7 +76,7 @@ def solve_figure(case: Case, wanted: Collection[str] | None = None) -> Figure:
     )
     if {*given_points(case)}.issuperset(goal):
         return _drawn(case, frame, goal, names)
-    from icsolve.assembly.modes import construct
+    from icsolve.assembly.construction import construct
 
     return construct(case, frame, goal, names)
 

@@ -1,48 +1,27 @@
-"""Assembly modes: the one that `near` means, and every one there is.
-
-A construction from end to end: order the steps, walk them, compare the spare data, choose; or list
-every way in which the figure assembles, whatever its `near` says.
-"""
+"""Assembly modes: the one that `near` means, or why a figure does not assemble."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from icsolve.assembly.conditions import size_of
-from icsolve.assembly.order import Order, order_of
 from icsolve.assembly.steps import (
-    CLOSED_FORMS,
     Figure,
-    Given,
     Meet,
     Miss,
-    Polar,
-    Step,
-    Turned,
-    leading_to,
     place,
-    points_of,
 )
 from icsolve.assembly.walk import EVEN, DeadEnd, Mode, Path, Walk, squared_distance
 from icsolve.assembly.workspace import (
-    CORNER,
-    RAY,
-    Frame,
     Workspace,
-    case_places,
     case_point,
-    data_in,
-    frame_of,
-    names_of,
 )
-from icsolve.case import Case, bare_name
 from icsolve.errors import SceneError, Status
-from icsolve.numbers import FLOATS, Scalar
+from icsolve.numbers import Scalar
 from icsolve.screws import Point
-from icsolve.tuples import LateModule, NamedTuple, TypeVar, replace
-from icsolve.wording.sentences import listed
+from icsolve.tuples import LateModule
+from icsolve.wording import listed
 
 if TYPE_CHECKING:
     from icsolve.assembly import refusals
@@ -114,9 +93,6 @@ def _distance(one: list[Point], two: list[Point]) -> float:
     return math.hypot(*(math.dist(p, q) for p, q in zip(one, two, strict=True)))
 
 
-# --- the mode that is meant ---
-
-
 def choose(walk: Walk, points: tuple[str, ...]) -> Mode:
     """The mode that is meant: the nearest to `near`.
 
@@ -174,28 +150,6 @@ def _promise(walk: Walk, chosen: Mode, end: DeadEnd) -> Miss:
         f"{away} from near: correct the data, or move near: there if that is meant"
     )
     return Miss(end.miss.status, message, end.miss.amount)
-
-
-NOT_SHOWN = (
-    "near: no way of assembling was found that lies nearer to it; that there is none is not shown (it is for "
-    "groups of few points, and where near is exact enough)"
-)
-
-
-def far_from_near(walk: Walk, chosen: Mode, points: tuple[str, ...]) -> tuple[str, ...]:
-    """Notes on the points that lie farther from their `near` than half the figure."""
-    workspace = walk.workspace
-    half = size_of(workspace, points) / 2.0
-    out = []
-    for p, near in walk.near.items():
-        at = chosen.points.get(p)
-        if at is not None and math.dist(at, near) > half:
-            off, there = refusals.measure(workspace, math.dist(at, near)), case_point(workspace.frame, at)
-            out.append(
-                f"near: for {refusals.plain(p)} is {off} from where the data put it, ({_pair(there)}): "
-                "farther than half the figure"
-            )
-    return tuple(out)
 
 
 def distinct(modes: list[Mode], points: tuple[str, ...]) -> list[Mode]:
@@ -316,280 +270,3 @@ def _hint(workspace: Workspace, rivals: list[Mode], point: str) -> str:
 
 def _pair(at: tuple[float, float]) -> str:
     return f"{at[0]:.6g}, {at[1]:.6g}"
-
-
-MOST_RETRIES = 20
-Outcome = TypeVar("Outcome")
-
-
-def construct(case: Case, frame: Frame, goal: Sequence[str], names: Sequence[str]) -> Figure:
-    """The wanted points of a figure that needs construction (see ``solve_figure``)."""
-    figure = None
-    spare = [p for p in case.near if p not in goal and p in names]
-    if spare:
-        figure = _by_the_rest(case, frame, goal, [*goal, *spare])
-    try:
-        figure = figure or _constructed(case, frame, goal, best_effort=False)
-    except SceneError as error:
-        if error.status != Status.AMBIGUOUS or set(names) <= set(goal):
-            raise
-        figure = _by_the_rest(case, frame, goal, names)
-        if figure is None:
-            raise
-    return figure._replace(skipped=tuple(bare_name(p) for p in names if p not in figure.points))
-
-
-def _by_the_rest(case: Case, frame: Frame, goal: Sequence[str], names: Sequence[str]) -> Figure | None:
-    """Let the data of points that nothing asked for decide between the modes."""
-    try:
-        whole = _constructed(case, frame, names, best_effort=True)
-    except SceneError:
-        return None
-    if not set(goal) <= whole.points.keys():
-        return None
-    steps = leading_to(goal, whole.steps)
-    return whole._replace(steps=steps, points={p: whole.points[p] for p in points_of(steps)})
-
-
-def _constructed(case: Case, frame: Frame, goal: Sequence[str], best_effort: bool) -> Figure:
-    return by_other_data(case, goal, lambda order: _assembled(case, frame, order), best_effort)
-
-
-def by_other_data(
-    case: Case, goal: Sequence[str], attempt: Callable[[Order], Outcome | Miss], best_effort: bool = False
-) -> Outcome:
-    """What an attempt makes of an order of construction; of another where two loci turned out to be one.
-
-    Raises SceneError where the attempt misses for another reason, or no order is left.
-    """
-    first: Miss | None = None
-    banned: frozenset[frozenset[object]] = frozenset()
-    for _ in range(MOST_RETRIES):
-        try:
-            order = order_of(case, goal, banned, best_effort)
-        except SceneError as error:
-            if first is not None:
-                raise SceneError(first.status, first.message) from error
-            raise
-        outcome = attempt(order)
-        if not isinstance(outcome, Miss):
-            return outcome
-        first = first or outcome
-        if outcome.loci is None:
-            told = first if outcome.vague else outcome
-            raise SceneError(told.status, told.message)
-        banned |= {outcome.loci}
-    raise SceneError(
-        Status.NEAR_SINGULAR, "too many lines and circles of the figure coincide to construct it"
-    )
-
-
-def _assembled(case: Case, frame: Frame, order: Order) -> Figure | Miss:
-    """The one mode in which an order of construction is meant to assemble, or why it does not."""
-    walk = Walk(order, Workspace(case, frame, FLOATS)).run()
-    if not walk.modes or walk.gave_up:
-        return refusal(walk)
-    miss = overridden(walk, nearest(walk))
-    if miss is not None:
-        return miss
-    return _figure(walk, walk.modes[0] if len(walk.modes) == 1 else choose(walk, order.points))
-
-
-def _figure(walk: Walk, mode: Mode) -> Figure | Miss:
-    """The figure of the mode that is meant; a miss where what lies at `near` is another."""
-    order, workspace = walk.order, walk.workspace
-    workspace.points = mode.points
-    turned = [
-        step
-        for step in mode.steps
-        if isinstance(step, Polar | Meet | Turned) and step.target in walk.near and _turns(step)
-    ]
-    if turned:
-        miss = refusals.mirrored(workspace, turned, walk.near, size_of(workspace, order.points))
-        if miss is not None:
-            return miss
-    notes: tuple[str, ...] = ()
-    if mode.offs:
-        given = any(isinstance(step, Given) for step in order.steps)
-        notes = refusals.notes_of(workspace, mode.offs, walk.used, given, size_of(workspace, order.points))
-    notes += (*far_from_near(walk, mode, order.points), *(() if walk.complete else (NOT_SHOWN,)))
-    return Figure(workspace.frame, {p: mode.points[p] for p in order.points}, mode.steps, notes, ())
-
-
-def _turns(step: Step) -> bool:
-    """Whether a step goes by an angle."""
-    return any(datum.kind in (RAY, CORNER) for datum in data_in(step))
-
-
-# --- every way in which the figure of a case assembles ---
-
-
-Place = tuple[float, float]
-
-DIGITS = 6
-"""Significant digits of `near`, where these tell the ways apart."""
-
-
-class AssemblyWay(NamedTuple):
-    """One way: the points in case units, and the `near` that picks it."""
-
-    points: dict[str, Place]
-    near: dict[str, Place]
-
-
-class Ways(NamedTuple):
-    """All ways that were found, whether these are shown to be all, and what else is to be said."""
-
-    ways: tuple[AssemblyWay, ...]
-    complete: bool
-    notes: tuple[str, ...]
-
-
-def ways_of(case: Case) -> Ways:
-    """Every way in which all points of a case find their places, each once.
-
-    Raises
-    ------
-    SceneError
-        ``cannot-assemble``, ``inconsistent``: there is none; ``underdetermined``: a joint can be anywhere.
-    """
-    if case.space is not None:
-        raise SceneError(Status.UNSUPPORTED, "the ways of assembling are found for planar figures")
-    if case.unknowns:
-        path = case.unknowns[0].path
-        said = f"{path} is unknown: the ways of assembling are those at a value of it, --set {path}=..."
-        raise SceneError(Status.UNSUPPORTED, said)
-    case = replace(case, near={})
-    goal, loose = _placed(case)
-    frame = frame_of(case)
-
-    def attempt(order: Order) -> Ways | Miss:
-        walk = every_mode(case, order, frame)
-        return _ways(walk, order, loose) if walk.modes else refusal(walk)
-
-    return by_other_data(case, goal, attempt)
-
-
-def order_that_assembles(case: Case, goal: Sequence[str]) -> Order:
-    """An order of construction in which no two loci of a point are one; one with points that only together
-    have places as it stands.
-
-    Raises SceneError where the case assembles in none.
-    """
-    frame = frame_of(case)
-
-    def attempt(order: Order) -> Order | Miss:
-        if _groups(order):
-            return order
-        walk = every_mode(case, order, frame)
-        return order if walk.modes else refusal(walk)
-
-    return by_other_data(case, goal, attempt)
-
-
-def every_mode(case: Case, order: Order, frame: Frame) -> Walk:
-    """All modes of an order of construction."""
-    return Walk(order, Workspace(case, frame, FLOATS), every=True).run()
-
-
-def _placed(case: Case) -> tuple[Sequence[str], list[str]]:
-    """The points that the data place, and those that nothing needs and that may be anywhere."""
-    names = names_of(case)
-    try:
-        order_of(case, names)
-    except SceneError as error:
-        if error.status != Status.UNDERDETERMINED:
-            raise
-        needed = {getattr(joint, "at", None) for joint in case.joints}
-        loose = [name for name in names if not _can_be_placed(case, name)]
-        if needed & set(loose):
-            if case.profiles is not None:
-                said = "the ways of a figure that rests on profiles are not listed: "
-                raise SceneError(Status.UNSUPPORTED, f"{said}{error.message}") from None
-            raise
-        return [name for name in names if name not in loose], loose
-    return names, []
-
-
-def _can_be_placed(case: Case, name: str) -> bool:
-    try:
-        order_of(case, [name])
-    except SceneError:
-        return False
-    return True
-
-
-def _ways(walk: Walk, order: Order, loose: list[str]) -> Ways:
-    modes = distinct(walk.modes, order.points)
-    notes = []
-    if walk.gave_up:
-        notes.append(f"there are more ways: the search ended after {len(modes)}")
-    elif not walk.complete:
-        names = "; ".join(listed([refusals.plain(t) for t in group.targets]) for group in _groups(order))
-        notes.append(
-            f"not shown to be all: points {names} can only be found together, and the search of their places "
-            "by exclusion came to an end before every part was empty or held one way"
-        )
-    if loose:
-        notes.append(f"nothing says where {listed([refusals.plain(p) for p in loose])} may be")
-    frame = walk.workspace.frame
-    picked = _choices(modes, order)
-    digits = _digits(modes, picked, frame)
-    ways = []
-    for mode in modes:
-        places = {p: case_point(frame, mode.points[p]) for p in order.points}
-        near = {p: (round(places[p][0], digits), round(places[p][1], digits)) for p in picked}
-        figure = Figure(frame, {p: mode.points[p] for p in order.points}, mode.steps)
-        ways.append(AssemblyWay(_rounded_once(figure, walk.workspace.case), near))
-    return Ways(tuple(ways), walk.complete and not walk.gave_up, tuple(notes))
-
-
-def _rounded_once(figure: Figure, case: Case) -> dict[str, Place]:
-    """The points by name in case units, as a scene shows them; as found where no digits settle one."""
-    from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, MoreDigits
-
-    for digits in PRECISIONS:
-        balls = Balls(digits, highest=digits == PRECISIONS[-1])
-        try:
-            points = place(figure, case, balls).points
-            return case_places(figure.frame, {p: points[p] for p in figure.points}, balls)
-        except (MoreDigits, BelowZero, ZeroDivisionError):
-            continue
-    return case_places(figure.frame, figure.points, FLOATS)
-
-
-def _groups(order: Order) -> list[Step]:
-    """The steps that place points only all together."""
-    return [step for step in order.steps if not isinstance(step, (Meet, *CLOSED_FORMS))]
-
-
-def _choices(modes: list[Mode], order: Order) -> list[str]:
-    """The points whose places tell the ways apart, and those that can only be found from `near`."""
-    apart = {p for mode in modes[1:] for p in differing(modes[0], mode, order.points)}
-    grouped = [t for group in _groups(order) for t in group.targets]
-    forks = [
-        step.target
-        for mode in modes
-        for step in mode.steps
-        if isinstance(step, Meet) and step.sign and step.target in apart
-    ]
-    chosen = dict.fromkeys([str(p) for p in (*forks, *grouped) if isinstance(p, str)])
-    alike = [
-        mode for mode in modes[1:] if not any(p in chosen for p in differing(modes[0], mode, order.points))
-    ]
-    return [p for p in order.points if p in chosen or (alike and p in apart)]
-
-
-def _digits(modes: list[Mode], picked: list[str], frame: Frame) -> int:
-    """Decimals of `near` that tell each way from every other."""
-    least = min(
-        (
-            math.hypot(*(math.dist(one.points[p], two.points[p]) for p in picked))
-            for k, one in enumerate(modes)
-            for two in modes[:k]
-        ),
-        default=1.0,
-    )
-    size = max((abs(c) for mode in modes for p in picked for c in mode.points[p]), default=1.0) or 1.0
-    figures = DIGITS - 1 - math.floor(math.log10(size / frame.scale))
-    return max(figures, 3 - math.floor(math.log10(max(least, 1e-12) / frame.scale)))

@@ -24,7 +24,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers import FLOATS
 from icsolve.numbers.linear import inverse
 from icsolve.tuples import NamedTuple
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 if TYPE_CHECKING:
     from icsolve.numbers.quadratics import Array, Quadratics

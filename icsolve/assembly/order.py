@@ -45,7 +45,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.structure import reached
 from icsolve.structure.plan import determined, loose, matched
 from icsolve.tuples import LateModule, NamedTuple
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 if TYPE_CHECKING:
     from icsolve.assembly import refusals

@@ -53,7 +53,7 @@ from icsolve.case import Number, bare_name
 from icsolve.errors import Status
 from icsolve.numbers import Floats, turn_of
 from icsolve.numbers.units import numbers_in
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 
 def plain(key: Key) -> str:

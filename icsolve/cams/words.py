@@ -10,8 +10,7 @@ from icsolve.cams.curve import Curve, Foot, table_spline
 from icsolve.cams.pieces import CircularArc, Point, PolarPiece
 from icsolve.case import Number
 from icsolve.case.profiles import Arcs, Circle, Polygon, Radii, Shape
-from icsolve.wording import direction_words
-from icsolve.wording.sentences import listed, plural
+from icsolve.wording import direction_words, listed, plural
 
 if TYPE_CHECKING:
     from icsolve.answer.bodies import Touching

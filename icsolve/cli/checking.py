@@ -21,10 +21,10 @@ from icsolve.report.check import (
     table_row,
     wanted,
 )
-from icsolve.wording.sentences import plural
+from icsolve.wording import plural
 
 if TYPE_CHECKING:
-    from icsolve.assembly.modes import Place, Ways
+    from icsolve.assembly.ways import Place, Ways
     from icsolve.case import Case
     from icsolve.errors import SceneError
 
@@ -152,7 +152,7 @@ def ways_command(cases: tuple[str, ...], as_json: bool, settings: dict[str, str]
     """
 
     def work(case: Case, path: str) -> int:
-        from icsolve.assembly.modes import ways_of
+        from icsolve.assembly.ways import ways_of
 
         found = ways_of(case)
         if as_json:

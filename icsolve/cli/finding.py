@@ -176,7 +176,7 @@ def _value(case: Case, name: str, text: str) -> float:
     from icsolve.numbers.units import UnitError, converted, kind_of, parse_unit, split_quantity
     from icsolve.read.names import shown, suggestion
     from icsolve.sweep.request import RequestError
-    from icsolve.wording.sentences import listed
+    from icsolve.wording import listed
 
     target = _unit(case, name)
     if target is None:

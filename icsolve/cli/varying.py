@@ -13,7 +13,7 @@ from icsolve.cli.output import watched
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, refusing
 from icsolve.files import can_fork, check_ending, check_free, started, together, write_whole
 from icsolve.tuples import TypeVar
-from icsolve.wording.sentences import plural
+from icsolve.wording import plural
 
 if TYPE_CHECKING:
     from icsolve.grade.case_store import CaseStore

@@ -15,9 +15,9 @@ from icsolve.errors import refuse_overflow
 from icsolve.report import positions_text
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ratios import Step
-from icsolve.wording import holding, spelt
+from icsolve.wording import holding, plural, spelt
 from icsolve.wording.joints import joint_of_normal, normal_name
-from icsolve.wording.sentences import plural, provenance
+from icsolve.wording.sentences import provenance
 
 DIGITS = 4
 

@@ -19,7 +19,7 @@ from icsolve.report.derivation.spatial import InSpace, in_space
 from icsolve.screws import subtract
 from icsolve.screws.space import ZERO, Vec, size, spatial, times
 from icsolve.tuples import NamedTuple
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 NOTHING = 1e-13
 ROUNDED = 2.0**-49

@@ -26,8 +26,8 @@ from icsolve.explain.ropes import rope_ratio, screw_ratio
 from icsolve.explain.worked import Worked, rate_name
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ratios import Ratio, Ratios, Step, ratios_of
+from icsolve.wording import link_words
 from icsolve.wording.joints import centre_words, joint_of_normal, normal_name
-from icsolve.wording.sentences import link_words
 
 
 def centre_sections(work: Worked, steps: Sequence[Step]) -> list[Section]:

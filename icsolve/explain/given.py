@@ -20,7 +20,8 @@ from icsolve.statics.power import has_friction
 from icsolve.statics.space.reaction_basis import SpatialTie
 from icsolve.statics.space.reactions import direction_words
 from icsolve.tuples import NamedTuple
-from icsolve.wording.sentences import at_words, listed, provenance
+from icsolve.wording import at_words, listed
+from icsolve.wording.sentences import provenance
 from icsolve.wording.statement import Row, Statement
 
 

@@ -37,8 +37,7 @@ from icsolve.report.derivation.known import Acting, Known
 from icsolve.report.derivation.ratios import OneMotion, Ratios, independent_motions, speed_words
 from icsolve.screws import velocity
 from icsolve.tuples import NamedTuple
-from icsolve.wording import NOTHING, plain_vector
-from icsolve.wording.sentences import link_words
+from icsolve.wording import NOTHING, link_words, plain_vector
 
 
 class TermEnd(NamedTuple):

@@ -32,7 +32,7 @@ from icsolve.screws import velocity
 from icsolve.screws.joints import guide_direction
 from icsolve.screws.ropes import rope_parts, wrap_angle
 from icsolve.tuples import NamedTuple
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 Headings = Mapping[str, float]
 

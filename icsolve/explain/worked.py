@@ -42,8 +42,7 @@ from icsolve.numbers import turn_of
 from icsolve.report.derivation.known import Known
 from icsolve.screws import Point
 from icsolve.tuples import NamedTuple
-from icsolve.wording import NOTHING
-from icsolve.wording.sentences import link_words
+from icsolve.wording import NOTHING, link_words
 from icsolve.wording.statement import Statement
 
 MOST_DIGITS = 17

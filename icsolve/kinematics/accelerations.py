@@ -25,8 +25,8 @@ from icsolve.screws.joints import centre_twist, freedoms, mesh_weights, rolling_
 from icsolve.screws.ropes import part_changes, rope_parts
 from icsolve.structure import Bond, Topology
 from icsolve.tuples import NamedTuple
+from icsolve.wording import listed
 from icsolve.wording.joints import why_no_acceleration
-from icsolve.wording.sentences import listed
 
 NEAR = 2e-3
 """Contacts as written may miss a motion by so much of the figure's size."""

@@ -27,7 +27,7 @@ from icsolve.screws import Point, Triple, cross, subtract
 from icsolve.screws.joints import freedoms, joint_freedoms, joint_points, pitch_point
 from icsolve.structure import Bond, Topology
 from icsolve.tuples import NamedTuple
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 BodyPair = tuple[int, int]
 

@@ -26,12 +26,12 @@ from icsolve.screws.joints import freedoms, guide_direction
 from icsolve.structure import Topology
 from icsolve.structure.plan import Plan
 from icsolve.tuples import LateModule, NamedTuple
-from icsolve.wording.sentences import near_structure, structure
 
 if TYPE_CHECKING:
     from icsolve.screws import ropes as rope_screws
+    from icsolve.wording import sentences
 else:
-    rope_screws = LateModule("icsolve.screws.ropes")
+    rope_screws, sentences = map(LateModule, ("icsolve.screws.ropes", "icsolve.wording.sentences"))
 
 
 class Motions(NamedTuple):
@@ -163,8 +163,8 @@ def _rigid(top: Topology, motions: LoopMotions) -> SceneError:
     pivots = motions.found.pivots
     last = pivots[-1] if pivots else 1.0
     if last < DOUBT:
-        return SceneError(Status.NEAR_SINGULAR, near_structure(last))
-    return SceneError(Status.STRUCTURE, structure(top))
+        return SceneError(Status.NEAR_SINGULAR, sentences.near_structure(last))
+    return SceneError(Status.STRUCTURE, sentences.structure(top))
 
 
 def contradiction(place: PlacedCase, bases: Bases) -> str:

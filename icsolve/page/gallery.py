@@ -18,7 +18,8 @@ from icsolve.page import page_html
 from icsolve.report.derivation.known import Known, known_of
 from icsolve.statics.power import is_unknown
 from icsolve.tuples import NamedTuple
-from icsolve.wording.sentences import listed, provenance
+from icsolve.wording import listed
+from icsolve.wording.sentences import provenance
 
 FIGURE, PAGE = ".svg", ".html"
 ENDINGS = (FIGURE, PAGE)

@@ -25,7 +25,7 @@ from icsolve.read.keys import CENTROID, MASSES, MASSES_TIES, UNKNOWN
 from icsolve.read.names import Names, point_key, shown, suggestion
 from icsolve.read.owners import FigureData
 from icsolve.read.reading import COMPASS, Reading, number, numbers
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 if TYPE_CHECKING:
     from icsolve.case.space import SpatialPoint

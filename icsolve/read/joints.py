@@ -49,7 +49,7 @@ from icsolve.read.keys import (
 from icsolve.read.names import is_name, meant_by, shown, suggestion
 from icsolve.read.reading import Reading
 from icsolve.tuples import TypeVar
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 if TYPE_CHECKING:
     from icsolve.case.space import Teeth

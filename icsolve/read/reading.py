@@ -28,7 +28,7 @@ from icsolve.numbers.units import (
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.keys import UNITS as UNIT_KEYS
 from icsolve.read.names import Problems, is_name, meant_by, shown, suggestion, why_no_name
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 if TYPE_CHECKING:
     from fractions import Fraction

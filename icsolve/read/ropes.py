@@ -11,7 +11,7 @@ from icsolve.read.joints import JOINTS, unlike
 from icsolve.read.keys import PULLS
 from icsolve.read.names import shown, suggestion
 from icsolve.read.reading import Reading
-from icsolve.wording.sentences import plural
+from icsolve.wording import plural
 
 _FORM = "{rope: [A, P, B], on: [4, 3, 1]}"
 

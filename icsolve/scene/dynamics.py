@@ -23,7 +23,7 @@ from icsolve.scene.program import EvaluatedScene, Evaluation, Want, prepare
 from icsolve.statics.load_wrenches import COUPLE, FORCE, as_given, inertia_forces, inertia_of_one
 from icsolve.statics.power import is_unknown
 from icsolve.tuples import NamedTuple, replace
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 TOO_FAST = (
     "a force of inertia in this motion is beyond any number: give the motion a smaller speed, or the figure "

@@ -34,14 +34,15 @@ from icsolve.statics import load_wrenches, power
 from icsolve.statics.load_wrenches import Wrench
 from icsolve.statics.power import Bounded, Outcome, Value, known_value, load_value
 from icsolve.tuples import LateModule, NamedTuple, cached_property, replace
-from icsolve.wording import direction_words, sense_of, sentences, unit_of
-from icsolve.wording.sentences import at_words, link_words
+from icsolve.wording import at_words, direction_words, link_words, listed, plural, sense_of, unit_of
 
 if TYPE_CHECKING:
     from icsolve.scene import sensitivity
     from icsolve.statics import free_bodies
+    from icsolve.wording import sentences
 else:
     sensitivity, free_bodies = map(LateModule, ("icsolve.scene.sensitivity", "icsolve.statics.free_bodies"))
+    sentences = LateModule("icsolve.wording.sentences")
 
 
 class Power(NamedTuple):
@@ -494,7 +495,7 @@ def _notes(found: Evaluation) -> list[str]:
     if motions.redundant and not motions.notes:
         notes += _redundancy(found)
     if solution.idle and solution.values:
-        count = sentences.plural(len(solution.idle), "passive freedom")
+        count = plural(len(solution.idle), "passive freedom")
         ends = sentences.free_ends(program.top, program.case)
         notes.append(f"{count} in which no load does work{': ' if ends else ''}{ends}.")
     return notes
@@ -553,7 +554,7 @@ def _redundancy(found: Evaluation) -> Iterable[str]:
 def _skipped(program: Program, outcome: Outcome) -> tuple[str, ...]:
     """What was not examined because the answer does not need it."""
     left = [link for link in program.case.links if link not in outcome.motions.twists]
-    names = (f"links {sentences.listed(left)}",) if len(left) > 1 else tuple(f"link {link}" for link in left)
+    names = (f"links {listed(left)}",) if len(left) > 1 else tuple(f"link {link}" for link in left)
     return (*names, *program.figure.skipped)
 
 
@@ -568,6 +569,6 @@ def _steps(program: Program) -> tuple[str, ...]:
     entry = top.bonds[program.plan.entry]
     names = [f"motions: virtual input {entry.links[0]}-{entry.links[1]}"]
     for group in program.plan.groups:
-        links = sentences.listed(top.members[body][0] for body in group.bodies)
+        links = listed(top.members[body][0] for body in group.bodies)
         names.append(f"motions: link {links}" if len(group.bodies) == 1 else f"motions: links {links}")
     return (*figure, *names)

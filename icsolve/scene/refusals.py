@@ -14,12 +14,13 @@ from icsolve.screws.joints import Points
 from icsolve.statics import load_wrenches, power
 from icsolve.structure import Topology, reached, topology
 from icsolve.tuples import LateModule
-from icsolve.wording import direction_words, sentences
+from icsolve.wording import direction_words, listed
 
 if TYPE_CHECKING:
     from icsolve.screws import ropes as rope_screws
+    from icsolve.wording import sentences
 else:
-    rope_screws = LateModule("icsolve.screws.ropes")
+    rope_screws, sentences = map(LateModule, ("icsolve.screws.ropes", "icsolve.wording.sentences"))
 
 
 def refuse_loose(case: Case) -> None:
@@ -57,7 +58,7 @@ def directions_of_joints(case: Case) -> Directions:
     """Those of guides and wheels."""
     lines: list[tuple[str, tuple[str, str] | None]] = []
     for bond in topology(case).bonds:
-        names = sentences.listed(bond.links)
+        names = listed(bond.links)
         guide = bond.joint.guide
         lines.append((f"the guide of links {names}", guide.ends if guide is not None else None))
         lines.append((f"the wheels {names}", bond.pivots or None))
@@ -70,7 +71,7 @@ def refuse_no_direction(lines: Directions, points: Points, arithmetic: Arithmeti
         if a in points and b in points and load_wrenches.at_one_place(points[a], points[b], arithmetic):
             raise SceneError(
                 Status.INCONSISTENT,
-                f"there is no direction for {what}: {sentences.listed((a, b))} lie at one place. Give it "
+                f"there is no direction for {what}: {listed((a, b))} lie at one place. Give it "
                 "by an angle, or correct the points.",
             )
 

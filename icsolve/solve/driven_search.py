@@ -15,7 +15,7 @@ import numpy as np
 
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
-from icsolve.assembly.modes import ways_of
+from icsolve.assembly.ways import ways_of
 from icsolve.case import Case, Coordinates, Direction, Number, Torque, is_angle, is_named
 from icsolve.errors import SceneError, Status
 from icsolve.numbers import RADIAN

@@ -18,10 +18,10 @@ import numpy as np
 from icsolve.assembly import Figure, Placement, place, solve_figure
 from icsolve.assembly.conditions import ahead, size_of
 from icsolve.assembly.loci import is_round
-from icsolve.assembly.modes import order_that_assembles
 from icsolve.assembly.order import Order, order_of
 from icsolve.assembly.refusals import compare
 from icsolve.assembly.steps import Meet, PointGroup, Step
+from icsolve.assembly.ways import order_that_assembles
 from icsolve.assembly.workspace import Workspace, frame_of
 from icsolve.case import Case, Coordinates, Number, TorsionSpring, is_angle, is_named
 from icsolve.errors import SceneError, Status

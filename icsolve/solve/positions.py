@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 
-from icsolve.assembly.modes import ways_of
+from icsolve.assembly.ways import ways_of
 from icsolve.case import Case, Coordinates, TorsionSpring, is_angle, is_named
 from icsolve.case.joints import Mesh, Rolling
 from icsolve.errors import SceneError, Status

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
-from icsolve.assembly.modes import ways_of
+from icsolve.assembly.ways import ways_of
 from icsolve.case import Case, TorsionSpring, is_angle, is_named
 from icsolve.errors import SceneError, Status
 from icsolve.numbers import DEGREE, Scalar

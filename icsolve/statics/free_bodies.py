@@ -32,8 +32,7 @@ from icsolve.statics.witness import (
     unknowns_of,
 )
 from icsolve.tuples import NamedTuple, Protocol, TypeVar, replace
-from icsolve.wording import direction_words
-from icsolve.wording.sentences import listed
+from icsolve.wording import direction_words, listed
 
 
 class FreeBodies(NamedTuple):

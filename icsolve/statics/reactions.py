@@ -20,7 +20,7 @@ from icsolve.screws import velocity
 from icsolve.statics.equilibrium import Equilibrium, Statics, T, Transmits, value_of
 from icsolve.statics.reaction_basis import Position, Tie, axial_shares, tangent_and_separating
 from icsolve.tuples import LateModule
-from icsolve.wording.sentences import listed, plural
+from icsolve.wording import listed, plural
 
 if TYPE_CHECKING:
     from icsolve.numbers import inequalities

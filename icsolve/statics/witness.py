@@ -17,7 +17,7 @@ from icsolve.statics.equilibrium import Components, Equilibrium, T
 from icsolve.statics.load_wrenches import L
 from icsolve.statics.power import PowerFactors, known_sizes
 from icsolve.tuples import LateModule
-from icsolve.wording.sentences import plural
+from icsolve.wording import plural
 
 if TYPE_CHECKING:
     from icsolve.screws import space

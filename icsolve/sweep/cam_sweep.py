@@ -28,7 +28,7 @@ from icsolve.sweep.rows_by_scenes import by_scenes
 from icsolve.sweep.table import Sweep, Table
 from icsolve.sweep.varied_numbers import with_numbers
 from icsolve.tuples import NamedTuple, replace
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 SAID = "in every row the contacts are found on the profiles."
 PROOFS = (0.0, 0.5, 1.0)

@@ -44,7 +44,7 @@ from icsolve.numbers.linear import Row, eliminate
 from icsolve.screws import Point
 from icsolve.sweep.varied_numbers import with_numbers
 from icsolve.tuples import NamedTuple, replace
-from icsolve.wording.sentences import listed, plural
+from icsolve.wording import listed, plural
 
 SAME = 1e-8
 """Change of a distance that is none, where a coordinate changed by a thousandth (normalised)."""

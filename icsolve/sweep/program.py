@@ -60,7 +60,7 @@ from icsolve.sweep.recorded_scene import (
 )
 from icsolve.sweep.varied_numbers import find_number, number_at, with_numbers
 from icsolve.tuples import NamedTuple
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 Signs = tuple[tuple[str, float], ...]
 """Branches whose sign is an input, with their sign as written."""

@@ -19,7 +19,7 @@ from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recorded_scene import pairs as all_pairs
 from icsolve.sweep.varied_numbers import find_number, number_at
 from icsolve.tuples import NamedTuple
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 WORDS = (
     *("answers", "status", "error", "points", "centres", "rates", "velocities", "accelerations"),

@@ -1,12 +1,12 @@
-"""What is said of a load's value: its sense, the range in which friction lets it be, its unit."""
+"""The words of an answer: names in a row, and of a load's value its sense, its unit, and the range in which
+friction lets it be."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from icsolve.answer import Found
 from icsolve.case import (
     Area,
     Case,
@@ -19,11 +19,36 @@ from icsolve.case import (
     Toward,
     Weight,
     is_link,
+    is_named,
 )
 
 if TYPE_CHECKING:
+    from icsolve.answer import Found
     from icsolve.case.space import Load as SpatialLoad
-from collections.abc import Mapping
+
+
+def listed(names: Iterable[str]) -> str:
+    """a, b and c."""
+    *head, last = list(names) or [""]
+    return f"{', '.join(head)} and {last}" if head else last
+
+
+def plural(count: int, word: str) -> str:
+    """1 load, 2 loads."""
+    return f"{count} {word}" + ("" if count == 1 else "s")
+
+
+def link_words(link: str) -> str:
+    """``link 3``; what stands for a link where loads pull the free end of a rope or turn a screw."""
+    if link.startswith("@screw "):
+        return f"the {link[1:]}"
+    return f"link {link}" if is_link(link) else f"the end of the rope {link[1:]}"
+
+
+def at_words(point: str | None) -> str:
+    """`` at B``; nothing of a point without a name."""
+    return f" at {point}" if point and is_named(point) else ""
+
 
 SPELT = {"ccw": "counterclockwise", "cw": "clockwise"}
 

@@ -21,7 +21,7 @@ from icsolve.case import (
     is_named,
 )
 from icsolve.case.joints import Thread
-from icsolve.wording.sentences import at_words, listed
+from icsolve.wording import at_words, listed
 
 
 def joint_words(joint: Joint) -> str:

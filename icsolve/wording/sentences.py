@@ -4,32 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from icsolve.case import Case, is_link, is_named
+from icsolve.case import Case
 from icsolve.structure import Topology
-
-
-def listed(names: Iterable[str]) -> str:
-    """a, b and c."""
-    *head, last = list(names) or [""]
-    return f"{', '.join(head)} and {last}" if head else last
-
-
-def plural(count: int, word: str) -> str:
-    """1 load, 2 loads."""
-    return f"{count} {word}" + ("" if count == 1 else "s")
-
-
-def link_words(link: str) -> str:
-    """``link 3``; what stands for a link where loads pull the free end of a rope or turn a screw."""
-    if link.startswith("@screw "):
-        return f"the {link[1:]}"
-    return f"link {link}" if is_link(link) else f"the end of the rope {link[1:]}"
-
-
-def at_words(point: str | None) -> str:
-    """`` at B``; nothing of a point without a name."""
-    return f" at {point}" if point and is_named(point) else ""
-
+from icsolve.wording import link_words, listed, plural
 
 RECONSTRUCTED = "Reconstructed"
 

@@ -35,9 +35,9 @@ from icsolve.case.loads import name_of_inertia
 from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Knife, Polygon, Radii, Roller, Shape
 from icsolve.numbers.units import nearest, parse_unit
 from icsolve.tuples import NamedTuple
-from icsolve.wording import SPELT, unit_of
+from icsolve.wording import SPELT, link_words, listed, unit_of
 from icsolve.wording.joints import joint_data, joint_words
-from icsolve.wording.sentences import RECONSTRUCTED, link_words, listed
+from icsolve.wording.sentences import RECONSTRUCTED
 
 Row = tuple[str, str]
 """What something is called, and what is given of it."""

@@ -24,7 +24,7 @@ from icsolve.numbers.replay import BLOCK, Array, Code
 from icsolve.screws import Point
 from icsolve.structure.plan import determined, matched
 from icsolve.tuples import NamedTuple, cached_property
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 DEPENDENT = 1e-10
 """What is left of an equation below this fraction of its terms is zero (normalised frame)."""

@@ -26,7 +26,7 @@ from icsolve.grade.results import ResultRow, by_student, csv_text, marks_of, rea
 from icsolve.grade.tables.text import encoding_of
 from icsolve.grade.variants.record import file_name
 from icsolve.tuples import NamedTuple
-from icsolve.wording.sentences import plural
+from icsolve.wording import plural
 
 
 class PlatformFile(NamedTuple):

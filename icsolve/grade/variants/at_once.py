@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.answer import Answer, Centre
-from icsolve.assembly.modes import ways_of
+from icsolve.assembly.ways import ways_of
 from icsolve.case import Case, ForceVector, Load, Mark, Number, Pair
 from icsolve.errors import IcsolveError
 from icsolve.grade.mistakes.changed import changed_loads, turned_loads

@@ -25,7 +25,7 @@ from icsolve.screws import Triple
 from icsolve.statics.load_wrenches import reacting
 from icsolve.statics.power import is_unknown
 from icsolve.tuples import NamedTuple
-from icsolve.wording.sentences import link_words
+from icsolve.wording import link_words
 
 
 class Step(NamedTuple):

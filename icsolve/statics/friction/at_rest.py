@@ -50,7 +50,7 @@ from icsolve.statics.power import Balance, Value, is_unknown, unknown_loads
 from icsolve.statics.reaction_basis import Position, ties_of
 from icsolve.statics.reactions import tensions_of
 from icsolve.tuples import LateModule, NamedTuple, TypeVar, replace
-from icsolve.wording.sentences import listed, plural
+from icsolve.wording import listed, plural
 
 if TYPE_CHECKING:
     from icsolve.statics.friction import held_ranges as limited

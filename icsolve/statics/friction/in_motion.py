@@ -45,7 +45,7 @@ from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import names_by_tie, reactions_of, tensions_of
 from icsolve.statics.witness import refuse_doubt, residual, terms_of
 from icsolve.tuples import LateModule, NamedTuple, Protocol, TypeVar, replace
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 if TYPE_CHECKING:
     from icsolve.statics.friction import held_ranges as limited

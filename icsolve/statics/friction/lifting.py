@@ -21,7 +21,7 @@ from icsolve.statics.load_wrenches import place_of as place_of_load
 from icsolve.statics.power import Balance, force_scale
 from icsolve.statics.reaction_basis import Position, slipping, ties_of
 from icsolve.statics.reactions import can_share
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 MOST_CHOICES = 2000
 """Of the loads that may give way so many choices are looked at at most."""

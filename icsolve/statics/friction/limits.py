@@ -25,7 +25,7 @@ from icsolve.statics.friction.equations import (
     without_friction,
 )
 from icsolve.tuples import LateModule, NamedTuple
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 if TYPE_CHECKING:
     from icsolve.statics.friction import conditioning as coordinates

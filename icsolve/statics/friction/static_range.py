@@ -40,7 +40,7 @@ from icsolve.statics.friction.equations import (
 from icsolve.statics.friction.lifting import pulling
 from icsolve.statics.friction.limits import ROUNDED, SHORT, parting, too_many, well_told
 from icsolve.tuples import LateModule, NamedTuple
-from icsolve.wording.sentences import listed
+from icsolve.wording import listed
 
 if TYPE_CHECKING:
     from icsolve.statics.friction import solutions as every

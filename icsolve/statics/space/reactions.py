@@ -35,8 +35,8 @@ from icsolve.statics.reactions import REDUNDANT, SHARED, left_open, names_by_tie
 from icsolve.statics.space.power import NEARLY, SpatialBalance, SpatialSolution, SpatialWrench, is_couple
 from icsolve.statics.space.reaction_basis import SpatialFigure, SpatialTie
 from icsolve.structure import reached
-from icsolve.wording import sentences
-from icsolve.wording.sentences import at_words, plural, wrong_count
+from icsolve.wording import at_words, plural, sentences
+from icsolve.wording.sentences import wrong_count
 
 
 def unit_of(load: Load, case: Case) -> str:
