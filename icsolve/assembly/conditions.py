@@ -9,7 +9,7 @@ a value.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -28,13 +28,8 @@ from icsolve.assembly.workspace import (
     Y,
     data_of,
 )
-from icsolve.case import Case, Number
-from icsolve.case.joints import Mesh, Rolling
-from icsolve.errors import SceneError, Status
-from icsolve.numbers import FLOATS, Arithmetic, Scalar, decider
+from icsolve.numbers import Scalar, decider
 from icsolve.screws import Point
-from icsolve.screws.joints import Points, circle_margin, held_centres, line_margins, rolling_centres
-from icsolve.structure import Bond, topology
 from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:
@@ -281,149 +276,3 @@ def _is_none(workspace: Workspace, arm: Point) -> bool:
 def _is_told(workspace: Workspace, points: set[str]) -> bool:
     """Whether the distance of two points is a datum: an arm that is given as zero may have any angle."""
     return any(d.kind == LENGTH and {*d.points} == points for d in data_of(workspace.case))
-
-
-# --- whether teeth of a given pitch or module, and radii that roll, fit the pivots of their wheels ---
-
-
-MISFIT = 2e-3
-"""Pivots may miss the distance of the pitch radii by this fraction of it."""
-
-
-def _pitched(case: Case, points: Points) -> Iterator[tuple[Bond, Mesh, float]]:
-    """The meshes of a given pitch whose pivots are among the points, and the module that this is."""
-    for bond in topology(case).bonds:
-        joint = bond.joint
-        if isinstance(joint, Mesh) and joint.pitch is not None and {*bond.pivots} <= points.keys():
-            yield bond, joint, joint.pitch
-
-
-def refuse_misfit(case: Case, points: Points, scale: float) -> None:
-    """Refuse teeth whose pitch circles do not touch on their pivots, and radii of wheels on pins that do not
-    touch where they are said to roll, as far as these are among the points."""
-    for bond, joint, module in _pitched(case, points):
-        (a, b), apart = bond.links, math.dist(*(points[p] for p in bond.pivots)) / scale
-        line, _ = case.marks.get(f"joints.{a}-{b}", (0, 0))
-        what = f"gears {a} and {b}" + (f" (line {line})" if line else "")
-        ends = (*bond.pivots, "pivots")
-        refuse_unfit(what, joint.sizes, module, apart, ends, f" {case.units.length}")
-    for rolls, pairs in _held(case, points):
-        if all(float(min(_rolling(rolls, pair, points, scale, FLOATS), default=0.0)) < 0.0 for pair in pairs):
-            _refuse_radii(case, rolls, pairs[0], points, scale)
-
-
-def _held(case: Case, points: Points) -> Iterator[tuple[Rolling, list[tuple[str | None, str | None]]]]:
-    """The rolling joints with radii whose wheels one link carries, and by which pins."""
-    for joint in case.rollings:
-        placed = held_centres(joint, case) if joint.at in points else []
-        if pairs := [pair for pair in placed if all(p is None or p in points for p in pair)]:
-            yield joint, pairs
-
-
-def _rolling(
-    joint: Rolling, pair: tuple[str | None, str | None], points: Points, scale: float, a: Arithmetic
-) -> Iterator[Scalar]:
-    """Numbers of which none is negative where the radii fit these centres; a straight link has none."""
-    contact, radii = points[joint.at], [a.given(radius) * scale for radius in joint.radii or ()]
-    wheels = [(points[p], r) for p, r in zip(pair, radii, strict=True) if p and not _is_zero(r)]
-    for centre, radius in wheels:
-        yield circle_margin(centre, contact, radius)
-    if len(wheels) == 2:
-        (p, r), (q, s) = wheels
-        yield from line_margins((p, q), contact, (r, s))
-
-
-def _is_zero(radius: Scalar) -> bool:
-    """Whether a radius is zero in every row."""
-    return isinstance(radius, float) and radius == 0.0
-
-
-def _refuse_radii(
-    case: Case, joint: Rolling, pair: tuple[str | None, str | None], points: Points, scale: float
-) -> None:
-    unit, sides = case.units.length, []
-    for link, p, radius in zip(joint.links, pair, joint.radii or (), strict=True):
-        if p is not None and radius.value:
-            apart = math.dist(points[p], points[joint.at]) / scale
-            sides.append(f"link {link} rolls on {radius.value:.6g} {unit}, {apart:.6g} {unit} from {p}")
-    told = " and ".join(sides)
-    if len(sides) == 2:
-        told += ", and the contact has to lie between the centres (beyond them where a radius is negative)"
-    mend = "Correct the radii or the points."
-    raise SceneError(
-        Status.INCONSISTENT,
-        f"the radii of links {' and '.join(joint.links)} do not fit the figure: at {joint.at} {told}. {mend}",
-    )
-
-
-def unmoved_rollings(case: Case, points: Points, scale: float) -> Iterator[str]:
-    """What is said of radii that do not tell how a contact rolls on."""
-    for joint in case.rollings:
-        if joint.at in points:
-            try:
-                rolling_centres(joint, case, points, scale)
-            except LookupError as why:
-                yield why_not_rolled(joint, why)
-
-
-def why_not_rolled(joint: Rolling, why: LookupError) -> str:
-    """The sentence."""
-    what = f"the rolling of links {' and '.join(joint.links)} at {joint.at}"
-    return f"{what} cannot be moved: {why.args[0]}."
-
-
-def misfitting_belts(case: Case, points: Points, scale: float) -> Iterator[str]:
-    """What is said of belts that no line of their strands touches both pulleys of, as far as their pivots are
-    among the points. Their ratio is that of the radii all the same."""
-    for bond in topology(case).bonds:
-        belt = bond.joint
-        if not (isinstance(belt, Mesh) and belt.pulls and bond.pivots and {*bond.pivots} <= points.keys()):
-            continue
-        (a, b), (p, q), unit = belt.links, bond.pivots, case.units.length
-        apart, (first, second) = math.dist(points[p], points[q]) / scale, (r.value for r in belt.sizes)
-        least, kind = (abs(first - second), "open") if belt.turns_alike else (first + second, "crossed")
-        if apart < least:
-            yield (
-                f"no {kind} belt runs over pulleys {a} and {b}: {p} and {q} are {apart:.6g} {unit} apart, "
-                f"and radii of {first:.6g} and {second:.6g} {unit} need more than {least:.6g} {unit}. "
-                "Correct the radii or the pivots."
-            )
-
-
-def wheel_margins(case: Case, points: Points, scale: float, a: Arithmetic) -> Iterator[Scalar]:
-    """In any arithmetic, numbers of which none is negative but where `refuse_misfit` may refuse: with r the
-    distance of the pivots over that of the pitch circles, (2 m (1 - m))^2 - (r^2 - 1)^2 of the misfit m."""
-    for rolls, pairs in _held(case, points):
-        margins = [list(_rolling(rolls, pair, points, scale, a)) for pair in pairs]
-        yield from max(margins, key=lambda some: float(min(map(float, some), default=0.0)))
-    for bond, joint, _ in _pitched(case, points):
-        (ax, ay), (bx, by) = (points[p] for p in bond.pivots)
-        module, inverse = joint.module, joint.diametral_pitch
-        first, second = map(a.given, joint.sizes)
-        fit = (first + second) * (0.5 * scale)
-        if module is not None:
-            fit = fit * a.given(module)
-        elif inverse is not None:
-            fit = fit / a.given(inverse)
-        off = ((bx - ax) * (bx - ax) + (by - ay) * (by - ay)) / (fit * fit) - 1.0
-        yield (2.0 * MISFIT * (1.0 - MISFIT)) ** 2 - off * off
-
-
-def refuse_unfit(
-    what: str,
-    teeth: Iterable[Number],
-    module: float,
-    apart: float,
-    ends: tuple[str, str, str],
-    unit: str = "",
-) -> None:
-    """Refuse two wheels whose pitch circles do not touch at this distance of their centres; ``ends`` are
-    these, and the word for them."""
-    fit, (p, q, centres) = abs(sum(n.value for n in teeth)) * module / 2.0, ends
-    if abs(apart - fit) > MISFIT * fit:
-        raise SceneError(
-            Status.INCONSISTENT,
-            f"the teeth of {what} do not fit: their pitch circles touch where the {centres} are {fit:.6g}"
-            f"{unit} apart, and {p} and {q} are {apart:.6g}{unit} apart. Correct the teeth, the pitch or "
-            f"module, or the {centres}.",
-        )

@@ -12,10 +12,9 @@ import numpy.typing as npt
 
 from icsolve.assembly.workspace import Frame, PlacedCase
 from icsolve.case import Case, Coordinates
-from icsolve.kinematics import Bases
 from icsolve.numbers import FLOATS
 from icsolve.scene.program import Program, Want, prepare
-from icsolve.screws import Point, Triple, cross, pairing, times
+from icsolve.screws import Bases, Point, Triple, cross, pairing, times
 from icsolve.screws.joints import freedoms, transmitted
 from icsolve.solve import solve
 from icsolve.statics import load_wrenches, power

@@ -10,27 +10,22 @@ from typing import TYPE_CHECKING
 
 from icsolve.assembly.workspace import PlacedCase
 from icsolve.errors import SceneError, Status
-from icsolve.kinematics import (
-    ORIGIN,
-    Bases,
-    Closure,
-    LoopMotions,
-    all_motions,
-    is_singular,
-    run,
-)
+from icsolve.kinematics import Closure, is_singular, run
 from icsolve.numbers import Arithmetic, decider
 from icsolve.numbers.units import Number
-from icsolve.screws import Triple, cross, subtract, velocity
+from icsolve.screws import ORIGIN, Bases, Triple, cross, subtract, velocity
 from icsolve.screws.joints import freedoms, guide_direction
 from icsolve.structure import Topology
 from icsolve.structure.plan import Plan
 from icsolve.tuples import LateModule, NamedTuple
 
 if TYPE_CHECKING:
+    from icsolve.kinematics import loops
+    from icsolve.kinematics.loops import LoopMotions
     from icsolve.screws import ropes as rope_screws
     from icsolve.wording import sentences
 else:
+    loops = LateModule("icsolve.kinematics.loops")
     rope_screws, sentences = map(LateModule, ("icsolve.screws.ropes", "icsolve.wording.sentences"))
 
 
@@ -94,7 +89,7 @@ def by_loops(place: PlacedCase) -> Motions:
     top, points, arithmetic = place.top, place.points, place.arithmetic
     bases = {k: freedoms(bond, points, arithmetic) for k, bond in enumerate(top.bonds)}
     ropes = [rope_screws.rope_parts(rope, points, place.frame.scale, arithmetic) for rope in top.ropes]
-    motions = all_motions(top, bases, ropes=ropes, vanishes=decider(arithmetic))
+    motions = loops.all_motions(top, bases, ropes=ropes, vanishes=decider(arithmetic))
     notes: tuple[str, ...] = ()
     exact = bool(motions.found.basis)
     if not exact and ropes:
@@ -149,7 +144,7 @@ def _almost(place: PlacedCase, bases: Bases, rigid: LoopMotions) -> tuple[LoopMo
     last = pivots[-1] if pivots else 1.0
     inexact = [joint for joint in place.case.joints if joint.has_written_centre]
     if inexact and last < AGREE:
-        motions = all_motions(top, bases, AGREE / len(pivots))
+        motions = loops.all_motions(top, bases, AGREE / len(pivots))
         if len(motions.found.basis) == 1:
             miss = f"{motions.found.dropped:.1g} of the figure's size"
             return motions, (f"the given centres and rolling contacts agree with each other to {miss}.",)
@@ -192,7 +187,7 @@ def _off_place(top: Topology, bases: Bases, k: int, arithmetic: Arithmetic) -> f
     """Distance (normalised) of a given finite centre from the point, or the line, that all else gives."""
     bond, (px, py, pw) = top.bonds[k], bases[k][0]
     others = {n: basis for n, basis in bases.items() if n != k}
-    motions = all_motions(top, others, vanishes=decider(arithmetic))
+    motions = loops.all_motions(top, others, vanishes=decider(arithmetic))
     if pw == 0.0 or bond.a not in motions.twists or bond.b not in motions.twists:
         return None
     both = zip(motions.twists[bond.a], motions.twists[bond.b], strict=True)

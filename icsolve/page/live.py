@@ -34,8 +34,8 @@ from icsolve.case import Coordinates, Motion, Number, Rope, Screw, TorsionSpring
 from icsolve.case.figure import Unknown
 from icsolve.case.joints import Guided, Mesh
 from icsolve.draw.words import unit_word
-from icsolve.kinematics import ORIGIN, Bases, Tree, loop_rows, rope_row, span
 from icsolve.kinematics.accelerations import Moving, drives_of, moving, rate_rows
+from icsolve.kinematics.loops import Tree, loop_rows, rope_row, span
 from icsolve.kinematics.motion import TURN, needed_bonds
 from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers import HALF_TURN, Scalar
@@ -48,7 +48,7 @@ from icsolve.report.derivation.ratios import independent_motions
 from icsolve.scene.parts import AnswerBuilder
 from icsolve.scene.program import Evaluation, Program, Want, needed_points, prepare
 from icsolve.scene.refusals import HANGS, rubs
-from icsolve.screws import Triple, force_wrench
+from icsolve.screws import ORIGIN, Bases, Triple, force_wrench
 from icsolve.screws.joints import OFF_RADIUS, at_radius, freedoms, guide_direction, held_centres
 from icsolve.screws.ropes import TOUCHING, RopePart, rope_parts
 from icsolve.statics import load_wrenches, power

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from copy import copy
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -84,9 +83,7 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     from icsolve.statics.friction.in_motion import FrictionScene, moving
 
     def answer_with(values: Mapping[str, Value]) -> Answer:
-        own = copy(parts)  # the ends of a range have values of their own
-        own.given = dict(values)
-        return own.answer()
+        return parts.with_values(values).answer()  # the ends of a range have values of their own
 
     outcome = parts.outcome
     position = _position(parts.first._replace(outcome=outcome, arithmetic=FLOATS))

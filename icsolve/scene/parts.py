@@ -131,6 +131,12 @@ class AnswerBuilder:
             return found.outcome.solution.values
         return {root: value.value for root, value in self.given.items()}
 
+    def with_values(self, values: Mapping[str, Value]) -> AnswerBuilder:
+        """The same with the unknown loads at given values; what has been found of the scene is shared."""
+        other = object.__new__(AnswerBuilder)
+        vars(other).update(vars(self), given=dict(values))
+        return other
+
     def answer(self) -> Answer:
         """The answer as frozen values; a given motion that can't be is refused."""
         balance, motions = self.first.outcome.balance, self.first.outcome.motions

@@ -88,7 +88,7 @@ def prepare(case: Case, want: Want) -> Program:
     figure = _figure(case, top, bonds, want)
     refusals.refuse_no_hanging(case, figure.points, figure.frame.scale)
     if case.rollings or any(bond.pivots for bond in top.bonds):
-        from icsolve.assembly.conditions import misfitting_belts, refuse_misfit, unmoved_rollings
+        from icsolve.assembly.wheels import misfitting_belts, refuse_misfit, unmoved_rollings
 
         placed = case, figure.points, figure.frame.scale
         refuse_misfit(*placed)

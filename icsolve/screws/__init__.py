@@ -18,10 +18,17 @@ type with + - *. None but `unit_between` refuses anything: a centre or line that
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from icsolve.numbers import Arithmetic, Scalar
 
 Triple = tuple[Scalar, Scalar, Scalar]
 Point = tuple[Scalar, Scalar]
+Bases = Mapping[int, tuple[Triple, ...]]
+"""Basis twists by bond."""
+ORIGIN: Triple = (0.0, 0.0, 0.0)
+FREE: tuple[Triple, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+"""Twists of a body that no joint holds."""
 
 
 def pin_twist(p: Point) -> Triple:

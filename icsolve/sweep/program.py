@@ -10,12 +10,13 @@ from collections.abc import Collection, Sequence
 from contextlib import suppress
 
 from icsolve.assembly import Figure, Placement, place, placed_figure
-from icsolve.assembly.conditions import ahead, refuse_misfit, wheel_margins
+from icsolve.assembly.conditions import ahead
 from icsolve.assembly.driven.constraints import Constraint, Turning
 from icsolve.assembly.driven.groups import LIMIT_AS_WRITTEN
 from icsolve.assembly.driven.mechanism import Mechanism, mechanism, placed_late
 from icsolve.assembly.driven.motion import DrivenMotion, closing_of, set_moving
 from icsolve.assembly.steps import Meet, Polar, spare_data
+from icsolve.assembly.wheels import refuse_misfit, wheel_margins
 from icsolve.assembly.workspace import CORNER, RAY, PlacedCase, data_in, names_of, number_of
 from icsolve.case import Case, Pair, TorsionSpring, is_angle, pair_name
 from icsolve.errors import SceneError, Status

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 
-from icsolve.assembly.conditions import why_not_rolled
 from icsolve.assembly.driven.constraints import (
     BodyLine,
     Constraint,
@@ -22,6 +21,7 @@ from icsolve.assembly.driven.constraints import (
 )
 from icsolve.assembly.driven.poses import Places, Shape, Spot, WrittenPlaces, dot, minus, plus, scaled, square
 from icsolve.assembly.steps import Figure
+from icsolve.assembly.wheels import why_not_rolled
 from icsolve.assembly.workspace import Frame, PlacedCase, Workspace
 from icsolve.case import Case, Centroid, Guide, Joint, Rope, Toward
 from icsolve.case.joints import CentreAt, Guided, Mesh, Rolling

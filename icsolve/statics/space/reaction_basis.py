@@ -15,7 +15,7 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import assert_never
 
-from icsolve.assembly.conditions import refuse_unfit
+from icsolve.assembly.wheels import refuse_unfit
 from icsolve.case import Case, Centroid, Number, Spring, Toward, is_named
 from icsolve.case.space import (
     Along,
