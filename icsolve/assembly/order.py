@@ -33,7 +33,7 @@ from icsolve.assembly.workspace import (
     given_points,
 )
 from icsolve.case import Case, Rope
-from icsolve.tuples import LateModule, NamedTuple
+from icsolve.tuples import LateModule, cached_property, dataclass
 
 if TYPE_CHECKING:
     from icsolve.assembly import point_groups
@@ -41,16 +41,29 @@ else:  # where points can only be placed together, or data are missing
     point_groups = LateModule("icsolve.assembly.point_groups")
 
 
-class Order(NamedTuple):
+@dataclass(frozen=True, eq=False, repr=False)
+class Order:
     """Steps in the order in which they run, the points that they place on the ground, and all data."""
 
     steps: tuple[Step, ...]
     points: tuple[str, ...]
     facts: Facts
 
+    @cached_property
     def used(self) -> frozenset[Datum]:
         """The data of which the construction is made."""
         return frozenset(datum for step in self.steps for datum in data_in(step))
+
+    @cached_property
+    def due(self) -> dict[int, list[Datum]]:
+        """The data to compare after each step: those whose last point it places, but for lengths of which the
+        steps are made, which have no sense that a way could miss."""
+        depth = {key: i for i, step in enumerate(self.steps) for key in step.targets}
+        due: dict[int, list[Datum]] = {}
+        for datum in self.facts.data:
+            if (datum.kind != LENGTH or datum not in self.used) and all(p in depth for p in datum.points):
+                due.setdefault(max(depth[p] for p in datum.points), []).append(datum)
+        return due
 
     def either_sense(self) -> tuple[Datum, ...]:
         """The angles whose sense no step takes: their points may come to lie the opposite way."""

@@ -11,7 +11,7 @@ one run again on balls of more and more digits, until its signs are certain.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -19,7 +19,7 @@ from icsolve.assembly.conditions import TOO_CLOSE, agrees, is_vague, residual, s
 from icsolve.assembly.loci import PlacedCircle, gaps_of, is_ray, is_round, side
 from icsolve.assembly.order import Order
 from icsolve.assembly.steps import CLOSED_FORMS, Meet, Miss, Step, aims, needs
-from icsolve.assembly.workspace import LENGTH, Datum, Key, Workspace, normalised
+from icsolve.assembly.workspace import Datum, Key, Workspace, normalised
 from icsolve.numbers import Scalar
 from icsolve.screws import Point
 from icsolve.tuples import LateModule, NamedTuple, TypeVar
@@ -249,9 +249,9 @@ class Walk:
     """
 
     def __init__(self, order: Order, workspace: Workspace, every: bool = False) -> None:
-        self.order, self.workspace, self.used = order, workspace, order.used()
+        self.order, self.workspace, self.used = order, workspace, order.used
         self.near = {p: normalised(workspace.frame, xy) for p, xy in workspace.case.near.items()}
-        self.checks = _due(order, self.used)
+        self.checks = order.due
         self.budget = (10 if every else 1) * (20_000 + 20 * len(order.steps))
         self.most = min(MOST_WAYS, MOST_PLACED // max(len(order.steps), 1)) if every else MOST_MODES
         self.placed: dict[Key, Path] = {}
@@ -357,21 +357,15 @@ class Walk:
     def _settled(self, depth: int, path: Path, step: Step) -> Iterator[Step]:
         """The step with each of the branches that it has here, one after another put on the workspace."""
         close = self._close(step)
-        if close is None:
-            yield from self._put(self._branches(depth, path, step), in_doubt=False)
-        elif not close:
-            yield from self._put(self._branches(depth, path, step), in_doubt=True)
-        else:
+        if close:
             miss = refusals.merged(refusals.plain(step.targets[0]), *map(refusals.plain, close[0]))
             self.dead_ends.append(DeadEnd(depth, miss, path))
-
-    def _put(self, branches: Sequence[Step], in_doubt: bool) -> Iterator[Step]:
-        """Put each branch on the workspace: by the decimals as written where floats lose too much."""
-        first = branches[0] if branches else None  # the loci of all branches are the same
-        doubtful = in_doubt or (isinstance(first, Meet) and _doubtful(gaps_between(first, self.workspace)))
+            return
+        branches, doubtful = self._branches(depth, path, step)
         for branch in branches:
-            question = partial(places_of, branch)
-            places = self.decimals.decided(branch, question) if doubtful else None
+            places = None
+            if doubtful or close is not None:  # by the decimals as written where floats lose too much
+                places = self.decimals.decided(branch, partial(places_of, branch))
             if places is None:
                 branch.place(self.workspace)
             else:
@@ -387,11 +381,12 @@ class Walk:
         found = self.decimals.decided(step, partial(merged_pairs, step))
         return [pair for pair, d in apart.items() if d <= TOO_CLOSE] if found is None else found
 
-    def _branches(self, depth: int, path: Path, step: Step) -> Sequence[Step]:
+    def _branches(self, depth: int, path: Path, step: Step) -> tuple[Sequence[Step], bool]:
+        """The branches of a step, and whether floats may lose where they lie."""
         if isinstance(step, Meet):
             return self._crossings(depth, path, step)
         if isinstance(step, CLOSED_FORMS):
-            return [step]
+            return [step], False
         from icsolve.assembly import newton
 
         search = newton.every if self.every else partial(newton.solutions, near=self.near)
@@ -401,17 +396,17 @@ class Walk:
             longer = self._longer(path, step) if found.closest else path
             self.dead_ends.append(DeadEnd(depth, found.miss, longer))
         self.complete &= found.complete
-        return found.groups
+        return found.groups, False
 
-    def _crossings(self, depth: int, path: Path, step: Meet) -> list[Step]:
-        """The places where two loci meet, the one nearer to `near` first."""
+    def _crossings(self, depth: int, path: Path, step: Meet) -> tuple[list[Step], bool]:
+        """The places where two loci meet, the one nearer to `near` first; whether floats may lose them."""
         gaps = gaps_between(step, self.workspace)
-        if _doubtful(gaps):
+        if doubtful := _doubtful(gaps):
             gaps = self.decimals.decided(step, partial(gaps_between, step)) or _rounded(step, gaps)
         signs = [gap.sign for gap in gaps]
         if not is_round(step.second):
             if signs[0] != 0:
-                return [step]
+                return [step], doubtful
             miss = refusals.parallel(step, self.workspace)
         elif is_round(step.first) and signs[3] == 0:
             miss = refusals.concentric(step, self.workspace)
@@ -420,11 +415,11 @@ class Walk:
             self.workspace.points[step.target] = _middle_of_gap(step, self.workspace)
             path = self._longer(path, step)
         elif min(signs) == 0:
-            return [step._replace(sign=0)]
+            return [step._replace(sign=0)], doubtful
         else:
-            return self._by_near(step)
+            return self._by_near(step), doubtful
         self.dead_ends.append(DeadEnd(depth, miss, path))
-        return []
+        return [], doubtful
 
     def _by_near(self, step: Meet) -> list[Step]:
         near = self.near.get(step.target) if isinstance(step.target, str) else None
@@ -486,14 +481,3 @@ def squared_distance(one: Point, two: Point) -> float:
     """Of two points."""
     dx, dy = one[0] - two[0], one[1] - two[1]
     return float(dx * dx + dy * dy)
-
-
-def _due(order: Order, used: Collection[Datum]) -> dict[int, list[Datum]]:
-    """The data to compare after each step: those whose last point it places, but for lengths of which the
-    steps are made, which have no sense that a way could miss."""
-    depth = {key: i for i, step in enumerate(order.steps) for key in step.targets}
-    due: dict[int, list[Datum]] = {}
-    for datum in order.facts.data:
-        if (datum.kind != LENGTH or datum not in used) and all(p in depth for p in datum.points):
-            due.setdefault(max(depth[p] for p in datum.points), []).append(datum)
-    return due

@@ -68,13 +68,20 @@ class Traced:
         b: int,
         value: float,
         row: bool,
-        noise: float = 0.0,
-        of: tuple[int, ...] = (),
+        noise: float,
+        of: tuple[int, ...],
     ) -> None:
-        self.recorder, self.index = record.itself, len(record.nodes)
-        self.op, self.a, self.b, self.of = op, a, b, of
-        self.value, self.row, self.noise = value, row, noise
-        record.nodes.append(self)
+        nodes = record.nodes
+        self.recorder = record.itself
+        self.index = len(nodes)
+        self.op = op
+        self.a = a
+        self.b = b
+        self.of = of
+        self.value = value
+        self.row = row
+        self.noise = noise
+        nodes.append(self)
 
     @property
     def record(self) -> Record:
@@ -243,7 +250,7 @@ class Record:
 
     def input(self, name: str, value: float) -> Traced:
         """A number that varies from row to row."""
-        found = self.inputs[name] = Traced(self, Op.INPUT, 0, 0, value, True)
+        found = self.inputs[name] = Traced(self, Op.INPUT, 0, 0, value, True, 0.0, ())
         return found
 
     def about(self, value: float, noise: float) -> Traced:
@@ -270,7 +277,7 @@ class Record:
     def _constant(self, value: float, noise: float, name: str) -> Traced:
         found = self._constants.get((value, name))
         if found is None:
-            found = self._constants[value, name] = Traced(self, Op.CONST, 0, 0, value, False, noise)
+            found = self._constants[value, name] = Traced(self, Op.CONST, 0, 0, value, False, noise, ())
         return found
 
     # --- operations -------------------------------------------------------------------------------

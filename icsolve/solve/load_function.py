@@ -238,7 +238,7 @@ def clearance(case: Case, order: Order, steps: Steps) -> float:
     except (ZeroDivisionError, ValueError, SceneError):
         return 0.0
     least = min((float(margin) for margin in margins), default=1.0)
-    used = order.used()
+    used = order.used
     spare = [d for d in order.facts.data if d not in used and all(p in placed.points for p in d.points)]
     if least > 0.0 and spare:
         workspace = Workspace(case, figure.frame, FLOATS)
@@ -337,7 +337,7 @@ def with_other_ways(function: LoadFunction, span: tuple[float, float]) -> list[L
 def written_function(case: Case, path: str, span: tuple[float, float] | None) -> LoadFunction:
     """The function of a case as it is written, each value read anew, in the mode in which it is."""
     figure = solve_figure(case, wanted_points(case)[1])
-    order = order_of(case, figure.points)._replace(steps=figure.steps)
+    order = replace(order_of(case, figure.points), steps=figure.steps)
     return _function(case, path, figure, order, span)
 
 
