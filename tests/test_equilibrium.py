@@ -42,7 +42,7 @@ from icsolve.solve.stability import holding_values, neutral_values, with_stabili
 from icsolve.sweep.varied_numbers import numbers_of
 from library import FILES, sample
 from shell import Shell, exit_status
-from sizes import FULL
+from sizes import FULL, crossed
 
 
 @pytest.fixture(autouse=True)
@@ -388,8 +388,10 @@ def test_a_branch_goes_straight_on_wherever_the_range_begins(free: str) -> None:
     assert found == pytest.approx(within(free, [90.0, 270.0], 360.0), abs=1e-9)
 
 
-@pytest.mark.parametrize("torque", [0.2, -0.2, 3.7, -0.011])
-@pytest.mark.parametrize("free", ["{unknown: [0, 359]}", *ranges(4702, -40.0, 40.0, 330.0)])
+@pytest.mark.parametrize(
+    ("torque", "free"),
+    crossed([0.2, -0.2, 3.7, -0.011], ["{unknown: [0, 359]}", *ranges(4702, -40.0, 40.0, 330.0)]),
+)
 def test_positions_close_to_a_change_point_stay_on_their_branch(torque: float, free: str) -> None:
     """Bars of 1, the block drawn to the pivot by 20 a unit: V = 40 (cos u)^2 - M u in the branch that goes
     straight on at 90 and 270, whose positions lie within a hundredth of a degree, or four, of these."""
@@ -724,8 +726,10 @@ def test_a_position_at_zero_is_at_zero(span: str) -> None:
     assert level.answer.points["B"] == (2.0, 0.0)
 
 
-@pytest.mark.parametrize("free", ["unknown", "{unknown: [-2, 2]}", "{unknown: [-1.3, 0.7]}"])
-@pytest.mark.parametrize("mu", ["", ", mu: 0.3"])
+@pytest.mark.parametrize(
+    ("free", "mu"),
+    crossed(["unknown", "{unknown: [-2, 2]}", "{unknown: [-1.3, 0.7]}"], ["", ", mu: 0.3"]),
+)
 def test_a_block_pulled_to_the_middle_rests_there(free: str, mu: str) -> None:
     """A spring from above the guide: x = 0, and the figure is shown with the block there."""
     text = BLOCK.format(free=free, mu=mu, load="W: {weight: 5, link: 2, at: C}").replace(
@@ -1125,8 +1129,9 @@ def test_where_the_search_ends_within_a_range_it_is_said(span: str, ends: tuple[
     """The weight hangs inside of the friction circle from 89.2 to 90.8 deg."""
     free = f"{{unknown: [{span}], from: 90}}"
     text = pendulum("P: {weight: 5, link: 2, at: [0, 2]}", free, friction=ROUGH)
-    (one,), notes = positions(text), icsolve.solve(icsolve.load(text)).notes
-    said = [note for note in notes if "the search ends" in note]
+    answer = icsolve.solve(icsolve.load(text))
+    (one,) = answer.positions or ()
+    said = [note for note in answer.notes if "the search ends" in note]
     assert [float(note.split(" = ")[1].split()[0]) for note in said] == [*ends]
     held = one.at["angles.AB"]
     assert isinstance(held, tuple)
@@ -1684,8 +1689,7 @@ HELD = {
 }
 
 
-@pytest.mark.parametrize("kind", HELD)
-@pytest.mark.parametrize("mu", ["0.02", "1e-7", "1e-12", "1e-13"])
+@pytest.mark.parametrize(("kind", "mu"), crossed([*HELD], ["0.02", "1e-7", "1e-12", "1e-13"]))
 def test_a_load_holds_as_a_known_one_where_it_does_as_an_unknown(kind: str, mu: str) -> None:
     """Also where a torque on the link that moves would do no work, and holds by pressing alone; to an ulp or
     two, however little friction there is."""
