@@ -35,7 +35,6 @@ from icsolve.numbers.roots import zero_between
 from icsolve.report.derivation.known import known_of
 from icsolve.report.text import answer_text
 from icsolve.scene import solve_scene
-from icsolve.solve import friction_ranges
 from icsolve.solve import mode_limits as limits_room
 from icsolve.solve.rest_position import AT_LIMIT
 from icsolve.solve.stability import holding_values, neutral_values, with_stability
@@ -44,12 +43,7 @@ from library import FILES, sample
 from shell import Shell, exit_status
 from sizes import FULL, crossed
 
-
-@pytest.fixture(autouse=True)
-def sampled(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Ranges that friction alone holds are looked for at fewer values: here all are wide."""
-    if not FULL:
-        monkeypatch.setattr(friction_ranges, "SAMPLES", 40)
+pytestmark = pytest.mark.usefixtures("wide_ranges")
 
 
 PENDULUM = """icsolve: 1
@@ -360,7 +354,11 @@ def test_a_spring_whose_ends_meet_in_a_part_of_the_turn_has_its_positions_in_the
         for (at_a, a), (at_b, b) in pairwise(turn)
         if at_a * at_b < 0.0 and math.cos(a) * math.cos(b) > 0.0
     ]
-    for near in ("", f"near: {{C: [{1.6 * crank}, 0]}}"):
+    for near in (
+        ("", f"near: {{C: [{1.6 * crank}, 0]}}")
+        if FULL
+        else ("" if crank == 2 else f"near: {{C: [{1.6 * crank}, 0]}}",)
+    ):
         text = figure.format(crank=crank, rod=crank, angle="unknown", load=loads, near=near)
         assert places(text) == pytest.approx(expected, abs=1e-9)
     assert len(expected) >= 2
@@ -369,7 +367,7 @@ def test_a_spring_whose_ends_meet_in_a_part_of_the_turn_has_its_positions_in_the
 def ranges(seed: int, least: float, most: float, wide: float) -> list[str]:
     """Ranges with uneven ends, in which change points at round values lie between any samples."""
     draw = random.Random(seed)
-    starts = [round(draw.uniform(least, most), draw.choice([2, 3, 4])) for _ in range(3)]
+    starts = [round(draw.uniform(least, most), draw.choice([2, 3, 4])) for _ in range(3 if FULL else 1)]
     return [f"{{unknown: [{start}, {round(start + draw.uniform(0.98, 1.0) * wide, 3)}]}}" for start in starts]
 
 
@@ -1542,7 +1540,8 @@ loads:
         ("loads.W", least, ("stable", "unstable")),
         ("loads.S", float(stiffness), ("unstable", "stable")),
     ):
-        for low, high in ((place, place + 5.0), (place - 3.0, place), (place - 1.0, place + 1.0)):
+        spans = ((place, place + 5.0), (place - 3.0, place), (place - 1.0, place + 1.0))
+        for low, high in spans if FULL else spans[len(stiffness) - 1 :][:1]:
             (one,) = neutral_values(case, path, low, high)
             assert (one.before, one.after) == kinds
             assert one.value == pytest.approx(place, rel=1e-14)
@@ -1598,7 +1597,7 @@ loads: {{P: {{force: 100, link: 4, at: C, angle: {push}}}, Q: {{torque: {q}, lin
 """
 
 
-@pytest.mark.parametrize("seed", range(32 if FULL else 8))
+@pytest.mark.parametrize("seed", range(32 if FULL else 3))
 def test_a_branch_goes_through_a_change_point_that_the_decimals_meet_and_through_none_that_they_miss(
     seed: int,
 ) -> None:

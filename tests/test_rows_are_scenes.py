@@ -670,7 +670,7 @@ def reduction(draw: random.Random, wheels: int) -> str:
     )
 
 
-@pytest.mark.parametrize("seed", range(400 if FULL else 30))
+@pytest.mark.parametrize("seed", range(400 if FULL else 10))
 def test_rows_of_a_long_reduction_keep_the_slowest_wheel(seed: int) -> None:
     """What is 1e-14 and less of the fastest is no zero: its digits are known. Answers, rates and centres."""
     draw = random.Random(f"reduction {seed}")
@@ -705,7 +705,7 @@ SHORT = {
 }
 
 
-@pytest.mark.parametrize("seed", range(300 if FULL else 12))
+@pytest.mark.parametrize("seed", range(300 if FULL else 4))
 @pytest.mark.parametrize("kind", SHORT)
 def test_rows_of_a_crank_that_is_next_to_nothing_are_scenes(kind: str, seed: int) -> None:
     """Down to 1e-15 of the frame the crank moves all else, by as little; rates below 1e-13 of its own may be
@@ -729,7 +729,7 @@ def test_rows_of_a_crank_that_is_next_to_nothing_are_scenes(kind: str, seed: int
             ), link
 
 
-@pytest.mark.parametrize("seed", range(300 if FULL else 10))
+@pytest.mark.parametrize("seed", range(300 if FULL else 4))
 @pytest.mark.parametrize("kind", SHORT)
 def test_rows_of_loads_that_all_but_cancel_are_scenes(kind: str, seed: int) -> None:
     """What is left of two loads 1e4 to 1e18 times as large has its digits, whether 1e-8 of them or nothing at
