@@ -6,11 +6,13 @@ import gc
 import sys
 from collections.abc import Iterator
 from functools import cache
+from importlib import import_module
 
 import pytest
 from hypothesis import HealthCheck, settings
 
 from browser import REQUIRED, Browser, NoBrowserError, browser, required
+from sizes import FULL
 
 settings.register_profile(
     "seeded", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow]
@@ -22,9 +24,11 @@ KEPT = type(cache(len))
 
 
 def pytest_collection_finish() -> None:
-    """What was imported and collected stays to the end: the garbage collector need not look through it."""
+    """What was imported and collected stays to the end: the garbage collector need not look through it, and
+    looks as seldom as in the command's own process."""
     gc.collect()
     gc.freeze()
+    gc.set_threshold(100_000, 50, 50)
 
 
 @pytest.fixture(scope="session")
@@ -37,6 +41,13 @@ def chromium() -> Iterator[Browser]:
         if required():
             pytest.fail(f"{REQUIRED}=required, and {missing}")
         pytest.skip(f"no browser: {missing}")
+
+
+@pytest.fixture
+def wide_ranges(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ranges that friction alone holds are looked for at fewer values, where all are wide."""
+    if not FULL:
+        monkeypatch.setattr(import_module("icsolve.solve.friction_ranges"), "SAMPLES", 40)
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -38,6 +38,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     if not FULL:
         monkeypatch.setattr(newton, "MOST_BOXES", 3_000)
         monkeypatch.setattr("icsolve.page.motion.COARSE", 45.0)  # rows that are solved one by one
+        monkeypatch.setattr("icsolve.page.motion.STEP", 15.0)  # of doubtful rows each is so too
         monkeypatch.setattr(find_by_scenes, "PLACES", 20)
         monkeypatch.setattr(newton, "MOST_WORK", 20_000)
         monkeypatch.setattr(newton, "CLOSE_WORK", 5_000)

@@ -17,6 +17,8 @@ from icsolve.grade.course import Course
 from icsolve.grade.keys import NumberKey
 from icsolve.grade.one import Task
 
+pytestmark = pytest.mark.usefixtures("wide_ranges")
+
 
 @pytest.fixture
 def a_class(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Class:

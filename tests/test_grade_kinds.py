@@ -24,6 +24,7 @@ from icsolve.grade.written.answer import Reader
 from icsolve.wording.statement import Statement
 from sizes import FULL
 
+pytestmark = pytest.mark.usefixtures("wide_ranges")
 BAR = """\
 icsolve: 1
 points: {A: [0, 0]}

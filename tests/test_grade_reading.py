@@ -57,7 +57,7 @@ JOINED = st.lists(PIECES, max_size=9)
 
 
 @given(st.one_of(st.text(max_size=60), JOINED.map("".join), JOINED.map(" ".join)))
-@settings(max_examples=600 if FULL else 250)
+@settings(max_examples=600 if FULL else 100)
 def test_any_text_is_read_or_flagged(text: str) -> None:
     """Nothing raises, and what is read is a finite number."""
     read = Reader().read(text)

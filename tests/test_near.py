@@ -20,7 +20,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers import FLOATS
 from icsolve.read import load
 from icsolve.solve import solve
-from sizes import MORE
+from sizes import MORE, crossed
 
 
 def places_of(case: Case) -> dict[str, Place]:
@@ -468,8 +468,7 @@ def downhill(places: np.ndarray, sizes: np.ndarray) -> np.ndarray:
     return places
 
 
-@pytest.mark.parametrize("seed", range(12 * MORE))
-@pytest.mark.parametrize("rough", [0.02, 0.15, 0.4])
+@pytest.mark.parametrize(("seed", "rough"), crossed(range(12 * MORE), [0.02, 0.15, 0.4]))
 def test_a_way_of_a_group_that_dies_is_not_exchanged_for_one_that_is_farther(seed: int, rough: float) -> None:
     """As of a dyad: where the data come closest to being met, downhill from `near`, is the way that `near`
     means; if they are not met there, a way that lies twice as far is no answer, and is told. About a way

@@ -20,7 +20,7 @@ from icsolve.errors import SceneError
 from icsolve.read import load
 from icsolve.solve import solve
 from icsolve.sweep import sweep
-from sizes import MORE
+from sizes import MORE, crossed
 
 Vector = tuple[mpf, mpf]
 
@@ -219,8 +219,7 @@ def swept(case: Case, rows: list[float], truth: Callable[[float], mpf]) -> None:
         assert abs(mpf(told.answers["T12"][n]) - true) <= told.error["T12"][n] or not true, row
 
 
-@pytest.mark.parametrize("side", [1, -1])
-@pytest.mark.parametrize("lean", [0, 5, -12])
+@pytest.mark.parametrize(("lean", "side"), crossed([0, 5, -12], [1, -1]))
 def test_a_face_rests_on_the_end_of_a_flank_that_it_meets_first(lean: int, side: int) -> None:
     """Flanks join arcs that go on a thousandth of a degree beyond their tangents: between the arcs a face
     rests on their ends, which lie 1e-9 of the size beyond one another."""

@@ -31,7 +31,7 @@ from icsolve.sweep.table import Sweep
 from icsolve.sweep.varied_numbers import numbers_of, with_numbers
 from icsolve.tuples import replace
 from library import FILES, sample
-from sizes import FULL
+from sizes import FULL, crossed
 
 Row = tuple[str, dict[str, tuple[float, float]]]
 """Status, and unknown loads with their bounds."""
@@ -339,13 +339,15 @@ CHANGING = ((3, 3.5, 2.5), (1, 4, 1), (2, 4, 2))
 """Cranks, couplers and rockers that all lie on the line of a frame of 4 at 0 degrees."""
 
 
-@pytest.mark.parametrize("lengths", [*CHANGING, (1, 3.5, 2.5)])
-@pytest.mark.parametrize(("link", "sense"), [(2, 1.0), (3, 1.0), (3, -1.0)])
+@pytest.mark.parametrize(
+    ("lengths", "given_on"), crossed([*CHANGING, (1, 3.5, 2.5)], [(2, 1.0), (3, 1.0), (3, -1.0)])
+)
 def test_a_point_goes_on_along_its_path_through_change_points(
-    lengths: tuple[float, ...], link: int, sense: float
+    lengths: tuple[float, ...], given_on: tuple[int, float]
 ) -> None:
     """The pin of a crank goes round in one sense, so that the crank does; by either of its links, whatever
     link the load is on, and though the motion is not asked for (to rounding)."""
+    link, sense = given_on
     on = (2, 4) if lengths[0] == lengths[2] else (2, 3, 4)  # the coupler of a parallelogram does not turn
     given = {one: FOUR_BAR.format(*lengths, one, link, 60.0 + 90.0 * sense) for one in on}
     turn = {"angles.AB": [60.0 - 7.3 * n for n in range(15)]}
@@ -668,7 +670,7 @@ def reduction(draw: random.Random, wheels: int) -> str:
     )
 
 
-@pytest.mark.parametrize("seed", range(400 if FULL else 30))
+@pytest.mark.parametrize("seed", range(400 if FULL else 10))
 def test_rows_of_a_long_reduction_keep_the_slowest_wheel(seed: int) -> None:
     """What is 1e-14 and less of the fastest is no zero: its digits are known. Answers, rates and centres."""
     draw = random.Random(f"reduction {seed}")
@@ -703,7 +705,7 @@ SHORT = {
 }
 
 
-@pytest.mark.parametrize("seed", range(300 if FULL else 12))
+@pytest.mark.parametrize("seed", range(300 if FULL else 4))
 @pytest.mark.parametrize("kind", SHORT)
 def test_rows_of_a_crank_that_is_next_to_nothing_are_scenes(kind: str, seed: int) -> None:
     """Down to 1e-15 of the frame the crank moves all else, by as little; rates below 1e-13 of its own may be
@@ -727,7 +729,7 @@ def test_rows_of_a_crank_that_is_next_to_nothing_are_scenes(kind: str, seed: int
             ), link
 
 
-@pytest.mark.parametrize("seed", range(300 if FULL else 10))
+@pytest.mark.parametrize("seed", range(300 if FULL else 4))
 @pytest.mark.parametrize("kind", SHORT)
 def test_rows_of_loads_that_all_but_cancel_are_scenes(kind: str, seed: int) -> None:
     """What is left of two loads 1e4 to 1e18 times as large has its digits, whether 1e-8 of them or nothing at
@@ -866,8 +868,7 @@ NEXT_TO = {
 }
 
 
-@pytest.mark.parametrize("asked", ["torque", "force"])
-@pytest.mark.parametrize("kind", NEXT_TO)
+@pytest.mark.parametrize(("kind", "asked"), crossed([*NEXT_TO], ["torque", "force"]))
 def test_rows_beside_singular_positions_have_the_digits_of_scenes(kind: str, asked: str) -> None:
     """At random distances from 1 to 1e-13 degree: to 3e-9 in a sweep, to 1e-8 in an evaluator, which is what
     doubles keep; the way of assembling is that of the row."""

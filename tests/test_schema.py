@@ -183,7 +183,7 @@ WORDS = [
 ]
 
 
-ROUNDS = 400 if FULL else 60
+ROUNDS = 400 if FULL else 20
 
 
 @pytest.mark.parametrize("name", ALL)

@@ -20,7 +20,7 @@ from icsolve.solve.stability import holding_values, is_still
 from icsolve.sweep.varied_numbers import find_number, with_numbers
 from rough_scenes import Rough
 from shell import Shell
-from sizes import FULL
+from sizes import FULL, few
 
 NEAR = 0.01
 """Scenes that hold with coefficients so much larger and not with such smaller ones are not compared."""
@@ -32,7 +32,7 @@ def test_known_loads_hold_where_the_joints_can_balance_them(kind: Callable[[Rand
     """Crates, bricks in a wall, blocks joined by bars, of one to five freedoms: none is left open, and all
     hold or slip as the cone of what their joints can do has their loads in it (to 1e-9 of them) or not."""
     dice, seen = Random(f"{kind.__name__} {part}"), set()
-    for _ in range(12):
+    for _ in range(few(12)):
         text = kind(dice)
         case = icsolve.load(text)
         more, less = standing.off(case, 1.0 + NEAR) <= 1e-9, standing.off(case, 1.0 - NEAR) <= 1e-9
@@ -50,7 +50,7 @@ def test_where_friction_holds_joints_carry_what_equilibrium_says(
     """Each force is that of the links' equilibrium with the friction as one more force of its joint (to 1e-9,
     in floats); what that leaves open is open, and where the loads slip there is none."""
     dice, told, open_ = Random(f"carried {kind.__name__} {part}"), 0, 0
-    for _ in range(12):
+    for _ in range(few(12)):
         text = kind(dice)
         case = icsolve.load(text)
         if not icsolve.solve(case).holds_still:
@@ -71,7 +71,7 @@ def test_where_friction_holds_joints_carry_what_equilibrium_says(
     assert told and open_
 
 
-@pytest.mark.parametrize("part", range(20 if FULL else 2))
+@pytest.mark.parametrize("part", range(20 if FULL else 1))
 def test_bars_hang_askew_as_far_as_their_pins_rub(part: int) -> None:
     """On a block that rubs too: of two to four freedoms, whether each joint rubs within its limit follows
     from what hangs on it. Scenes within a millionth of the limit are not compared."""
@@ -99,7 +99,7 @@ def test_two_scenes_side_by_side_hold_where_both_do(
     """Blocks, ladders, ropes that slip, screws, brakes, cranks on rough pins: of two freedoms together, they
     hold if each does by the range of its load. Loads are in and beside these ranges."""
     dice = Random(f"two {kinds[0].__name__} {part}")
-    for _ in range(10):
+    for _ in range(few(10)):
         texts, each = [], []
         for rough in (dice.choice(kinds)(dice) for _ in range(2)):
             low, high = -100.0, 100.0
@@ -124,7 +124,7 @@ def test_beside_a_scene_that_holds_a_load_has_the_range_that_it_has_alone(
 ) -> None:
     """All that friction can hold, to 1e-9; none where the other scene slips."""
     dice, compared = Random(f"beside {kinds[0].__name__} {part}"), 0
-    for _ in range(12):
+    for _ in range(few(12)):
         one, other = (dice.choice(kinds)(dice) for _ in range(2))
         load = f"{dice.uniform(-100, 100):.4f}"
         held = icsolve.solve(other.case(load)).holds_still
@@ -144,7 +144,7 @@ def test_beside_a_scene_that_holds_a_load_has_the_range_that_it_has_alone(
     assert FULL or compared > 0
 
 
-@pytest.mark.parametrize("part", range(20 if FULL else 2))
+@pytest.mark.parametrize("part", range(20 if FULL else 1))
 def test_a_five_bar_stands_where_its_rough_pins_can_hold_it(part: int) -> None:
     """What its joints carry hangs on the frictions themselves: two of the four are open, and the forces of
     the pins turn with them. Scenes within 2e-3 of the largest load are not compared, for the grid."""
@@ -200,7 +200,7 @@ def test_one_load_on_several_freedoms_has_a_range(kind: Callable[[Random], str],
     many does."""
     dice, compared = Random(f"{kind.__name__} one of several {part}"), 0
     pins = kind is standing.five_bar
-    for _ in range(6 if pins else 12):
+    for _ in range(few(6 if pins else 12)):
         link, at = PUSHED[kind]
         text = f"{kind(dice)}  F: {{force: LOAD, link: {link}, at: {at}, angle: {dice.randint(0, 359)}}}\n"
 
@@ -236,7 +236,7 @@ def test_one_load_on_several_freedoms_has_a_range(kind: Callable[[Random], str],
 def test_a_search_asks_of_one_value_what_a_whole_range_says(kind: Callable[[Random], str], part: int) -> None:
     """Of a coefficient of friction, with loads within and beyond what is held; open is not held."""
     dice = Random(f"{kind.__name__} asked {part}")
-    for _ in range(8):
+    for _ in range(few(8)):
         link, at = PUSHED[kind]
         push = f"force: {dice.choice((5, 30, 90))}, link: {link}, at: {at}, angle: {dice.randint(0, 359)}"
         case = icsolve.load(f"{kind(dice)}  F: {{{push}}}\n")
@@ -253,7 +253,7 @@ def test_a_load_on_several_freedoms_ceases_to_hold_where_its_range_ends(
 ) -> None:
     """Along its own number, to 1e-9 of the larger end: it is asked as the unknown, however many freedoms."""
     dice = Random(f"{kind.__name__} ends {part}")
-    for _ in range(5):
+    for _ in range(few(5)):
         link, at = PUSHED[kind]
         push = f"  F: {{force: LOAD, link: {link}, at: {at}, angle: {dice.randint(0, 359)}}}\n"
         text = f"{kind(dice)}{push}"
@@ -268,7 +268,7 @@ def test_a_load_on_several_freedoms_ceases_to_hold_where_its_range_ends(
         assert icsolve.solve(case).mobility == 1 or found == pytest.approx(within, rel=1e-9), text
 
 
-@pytest.mark.parametrize("seed", range(40 if FULL else 6))
+@pytest.mark.parametrize("seed", range(40 if FULL else 2))
 def test_what_nothing_presses_has_no_friction(seed: int) -> None:
     """Light wheels on a light arm, all pins rough, under torques alone: a tooth force would turn the outer
     wheel, farther out than its pin rubs, so nothing presses the pins, and no torque is held."""
@@ -299,7 +299,7 @@ def refused() -> Iterator[list[str]]:
         found.append(refusal.status)
 
 
-@pytest.mark.parametrize("seed", range(60 if FULL else 8))
+@pytest.mark.parametrize("seed", range(60 if FULL else 3))
 def test_several_unknown_loads_are_found_in_a_motion_and_one_by_one(seed: int) -> None:
     """A crate on a crate, both pushed: at rest one push hangs on the other, and the refusal names two ways
     on. In a motion of both the pushes follow from the weights, to 1e-12; a thousandth less holds, as one
@@ -428,7 +428,7 @@ def test_a_crate_on_three_legs_tips_where_its_weight_is_beyond_them(reach: float
     assert any("share the load" in note for note in answer.notes) is holds
 
 
-@pytest.mark.parametrize("seed", range(60 if FULL else 8))
+@pytest.mark.parametrize("seed", range(60 if FULL else 3))
 def test_a_push_on_three_rough_legs_has_a_range(seed: int) -> None:
     """Each leg of its own coefficient: however they share the weight, all that some way holds, as the cone of
     what the legs can do says a thousandth of the range within each end and beyond it. A note says so."""
@@ -466,7 +466,7 @@ PULL = """  V: {weight: 50, link: 3, at: Q}
 """
 
 
-@pytest.mark.parametrize("seed", range(40 if FULL else 3))
+@pytest.mark.parametrize("seed", range(40 if FULL else 2))
 def test_a_table_that_a_sled_holds_tips_at_no_value_of_the_pull(seed: int) -> None:
     """The sled rubs by its own weight: it holds 0.2 x 50 either way where the legs can carry the table, and
     no value holds where one would have to pull, however they share the load. The legs' ends are found to
@@ -489,7 +489,7 @@ def test_a_table_that_a_sled_holds_tips_at_no_value_of_the_pull(seed: int) -> No
     assert [one.value for one in found] == pytest.approx([low, high], abs=1e-12)
 
 
-@pytest.mark.parametrize("seed", range(40 if FULL else 4))
+@pytest.mark.parametrize("seed", range(40 if FULL else 2))
 @pytest.mark.parametrize("pinned", [False, True], ids=["mechanism", "structure"])
 def test_smooth_legs_hold_a_table_as_far_as_they_reach(pinned: bool, seed: int) -> None:
     """Also where nothing rubs, and where a pin beyond them on the left leaves nothing to move: then it lifts
@@ -518,7 +518,7 @@ def test_of_however_many_legs_one_is_lost_where_the_weight_is_beyond_them(
 
 
 @pytest.mark.parametrize("kind", [standing.rod, standing.barred])
-@pytest.mark.parametrize("part", range(20 if FULL else 2))
+@pytest.mark.parametrize("part", range(20 if FULL else 1))
 def test_a_range_of_rubbing_guides_has_no_gap_in_it_and_is_told_whole(
     kind: Callable[[Random], str], part: int
 ) -> None:
@@ -558,7 +558,7 @@ def test_known_loads_in_another_range_hold_too(part: int) -> None:
     the middle of each, and 1e-3 within and beyond their ends, what is given holds or slips as the cone of
     what the joints can do says, but where friction may have been left the other way round."""
     dice, again = Random(f"again {part}"), 0
-    for _ in range(60):
+    for _ in range(few(60)):
         text = re.sub("  L1: .*\n", "", standing.rod(dice))  # a torque
         last = text.rindex("force: 1,")
 

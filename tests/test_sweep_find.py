@@ -277,7 +277,8 @@ def test_the_limit_of_a_group_is_told_to_the_last_digit(x: int, y: int, bars: An
     text = PLATE.format(b=b, low=b[1] - 5, d=d, e=e, bars=sizes, turned=90.0 + side)
     rows = icsolve.sweep(icsolve.load(text), {"angles.AB": [90.0 + 1e-6 * side, 90.0 - 1e-6 * side]})
     assert rows.status.tolist() == ["ok", "cannot-assemble"]
-    for span in ((85.0, 95.0), (90.0, 90.0 + 2.5 * side), (90.0 - 2.5 * side, 90.0)):
+    spans = ((85.0, 95.0), (90.0, 90.0 + 2.5 * side), (90.0 - 2.5 * side, 90.0))
+    for span in spans if FULL else spans[:1] if side < -1.0 else spans[1:]:
         spots = find(icsolve.load(text), {"angles.AB": np.array(span)}, Query("dead"))
         (limit,) = (spot for spot in spots if spot.kind == "limit")
         assert abs(limit.at - 90.0) <= limit.error <= 2e-14, (span, limit)
@@ -301,7 +302,7 @@ def test_a_value_beside_the_limit_of_a_group_is_found(link: int, beside: float) 
     assert [spot.at for spot in peaks[0]] == [pytest.approx(spot.at, rel=1e-12) for spot in peaks[1]]
 
 
-@pytest.mark.parametrize("beside", [1e-3, 1e-5, 1e-8])
+@pytest.mark.parametrize("beside", [1e-3, 1e-8, *([1e-5] * FULL)])
 def test_a_value_beside_the_limit_of_two_rods_behind_a_group_is_found(beside: float) -> None:
     """Two rods on a plate that three bars hold are in line at 88.3 degrees."""
     starts = zip(((0, 0), (3, 0), (0, 4)), (-3, 5, -1), strict=True)
@@ -325,7 +326,8 @@ def test_a_value_beside_the_limit_of_two_rods_behind_a_group_is_found(beside: fl
 
 
 @pytest.mark.parametrize(
-    ("k", "rods"), [((-7.75, 2.03), (6.906, 18.066109)), ((9.86, -6.89), (6.135, 3.503728))]
+    ("k", "rods"),
+    [((9.86, -6.89), (6.135, 3.503728)), *([((-7.75, 2.03), (6.906, 18.066109))] * FULL)],
 )
 def test_the_end_of_a_group_is_no_limit_where_what_lies_behind_it_reaches_on_neither_side(
     k: tuple[float, float], rods: tuple[float, float]
@@ -814,7 +816,9 @@ def test_a_limit_beyond_which_a_turn_the_other_way_leads_is_told(span: tuple[flo
     assert rows.answers["T12"][3] > 100.0
 
 
-@pytest.mark.parametrize(("link", "sense"), [("2", -1.0), ("3", 1.0), ("4", -1.0), ("6", 1.0), ("7", -1.0)])
+@pytest.mark.parametrize(
+    ("link", "sense"), [("2", -1.0), ("6", 1.0), *([("3", 1.0), ("4", -1.0), ("7", -1.0)] * FULL)]
+)
 def test_a_change_point_of_several_branches_is_told_once(link: str, sense: float) -> None:
     """Within its error, which is that of doubles where a group has its singular position there too."""
     case = icsolve.load(FILES["tools/lazy_tongs.yaml"])

@@ -13,7 +13,7 @@ import icsolve
 from icsolve.files import can_fork
 from icsolve.solve import attempt
 from icsolve.sweep import rows_by_scenes
-from sizes import FULL
+from sizes import FULL, crossed
 
 CASES = Path(__file__).parent.parent / "cases" / "ch13"
 WANT = ("answers", "status", "error", "points", "centres", "rates")
@@ -67,12 +67,16 @@ SAME = 1e-11
 """Part of an answer: a row is in doubles, whose roundings the equations of the rubs spread a little."""
 
 
-@pytest.mark.parametrize("more", ["", CW, "motion: {link: 4, turns: ccw}\n"])
 @pytest.mark.parametrize(
-    ("text", "moved"), [(FOUR_BAR, MOVED), (FOUR_BAR, LOADED), (FOUR_BAR, ROUGHER), (BLOCK, MOVED)]
+    ("of", "more"),
+    crossed(
+        [(FOUR_BAR, MOVED), (FOUR_BAR, LOADED), (FOUR_BAR, ROUGHER), (BLOCK, MOVED)],
+        ["", CW, "motion: {link: 4, turns: ccw}\n"],
+    ),
 )
-def test_a_row_is_the_scene_of_its_points(text: str, moved: dict[str, Any], more: str) -> None:
+def test_a_row_is_the_scene_of_its_points(of: tuple[str, dict[str, Any]], more: str) -> None:
     """Values, ranges and statuses, whichever senses the rubs have there."""
+    text, moved = of
     more = "" if text == BLOCK and "4" in more else more
     found = icsolve.sweep(icsolve.load(text + more), **moved)
     for row in range(0, len(found), 1 if FULL else 2):

@@ -55,7 +55,7 @@ loads:
 
 
 @pytest.mark.parametrize("kind", [shoe, band, wall])
-@pytest.mark.parametrize("seed", range(20 if FULL else 4))
+@pytest.mark.parametrize("seed", range(20 if FULL else 2))
 def test_what_presses_is_not_said_to_lock(kind: Callable[[Random], str], seed: int) -> None:
     """The load does no work as the drum turns: however large, it could not drive it."""
     answer = icsolve.solve(icsolve.load(kind(Random(f"{kind.__name__} {seed}"))))
@@ -66,7 +66,7 @@ def test_what_presses_is_not_said_to_lock(kind: Callable[[Random], str], seed: i
     assert not any(LOCKS in note for note in answer.notes)
 
 
-@pytest.mark.parametrize("seed", range(20 if FULL else 6))
+@pytest.mark.parametrize("seed", range(20 if FULL else 2))
 def test_what_drives_against_its_own_friction_locks(seed: int) -> None:
     """A block pushed at an angle steeper than that of friction: no push of that sense moves it along."""
     dice = Random(f"pushed {seed}")
@@ -85,7 +85,7 @@ loads: {{W: {{weight: 100, link: 2, at: A}}, F: {{force: unknown, link: 2, at: A
     assert not any(PRESSES in note for note in answer.notes)
 
 
-@pytest.mark.parametrize("seed", range(60 if FULL else 20))
+@pytest.mark.parametrize("seed", range(60 if FULL else 7))
 def test_a_cam_that_its_spring_lifts_holds_only_as_a_jam(seed: int) -> None:
     """A bar drawn under a cam on a pin at height h: moments about the pin, S + x N + h f = 0, and f = -F at
     the contact at x give N = (h F - S) / x. Without F the spring lifts the cam where S / x is positive: what
@@ -180,7 +180,7 @@ loads:
 
 @pytest.mark.parametrize("kind", [gap, cam_on_bar, on_a_slope])
 @pytest.mark.parametrize("beside", ["", BESIDE], ids=["alone", "beside a block"])
-@pytest.mark.parametrize("seed", range(60 if FULL else 6))
+@pytest.mark.parametrize("seed", range(60 if FULL else 2))
 def test_a_jam_is_told_whatever_is_unknown_and_whatever_else_may_move(
     kind: Callable[[Random], tuple[str, bool]], beside: str, seed: int
 ) -> None:
@@ -232,7 +232,7 @@ motion: {{point: B, link: bar, speed: 1, angle: 180}}
 LEFT = "left the other way round at some joint"
 
 
-@pytest.mark.parametrize("seed", range(60 if FULL else 12))
+@pytest.mark.parametrize("seed", range(60 if FULL else 4))
 def test_between_impending_motion_and_what_friction_can_hold_it_is_open(
     seed: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -219,7 +219,7 @@ class AnswerBuilder:
                 notes += self.scene.ask(_at_rest)
         notes += self._known_alone()
         notes += [sentences.sucks(load.name) for load in self.case.loads if _sucks(load, answers)]
-        if self.scene.certain and self.given is None and self.case.profiles is None:
+        if answers and self.scene.certain and self.given is None and self.case.profiles is None:
             notes += sensitivity.unsettled(self.case, answers, self._change())
         return notes
 

@@ -78,8 +78,9 @@ def asked_of(case: Case, path: str = "", here: bool = False) -> AskedLoad | None
             continue
         try:
             said = SaidCase(one)
-            held = _about(_held(said, load.name, HeldAt(value) if here and not varied else not varied), value)
-            if not held.low <= value <= held.high and _may_hold(case):
+            alone = HeldAt(value) if here and not varied else not varied
+            held = _about(_held(said, load.name, alone), value)
+            if alone and not held.low <= value <= held.high and _may_hold(case):
                 held = _about(_held(said, load.name, False), value)
         except SharedError:  # of joints, whichever load is asked
             raise
@@ -179,12 +180,14 @@ class SaidCase:
     def __init__(self, case: Case) -> None:
         self.case = case
         self.said = tuple([tuple(v.items()) if type(v) is dict else v for v in vars(case).values()])
+        figure = (case.lengths, case.angles, tuple(case.points.items()))
+        self.key = hash((case.joints, case.loads, case.ropes, figure))
 
     def __hash__(self) -> int:
-        return hash((self.case.joints, self.case.loads))
+        return self.key
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, SaidCase) and self.said == other.said
+        return isinstance(other, SaidCase) and self.key == other.key and self.said == other.said
 
 
 @lru_cache(maxsize=256)

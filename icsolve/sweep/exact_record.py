@@ -248,9 +248,11 @@ class ExactRecord:
         least, last = Decimal(10) ** (12 - DIGITS), Decimal(1)
         wanted = group.parts
         indices = [v.index for v in wanted if isinstance(v, Traced)]
+        still = [None if isinstance(v, Traced) else Decimal(float(v)) for v in wanted]
         for _ in range(ROUNDS):
             found = self._found(indices, {**given, **dict(zip(group.guesses, q, strict=True))})
-            flat = [found[v.index] if isinstance(v, Traced) else Decimal(float(v)) for v in wanted]
+            varied = iter(indices)
+            flat = [found[next(varied)] if value is None else value for value in still]
             f, rest = flat[: len(group.residuals)], flat[len(group.residuals) :]
             j = [rest[n * len(q) : (n + 1) * len(q)] for n in range(len(f))]
             met = max(map(abs, f)) < MET
