@@ -889,3 +889,13 @@ def test_rows_beside_singular_positions_have_the_digits_of_scenes(kind: str, ask
                 assert table.answers[name][n] == pytest.approx(right, rel=least, abs=1e-15), values[n]
                 seen += 1
     assert seen >= len(values)
+
+
+@pytest.mark.parametrize("path", ["points.C.x", "points.C.y", "points.P.y", "joints.P.radii.0"])
+def test_a_wheel_that_accelerates_about_no_point_any_more_is_refused_in_rows_too(path: str) -> None:
+    """The disk's centre is the point at its radius; moved by 2 % it is no point that is named."""
+    case = icsolve.load(FILES["dynamics/rolling_disk.yaml"])
+    value = numbers_of(case)[path].value
+    values = [value, value + 1e-6, value + 0.01, value - 0.16, value + 0.07]
+    assert list(misses(case, path, values)) == []
+    assert {solved(with_numbers(case, {path: one}))[0] for one in values} & {"unsupported", "inconsistent"}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 
 from icsolve.case import Case, Number
 from icsolve.case.joints import Mesh, Rolling
@@ -116,9 +117,18 @@ def misfitting_belts(case: Case, points: Points, scale: float) -> Iterator[str]:
             )
 
 
-def wheel_margins(case: Case, points: Points, scale: float, a: Arithmetic) -> Iterator[Scalar]:
+def wheel_margins(
+    case: Case, points: Points, scale: float, a: Arithmetic, rolled: bool = False
+) -> Iterator[Scalar]:
     """In any arithmetic, numbers of which none is negative but where `refuse_misfit` may refuse: with r the
-    distance of the pivots over that of the pitch circles, (2 m (1 - m))^2 - (r^2 - 1)^2 of the misfit m."""
+    distance of the pivots over that of the pitch circles, (2 m (1 - m))^2 - (r^2 - 1)^2 of the misfit m.
+
+    With ``rolled`` also where other points than here may be the centres about which links roll.
+    """
+    for rolls in case.rollings if rolled else ():
+        with suppress(LookupError):
+            centres = rolling_centres(rolls, case, points, scale)
+            yield from _rolling(rolls, centres, points, scale, a)
     for rolls, pairs in _held(case, points):
         margins = [list(_rolling(rolls, pair, points, scale, a)) for pair in pairs]
         yield from max(margins, key=lambda some: float(min(map(float, some), default=0.0)))

@@ -29,6 +29,7 @@ from icsolve.scene import refusals
 from icsolve.screws import Point
 from icsolve.screws.ropes import part_rooms
 from icsolve.statics.load_wrenches import counted_about, points_of, spring_angle
+from icsolve.statics.power import has_friction
 from icsolve.structure import Topology, topology
 from icsolve.sweep.drivers import (
     Drive,
@@ -329,7 +330,8 @@ def _compiled(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -
         names = _written(setting.figure, placed)
         if inputs:
             lines = refusals.direction_margins(refusals.directions_of_joints(case), names)
-            wheels = wheel_margins(case, names, frame.scale, record)
+            rolled = asked.dynamic or asked.accelerations or has_friction(case)
+            wheels = wheel_margins(case, names, frame.scale, record, rolled)
             angles = [d for d in spare_data(setting.figure, case) if d.kind in (RAY, CORNER)]
             senses = tuple(m.index for m in (ahead(placed.workspace, d) for d in angles) if varies(m))
             fits = (*(m.index for m in (*wheels, *lines) if varies(m)), *senses)
