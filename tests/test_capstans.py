@@ -355,7 +355,7 @@ def test_along_its_own_number_a_load_ceases_to_hold_where_its_range_ends(posts: 
     """The cranks on rough pins; also where the rope would have to push without friction: the load does work
     all the same. To 1e-9."""
     compared = 0
-    for seed in range(20 * MORE):
+    for seed in range(400 if MORE > 1 else 7):
         text, _ = two_cranks(seed, posts)
         text = re.sub("at: ([AB])}", r"at: \1, mu: 0.2, radius: 0.3}", text)
         try:

@@ -9,6 +9,8 @@ import pytest
 
 from grade_shell import LEVER, PRESS, Class, Ran
 
+pytestmark = pytest.mark.usefixtures("wide_ranges")
+
 STUDENTS = [f"{n:04d}" for n in range(40)]
 _PHI = "variables:\n  phi: {range: [0, 170], step: 1}\n"
 WIDE = PRESS.replace("AB: 60", "AB: $phi").replace("variables:\n", _PHI)
