@@ -10,6 +10,7 @@ from icsolve.case import Case, TorsionSpring, Weight
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import Motions
 from icsolve.numbers import FLOATS, Arithmetic, Scalar, all_vanish
+from icsolve.screws import Point
 from icsolve.screws.joints import Points
 from icsolve.statics import load_wrenches, power
 from icsolve.structure import Topology, reached, topology
@@ -91,18 +92,30 @@ HANGS = 2e-3
 
 def refuse_no_hanging(case: Case, points: Points, scale: float) -> None:
     """Refuse a weight at the free end of a rope whose last part does not hang, and parts without a length."""
-    ropes = {rope.end: rope_screws.rope_parts(rope, points, scale, FLOATS) for rope in case.ropes}
+    for load, (x, y) in _hung(case, points, scale, FLOATS):
+        if abs(x) > HANGS or y > 0.0:
+            toward = direction_words(math.degrees(math.atan2(y, x)))
+            raise SceneError(
+                Status.INCONSISTENT,
+                f"the weight {load.name} hangs at {load.at}, and the last part of the rope "
+                f"{load.link[1:]} does not hang, but runs at {toward}. Put {load.at} under the "
+                "last pulley, or give the pull as a `force`.",
+            )
+
+
+def _hung(case: Case, points: Points, scale: float, a: Arithmetic) -> Iterator[tuple[Weight, Point]]:
+    """The weights at free ends of ropes, each with the unit vector along the last part of its rope."""
+    ropes = {rope.end: rope_screws.rope_parts(rope, points, scale, a) for rope in case.ropes}
     for load in case.loads:
         if isinstance(load, Weight) and load.link in ropes:
-            x, y = ropes[load.link][-1].along
-            if abs(x) > HANGS or y > 0.0:
-                toward = direction_words(math.degrees(math.atan2(y, x)))
-                raise SceneError(
-                    Status.INCONSISTENT,
-                    f"the weight {load.name} hangs at {load.at}, and the last part of the rope "
-                    f"{load.link[1:]} does not hang, but runs at {toward}. Put {load.at} under the "
-                    "last pulley, or give the pull as a `force`.",
-                )
+            yield load, ropes[load.link][-1].along
+
+
+def hanging_margins(case: Case, points: Points, scale: float, a: Arithmetic) -> Iterator[Scalar]:
+    """In any arithmetic, numbers of which none is negative but where `refuse_no_hanging` may refuse."""
+    for _, (x, y) in _hung(case, points, scale, a):
+        yield HANGS * HANGS - x * x
+        yield -y
 
 
 def rubs(case: Case) -> bool:

@@ -334,7 +334,8 @@ def _compiled(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -
             wheels = wheel_margins(case, names, frame.scale, record, rolled)
             angles = [d for d in spare_data(setting.figure, case) if d.kind in (RAY, CORNER)]
             senses = tuple(m.index for m in (ahead(placed.workspace, d) for d in angles) if varies(m))
-            fits = (*(m.index for m in (*wheels, *lines) if varies(m)), *senses)
+            hung = refusals.hanging_margins(case, names, frame.scale, record)
+            fits = (*(m.index for m in (*wheels, *lines, *hung) if varies(m)), *senses)
         if setting.moves:
             motion = _motion(setting, mechanism(case, frame, record, names), nudge, inputs, signs)
         else:
@@ -370,7 +371,8 @@ def _with_statics(compiled: CompiledSweep, asked: RowRequest, found: RecordedSta
     scene, case, moves = compiled.scene, compiled.setting.case, compiled.setting.moves
     rubs = asked.answers and refusals.rubs(case)
     pulls = pressing(scene, found).pulls if case.ropes and found.answers and not rubs else None
-    fits = (*compiled.fits, *motion_fits(scene, found, sense=asked.rates and not moves))
+    given = motion_fits(scene, found, compiled.setting.paths, sense=asked.rates and not moves)
+    fits = (*compiled.fits, *given)
     compiled = compiled._replace(
         delicate=found.delicate,
         idle=found.idle,

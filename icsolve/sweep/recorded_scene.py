@@ -48,6 +48,7 @@ from icsolve.statics.equilibrium import equilibrium
 from icsolve.statics.reaction_basis import Position, rope_ties, ties_of
 from icsolve.structure import Topology, topology
 from icsolve.structure.plan import make_plan
+from icsolve.sweep.varied_numbers import number_at, with_numbers
 from icsolve.tuples import NamedTuple, replace
 
 Points = dict[str, Point]
@@ -483,13 +484,18 @@ def pressing(
     return Pressing(normals, tuple(pulls) if len(pulls) == len(ropes) else None)
 
 
-def motion_fits(scene: RecordedScene, found: RecordedStatics, *, sense: bool) -> tuple[int, ...]:
-    """The nodes of `speeds.motion_margins` that vary.
+def motion_fits(
+    scene: RecordedScene, found: RecordedStatics, paths: Sequence[str], *, sense: bool
+) -> tuple[int, ...]:
+    """The nodes of `speeds.motion_margins` that vary; the numbers of ``paths`` are exact in every row,
+    and not written to so many decimals.
 
     Raises SceneError where the given motions can be in no row.
     """
     given, motions = scene.case.motion, found.motions
-    margins = list(speeds.motion_margins(scene.place, motions.twists, sense=sense))
+    speeds_of_rows = {path: number_at(scene.case, path).value for path in paths if path.startswith("motion.")}
+    place = scene.place._replace(case=with_numbers(scene.case, speeds_of_rows))
+    margins = list(speeds.motion_margins(place, motions.twists, sense=sense))
     still = any(not varies(m) and float(m) <= 0.0 for m in margins)
     if given and (still or motions.mobility > 1):
         speeds.speed_of(scene.place, motions.twists)
