@@ -910,3 +910,31 @@ def test_a_weight_whose_rope_no_longer_hangs_is_refused_in_rows_too(path: str) -
     values = [value, value + 1e-6, value + 5e-3, value - 5e-3, value - 0.4, value + 3.0]
     assert list(misses(case, path, values)) == []
     assert {solved(with_numbers(case, {path: one}))[0] for one in values} == {"ok", "inconsistent"}
+
+
+@pytest.mark.parametrize("size", [1e-30, 1e-45, -1e-120, 1e-250, 1e30])
+@pytest.mark.parametrize("at", ["C", "D"])
+def test_an_answer_is_as_small_as_its_load(size: float, at: str) -> None:
+    """Statics is linear in its loads: a load of any size has the answer in its ratio, not zero, though it is
+    nothing beside the load as written; one without an arm has zero."""
+    text = f"""\
+icsolve: 1
+points: {{A: [0, 0], D: [4, 0]}}
+lengths: {{AB: 1, BC: 3.5, CD: 2.5}}
+angles: {{AB: 60}}
+near: {{C: [3.5, 2.4]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+loads:
+  P: {{force: 100, link: 4, at: {at}, angle: 180}}
+  T: {{torque: unknown, link: 2}}
+"""
+    case = icsolve.load(text)
+    rows = icsolve.sweep(case, vary={"loads.P": [size, 100.0]})
+    assert list(rows.status) == ["ok", "ok"]
+    found, whole = rows.answers["T"]
+    assert found == pytest.approx(whole * (size / 100.0), rel=1e-15, abs=0.0)  # each rounded once
+    assert (found != 0.0) == (at == "C")

@@ -106,10 +106,11 @@ _TABLE: tuple[tuple[str, int, int, int, str], ...] = (
     ("MPa megapascal megapascals", 10**6, 1, 0, "pressure"),
     ("bar bars", 10**5, 1, 0, "pressure"),
     ("psi", _POUND[0] * 5000**2, _POUND[1] * 127**2, 0, "pressure"),
+    ("ksi", 1000 * _POUND[0] * 5000**2, _POUND[1] * 127**2, 0, "pressure"),
 )
 _EITHER_CASE = frozenset(
     "in inch inches ft foot feet yd lbf lb lbs lbm kip kips ozf oz kgf tonf slug slugs deg rev rpm hp psi "
-    "bar".split()
+    "ksi bar".split()
 )
 """Names without a prefix that case could change: ``RPM``, ``LBF``, ``In`` are what they seem."""
 

@@ -83,12 +83,15 @@ class Recheck:
 
     def outputs(self, row: int) -> dict[tuple[str, str], list[float]]:
         """All outputs of a row, each rounded once, by (kind, name) and part [case units]; not a number where
-        one is without a value.
+        one is without a value, and where an answer is so small that it may be zero: its scene tells.
         """
         outputs = self.compiled.outputs
         flat = self.scenes.exact.values([v for parts in outputs.values() for v in parts], self.given(row))
         found = iter(flat)
-        return {key: [_rounded(next(found), float(part)) for part in parts] for key, parts in outputs.items()}
+        return {
+            key: [_rounded(next(found), float(part), key[0] == "answers") for part in parts]
+            for key, parts in outputs.items()
+        }
 
     # --- places between rows ------------------------------------------------------------------------
 
@@ -257,7 +260,10 @@ class Recheck:
         return self.change_points[name, near]
 
 
-def _rounded(value: Decimal, usual: float) -> float:
-    """The nearest double; zero for what is nothing beside the value elsewhere."""
+def _rounded(value: Decimal, usual: float, open_: bool) -> float:
+    """The nearest double; for what is nothing beside the value elsewhere zero, or not a number where it is
+    left open (a small load has a small answer)."""
     found = float(value)
-    return 0.0 if abs(found) < float(ZERO) * abs(usual) else found
+    if abs(found) < float(ZERO) * abs(usual):
+        return float("nan") if open_ and found else 0.0
+    return found

@@ -287,6 +287,7 @@ _EXTRA = {
     "kPa": Unit(1000, 1, 0, _STRESS),
     "MPa": Unit(10**6, 1, 0, _STRESS),
     "psi": times(times(parse_unit("lbf"), parse_unit("in"), -1), parse_unit("in"), -1),
+    "ksi": times(times(parse_unit("kip"), parse_unit("in"), -1), parse_unit("in"), -1),
 }
 _ENERGIES = frozenset({"J", "kJ"})
 """Units of energy, which is no torque though it is force times length."""
