@@ -71,9 +71,9 @@ function rested() {
 }
 /* An input turned, with the other numbers as they are. */
 function drive(degrees, link = live.input) {
-  const some = numbersMoved({ [link]: degrees });
+  const some = turnedTo(link, degrees);
   if (!some && !mover.passes) {
-    if (hint) hint.textContent = `The links do not meet beyond ${number(mover.at[link] || 0, 4)}.`;
+    if (hint) hint.textContent = `The links do not meet beyond ${number((mover.at[link] || 0) - (mover.round[link] || 0), 4)}.`;
     return;
   }
   if (some) {

@@ -16,6 +16,7 @@ function restHere() {
   mover.pose = Array(3 * mover.bodies.length).fill(0);
   mover.twists = scene.solved.motions.twists;
   mover.at = {};
+  mover.round = {};
   mover.w = [...lab.w];
   mover.of = new Map(entries(live.owner).map(([name, link]) => [live.points[name], live.body[link]]));
 }
@@ -127,31 +128,84 @@ function arrive() {
   }
   return largest(conditions().map(([value]) => value)) < 1e-9;
 }
+/* The sign of the determinant of the conditions, which changes at limits and change points alone; 0 where some of
+   them repeat others. */
+function senseHere() {
+  const count = mover.pose.length;
+  const rows = conditions().map(([, ...parts]) => parts.reduce((row, [i, d]) => ((row[i] += d), row), Array(count).fill(0)));
+  let sign = rows.length === count ? 1 : 0;
+  for (let k = 0; sign && k < count; k++) {
+    const best = rows.reduce((at, row, r) => (r > k && abs(row[k]) > abs(rows[at][k]) ? r : at), k);
+    if (best !== k) [rows[k], rows[best], sign] = [rows[best], rows[k], -sign];
+    sign *= Math.sign(rows[k][k]);
+    for (const row of rows.slice(k + 1)) {
+      const part = row[k] / rows[k][k];
+      for (let c = k; part && c < count; c++) row[c] -= part * rows[k][c];
+    }
+  }
+  return sign;
+}
 /* The numbers of the case with inputs turned (or moved) so far from rest; null where the links do not meet, and
-   where they stand in a change point, which `passes`. Small steps along the tangent go straight on through one. */
+   where they stand in a change point, which `passes`. Steps along the tangent are halved until what Newton's method
+   adds is small beside them, and no sign changes: else it is another branch. No step is small enough at a limit and at a change
+   point; through the latter it goes straight on, and beyond it the tangent is as before. */
 function numbersMoved(targets) {
   meshesOf();
   const [from, first] = [{ ...mover.at }, mover.pose];
   const ways = entries(targets).map(([link, v]) => [link, v - (from[link] || 0), isTurned(link) ? PI / 180 : live.frame[2]]);
   const steps = max(1, Math.ceil(max(...ways.map(([, v, unit]) => abs(v * unit))) / 0.02));
-  let [pose, done, paces] = [first, 0, null];
-  const stepTo = (n) => {
-    paces ||= ways.map(([link, v, unit]) => (paceOf(link) || pose.map(() => 0)).map((d) => (d * v * unit) / steps));
-    const ahead = pose.map((v, k) => v + paces.reduce((sum, pace) => sum + pace[k] * (n - done), 0));
+  const along = () => {
+    const paces = ways.map(([link, v, unit]) => (paceOf(link) || first.map(() => 0)).map((d) => (d * v * unit) / steps));
+    return first.map((_, k) => paces.reduce((sum, pace) => sum + pace[k], 0));
+  };
+  const off = (one, other) => hypot(...one.map((v, k) => v - other[k]));
+  let [pose, done, tangent, size, sense] = [first, 0, null, 1, senseHere()];
+  const stepTo = (n, share) => {
+    tangent ||= along();
+    const ahead = pose.map((v, k) => v + tangent[k] * (n - done));
     mover.pose = [...ahead];
     for (const [link, v] of ways) mover.at[link] = (from[link] || 0) + (v * n) / steps;
-    const off = (one) => hypot(...one.map((v, k) => v - ahead[k]));
-    return arrive() && off(mover.pose) <= (off(pose) || Infinity); // farther from the tangent is another branch
+    return arrive() && off(mover.pose, ahead) <= share * (off(pose, ahead) || Infinity);
   };
-  for (let n = 1; n <= steps; n++) {
-    if (stepTo(n)) [pose, done, paces] = [mover.pose, n, null];
-    else if (n === steps || n > done + 3) {
-      mover.passes = n === steps && stepTo(n + 1);
+  const goesOn = () => !largest(tangent) || off(along(), tangent) <= 0.5 * hypot(...tangent);
+  const passes = (n) => stepTo(n, 1) && goesOn();
+  while (done < steps) {
+    let n = min(done + size, steps);
+    let arrived = stepTo(n, 0.25) && senseHere() * sense >= 0;
+    if (!arrived && size > SMALLEST) {
+      size /= 2;
+      continue;
+    }
+    for (let k = 1; !arrived && k < 4 && floor(done) + k <= steps; k++) arrived = passes((n = floor(done) + k));
+    if (!arrived) {
+      mover.passes = n === steps && passes(n + 1);
       [mover.at, mover.pose] = [from, first];
       return null;
     }
+    [pose, done, tangent, size, sense] = [mover.pose, n, null, min(1, 2 * size), senseHere()];
   }
   return measured();
+}
+const SMALLEST = 2 ** -16; // of a step
+/* An input turned; beyond a limit the other way round, as a sweep goes, where a whole turn changes nothing. What is
+   reached straight from rest is that, also for one who comes from the other side. */
+function turnedTo(link, degrees) {
+  const round = mover.round[link] || 0;
+  if (round) {
+    const held = [mover.at, mover.pose];
+    [mover.at, mover.pose] = [{}, mover.pose.map(() => 0)];
+    const straight = numbersMoved({ ...held[0], [link]: degrees });
+    if (straight) mover.round[link] = 0;
+    if (straight) return straight;
+    [mover.at, mover.pose] = held;
+  }
+  const some = numbersMoved({ [link]: degrees + round });
+  const counts = live.wound.length || live.kinds.some((kind) => kind === "Gears" || kind === "Belt");
+  if (some || mover.passes || counts || !isTurned(link)) return some;
+  const other = round + (degrees + round > (mover.at[link] || 0) ? -360 : 360);
+  const found = numbersMoved({ [link]: degrees + other });
+  if (found) mover.round[link] = other;
+  return found;
 }
 function measured() {
   const some = [...mover.numbers];
