@@ -147,8 +147,8 @@ function senseHere() {
 }
 /* The numbers of the case with inputs turned (or moved) so far from rest; null where the links do not meet, and
    where they stand in a change point, which `passes`. Steps along the tangent are halved until what Newton's method
-   adds is small beside them, and no sign changes: else it is another branch. No step is small enough at a limit and at a change
-   point; through the latter it goes straight on, and beyond it the tangent is as before. */
+   adds is small beside them, and no sign changes: else it is another branch. No step is small enough at a limit and
+   at a change point; through the latter it goes straight on, and beyond it the tangent is as before. */
 function numbersMoved(targets) {
   meshesOf();
   const [from, first] = [{ ...mover.at }, mover.pose];
@@ -195,8 +195,10 @@ function turnedTo(link, degrees) {
     const held = [mover.at, mover.pose];
     [mover.at, mover.pose] = [{}, mover.pose.map(() => 0)];
     const straight = numbersMoved({ ...held[0], [link]: degrees });
-    if (straight) mover.round[link] = 0;
-    if (straight) return straight;
+    if (straight || mover.passes) {
+      mover.round[link] = 0;
+      return straight;
+    }
     [mover.at, mover.pose] = held;
   }
   const some = numbersMoved({ [link]: degrees + round });
