@@ -178,7 +178,7 @@ def _parts() -> str:
     """What is the same in the script of every page, without its comments and indents, and without spaces
     about signs outside of strings, in lines that have no templates or expressions of their own; nor have
     these ends where they need none."""
-    text = "".join(_file("script", f"{part}.js") for part in PARTS)
+    text = re.sub(r"\s+// .*", "", "".join(_file("script", f"{part}.js") for part in PARTS))
     lines = re.sub(r"^\s*/\*.*?\*/\s*|^\s+", "", text, flags=re.MULTILINE | re.DOTALL).split("\n")
     plain = [n for n, s in enumerate(lines) if not any(c in s.replace(" / ", "") for c in "'`/\\")]
     pieces = "\n".join([lines[n] for n in plain]).split('"')
@@ -187,7 +187,7 @@ def _parts() -> str:
             pieces[k] = pieces[k].replace(spaced, closed)
     for n, line in zip(plain, '"'.join(pieces).split("\n"), strict=True):
         lines[n] = line
-    return "".join(line if line.endswith(OPEN_ENDS) and "//" not in line else f"{line}\n" for line in lines)
+    return "".join(line if line.endswith(OPEN_ENDS) else f"{line}\n" for line in lines)
 
 
 def script(live: Live | None) -> str:

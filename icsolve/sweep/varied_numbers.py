@@ -24,22 +24,23 @@ def with_numbers(case: Case, values: Mapping[str, float | Number]) -> Case:
     values : by path, in its canonical form (`find_number`), numbers in case units, degrees; a path that the
         case does not have is passed over
     """
-
-    def changed(value: Any) -> Any:
-        if isinstance(value, Number):
-            new = values.get(value.path)
-            if new is None or isinstance(new, Number):
-                return new or value
-            return value._replace(value=new, half=0.0, digits=repr(new), factor=1.0, exact=None)
-        if isinstance(value, dict):
-            return {key: changed(item) for key, item in value.items()}
-        if isinstance(value, tuple):
-            items = [changed(item) for item in value]
-            return type(value)(*items) if hasattr(value, "_fields") else tuple(items)
-        return value
-
     held = [name for name, numbers in parts_of(case).items() if not numbers.keys().isdisjoint(values)]
-    return replace(case, **{name: changed(getattr(case, name)) for name in held})
+    return replace(case, **{name: _changed(getattr(case, name), values) for name in held}) if held else case
+
+
+def _changed(value: Any, values: Mapping[str, float | Number]) -> Any:
+    """A part of a case with other numbers."""
+    if isinstance(value, Number):
+        new = values.get(value.path)
+        if new is None or isinstance(new, Number):
+            return new or value
+        return value._replace(value=new, half=0.0, digits=repr(new), factor=1.0, exact=None)
+    if isinstance(value, dict):
+        return {key: _changed(item, values) for key, item in value.items()}
+    if isinstance(value, tuple):
+        items = [_changed(item, values) for item in value]
+        return type(value)(*items) if hasattr(value, "_fields") else tuple(items)
+    return value
 
 
 IN_SPACE = (

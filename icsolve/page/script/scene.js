@@ -24,8 +24,7 @@ function nullSpace(rows, columns, zero = 64 * UNIT, unit = 0) {
   const order = [...Array(columns).keys()];
   const limit = zero * max(work.length, 1);
   const pivots = [];
-  let rank = 0;
-  let dropped = 0;
+  let [rank, dropped, sign] = [0, 0, 1];
   while (rank < min(work.length, columns)) {
     let best = of(-1);
     let at = [rank, rank];
@@ -42,6 +41,7 @@ function nullSpace(rows, columns, zero = 64 * UNIT, unit = 0) {
     [order[rank], order[at[1]]] = [order[at[1]], order[rank]];
     for (const row of work) [row[rank], row[at[1]]] = [row[at[1]], row[rank]];
     const top = work[rank];
+    if ((top[rank] < 0) !== ((at[0] !== rank) !== (at[1] !== rank))) sign = -sign;
     for (const row of work.slice(rank + 1)) {
       if (!row[rank]) continue;
       const part = over(row[rank], top[rank]);
@@ -63,7 +63,7 @@ function nullSpace(rows, columns, zero = 64 * UNIT, unit = 0) {
     order.forEach((column, place) => (vector[column] = x[place]));
     basis.push(vector);
   }
-  return { basis, rank, pivots: pivots.map((p) => ratio(p, pivots[0])), dropped };
+  return { basis, rank, pivots: pivots.map((p) => ratio(p, pivots[0])), dropped, sign };
 }
 
 /* --- the figure -------------------------------------------------------------------------------------- */

@@ -86,16 +86,14 @@ function meshesOf() {
     return [w - q, q, live.body[carrier]];
   });
 }
+/* The derivatives of conditions. */
+const rowsOf = (found) => found.map(([, ...parts]) => parts.reduce((row, [i, d]) => ((row[i] += d), row), Array(mover.pose.length).fill(0)));
 /* How the bodies go with an input (unit by unit of its condition); null where that does not tell. */
 function paceOf(input) {
   const count = mover.pose.length;
   const found = conditions();
   const own = found.length - mover.inputs.length + mover.inputs.indexOf(input);
-  const rows = found.map(([, ...parts], n) => {
-    const row = [...Array(count).fill(0), n === own ? -1 : 0];
-    for (const [i, d] of parts) row[i] += d;
-    return row;
-  });
+  const rows = rowsOf(found).map((row, n) => [...row, n === own ? -1 : 0]);
   const [pace, more] = nullSpace(rows, count + 1, 1e-10).basis;
   return more || !pace || abs(pace[count]) < 1e-9 * largest(pace) ? null : pace.map((v) => v / pace[count]);
 }
@@ -131,20 +129,10 @@ function arrive() {
 /* The sign of the determinant of the conditions, which changes at limits and change points alone; 0 where some of
    them repeat others. */
 function senseHere() {
-  const count = mover.pose.length;
-  const rows = conditions().map(([, ...parts]) => parts.reduce((row, [i, d]) => ((row[i] += d), row), Array(count).fill(0)));
-  let sign = rows.length === count ? 1 : 0;
-  for (let k = 0; sign && k < count; k++) {
-    const best = rows.reduce((at, row, r) => (r > k && abs(row[k]) > abs(rows[at][k]) ? r : at), k);
-    if (best !== k) [rows[k], rows[best], sign] = [rows[best], rows[k], -sign];
-    sign *= Math.sign(rows[k][k]);
-    for (const row of rows.slice(k + 1)) {
-      const part = row[k] / rows[k][k];
-      for (let c = k; part && c < count; c++) row[c] -= part * rows[k][c];
-    }
-  }
-  return sign;
+  const rows = rowsOf(conditions());
+  return rows.length === mover.pose.length ? nullSpace(rows, rows.length, 0).sign : 0;
 }
+const plus = (one, other, factor) => one.map((v, k) => v + (other[k] || 0) * factor);
 /* The numbers of the case with inputs turned (or moved) so far from rest; null where the links do not meet, and
    where they stand in a change point, which `passes`. Steps along the tangent are halved until what Newton's method
    adds is small beside them, and no sign changes: else it is another branch. No step is small enough at a limit and
@@ -154,25 +142,22 @@ function numbersMoved(targets) {
   const [from, first] = [{ ...mover.at }, mover.pose];
   const ways = entries(targets).map(([link, v]) => [link, v - (from[link] || 0), isTurned(link) ? PI / 180 : live.frame[2]]);
   const steps = max(1, Math.ceil(max(...ways.map(([, v, unit]) => abs(v * unit))) / 0.02));
-  const along = () => {
-    const paces = ways.map(([link, v, unit]) => (paceOf(link) || first.map(() => 0)).map((d) => (d * v * unit) / steps));
-    return first.map((_, k) => paces.reduce((sum, pace) => sum + pace[k], 0));
-  };
-  const off = (one, other) => hypot(...one.map((v, k) => v - other[k]));
+  const along = () =>
+    ways.reduce((sum, [link, v, unit]) => plus(sum, paceOf(link) || [], (v * unit) / steps), first.map(() => 0));
+  const off = (one, other) => hypot(...plus(one, other, -1));
   let [pose, done, tangent, size, sense] = [first, 0, null, 1, senseHere()];
   const stepTo = (n, share) => {
     tangent ||= along();
-    const ahead = pose.map((v, k) => v + tangent[k] * (n - done));
+    const ahead = plus(pose, tangent, n - done);
     mover.pose = [...ahead];
     for (const [link, v] of ways) mover.at[link] = (from[link] || 0) + (v * n) / steps;
     return arrive() && off(mover.pose, ahead) <= share * (off(pose, ahead) || Infinity);
   };
-  const goesOn = () => !largest(tangent) || off(along(), tangent) <= 0.5 * hypot(...tangent);
-  const passes = (n) => stepTo(n, 1) && goesOn();
+  const passes = (n) => stepTo(n, 1) && off(along(), tangent) <= 0.5 * (hypot(...tangent) || Infinity);
   while (done < steps) {
     let n = min(done + size, steps);
     let arrived = stepTo(n, 0.25) && senseHere() * sense >= 0;
-    if (!arrived && size > SMALLEST) {
+    if (!arrived && size > 2 ** -16) {
       size /= 2;
       continue;
     }
@@ -186,23 +171,22 @@ function numbersMoved(targets) {
   }
   return measured();
 }
-const SMALLEST = 2 ** -16; // of a step
 /* An input turned; beyond a limit the other way round, as a sweep goes, where a whole turn changes nothing. What is
    reached straight from rest is that, also for one who comes from the other side. */
 function turnedTo(link, degrees) {
   const round = mover.round[link] || 0;
   if (round) {
     const held = [mover.at, mover.pose];
-    [mover.at, mover.pose] = [{}, mover.pose.map(() => 0)];
-    const straight = numbersMoved({ ...held[0], [link]: degrees });
-    if (straight || mover.passes) {
+    [mover.at, mover.pose] = [{}, held[1].map(() => 0)];
+    const some = numbersMoved({ ...held[0], [link]: degrees });
+    if (some || mover.passes) {
       mover.round[link] = 0;
-      return straight;
+      return some;
     }
     [mover.at, mover.pose] = held;
   }
   const some = numbersMoved({ [link]: degrees + round });
-  const counts = live.wound.length || live.kinds.some((kind) => kind === "Gears" || kind === "Belt");
+  const counts = live.wound.length || live.pivots.some(Boolean);
   if (some || mover.passes || counts || !isTurned(link)) return some;
   const other = round + (degrees + round > (mover.at[link] || 0) ? -360 : 360);
   const found = numbersMoved({ [link]: degrees + other });
