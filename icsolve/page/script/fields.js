@@ -73,16 +73,17 @@ function rested() {
 function drive(degrees, link = live.input) {
   const some = turnedTo(link, degrees);
   if (!some && !mover.passes) {
-    if (hint) hint.textContent = `The links do not meet beyond ${number((mover.at[link] || 0) - (mover.round[link] || 0), 4)}.`;
+    if (hint) hint.textContent = `The links do not meet beyond ${number((own(mover.at, link) || 0) - (own(mover.turns, link) || 0), 4)}.`;
     return;
   }
   if (some) {
+    mover.turns[link] = mover.at[link] - degrees;
     enterAll(some);
     windUp();
   }
   changed(true, true, some ? carriedTo : () => refuse("change-point"), isMeasured());
-  const own = link === live.input ? slider : byId(`turn-${link}`);
-  if (own) own.value = degrees;
+  const input = link === live.input ? slider : byId(`turn-${link}`);
+  if (input) input.value = degrees;
   if (link === live.input && byId("angle")) byId("angle").textContent = `${number(abs(degrees), 5)}${motion ? motion.unit : "°"} ${motion ? motion.senses[degrees >= 0 ? 0 : 1] : ""}`;
 }
 /* Whether more numbers than there are inputs have followed, which are rounded each; a motion's direction is none. */

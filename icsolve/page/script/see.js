@@ -71,8 +71,8 @@ function turnTable() {
     shadow.key = key;
     const pace = max(1, Math.round(rows / 180));
     const some = [...Array(rows).keys()].filter((r) => r % pace === 0);
-    const held = mover && [{ ...mover.at }, [...mover.pose], { ...mover.round }];
-    const home = () => { if (held) [mover.at, mover.pose, mover.round] = [{ ...held[0] }, [...held[1]], { ...held[2] }]; };
+    const held = mover && [{ ...mover.at }, [...mover.pose]];
+    const home = () => { if (held) [mover.at, mover.pose] = [{ ...held[0] }, [...held[1]]]; };
     const middle = some.findIndex((r) => r >= zero);
     shadow.figure.adopt(lab.state());
     const up = some.slice(middle).map(stateAt);

@@ -16,7 +16,8 @@ function restHere() {
   mover.pose = Array(3 * mover.bodies.length).fill(0);
   mover.twists = scene.solved.motions.twists;
   mover.at = {};
-  mover.round = {};
+  mover.ends = {};
+  mover.turns = {};
   mover.w = [...lab.w];
   mover.of = new Map(entries(live.owner).map(([name, link]) => [live.points[name], live.body[link]]));
 }
@@ -58,7 +59,7 @@ function conditions() {
   });
   for (const link of mover.inputs) {
     const body = live.body[link];
-    const target = mover.at[link] || 0;
+    const target = own(mover.at, link) || 0;
     const [t] = mover.twists[body];
     if (isTurned(link)) found.push([angleOf(body) - (target * PI) / 180, ...angle(body, 1)]);
     else {
@@ -140,7 +141,7 @@ const plus = (one, other, factor) => one.map((v, k) => v + (other[k] || 0) * fac
 function numbersMoved(targets) {
   meshesOf();
   const [from, first] = [{ ...mover.at }, mover.pose];
-  const ways = entries(targets).map(([link, v]) => [link, v - (from[link] || 0), isTurned(link) ? PI / 180 : live.frame[2]]);
+  const ways = entries(targets).map(([link, v]) => [link, v - (own(from, link) || 0), isTurned(link) ? PI / 180 : live.frame[2]]);
   const steps = max(1, Math.ceil(max(...ways.map(([, v, unit]) => abs(v * unit))) / 0.02));
   const along = () =>
     ways.reduce((sum, [link, v, unit]) => plus(sum, paceOf(link) || [], (v * unit) / steps), first.map(() => 0));
@@ -150,7 +151,7 @@ function numbersMoved(targets) {
     tangent ||= along();
     const ahead = plus(pose, tangent, n - done);
     mover.pose = [...ahead];
-    for (const [link, v] of ways) mover.at[link] = (from[link] || 0) + (v * n) / steps;
+    for (const [link, v] of ways) mover.at[link] = (own(from, link) || 0) + (v * n) / steps;
     return arrive() && off(mover.pose, ahead) <= share * (off(pose, ahead) || Infinity);
   };
   const passes = (n) => stepTo(n, 1) && off(along(), tangent) <= 0.5 * (hypot(...tangent) || Infinity);
@@ -164,6 +165,7 @@ function numbersMoved(targets) {
     for (let k = 1; !arrived && k < 4 && floor(done) + k <= steps; k++) arrived = passes((n = floor(done) + k));
     if (!arrived) {
       mover.passes = n === steps && passes(n + 1);
+      mover.stop = (own(from, ways[0][0]) || 0) + (ways[0][1] * done) / steps;
       [mover.at, mover.pose] = [from, first];
       return null;
     }
@@ -174,24 +176,16 @@ function numbersMoved(targets) {
 /* An input turned; beyond a limit the other way round, as a sweep goes, where a whole turn changes nothing. What is
    reached straight from rest is that, also for one who comes from the other side. */
 function turnedTo(link, degrees) {
-  const round = mover.round[link] || 0;
-  if (round) {
-    const held = [mover.at, mover.pose];
-    [mover.at, mover.pose] = [{}, held[1].map(() => 0)];
-    const some = numbersMoved({ ...held[0], [link]: degrees });
-    if (some || mover.passes) {
-      mover.round[link] = 0;
-      return some;
-    }
-    [mover.at, mover.pose] = held;
+  const whole = isTurned(link) && !live.wound.length && !live.pivots.some(Boolean);
+  mover.passes = false;
+  for (const to of whole ? [degrees, degrees - 360 * Math.sign(degrees)] : [degrees]) {
+    const [low, high] = own(mover.ends, link) || [-Infinity, Infinity];
+    const some = to < low || to > high ? null : numbersMoved({ [link]: to });
+    if (some || mover.passes) return some;
+    const stop = mover.stop;
+    if (mover.inputs.length === 1 && low <= to && to <= high) mover.ends[link] = to > stop ? [low, stop] : [stop, high];
   }
-  const some = numbersMoved({ [link]: degrees + round });
-  const counts = live.wound.length || live.pivots.some(Boolean);
-  if (some || mover.passes || counts || !isTurned(link)) return some;
-  const other = round + (degrees + round > (mover.at[link] || 0) ? -360 : 360);
-  const found = numbersMoved({ [link]: degrees + other });
-  if (found) mover.round[link] = other;
-  return found;
+  return null;
 }
 function measured() {
   const some = [...mover.numbers];
