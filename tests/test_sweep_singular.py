@@ -10,6 +10,7 @@ from __future__ import annotations
 import cmath
 import contextlib
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from decimal import Decimal
@@ -26,6 +27,7 @@ from mpmath import mp, mpf
 import full_turns
 import icsolve
 import transcribe
+from icsolve.bench.promises import scissors
 from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.varied_numbers import numbers_of, with_numbers
 from library import FILES, sample
@@ -489,6 +491,24 @@ def test_a_row_where_links_fold_up_is_refused_and_its_neighbours_are_not() -> No
     )
     assert sweep.status.tolist() == ["ok", "change-point", "ok", "change-point"]
     assert sweep.answers["Q"][0] == pytest.approx(-sweep.answers["Q"][2], rel=1e-12)
+
+
+@pytest.mark.parametrize("stages", range(1, 5))
+def test_a_lift_of_scissors_folds_and_goes_straight_on_whichever_bar_is_turned(stages: int) -> None:
+    """F = n W / tan(theta) of n stages, over a turn through both folds, where all points of a stage fall in
+    two; whichever bar is turned, a fold is a whole number of degrees away."""
+    rng = Random(f"scissors {stages}")
+    text, written = scissors(stages)(rng), rng.randint(30, 50)
+    case = icsolve.load(re.sub("angles: {L0-C0: [0-9.]+", f"angles: {{L0-C0: {written}", text))
+    step = rng.choice([4.0, 5.0, 7.0])
+    theta = written + step * np.arange(-170 // step, 170 // step)
+    theta = theta[theta % 90.0 != 0.0]
+    right = 10.0 * stages / np.tan(np.radians(theta))
+    bars = [(str(link), 1.0 if link % 2 == 0 else -1.0) for link in range(2, 2 * stages + 2)]
+    for link, sense in bars if FULL else [bars[0], rng.choice(bars[1:])]:
+        found = icsolve.sweep(case, drive={link: sense * (theta - written)})
+        assert set(found.status) == {"ok"}
+        assert found.answers["F"] == pytest.approx(right, rel=1e-9), link
 
 
 LOCKED = """

@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from decimal import Decimal, localcontext
-from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -157,12 +156,16 @@ class Branches:
             if near is None:
                 continue
             reach = Decimal(float(self.values[k] - self.values[k - 1]))
+
+            def margin(at: Decimal, node: int = node) -> Decimal:
+                return exact.values([record.nodes[node]], _given(function, at))[0]
+
             found = []
-            for power in (1, 2):  # what has a corner where it vanishes is smooth in its square
+            for smooth in (margin, lambda at: margin(at) ** 2):  # one with a corner is smooth in its square
                 with localcontext(CONTEXT), suppress(Unreached):
-                    at = lowest(exact, node, partial(_given, function), near, reach, power)
+                    at = lowest(smooth, near, reach)
                     at = as_written(near) if at is None else at
-                    (least,) = exact.values([record.nodes[node]], _given(function, at))
+                    least = margin(at)
                     found.append((abs(least), least, float(at)))
             if found:
                 size, least, place = min(found)

@@ -14,11 +14,11 @@ from decimal import localcontext
 
 import numpy as np
 
-from icsolve.numbers.decimals import CONTEXT, as_written
+from icsolve.numbers.decimals import CONTEXT
 from icsolve.numbers.record import Root, live
 from icsolve.numbers.replay import BLOCK, Array, code_of
 from icsolve.sweep.continuation import ChangePoints, InputLine, State
-from icsolve.sweep.exact_record import ZERO, Unreached, exact_record, lowest
+from icsolve.sweep.exact_record import ZERO, Unreached, exact_record, lowest, relative
 from icsolve.sweep.path_tracking import PathTracker
 from icsolve.sweep.program import CompiledSweep, Signs, live_roots
 from icsolve.sweep.request import RequestError
@@ -39,6 +39,7 @@ STEPS, STEPS_A_ROW, CLOSED = 2000, 20, 4
 point is found by a closed form."""
 CELLS = 4
 MOST_CELLS = 1_000_000
+OFF_NICE = (3.0 - math.sqrt(5.0)) / 2.0
 """Branches are looked for at so many places in a longest step, and at most at so many at all."""
 
 LAST = ("followed", ())
@@ -88,7 +89,7 @@ class Radicands:
             radicand, a, a_size, b, b_size = found[5 * n : 5 * n + 5]
             margin = np.minimum(_share(a, a_size), _share(b, b_size))
             radicand[gone], margin[gone] = np.nan, np.nan
-            gone = gone | ~(margin >= -TOUCH)
+            gone = gone | (margin < -TOUCH)
             radicands.append(radicand)
             margins.append(margin)
         return radicands, margins
@@ -157,7 +158,7 @@ class Radicands:
         """The nearest places to both sides of the start to which no motion leads."""
         gone = np.zeros(len(self.grid), dtype=bool)
         for margin in self.table[1]:
-            gone |= ~(margin >= -TOUCH)
+            gone |= margin < -TOUCH
         apart, start, (low, high) = self.grid[gone], self.tracker.line.start, self.tracker.ends
         low = max(low, float(apart[apart < start].max(initial=-math.inf)))
         return low, min(high, float(apart[apart > start].min(initial=math.inf)))
@@ -176,13 +177,15 @@ class Radicands:
         nodes = [n for margin in root.margins for n in margin]
         a, a_size, b, b_size = self.values(nodes, np.array([at]))
         margin = float(np.minimum(_share(a, a_size), _share(b, b_size))[0])
-        if not abs(margin) <= DOUBT:
+        if abs(margin) > DOUBT:
             return margin
-        exact, along = exact_record(self.compiled), self.tracker.exactly
+        along = self.tracker.along(exact_record(self.compiled), [root.radicand, *nodes], at)
         with localcontext(CONTEXT), suppress(Unreached):
-            found = lowest(exact, root.radicand, along, at)
-            (more,) = exact.margins([root], along(as_written(at) if found is None else found))
-            return float(more) if abs(more) > ZERO else 0.0
+            found = lowest(lambda s: along(s)[0], at)
+            if found is not None:
+                one, one_size, two, two_size = along(found)[1:]
+                more = min(relative(one, one_size), relative(two, two_size))
+                return float(more) if abs(more) > ZERO else 0.0
         return margin if abs(margin) > TOUCH else 0.0
 
 
@@ -215,13 +218,13 @@ def _valleys(radicand: Array) -> Iterator[int]:
 
 
 def grid_of(ends: Iterable[float], line: InputLine) -> Array:
-    """Places by which branches are looked for, (places,): from the start of the line to beyond all ends in
-    equal steps, the same whichever rows there are.
+    """Places by which branches are looked for, (places,): from before to beyond all ends in equal steps, the
+    same whichever rows there are, and none at a round number, where places of points may coincide.
     """
     step, ends = line.widest / CELLS, [line.start, *ends]
     step *= max(1, math.ceil((max(ends) - min(ends)) / step / MOST_CELLS))
     low, high = (math.floor((end - line.start) / step) for end in (min(ends), max(ends)))
-    return line.start + step * np.arange(low - 2.0, high + 4.0)
+    return line.start + step * (np.arange(low - 2.0, high + 4.0) + OFF_NICE)
 
 
 def _refuse_long(compiled: CompiledSweep, line: InputLine, ends: Sequence[float], rows: int) -> None:

@@ -165,7 +165,7 @@ class ExactRecord:
         nodes = [self.record.nodes[n] for root in roots for margin in root.margins for n in margin]
         flat = iter(self.values(nodes, given))
         with localcontext(CONTEXT):
-            pairs = [[_over(next(flat), next(flat)) for _ in range(2)] for _ in roots]
+            pairs = [[relative(next(flat), next(flat)) for _ in range(2)] for _ in roots]
         return [Decimal("NaN") if one.is_nan() or two.is_nan() else min(one, two) for one, two in pairs]
 
     def states(self, given: Mapping[int, Decimal], nodes: Sequence[int]) -> list[Decimal]:
@@ -288,34 +288,26 @@ def exact_record(compiled: CompiledSweep) -> ExactRecord:
 
 
 def lowest(
-    exact: ExactRecord,
-    node: int,
-    along: Callable[[Decimal], Mapping[int, Decimal]],
-    near: float,
-    reach: Decimal = Decimal("1e-3"),
-    power: int = 1,
+    value: Callable[[Decimal], Decimal], near: float, reach: Decimal = Decimal("1e-3")
 ) -> Decimal | None:
     """Where on a line a value is lowest: a branch comes nearest to changing where its radicand is.
 
     Parameters
     ----------
-    node : of the value
-    along : the inputs by node at a place of the line; may raise Unreached
+    value : by place of the line; may raise Unreached
     near : a place near it
     reach : so far from there it may lie
-    power : of the value, which makes it smooth
 
     Returns
     -------
     Decimal
         None where it does not lead there.
     """
-    at, value = as_written(near), exact.record.nodes[node]
+    at = as_written(near)
     with localcontext(CONTEXT):
         for _ in range(12):
             try:
-                values = (exact.values([value], along(at + k * STEP))[0] for k in (-1, 0, 1))
-                low, here, high = (v**power for v in values)
+                low, here, high = (value(at + k * STEP) for k in (-1, 0, 1))
             except Unreached:
                 return None
             bend = (high - 2 * here + low) / STEP
@@ -359,7 +351,7 @@ def _pair(node: Traced) -> tuple[int, int]:
     return (node.a, node.b) if node.op in BINARY or node.op == Op.ANGLE else (node.a, node.a)
 
 
-def _over(value: Decimal, size: Decimal) -> Decimal:
+def relative(value: Decimal, size: Decimal) -> Decimal:
     """A value as a fraction of its terms, whose size may have either sign."""
     return value / abs(size) if size else Decimal("NaN")
 

@@ -7,8 +7,9 @@ stay on the branch. Beyond a limit nothing is taken up: where the links assemble
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from decimal import Decimal, localcontext
+from itertools import chain
 
 import numpy as np
 import numpy.typing as npt
@@ -27,7 +28,7 @@ from icsolve.sweep.continuation import (
     goes_on,
     segment_of,
 )
-from icsolve.sweep.exact_record import Unreached
+from icsolve.sweep.exact_record import ExactRecord, Unreached
 from icsolve.sweep.program import CompiledSweep
 
 FIRST = 2.0**-5
@@ -45,6 +46,9 @@ HALVINGS = 30
 Mask = npt.NDArray[np.bool_]
 
 
+AROUND, PLACES = Decimal(2) ** -14, 6
+"""Beside a singular position values are those of the polynomial through so many places on each side of it,
+which are this part of the longest step apart."""
 BENT = 1e-4
 """Below this part of its size elsewhere the determinant of a group makes its row doubtful."""
 
@@ -128,6 +132,35 @@ class PathTracker:
                     given[inputs[name]] = as_written(base) + as_written(line.slope.get(name, 0.0)) * s
         return given
 
+    def along(
+        self, exact: ExactRecord, nodes: Sequence[int], near: float
+    ) -> Callable[[Decimal], list[Decimal]]:
+        """Nodes by places of the line near one of them, in all digits.
+
+        Beside a singular position of a group, where Newton's method finds nothing or another way of
+        assembling, and where the sign of a branch changes, which leaves what follows it undefined, they are
+        those of the polynomial through places around it: the motion goes straight on there.
+
+        Both may raise Unreached where the groups have no solution.
+        """
+        wanted = [exact.record.nodes[k] for k in nodes]
+
+        def values(s: Decimal) -> list[Decimal]:
+            return exact.values(wanted, self.exactly(s))
+
+        step = AROUND * as_written(self.line.widest)
+        places = [as_written(near) + k * step for k in range(-PLACES, PLACES + 1) if k]
+        if not (self._turns_over(near, float(step)) and self.unbroken(float(places[0]), float(places[-1]))):
+            return values
+        with localcontext(CONTEXT):
+            known = [(place, values(place)) for place in places]
+        return lambda s: through(known, s)
+
+    def _turns_over(self, near: float, apart: float) -> bool:
+        """Whether a group is singular, or a branch changes its sign, about at a place of the line."""
+        changes = chain.from_iterable(self.change_points.places.values())
+        return any(abs(near - at) < apart for at in changes) or bool(self.bent(np.array([near]))[0])
+
     def _given(self, s: Array) -> tuple[dict[int, Array], Mask, Mask]:
         given, good = self._plain(s), np.ones(len(s), dtype=bool)
         if not (self.groups or self.counted):
@@ -152,6 +185,8 @@ class PathTracker:
 
     def unbroken(self, low: float, high: float) -> bool:
         """Whether the groups were followed from one place to another without a break."""
+        if not (self.groups or self.counted):
+            return True
         return any(segment.s[0] <= low and high <= segment.s[-1] for segment in self.segments)
 
     def limits(self) -> Iterator[tuple[PathSegment, float, float]]:
@@ -400,3 +435,13 @@ class PathTracker:
                 good |= here
         q[~good] = self.start.q
         return q, turns, good
+
+
+def through(known: Sequence[tuple[Decimal, Sequence[Decimal]]], s: Decimal) -> list[Decimal]:
+    """The polynomials (Lagrange's) through values at places, each at another place."""
+    weights = []
+    for n, (at, _) in enumerate(known):
+        others = [other for m, (other, _) in enumerate(known) if m != n]
+        weights.append(math.prod(((s - other) / (at - other) for other in others), start=Decimal(1)))
+    columns = zip(*(values for _, values in known), strict=True)
+    return [sum((w * v for w, v in zip(weights, column, strict=True)), Decimal(0)) for column in columns]

@@ -29,8 +29,6 @@ CLEAR = 2.0**-12
 
 BESIDE = 2.0**-20
 """A state is a guess for another that is this part of the longest step away."""
-AROUND = 2.0**-10
-"""States are interpolated from some that are this part of the longest step apart."""
 
 
 class Recheck:
@@ -203,21 +201,10 @@ class Recheck:
         if tracker is None or not tracker.groups or not tracker.bent(np.array([s]))[0]:
             return {}
         columns = [k for group, _ in tracker.groups for k in group.equations.solved]
-        at, step = as_written(s), Decimal(AROUND * tracker.line.widest)
-        weights, total = (1, -6, 15, 15, -6, 1), Decimal(20)
-        places = [at + k * step for k in (-3, -2, -1, 1, 2, 3)]
-        if not tracker.unbroken(float(places[0]), float(places[-1])):
-            return {}  # a limit lies between: beyond it they are states of another way
-        try:
-            states = [self.scenes.exact.states(tracker.exactly(place), columns) for place in places]
-        except Unreached:
-            return {}
-        with localcontext(CONTEXT):
-            mixed = [
-                sum((w * x for w, x in zip(weights, xs, strict=True)), Decimal(0)) / total
-                for xs in zip(*states, strict=True)
-            ]
-        return dict(zip(columns, mixed, strict=True))
+        with localcontext(CONTEXT), suppress(Unreached):
+            states = tracker.along(self.scenes.exact, columns, s)(as_written(s))
+            return dict(zip(columns, states, strict=True))
+        return {}
 
     # --- sides of change points -------------------------------------------------------------------
 
@@ -254,9 +241,8 @@ class Recheck:
             assert self.tracker is not None
             motion = self.compiled.motion
             root = next(r for r in self.scenes.roots if motion and motion.branches[r.node] == name)
-            self.change_points[name, near] = lowest(
-                self.scenes.exact, root.radicand, self.tracker.exactly, near
-            )
+            radicand = self.tracker.along(self.scenes.exact, [root.radicand], near)
+            self.change_points[name, near] = lowest(lambda s: radicand(s)[0], near)
         return self.change_points[name, near]
 
 
