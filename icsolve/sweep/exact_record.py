@@ -50,6 +50,10 @@ DOUBLE_ROOT = Decimal("1e-66")
 """Digits that such a root has then: more than a scene decides by."""
 MET = Decimal(10) ** (20 - DIGITS)
 """Conditions (normalised) are met where they are off by less."""
+ALMOST, IDLE = Decimal("1e-60"), Decimal("1e6")
+"""Conditions that are off by less than the first, of which a step is so many times longer than the root of
+what is left (at a double root it is half of that), do not tell where along it the solution is: it is at the
+guess, which comes from places around it."""
 SHORTER = Decimal("1e-9")
 """A step longer than this and than the last leads to no solution near: beyond a fold there is none."""
 AGREED = Decimal("1e-9")
@@ -255,7 +259,8 @@ class ExactRecord:
             flat = [found[next(varied)] if value is None else value for value in still]
             f, rest = flat[: len(group.residuals)], flat[len(group.residuals) :]
             j = [rest[n * len(q) : (n + 1) * len(q)] for n in range(len(f))]
-            met = max(map(abs, f)) < MET
+            left = max(map(abs, f))
+            met = left < MET
             try:
                 move = least_squares(j, f)
             except Unreached:
@@ -266,7 +271,8 @@ class ExactRecord:
             if size < least:
                 return q
             # where the conditions are met a long step is what is left of them over what vanishes
-            if (size < HALF and size > last / 3) or (size > HALF and met):
+            idle = met or (left < ALMOST and size > IDLE * left.sqrt())
+            if (size < HALF and size > last / 3) or (size > HALF and idle):
                 return [x.quantize(DOUBLE_ROOT) for x in q]
             if not size < max(last, SHORTER):
                 break

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from decimal import Decimal, localcontext
 from itertools import chain
 
@@ -46,9 +47,9 @@ HALVINGS = 30
 Mask = npt.NDArray[np.bool_]
 
 
-AROUND, PLACES = Decimal(2) ** -14, 6
+AROUND, PLACES = [Decimal(2) ** -k for k in (14, 12, 10)], 6
 """Beside a singular position values are those of the polynomial through so many places on each side of it,
-which are this part of the longest step apart."""
+which are these parts of the longest step apart: the first at which doubles lead Newton's method there."""
 BENT = 1e-4
 """Below this part of its size elsewhere the determinant of a group makes its row doubtful."""
 
@@ -141,20 +142,23 @@ class PathTracker:
         assembling, and where the sign of a branch changes, which leaves what follows it undefined, they are
         those of the polynomial through places around it: the motion goes straight on there.
 
-        Both may raise Unreached where the groups have no solution.
+        What is returned may raise Unreached where the groups have no solution.
         """
         wanted = [exact.record.nodes[k] for k in nodes]
 
         def values(s: Decimal) -> list[Decimal]:
             return exact.values(wanted, self.exactly(s))
 
-        step = AROUND * as_written(self.line.widest)
-        places = [as_written(near) + k * step for k in range(-PLACES, PLACES + 1) if k]
-        if not (self._turns_over(near, float(step)) and self.unbroken(float(places[0]), float(places[-1]))):
+        widest = as_written(self.line.widest)
+        if not self._turns_over(near, float(AROUND[0] * widest)):
             return values
-        with localcontext(CONTEXT):
-            known = [(place, values(place)) for place in places]
-        return lambda s: through(known, s)
+        for apart in AROUND:
+            places = [as_written(near) + k * apart * widest for k in range(-PLACES, PLACES + 1) if k]
+            if self.unbroken(float(places[0]), float(places[-1])):
+                with localcontext(CONTEXT), suppress(Unreached):
+                    known = [(place, values(place)) for place in places]
+                    return lambda s: through(known, s)
+        return values
 
     def _turns_over(self, near: float, apart: float) -> bool:
         """Whether a group is singular, or a branch changes its sign, about at a place of the line."""
