@@ -46,6 +46,18 @@ def scene(points: dict[str, Any], joints: Iterable[Any], **more: Any) -> Scene:
     return {"points": points, "joints": list(joints), **more}
 
 
+def loaded(generator: Generator, rng: Random) -> Scene:
+    """A mechanism with a force at its last joint, which an unknown torque on its last link holds."""
+    drawn = {"icsolve": 1, **generator(rng)}
+    last = drawn["joints"][-1]
+    links = [link for joint in drawn["joints"] for link in next(iter(joint.values()))]
+    drawn["loads"] = {
+        "P": {"force": 10, "link": next(iter(last.values()))[0], "at": last["at"], "angle": 33},
+        "U": {"torque": "unknown", "link": max(links)},
+    }
+    return drawn
+
+
 # --- pinned chains ---------------------------------------------------------------------------------
 
 

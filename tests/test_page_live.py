@@ -1162,14 +1162,7 @@ def test_a_changed_mechanism_stops_where_its_links_do_not_meet(kind: Any, seed: 
     (to 1e-5, where an answer grows without bound too), and says where rows do not assemble beyond where the
     links do not meet; it goes over to no other branch."""
     draw = random.Random(f"{kind.__name__} {seed}")
-    drawn = {"icsolve": 1, **kind(draw)}
-    moving = max(link for joint in drawn["joints"] for link in next(iter(joint.values())))
-    last = drawn["joints"][-1]["at"]
-    drawn["loads"] = {
-        "P": {"force": 10, "link": next(iter(drawn["joints"][-1].values()))[0], "at": last, "angle": 33},
-        "U": {"torque": "unknown", "link": moving},
-    }
-    text = f"{json.dumps(drawn)}\n"
+    text = f"{json.dumps(mechanisms.loaded(kind, draw))}\n"
     page = shown(text, moves=True)
     motion = page.run("return JSON.parse(document.getElementById('data').textContent).motion")
     if motion is None or motion["verb"] != "turned":

@@ -187,6 +187,12 @@ class PathTracker:
         low, high = self.ends
         return (np.abs(s - low) <= self.slack) | (np.abs(s - high) <= self.slack)
 
+    def ended(self, s: float) -> list[PathSegment]:
+        """Where the path ended so near to a place that doubles leave open whether it reaches there, and
+        another part of it, a turn away, does: its parts there, in the order in which they count."""
+        here = [one for one in self.segments if one.s[0] - self.slack <= s <= one.s[-1] + self.slack]
+        return sorted(here, key=self._is_main, reverse=True) if len(here) > 1 else []
+
     def unbroken(self, low: float, high: float) -> bool:
         """Whether the groups were followed from one place to another without a break."""
         if not (self.groups or self.counted):

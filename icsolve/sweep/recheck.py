@@ -59,16 +59,22 @@ class Recheck:
         varied |= {inputs[n]: value for n, value in self.exact.items()}
         if self.tracker is None:
             return varied
+        (main,) = self.tracker.line.slope
+        place = as_written(arrays[main][row])
+        for segment in self.tracker.ended(float(place)):
+            with suppress(Unreached), self.on(segment):
+                given = self._along(row, place) | varied
+                self.scenes.exact.solved(given)
+                return given
+        return self._along(row, place) | varied
+
+    def _along(self, row: int, place: Decimal) -> dict[int, Decimal]:
+        """The inputs that the line has at the place of a row: signs, and states of groups."""
         floats, good = self.parts.given(self.part.some(np.flatnonzero(self.part.rows == row)))
         if not good.all():
             raise SceneError(Status.CANNOT_ASSEMBLE, APART)
-        (main,) = self.tracker.line.slope
-        return {
-            **{k: Decimal(float(np.ravel(v)[0])) for k, v in floats.items()},
-            **varied,
-            **self._signs(as_written(arrays[main][row])),
-            **self._states(float(arrays[main][row])),
-        }
+        given = {k: Decimal(float(np.ravel(v)[0])) for k, v in floats.items()}
+        return given | self._signs(place) | self._states(float(place))
 
     def refuse_apart(self, row: int) -> None:
         """Raise SceneError where the links do not reach one another."""

@@ -107,6 +107,8 @@ class SweepRun:
         if not doubtful.size:
             return
         apart = part.runner.apart(self.parts.given(part.some(doubtful))[0], len(doubtful))
+        if part.followed is not None:  # what is beyond an end may have another state than doubles tell
+            apart &= ~part.followed.tracker.ending(part.places[doubtful])
         self.codes[part.rows[doubtful[apart]]] = CODE[Status.CANNOT_ASSEMBLE]
         rows = part.rows[doubtful[~apart]].tolist()
         recheck = Recheck(self.parts, part)
