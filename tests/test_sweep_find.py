@@ -810,9 +810,9 @@ def test_a_limit_beyond_which_a_turn_the_other_way_leads_is_told(span: tuple[flo
     (limit,) = find(case, None, Query("dead"), drive={"5": np.array(span)})
     assert limit.kind == "limit" and limit.error < 1e-14
     rows = icsolve.sweep(case, drive={"5": [limit.at + 1e-9, limit.at + 4e-9, limit.at - 1e-9, -5.0]})
-    assert rows.status.tolist() == ["ok", "ok", "cannot-assemble", "ok"]
+    assert rows.status.tolist() == ["ok"] * 4
     assert rows.answers["T12"][1] == pytest.approx(2.0 * rows.answers["T12"][0], rel=1e-3)  # as a root
-    assert rows.answers["T12"][3] > 100.0
+    assert min(rows.answers["T12"][2:]) > 100.0
 
 
 @pytest.mark.parametrize(

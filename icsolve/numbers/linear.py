@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Callable, Mapping, Sequence
+from typing import cast
 
 from icsolve.numbers import ZERO, Scalar, largest_of, magnitude
 from icsolve.tuples import NamedTuple
@@ -82,6 +83,21 @@ def _back(work: list[list[Scalar]], column: int) -> list[Scalar]:
             x[r] -= work[r][k] * x[k]
         x[r] /= work[r][r]
     return x
+
+
+def determinant(matrix: Sequence[Sequence[Scalar]]) -> Scalar:
+    """The determinant of a square matrix, (n, n) by rows, with partial pivoting; 0 where a column is zero."""
+    work, found = [list(row) for row in matrix], cast("Scalar", 1)
+    for c in range(len(work)):
+        r = _largest(work, c)
+        if not work[r][c]:
+            return work[r][c]
+        if r != c:
+            work[c], work[r], found = work[r], work[c], -found
+        found = found * work[c][c]
+        for below in work[c + 1 :]:
+            _subtract(below, work[c], c)
+    return found
 
 
 def inverse(matrix: Sequence[Sequence[float]]) -> list[list[float]] | None:

@@ -32,8 +32,6 @@ STEEP = 2.0
 """A radicand that may vanish between two places is smaller than so many of its steps there."""
 POINTS = 33
 ZOOMS = 10
-PAST = 0.125
-"""A line is followed beyond its last place by this part of its longest step."""
 STEPS, STEPS_A_ROW, CLOSED = 2000, 20, 4
 """Steps of a line that may lie between rows, in all and for each row; so many times as many where every
 point is found by a closed form."""
@@ -177,7 +175,7 @@ class Radicands:
         nodes = [n for margin in root.margins for n in margin]
         a, a_size, b, b_size = self.values(nodes, np.array([at]))
         margin = float(np.minimum(_share(a, a_size), _share(b, b_size))[0])
-        if abs(margin) > DOUBT:
+        if abs(margin) > DOUBT and not self.tracker.turns_over(at):
             return margin
         along = self.tracker.along(exact_record(self.compiled), [root.radicand, *nodes], at)
         with localcontext(CONTEXT), suppress(Unreached):
@@ -275,11 +273,11 @@ def _followed(
     remake: Remake, compiled: CompiledSweep, line: InputLine, start: State, ends: list[float]
 ) -> Followed:
     grid = grid_of(ends, line)
-    tracker = PathTracker(compiled, line, start, ChangePoints({}), _reach(ends, line))
+    tracker = PathTracker(compiled, line, start, ChangePoints({}), _reach(grid))
     if _has_limits(compiled, tracker, grid):
         ends += _turns_of(line)
         grid = grid_of(ends, line)
-        tracker = PathTracker(compiled, line, start, ChangePoints({}), _reach(ends, line))
+        tracker = PathTracker(compiled, line, start, ChangePoints({}), _reach(grid))
     found: dict[str, Passing] = {}
     done: set[str] = set()
     while True:
@@ -297,8 +295,7 @@ def _next_passing(
     """The next branch that changes its sign; those that were looked at are noted."""
     radicands = Radicands(compiled, tracker, grid)
     assert compiled.motion is not None
-    if tracker.line.period is not None:
-        tracker.change_points = tracker.change_points._replace(limits=radicands.limits())
+    tracker.change_points = tracker.change_points._replace(limits=radicands.limits())
     for n, root in enumerate(radicands.roots):
         name = compiled.motion.branches[root.node]
         if name in done:
@@ -320,10 +317,10 @@ def _has_limits(compiled: CompiledSweep, tracker: PathTracker, grid: Array) -> b
     return any(math.isfinite(end) for end in Radicands(compiled, tracker, grid).limits())
 
 
-def _reach(ends: Iterable[float], line: InputLine) -> tuple[float, float]:
-    """From the first to the last place and a little beyond, so that none is at the very end of the line."""
-    ends = [line.start, *ends]
-    return min(ends) - PAST * line.widest, max(ends) + PAST * line.widest
+def _reach(grid: Array) -> tuple[float, float]:
+    """From the first to the last place, (places,): a branch that changes between two rows is seen from both
+    sides, whichever rows there are."""
+    return float(grid[0]), float(grid[-1])
 
 
 def _turns_of(line: InputLine) -> list[float]:

@@ -11,6 +11,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+import numpy.typing as npt
 
 from icsolve.numbers import RADIAN
 from icsolve.numbers.replay import Array
@@ -24,6 +25,7 @@ BENT = 0.25
 COUNTED = 60.0
 """The most, in degrees, that a counted angle may turn in one step."""
 
+Mask = npt.NDArray[np.bool_]
 Step = tuple[float, Array, Array]
 """A place on the line, the unknowns of the groups there, and the counted turns."""
 SAME = 1e-6
@@ -114,26 +116,38 @@ class ChangePoints(NamedTuple):
         places = np.sort(np.array(self.places.get(name, ())))
         if not len(places):
             return np.ones_like(at)
-        low, high = self.limits
-        if line.period is not None and not (math.isinf(low) and math.isinf(high)):
-            at, places = self._within(at, line.period), self._copies(places, line.period)
+        if line.period is not None and any(map(math.isfinite, self.limits)):
+            at, places = self._followed(at, line), self._copies(places, line.period)
         passed = np.searchsorted(places, at) - np.searchsorted(places, line.start)
         return np.asarray(1.0 - 2.0 * (passed & 1), dtype=np.float64)
 
-    def _within(self, at: Array, period: float) -> Array:
-        """The places, those beyond a limit so many whole turns away that the motion leads there."""
+    def reached(self, at: Array, line: InputLine) -> Mask:
+        """To which places, (places,), the motion leads, also by turning the other way round."""
+        low, high = self.limits
+        back = self._within(at, line)
+        return (back >= low) & (back <= high)
+
+    def _followed(self, at: Array, line: InputLine) -> Array:
+        """Each place so many whole turns away that the motion leads there; where none does, the nearest to
+        the start: beyond a limit on both sides a branch goes on from the sign as written."""
+        period = line.period or math.inf
+        nearest = line.start + np.remainder(at - line.start + period / 2.0, period) - period / 2.0
+        return np.where(self.reached(at, line), self._within(at, line), nearest)
+
+    def _within(self, at: Array, line: InputLine) -> Array:
+        """The places, those beyond a limit so many whole turns away that they are not beyond that limit."""
+        if line.period is None:
+            return at
         low, high = self.limits
         above, below = np.maximum(at - high, 0.0), np.maximum(low - at, 0.0)
-        back = at - period * (np.ceil(above / period) - np.ceil(below / period))
-        return np.where((back >= low) & (back <= high), back, at)
+        return at - line.period * (np.ceil(above / line.period) - np.ceil(below / line.period))
 
     def _copies(self, places: Array, period: float) -> Array:
-        """The touches between the limits, whole turns away too."""
-        low, high = self.limits
-        reach = int(max(abs(end) for end in (low, high, *places) if math.isfinite(end)) / period) + 2
-        every = (places[:, None] + period * np.arange(-reach, reach + 1)).ravel()
-        kept = np.sort(every[(every > low) & (every < high)])
-        return kept[np.diff(kept, prepend=-math.inf) > SAME * period]
+        """The touches, whole turns away too."""
+        ends = [end for end in self.limits if math.isfinite(end)]
+        reach = int(max(abs(end) for end in (*ends, *places)) / period) + 2
+        every = np.sort((places[:, None] + period * np.arange(-reach, reach + 1)).ravel())
+        return every[np.diff(every, prepend=-math.inf) > SAME * period]
 
 
 class PathSegment(NamedTuple):

@@ -200,10 +200,10 @@ class RangeSearch:
                 if all(abs(s - other) > off for other in seen):  # several branches may change in one place
                     seen[s] = off
                     yield self._spot(s, "change-point", None, None if off is NEAR else float(off))
-        for s, near in self._passages():
-            if all(abs(s - other) > near for other in seen):
-                seen[s] = Decimal(near)
-                yield self._spot(s, "change-point", None, near)
+        for s, off in self._passages():
+            if all(abs(s - other) > off for other in seen):
+                seen[s] = off
+                yield self._spot(s, "change-point", None, None if off is NEAR else float(off))
         for bottom in self._divisors(answer):
             for s in self._zeros(bottom):
                 if self._is_pole(answer, s) and all(abs(s - other) > off for other, off in seen.items()):
@@ -212,11 +212,12 @@ class RangeSearch:
         for s, error in self._limits():
             yield self._spot(s, "limit", load, error)
 
-    def _passages(self) -> Iterator[tuple[Decimal, float]]:
-        """Singular positions of groups through which these go on, as doubles tell them, and their error."""
+    def _passages(self) -> Iterator[tuple[Decimal, Decimal]]:
+        """Singular positions of groups through which these go on, and how far off they may be."""
         if self._follows_groups:
-            for place in self.along.tracker.passages() if self.along.tracker else ():
-                yield from ((s, float(self.rough)) for s in self._inside(as_written(place), self.rough))
+            for place, exact in self.along.passages():
+                off = NEAR if exact else self.rough
+                yield from ((s, off) for s in self._inside(place, off))
 
     def _divisors(self, answer: Scalar) -> Iterator[Traced]:
         """What is divided by on the way to the answer: without its zeros that is bounded."""

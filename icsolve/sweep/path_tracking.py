@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from decimal import Decimal, localcontext
+from functools import partial
 from itertools import chain
 
 import numpy as np
@@ -49,9 +50,19 @@ Mask = npt.NDArray[np.bool_]
 
 AROUND, PLACES = [Decimal(2) ** -k for k in (14, 12, 10)], 6
 """Beside a singular position values are those of the polynomial through so many places on each side of it,
-which are these parts of the longest step apart: the first at which doubles lead Newton's method there."""
+which are these parts of the longest step apart: the first at which doubles lead Newton's method along one
+way."""
+SMOOTH = Decimal("1e-12")
+"""Values of one way follow from those around them to this part of their size; two ways differ by about as
+much as the places do."""
+DUST = Decimal("1e-100")
+"""What is less is 0."""
 BENT = 1e-4
 """Below this part of its size elsewhere the determinant of a group makes its row doubtful."""
+
+
+Along = Callable[[Decimal], list[Decimal]]
+"""Values by place of a line."""
 
 
 class PathTracker:
@@ -133,35 +144,39 @@ class PathTracker:
                     given[inputs[name]] = as_written(base) + as_written(line.slope.get(name, 0.0)) * s
         return given
 
-    def along(
-        self, exact: ExactRecord, nodes: Sequence[int], near: float
-    ) -> Callable[[Decimal], list[Decimal]]:
+    def along(self, exact: ExactRecord, nodes: Sequence[int], near: float) -> Along:
         """Nodes by places of the line near one of them, in all digits.
 
         Beside a singular position of a group, where Newton's method finds nothing or another way of
-        assembling, and where the sign of a branch changes, which leaves what follows it undefined, they are
-        those of the polynomial through places around it: the motion goes straight on there.
+        assembling, and where the sign of a branch changes, which leaves what follows it undefined, the motion
+        goes straight on: they are as `around` there.
 
         What is returned may raise Unreached where the groups have no solution.
         """
-        wanted = [exact.record.nodes[k] for k in nodes]
+        found = self.around(exact, nodes, near) if self.turns_over(near) else None
+        return found or self._values(exact, nodes)
 
-        def values(s: Decimal) -> list[Decimal]:
-            return exact.values(wanted, self.exactly(s))
-
-        widest = as_written(self.line.widest)
-        if not self._turns_over(near, float(AROUND[0] * widest)):
-            return values
+    def around(self, exact: ExactRecord, nodes: Sequence[int], near: float) -> Along | None:
+        """Nodes near a place of the line, in all digits: of the polynomial through places around it. None
+        where these are not of one way."""
+        values, widest = self._values(exact, nodes), as_written(self.line.widest)
         for apart in AROUND:
             places = [as_written(near) + k * apart * widest for k in range(-PLACES, PLACES + 1) if k]
             if self.unbroken(float(places[0]), float(places[-1])):
                 with localcontext(CONTEXT), suppress(Unreached):
                     known = [(place, values(place)) for place in places]
-                    return lambda s: through(known, s)
-        return values
+                    if is_smooth(known):
+                        return partial(through, known)
+        return None
 
-    def _turns_over(self, near: float, apart: float) -> bool:
-        """Whether a group is singular, or a branch changes its sign, about at a place of the line."""
+    def _values(self, exact: ExactRecord, nodes: Sequence[int]) -> Along:
+        wanted = [exact.record.nodes[k] for k in nodes]
+        return lambda s: exact.values(wanted, self.exactly(s))
+
+    def turns_over(self, near: float) -> bool:
+        """Whether a group is singular, or a branch changes its sign, about at a place of the line: doubles do
+        not tell what follows from it there."""
+        apart = float(AROUND[0]) * self.line.widest
         changes = chain.from_iterable(self.change_points.places.values())
         return any(abs(near - at) < apart for at in changes) or bool(self.bent(np.array([near]))[0])
 
@@ -455,3 +470,14 @@ def through(known: Sequence[tuple[Decimal, Sequence[Decimal]]], s: Decimal) -> l
         weights.append(math.prod(((s - other) / (at - other) for other in others), start=Decimal(1)))
     columns = zip(*(values for _, values in known), strict=True)
     return [sum((w * v for w, v in zip(weights, column, strict=True)), Decimal(0)) for column in columns]
+
+
+def is_smooth(known: Sequence[tuple[Decimal, Sequence[Decimal]]]) -> bool:
+    """Whether values at places in order are of one way: those at both ends follow from the others."""
+    within = known[1:-1]
+    sizes = [max(map(abs, column)) for column in zip(*(values for _, values in known), strict=True)]
+    return all(
+        abs(one - other) <= max(SMOOTH * size, DUST)
+        for at, values in (known[0], known[-1])
+        for one, other, size in zip(values, through(within, at), sizes, strict=True)
+    )

@@ -11,24 +11,34 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from decimal import Decimal, localcontext
+from itertools import chain
 
 import numpy as np
 import numpy.typing as npt
 
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
+from icsolve.numbers import Scalar
 from icsolve.numbers.decimals import CONTEXT, as_written
+from icsolve.numbers.linear import determinant
 from icsolve.numbers.replay import Array
+from icsolve.numbers.roots import closed_in
 from icsolve.sweep.continuation import PathSegment
 from icsolve.sweep.exact_record import APART, ZERO, RowScenes, Unreached, lowest
+from icsolve.sweep.path_tracking import Along
 from icsolve.sweep.row_parts import SweepPart, SweepParts
 
 CLEAR = 2.0**-12
 """A row farther from a change point than this part of the longest step is on the side that floats say."""
 
 
+PASSED = Decimal(2) ** -14
+"""Within this part of the longest step doubles tell where a group goes through a singular position."""
 BESIDE = 2.0**-20
 """A state is a guess for another that is this part of the longest step away."""
+
+
+Matrix = tuple[tuple[Scalar, ...], ...]
 
 
 class Recheck:
@@ -211,6 +221,36 @@ class Recheck:
             states = tracker.along(self.scenes.exact, columns, s)(as_written(s))
             return dict(zip(columns, states, strict=True))
         return {}
+
+    def passages(self) -> Iterator[tuple[Decimal, bool]]:
+        """The singular positions through which groups go on, and whether they are exact."""
+        for near in self.tracker.passages() if self.tracker else ():
+            exact = self._passage(near)
+            yield (as_written(near), False) if exact is None else (exact, True)
+
+    def _passage(self, near: float) -> Decimal | None:
+        """Where the determinant of a group vanishes; None where it does not lead there."""
+        tracker, exact = self.tracker, self.scenes.exact
+        assert tracker is not None
+        low, high = (as_written(near) + k * PASSED * as_written(tracker.line.widest) for k in (-1, 1))
+        groups = [group.equations for group, _ in tracker.groups]
+        with localcontext(CONTEXT), suppress(Unreached):
+            along = tracker.around(exact, [k for group in groups for k in group.solved], near)
+            if along is None:
+                return None
+            guesses = [k for group in groups for k in group.guesses]
+            for group in groups:
+                rows = group.derivatives
+                square = len(rows) == len(rows[0])
+
+                def size(s: Decimal, rows: Matrix = rows, along: Along = along) -> Decimal:
+                    known = tracker.exactly(s) | dict(zip(guesses, along(s), strict=True))
+                    found = iter(exact.values_at(chain.from_iterable(rows), known))
+                    return Decimal(determinant([[next(found) for _ in row] for row in rows]))
+
+                for place in closed_in(size, low, high) if square else ():
+                    return place
+        return None
 
     # --- sides of change points -------------------------------------------------------------------
 

@@ -12,6 +12,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import BLOCK, Array
 from icsolve.numbers.tape import UNIT
 from icsolve.sweep.continuation import InputLine
+from icsolve.sweep.path_tracking import PathTracker
 from icsolve.sweep.recheck import Recheck
 from icsolve.sweep.record_runner import Key, Progress, Rows, RowsFound, column
 from icsolve.sweep.request import Columns
@@ -23,6 +24,8 @@ from icsolve.sweep.varied_numbers import with_numbers
 
 CHUNK = 16 * BLOCK
 """Rows whose followed states are held at once."""
+SPANS = 4
+"""So many parts of a sweep to which no motion leads are told."""
 SAME = 1e-6
 """Change points nearer to each other than this, as a part of the longest step, are one."""
 
@@ -175,6 +178,7 @@ class SweepRun:
         if part.followed is None:
             return
         line = part.followed.tracker.line
+        self._islands(part, part.followed.tracker)
         change_points = [*part.followed.tracker.passages()]
         first, last = min(line.start, *part.places), max(line.start, *part.places)
         for passing in part.followed.passed.values():
@@ -197,6 +201,22 @@ class SweepRun:
         )
         if note not in self.notes:
             self.notes.append(note)
+
+    def _islands(self, part: SweepPart, tracker: PathTracker) -> None:
+        """Say to which rows no motion leads."""
+        line, order = tracker.line, np.argsort(part.places)
+        apart = ~tracker.change_points.reached(part.places[order], line) & (self.codes[part.rows[order]] == 0)
+        ends = np.flatnonzero(np.diff(apart, prepend=False, append=False)).reshape(-1, 2)
+        if len(ends):
+            (name,) = line.slope
+            spans = [
+                f"{part.places[order][a]:.6g} to {part.places[order][b - 1]:.6g}" for a, b in ends[:SPANS]
+            ]
+            self.notes.append(
+                f"no motion leads from the position as written to the rows at {self.columns.names[name]} = "
+                f"{', '.join(spans)}{' ...' if len(ends) > SPANS else ''}: "
+                "the branch of that position is kept in them."
+            )
 
     def _gap(self, line: InputLine, gap: float) -> None:
         (name,) = line.slope
