@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from icsolve.cli.commands import FORCE, Verb
-from icsolve.cli.output import watched
-from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, refusing
+from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, refusing, watched
 from icsolve.files import can_fork, check_ending, check_free, started, together, write_whole
 from icsolve.tuples import TypeVar
 from icsolve.wording import plural
