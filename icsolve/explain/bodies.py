@@ -13,8 +13,7 @@ from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, 
 from icsolve.explain.formula import Expr, Name, Num, Of, Sum, product
 from icsolve.explain.worked import Worked, load_name
 from icsolve.report import axial_words
-from icsolve.report.bars import bars_of
-from icsolve.report.derivation.known import Known, acting_loads, rope_pulls
+from icsolve.report.derivation.known import Known, acting_loads, bars_of, rope_pulls
 from icsolve.report.derivation.spatial import InSpace, in_space
 from icsolve.screws import subtract
 from icsolve.screws.space import ZERO, Vec, size, spatial, times
