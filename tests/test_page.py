@@ -413,7 +413,7 @@ def test_the_policy_lets_only_this_script_and_these_styles_run() -> None:
     page = hostile()
     policy = re.search(r'Content-Security-Policy" content="([^"]*)"', page)
     assert policy is not None
-    rules = policy[1].replace("&#x27;", "'").split("; ")
+    rules = policy[1].replace("&#39;", "'").split("; ")
     assert rules[0] == "default-src 'none'"
     for tag, rule in (("script", "script-src"), ("style", "style-src")):
         body = re.findall(f"<{tag}>(.*?)</{tag}>", page, re.DOTALL)

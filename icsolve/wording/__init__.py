@@ -39,6 +39,21 @@ def plural(count: int, word: str) -> str:
     return f"{count} {word}" + ("" if count == 1 else "s")
 
 
+_ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;"}
+
+
+def escaped(text: str) -> str:
+    """A text that stays text in XML and HTML, in content and in attributes, whatever it says."""
+    if not text.isprintable():
+        text = "".join(c if _is_written(c) else "\N{REPLACEMENT CHARACTER}" for c in text)
+    return "".join(_ENTITIES.get(c, c) for c in text)
+
+
+def _is_written(c: str) -> bool:
+    """Whether XML has a way to write a character."""
+    return c in "\t\n\r" or " " <= c <= "\ud7ff" or "\ue000" <= c <= "\ufffd" or c > "\uffff"
+
+
 def link_words(link: str) -> str:
     """``link 3``; what stands for a link where loads pull the free end of a rope or turn a screw."""
     if link.startswith("@screw "):

@@ -183,10 +183,7 @@ def _at_rest(case: Case, answer: Answer | None, refusal: SceneError | None) -> K
         row, angles = positions[0].answer.case, tuple(one for one in own.angles if one.value.path in at)
         own = replace(row, lengths=own.lengths, angles=angles, unknowns=(), expect=())
     elif positions:  # other ways in which the figure assembles at this value are not meant
-        placed = {
-            name for name, place in own.points.items() if isinstance(place, Coordinates) and None not in place
-        }
-        here = positions[0].answer.shown_points
+        here, placed = positions[0].answer.shown_points, given_places(own)
         own = replace(own, near={name: at for name, at in here.items() if name not in placed})
     known = known_of(own)
     posed = case.unknowns or tuple(map(Unknown, at))
@@ -263,11 +260,14 @@ def _points(case: Case, answer: Answer | None, scene: AnswerBuilder | None) -> d
     found = {} if answer is None else dict(answer.points)
     if scene is not None:
         found = {p: case_point(scene.figure.frame, at) for p, at in scene.figure.points.items()}
-    for name in names:
-        place = case.points.get(name)
-        if isinstance(place, Coordinates) and place.x is not None and place.y is not None:
-            found.setdefault(name, (place.x.value, place.y.value))
+    found.update((name, at) for name, at in given_places(case).items() if name not in found)
     return found if set(names) <= set(found) else {**_figure(case, names), **found}
+
+
+def given_places(case: Case) -> dict[str, Point]:
+    """Where the points are that the case gives by both coordinates."""
+    given = ((name, at) for name, at in case.points.items() if isinstance(at, Coordinates))
+    return {name: (at.x.value, at.y.value) for name, at in given if at.x is not None and at.y is not None}
 
 
 def _figure(case: Case, names: list[str]) -> dict[str, Point]:
@@ -488,10 +488,10 @@ def bars_of(answer: Answer) -> dict[str, float]:
 
 def _loaded(answer: Answer, link: str) -> list[Point | None]:
     """The places of the loads on a link; None of a couple, and of a load along a line."""
-    points = dict(answer.points)
-    for name, at in answer.case.points.items():  # loads at coordinates have theirs in the case alone
-        if isinstance(at, Coordinates) and at.x is not None and at.y is not None:
-            points.setdefault(name, (at.x.value, at.y.value))
+    points = {
+        **given_places(answer.case),
+        **answer.points,
+    }  # the case alone has those of loads at coordinates
     return [place for load in answer.case.loads for place in _places(answer.case, points, load, link)]
 
 
