@@ -230,5 +230,5 @@ def _exported(kind: str, cases: str, output: str, options: dict[str, Any]) -> in
     for problem in problems:
         complain(problem)
     what = "case" if kind == "gradescope-zip" else "question"
-    complain(f"wrote {output}: {made} {what}{'' if made == 1 else 's'}")
+    complain(f"wrote {output}: {plural(made, what)}")
     return NO_ANSWER if problems else DONE

@@ -18,7 +18,7 @@ from icsolve.page import page_html
 from icsolve.report.derivation.known import Known, known_of
 from icsolve.statics.power import is_unknown
 from icsolve.tuples import NamedTuple
-from icsolve.wording import escaped, listed
+from icsolve.wording import escaped, listed, plural
 from icsolve.wording.sentences import provenance
 
 FIGURE, PAGE = ".svg", ".html"
@@ -181,7 +181,7 @@ def index_html(exhibits: Sequence[Exhibit], title: str) -> str:
 def _count(exhibits: Sequence[Exhibit]) -> str:
     unread = sum(one.status == "unreadable" for one in exhibits)
     refused = sum(one.status != "ok" for one in exhibits) - unread
-    words = ["1 case" if len(exhibits) == 1 else f"{len(exhibits)} cases"]
+    words = [plural(len(exhibits), "case")]
     words += [f"{refused} without an answer"] if refused else []
     words += [f"{unread} that can't be read"] if unread else []
     return ", ".join(words) + "."
