@@ -1,5 +1,5 @@
-"""The words of an answer: names in a row, and of a load's value its sense, its unit, and the range in which
-friction lets it be."""
+"""The words of an answer: names in a row, texts that can be no markup, and of a load's value its sense, its
+unit, and the range in which friction lets it be."""
 
 from __future__ import annotations
 
