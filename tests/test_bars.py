@@ -11,7 +11,7 @@ import pytest
 import icsolve
 from icsolve.explain import explain
 from icsolve.report import answer_text
-from icsolve.report.bars import bars_of
+from icsolve.report.derivation.known import bars_of
 
 
 def truss(dice: Random, nodes: int) -> tuple[str, dict[str, float]]:

@@ -111,7 +111,7 @@ def test_a_page_without_friction_sets_no_sweep_up_twice_and_reads_its_text_twice
         monkeypatch.setattr(import_module(room), work.__name__, call)
 
     counted("icsolve.sweep.starting_position", setting_of)
-    for room in ("icsolve.read", "icsolve.read.settings"):
+    for room in ("icsolve.read", "icsolve.page.fields"):
         counted(room, parse)
     page_html(case)
     driven = [count for (what, *_), count in found.items() if what == "setting_of"]

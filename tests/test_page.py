@@ -28,12 +28,14 @@ from icsolve.draw.bodies import pushes_on
 from icsolve.numbers import FLOATS
 from icsolve.page import page_html
 from icsolve.page.document import equation_of
+from icsolve.page.fields import text_data
 from icsolve.page.live import live_of
 from icsolve.page.motion import forces_data, motion_of
 from icsolve.page.pictures import figure_of
 from icsolve.report.derivation.known import acting_loads, known_of
 from icsolve.scene.refusals import rubs
 from icsolve.screws.ropes import offsets_of, rope_length
+from icsolve.sweep.varied_numbers import numbers_of
 from library import FILES, LIBRARY, PAGED, known, motion, page_of
 from shell import exit_status
 from sizes import FULL
@@ -411,7 +413,7 @@ def test_the_policy_lets_only_this_script_and_these_styles_run() -> None:
     page = hostile()
     policy = re.search(r'Content-Security-Policy" content="([^"]*)"', page)
     assert policy is not None
-    rules = policy[1].replace("&#x27;", "'").split("; ")
+    rules = policy[1].replace("&#39;", "'").split("; ")
     assert rules[0] == "default-src 'none'"
     for tag, rule in (("script", "script-src"), ("style", "style-src")):
         body = re.findall(f"<{tag}>(.*?)</{tag}>", page, re.DOTALL)
@@ -679,3 +681,16 @@ def test_a_page_passes_a_change_point_without_a_jump(
     for place in moving.found.points.values():
         steps = np.hypot(*np.diff(place[moving.first : moving.last + 1], axis=0).T)
         assert steps.max() < math.radians(3.0) * across
+
+
+def test_each_number_that_a_file_gives_has_its_place_in_the_text_that_is_copied() -> None:
+    for name, path in FILES.items():
+        case = icsolve.load(path)
+        numbers = numbers_of(case)
+        data = text_data(case, [*numbers])
+        assert data is not None
+        for number, place in zip(numbers.values(), data["at"], strict=True):
+            if place is None:
+                assert number.path == "gravity" or number.digits == "unknown", (name, number.path)
+            else:
+                assert data["text"][slice(*place)].startswith(number.digits), (name, number.path)

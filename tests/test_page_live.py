@@ -809,8 +809,8 @@ def test_a_live_page_is_small_and_lets_nothing_else_run() -> None:
     """Under 300 kB; the policy in the page and in its comment allow the script by its hash alone."""
     html = page_of("linkages/jansen_leg.yaml")
     assert len(html.encode()) < 300_000
-    policies = re.findall(r"default-src &#x27;none&#x27;[^\"]*|default-src 'none'.*?(?= -->)", html)
-    assert len(policies) == 2 and policies[1].replace("&#x27;", "'") == policies[0]
+    policies = re.findall(r"default-src &#39;none&#39;[^\"]*|default-src 'none'.*?(?= -->)", html)
+    assert len(policies) == 2 and policies[1].replace("&#39;", "'") == policies[0]
     assert "unsafe" not in policies[0]
 
 

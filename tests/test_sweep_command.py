@@ -15,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import icsolve
-from icsolve.cli import output
+from icsolve.cli import run as verbs
 from icsolve.cli.sweeping import progression
 from shell import exit_status
 
@@ -199,10 +199,10 @@ class Terminal(io.StringIO):
 def test_a_bar_is_shown_of_long_work_on_a_terminal_only(
     press: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(output, "PATIENCE", 0.0)
+    monkeypatch.setattr(verbs, "PATIENCE", 0.0)
     for stream, shares in ((Terminal(), (0.5, 1.0)), (Terminal(), ()), (io.StringIO(), (0.5, 1.0))):
         monkeypatch.setattr("sys.stderr", stream)
-        with output.progress() as told:
+        with verbs.progress() as told:
             for share in shares:
                 told("rows", share)
         assert ("100%" in stream.getvalue()) == (bool(shares) and stream.isatty())

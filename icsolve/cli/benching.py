@@ -5,8 +5,7 @@ from __future__ import annotations
 import click
 
 from icsolve.cli.commands import Verb
-from icsolve.cli.output import unwritten
-from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
+from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, unwritten
 from icsolve.files import whole_file
 
 

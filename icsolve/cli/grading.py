@@ -12,8 +12,7 @@ from typing import IO, TYPE_CHECKING, Any
 import click
 
 from icsolve.cli.commands import FORCE, Verb
-from icsolve.cli.output import progress
-from icsolve.cli.run import DONE, NO_ANSWER, complain, refusing
+from icsolve.cli.run import DONE, NO_ANSWER, complain, progress, refusing
 from icsolve.files import check_free, files_of, folder_of, note, scratch, whole_file, write_whole
 
 if TYPE_CHECKING:

@@ -11,19 +11,22 @@ import click
 
 from icsolve.cli import BUG
 from icsolve.cli.commands import CASE, CASES, DIGITS, FORCE, SET, Verb
-from icsolve.cli.output import OUTPUT, one_source, watched, write_output
 from icsolve.cli.run import (
     DONE,
     NO_ANSWER,
+    OUTPUT,
     STDIN,
     UNREADABLE,
     InputSource,
     complain,
     for_each,
     on_stderr,
+    one_source,
     outcome,
     refusing,
     sources,
+    watched,
+    write_output,
 )
 from icsolve.files import KeptError, check_ending, together
 from icsolve.tuples import NamedTuple

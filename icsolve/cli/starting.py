@@ -5,8 +5,7 @@ from __future__ import annotations
 import click
 
 from icsolve.cli.commands import Verb
-from icsolve.cli.output import OUTPUT, unwritten
-from icsolve.cli.run import DONE, UNREADABLE, complain
+from icsolve.cli.run import DONE, OUTPUT, UNREADABLE, complain, unwritten
 from icsolve.files import KeptError, whole_file
 from icsolve.manual import TOPICS, kinds, kinds_like, nearest, template, told_of
 

@@ -15,8 +15,20 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from icsolve.cli.commands import CASE, DIGITS, SET, Verb
-from icsolve.cli.output import OUTPUT, one_source, progress, write_output
-from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, Refuse, complain, for_each, in_json, on_stderr
+from icsolve.cli.run import (
+    DONE,
+    NO_ANSWER,
+    OUTPUT,
+    UNREADABLE,
+    Refuse,
+    complain,
+    for_each,
+    in_json,
+    on_stderr,
+    one_source,
+    progress,
+    write_output,
+)
 from icsolve.errors import SceneError, Status
 from icsolve.tuples import NamedTuple, replace
 

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from icsolve.cli.commands import FORCE, Verb
-from icsolve.cli.output import watched
-from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, refusing
+from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, refusing, watched
 from icsolve.files import can_fork, check_ending, check_free, started, together, write_whole
 from icsolve.tuples import TypeVar
 from icsolve.wording import plural
@@ -231,5 +230,5 @@ def _exported(kind: str, cases: str, output: str, options: dict[str, Any]) -> in
     for problem in problems:
         complain(problem)
     what = "case" if kind == "gradescope-zip" else "question"
-    complain(f"wrote {output}: {made} {what}{'' if made == 1 else 's'}")
+    complain(f"wrote {output}: {plural(made, what)}")
     return NO_ANSWER if problems else DONE

@@ -14,7 +14,6 @@ from icsolve.draw.frame import point_parts, rims
 from icsolve.draw.links import bars, body_of, link_part, wheel_parts
 from icsolve.draw.loads import ARC, axle, heads, hidden, kind_of, ways
 from icsolve.draw.marks import (
-    Box,
     Disc,
     Mark,
     MarkGroup,
@@ -215,9 +214,7 @@ def _panel(scene: Scene, link: str, pushes: Sequence[DrawnPush], largest: float)
 def panel(link: str, parts: Iterable[Part], room: float = 0.0) -> list[Mark]:
     """A link by itself, with its labels in so much room around it."""
     whole = together(parts)
-    left, top, right, bottom = bounds(whole.marks)
-    window: Box = (left - room, top - room, right + room, bottom + room)
-    marks = (_renamed(link, mark) for mark in with_labels(whole, window))
+    marks = (_renamed(link, mark) for mark in with_labels(whole, bounds(whole.marks, room)))
     return [MarkGroup(f"body-{link}", "", tuple(marks), f"link {link} by itself")]
 
 

@@ -210,9 +210,7 @@ def draw(case: Case, drawing: Drawing = PLAIN, known: Known | None = None, form:
     marks = drawn(known, drawing)
     if form == "tex":
         return standalone(marks, known.title)
-    left, top, right, bottom = bounds(marks)
-    view = (left - PAD, top - PAD, right + PAD, bottom + PAD)
-    return document(marks, view, known.title, description(known))
+    return document(marks, bounds(marks, PAD), known.title, description(known))
 
 
 def drawn(known: Known, drawing: Drawing) -> list[Mark]:

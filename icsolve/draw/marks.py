@@ -141,9 +141,10 @@ def box_of(mark: AreaMark | Stroke | Disc | ArcMark | TextMark) -> Box:
     return (min(xs), min(ys), max(xs), max(ys))
 
 
-def bounds(marks: Iterable[Mark]) -> Box:
-    """The rectangle around marks; empty at the origin where there are none."""
-    return around_all([box_of(mark) for mark in leaves(marks)])
+def bounds(marks: Iterable[Mark], room: float = 0.0) -> Box:
+    """The rectangle around marks and so much room on each side; about the origin where there are none."""
+    left, top, right, bottom = around_all([box_of(mark) for mark in leaves(marks)])
+    return (left - room, top - room, right + room, bottom + room)
 
 
 def around_all(boxes: Sequence[Box]) -> Box:

@@ -227,10 +227,8 @@ def plot_svg(
         _, drawn = plot_marks(x, some, x_name, (0.0, top), (WIDTH, HEIGHT), shades)
         marks += drawn
         top = bounds(marks)[3] + 24.0
-    left, upper, right, lower = bounds(marks)
-    view = (left - 14.0, upper - 14.0, right + 14.0, lower + 14.0)
     names = ", ".join(curve.name for curve in curves)
-    return document(marks, view, title or names, f"{names} over {x_name}.")
+    return document(marks, bounds(marks, 14.0), title or names, f"{names} over {x_name}.")
 
 
 def plot_marks(

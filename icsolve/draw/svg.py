@@ -25,6 +25,7 @@ from icsolve.draw.marks import (
     text_box,
 )
 from icsolve.tuples import NamedTuple
+from icsolve.wording import escaped
 
 
 class Ink(NamedTuple):
@@ -145,21 +146,6 @@ def _hue(ink: Ink | None, dark: bool) -> str:
 
 
 # --- marks as SVG text -----------------------------------------------------------------------------------
-
-
-_ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;"}
-
-
-def escaped(text: str) -> str:
-    """A text that stays text, in content and in attributes, whatever it says."""
-    if not text.isprintable():
-        text = "".join(c if _is_written(c) else "\N{REPLACEMENT CHARACTER}" for c in text)
-    return "".join(_ENTITIES.get(c, c) for c in text)
-
-
-def _is_written(c: str) -> bool:
-    """Whether XML has a way to write a character."""
-    return c in "\t\n\r" or " " <= c <= "\ud7ff" or "\ue000" <= c <= "\ufffd" or c > "\uffff"
 
 
 def number(value: float) -> str:

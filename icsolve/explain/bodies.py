@@ -10,11 +10,10 @@ from icsolve.answer.bodies import Reaction, Rubbing, SpatialReaction
 from icsolve.case import Joint, is_link, is_named
 from icsolve.case.joints import Friction
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
-from icsolve.explain.formula import Expr, Name, Num, Sum, Trig, product
+from icsolve.explain.formula import Expr, Name, Num, Of, Sum, product
 from icsolve.explain.worked import Worked, load_name
 from icsolve.report import axial_words
-from icsolve.report.bars import bars_of
-from icsolve.report.derivation.known import Known, acting_loads, rope_pulls
+from icsolve.report.derivation.known import Known, acting_loads, bars_of, rope_pulls
 from icsolve.report.derivation.spatial import InSpace, in_space
 from icsolve.screws import subtract
 from icsolve.screws.space import ZERO, Vec, size, spatial, times
@@ -365,8 +364,8 @@ def _rule(work: Worked, joint: Joint) -> Iterable[Block]:
     if joint.pivot and friction.radius is not None:
         radius = friction.radius.value
         circle = work.distance(radius * math.sin(math.radians(phi)))
-        numbers = product(work.number(radius), Trig("sin", work.number(phi)))
-        yield formula(product(Name("r", at), Trig("sin", Name("phi"))), numbers, circle)
+        numbers = product(work.number(radius), Of("sin", work.number(phi)))
+        yield formula(product(Name("r", at), Of("sin", Name("phi"))), numbers, circle)
 
 
 def _rubs(work: Worked, one: Rubbing) -> str:

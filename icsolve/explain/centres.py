@@ -9,19 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from icsolve.answer import Centre
 from icsolve.case import Pair, is_named, pair_name
 from icsolve.explain.document import Block, Inline, Items, Section, formula, words
-from icsolve.explain.formula import (
-    Expr,
-    Name,
-    Num,
-    Quotient,
-    RootOf,
-    Spanned,
-    Square,
-    Sum,
-    Trig,
-    minus,
-    product,
-)
+from icsolve.explain.formula import Expr, Name, Num, Of, Quotient, Spanned, Sum, minus, product
 from icsolve.explain.ropes import rope_ratio, screw_ratio
 from icsolve.explain.worked import Worked, rate_name
 from icsolve.report.derivation.known import Known
@@ -209,8 +197,8 @@ def _distances(work: Worked, names: tuple[Name, ...], ratio: Ratio) -> Iterable[
 
 def distance(work: Worked, a: tuple[float, float], b: tuple[float, float]) -> Expr:
     """The root of the squares of the differences."""
-    squares = tuple((1, Square(work.difference(q, p))) for p, q in zip(a, b, strict=True))
-    return RootOf(Sum(squares))
+    squares = tuple((1, Of("square", work.difference(q, p))) for p, q in zip(a, b, strict=True))
+    return Of("sqrt", Sum(squares))
 
 
 def _gliding(work: Worked, ratios: Ratios, ratio: Ratio, left: Expr) -> Iterable[Block]:
@@ -225,7 +213,7 @@ def _gliding(work: Worked, ratios: Ratios, ratio: Ratio, left: Expr) -> Iterable
         f"{work.show(along)} deg: "
         "across that direction they move alike."
     )
-    sines = [Trig("sin", Sum(((1, work.number(h)), (-1, work.number(along))))) for h in headings]
+    sines = [Of("sin", Sum(((1, work.number(h)), (-1, work.number(along))))) for h in headings]
     yield formula(left, Quotient(sines[0], sines[1]), work.number(ratio.value))
 
 

@@ -11,10 +11,10 @@ from itertools import pairwise
 
 from icsolve.draw import tikz
 from icsolve.draw.marks import Mark, kinds_of
-from icsolve.draw.svg import escaped
 from icsolve.explain.formula import LATEX, MATHML, PLAIN, Expr, Notation, Quantity
 from icsolve.report import table
 from icsolve.tuples import NamedTuple
+from icsolve.wording import escaped
 
 Inline = str | Expr
 """A piece of a paragraph: words, or a symbol or short formula."""
@@ -202,6 +202,17 @@ figure{margin:1rem 0}svg{max-width:100%;height:auto}
 """
 
 
+def html_page(title: str, style: str, body: str) -> str:
+    """A whole page under its title."""
+    title = escaped(title)
+    return (
+        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
+        '<meta name="viewport" content="width=device-width,initial-scale=1">\n'
+        f"<title>{title}</title>\n<style>{style}</style></head>\n<body><main>\n"
+        f"<h1>{title}</h1>\n{body}</main></body></html>\n"
+    )
+
+
 class AsHtml(Layout):
     """A whole page; ``figure`` is an SVG drawing."""
 
@@ -217,15 +228,9 @@ class AsHtml(Layout):
         return f"<math>{self.notation.expression(expression)}</math>"
 
     def whole(self, document: Document) -> str:
-        title = escaped(document.title)
         lead = "".join(f'<p class="lead">{escaped(text)}</p>\n' for text in document.lead)
         picture = f"<figure>{self.figure}</figure>\n" if self.figure else ""
-        return (
-            '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
-            '<meta name="viewport" content="width=device-width,initial-scale=1">\n'
-            f"<title>{title}</title>\n<style>{STYLE}</style></head>\n<body><main>\n"
-            f"<h1>{title}</h1>\n{lead}{picture}{self.sections(document)}</main></body></html>\n"
-        )
+        return html_page(document.title, STYLE, f"{lead}{picture}{self.sections(document)}")
 
     def sections(self, document: Document) -> str:
         """The sections alone, to stand in another page; where a formula is wider than the window its section

@@ -3,14 +3,12 @@ vanishes, its numbers in each position, and what its derivative says of a small 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 
 import numpy as np
 
 from icsolve.answer.equilibrium import EquilibriumPosition
-from icsolve.case import Case, Spring, TorsionSpring, is_angle
-from icsolve.case.figure import Corner, Direction, Length
+from icsolve.case import Spring, TorsionSpring, is_angle
 from icsolve.explain.document import Block, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, product, total
 from icsolve.explain.power import AGREE, factor_of, gain_of, sprung, torque_words
@@ -18,7 +16,10 @@ from icsolve.explain.worked import Worked, exerted_name, load_name
 from icsolve.report import place_text
 from icsolve.report.derivation.known import Acting, Known, acting_loads, known_at
 from icsolve.report.derivation.ratios import OneMotion, independent_motions, speed_words
-from icsolve.screws import Point, Triple, velocity
+from icsolve.screws import Triple, velocity
+from icsolve.solve.driven_search import rate_of
+from icsolve.sweep.varied_numbers import points_of
+from icsolve.tuples import replace
 from icsolve.wording import NOTHING
 
 WORK = (
@@ -55,10 +56,10 @@ def _position(work: Worked, position: EquilibriumPosition) -> list[Block]:
     here = work._replace(known=known_at(work.known, position.answer))
     place = f"In the position {place_text(here.case, position, work.digits)}"
     for path in position.at:
-        loose = [name for name in _ends(work.case, path) if name not in here.known.points]
+        loose = [name for name in points_of(path) if name not in here.known.points]
         if loose:
             return [words(f"{place} no motion is told by {path}: no link carries {loose[0]}.")]
-    motions = _by_unknowns(here.known, work.case, list(position.at))
+    motions = _by_unknowns(here.known, list(position.at))
     if not motions:  # a change point, which has more of them
         return []
     blocks: list[Block] = [words(f"{place}:")]
@@ -128,13 +129,13 @@ def _derivative(work: Worked, position: EquilibriumPosition) -> Iterable[Block]:
 # --- the motion by an unknown ------------------------------------------------------------------------
 
 
-def _by_unknowns(known: Known, written: Case, paths: Sequence[str]) -> list[tuple[str, OneMotion]]:
+def _by_unknowns(known: Known, paths: Sequence[str]) -> list[tuple[str, OneMotion]]:
     """The motion in which each unknown grows at 1 and the others stand still, in words and by its twists; at
     a limit of an unknown, that which the mechanism has."""
     motions = independent_motions(known)
     if len(motions) != len(paths):
         return []
-    rates = [[_rate(known, written, path, motion) for motion in motions] for path in paths]
+    rates = [[_rate(known, path, motion) for motion in motions] for path in paths]
     if not abs(np.linalg.det(rates)) > LEAST:
         return [(speed_words(motion), motion) for motion in motions]
     found = []
@@ -156,41 +157,13 @@ def _mixed(motions: Sequence[OneMotion], weights: Sequence[float]) -> OneMotion:
     return motions[0]._replace(twists={link: twist(link) for link in motions[0].twists})
 
 
-def _datum(written: Case, path: str) -> Corner | Direction | Length:
-    return next(one for one in (*written.angles, *written.lengths) if one.value.path == path)
-
-
-def _ends(written: Case, path: str) -> tuple[str, ...]:
-    """The points between which a datum is measured."""
-    if path.startswith("points."):
-        return (path.split(".")[1],)
-    datum = _datum(written, path)
-    return (datum.a, datum.at, datum.b) if isinstance(datum, Corner) else (datum.a, datum.b)
-
-
-def _rate(known: Known, written: Case, path: str, motion: OneMotion) -> float:
+def _rate(known: Known, path: str, motion: OneMotion) -> float:
     """How fast a datum grows in a motion [rad/s for an angle, length/s]."""
-    if path.startswith("points."):
-        return float(_velocity(known, path.split(".")[1], motion)["xy".index(path[-1])])
-    datum = _datum(written, path)
-    if isinstance(datum, Corner):
-        return (_growth(known, datum.at, datum.b, motion) - _growth(known, datum.at, datum.a, motion)).imag
-    growth = _growth(known, datum.a, datum.b, motion)
-    if isinstance(datum, Direction):
-        return growth.imag
-    return growth.real * math.dist(known.points[datum.a], known.points[datum.b])
-
-
-def _growth(known: Known, a: str, b: str, motion: OneMotion) -> complex:
-    """How fast the arm from a to b grows, as a share of itself; the imaginary part is how fast it turns."""
-    (p, q), (u, v) = [known.points[name] for name in (a, b)], [_velocity(known, n, motion) for n in (a, b)]
-    return (complex(*v) - complex(*u)) / (complex(*q) - complex(*p))
-
-
-def _velocity(known: Known, point: str, motion: OneMotion) -> Point:
-    """Of a point, on a link that carries it and on whose guide it does not run."""
-    case = known.case
-    runs = {joint.links[1] for joint in case.joints if joint.guide is not None and joint.at == point}
-    links = [link for link, names in case.carries.items() if point in names]
-    link = min(links, key=lambda one: one in runs)
-    return velocity(motion.twists[link], known.points[point])
+    carried = ((point, link) for link, names in known.case.carries.items() for point in names)
+    moving = {
+        (point, link): velocity(motion.twists[link], known.points[point])
+        for point, link in carried
+        if point in known.points
+    }
+    assert known.answer is not None
+    return rate_of(replace(known.answer, points=dict(known.points), rates={}, velocities=moving), path)

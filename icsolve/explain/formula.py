@@ -64,28 +64,11 @@ class Sum(NamedTuple):
     terms: tuple[tuple[int, Expr], ...]
 
 
-class Trig(NamedTuple):
-    """``sin``, ``cos`` or ``tan`` of an angle in degrees (a difference, or one number or symbol)."""
+class Of(NamedTuple):
+    """A function of an expression: ``sin``, ``cos`` or ``tan`` of an angle in degrees (a difference, or one
+    number or symbol), ``sqrt``, ``square`` or ``exp``."""
 
     function: str
-    angle: Expr
-
-
-class RootOf(NamedTuple):
-    """A square root."""
-
-    of: Expr
-
-
-class Square(NamedTuple):
-    """A square."""
-
-    of: Expr
-
-
-class Exp(NamedTuple):
-    """A power of e."""
-
     of: Expr
 
 
@@ -96,7 +79,7 @@ class Quantity(NamedTuple):
     unit: str
 
 
-Expr = Num | Name | Spanned | Product | Quotient | Sum | Trig | RootOf | Square | Exp | Quantity
+Expr = Num | Name | Spanned | Product | Quotient | Sum | Of | Quantity
 
 
 def product(*factors: Expr) -> Expr:
@@ -184,7 +167,7 @@ def names_in(expression: Expr) -> set[Expr]:
             return names_in(over) | names_in(under)
         case Sum(terms):
             return set().union(*(names_in(term) for _, term in terms))
-        case Trig(_, of) | RootOf(of) | Square(of) | Exp(of):
+        case Of(_, of):
             return names_in(of)
 
 
@@ -206,15 +189,24 @@ def worth(expression: Expr) -> float:
             return worth(over) / below if below else math.inf
         case Sum(terms):
             return math.fsum(sign * worth(term) for sign, term in terms)
-        case Trig(function, angle):
-            co, s = turn_of(worth(angle))
-            return {"cos": co, "sin": s}.get(function) or (s / co if co and function == "tan" else 0.0)
-        case RootOf(of):
-            return math.sqrt(max(worth(of), 0.0))
-        case Square(of):
-            return worth(of) ** 2
-        case Exp(of):
-            return math.exp(worth(of))
+        case Of(function, of):
+            return WORTH[function](worth(of))
+
+
+def _tangent(degrees: float) -> float:
+    co, s = turn_of(degrees)
+    return s / co if co else 0.0
+
+
+WORTH: dict[str, Callable[[float], float]] = {
+    "sin": lambda degrees: turn_of(degrees)[1],
+    "cos": lambda degrees: turn_of(degrees)[0],
+    "tan": _tangent,
+    "sqrt": lambda value: math.sqrt(max(value, 0.0)),
+    "square": lambda value: value**2,
+    "exp": math.exp,
+}
+"""What functions come to."""
 
 
 def rewritten(expression: Expr, shown: Callable[[float], Num]) -> Expr:
@@ -234,14 +226,8 @@ def rewritten(expression: Expr, shown: Callable[[float], Num]) -> Expr:
             return Quotient(again(over), again(under))
         case Sum(terms):
             return Sum(tuple((sign, again(term)) for sign, term in terms))
-        case Trig(function, angle):
-            return Trig(function, again(angle))
-        case RootOf(of):
-            return RootOf(again(of))
-        case Square(of):
-            return Square(again(of))
-        case Exp(of):
-            return Exp(again(of))
+        case Of(function, of):
+            return Of(function, again(of))
         case Name() | Spanned():
             return expression
 
@@ -269,9 +255,8 @@ class Notation(NamedTuple):
     trig: str
     """function, angle, sign of degrees"""
     degrees: str
-    root: str
-    exp: str
-    square: str
+    functions: dict[str, str]
+    """the others"""
     apart: str = ""
     """between a function and an angle without brackets"""
     equals: str = " = "
@@ -308,16 +293,12 @@ class Notation(NamedTuple):
                 return self.quotient.format(*self._over_and_under(expression))
             case Sum(terms):
                 return "".join(self._term(n, *term) for n, term in enumerate(terms))
-            case Trig(function, angle):
+            case Of("sin" | "cos" | "tan" as function, angle):
                 mark = "" if _symbols(angle) else self.degrees
                 text, inner = self._grouped(angle, needed=not self.flat), self.expression(angle)
                 return self.trig.format(function, self.apart + text if text == inner else text, mark)
-            case RootOf(of):
-                return self.root.format(self.expression(of))
-            case Exp(of):
-                return self.exp.format(self.expression(of))
-            case Square(of):
-                return self.square.format(self._grouped(of))
+            case Of(function, of):
+                return self.functions[function].format(self._grouped(of, needed=function == "square"))
 
     def _grouped(self, inner: Expr, *, needed: bool = True) -> str:
         """A part, in the brackets that it needs."""
@@ -368,9 +349,7 @@ PLAIN = Notation(
     brackets="({})",
     trig="{}({}{})",
     degrees=" deg",
-    root="sqrt({})",
-    exp="exp({})",
-    square="{}^2",
+    functions={"sqrt": "sqrt({})", "exp": "exp({})", "square": "{}^2"},
     flat=True,
 )
 """``w4 = 1.5 x 2 / 3``: ASCII, in the order in which a calculator takes it."""
@@ -418,9 +397,7 @@ LATEX = Notation(
     trig=r"\{}{}{}",
     apart=" ",
     degrees=r"^\circ",
-    root=r"\sqrt{{{}}}",
-    exp="e^{{{}}}",
-    square="{}^{{2}}",
+    functions={"sqrt": r"\sqrt{{{}}}", "exp": "e^{{{}}}", "square": "{}^{{2}}"},
 )
 """LaTeX, as Markdown has it between dollars."""
 _DOT, _MINUS = "<mo>\N{DOT OPERATOR}</mo>", "<mo>\N{MINUS SIGN}</mo>"
@@ -452,9 +429,11 @@ MATHML = Notation(
     brackets="<mrow><mo>(</mo>{}<mo>)</mo></mrow>",
     trig='<mrow><mi>{}</mi><mspace width="0.17em"/>{}{}</mrow>',
     degrees="<mi>\N{DEGREE SIGN}</mi>",
-    root="<msqrt>{}</msqrt>",
-    exp="<msup><mi>e</mi><mrow>{}</mrow></msup>",
-    square="<msup><mrow>{}</mrow><mn>2</mn></msup>",
+    functions={
+        "sqrt": "<msqrt>{}</msqrt>",
+        "exp": "<msup><mi>e</mi><mrow>{}</mrow></msup>",
+        "square": "<msup><mrow>{}</mrow><mn>2</mn></msup>",
+    },
     equals="<mo>=</mo>",
     whole="<mrow>{}</mrow>",
 )

@@ -19,19 +19,7 @@ from icsolve.case import (
 )
 from icsolve.explain.bodies import Rubbed, rubbed
 from icsolve.explain.document import Block, Section, formula, words
-from icsolve.explain.formula import (
-    Expr,
-    Name,
-    Num,
-    Quotient,
-    RootOf,
-    Square,
-    Sum,
-    Trig,
-    product,
-    solved_for,
-    total,
-)
+from icsolve.explain.formula import Expr, Name, Num, Of, Quotient, Sum, product, solved_for, total
 from icsolve.explain.worked import Worked, exerted_name, gain_names, lever, load_name
 from icsolve.report.derivation.known import Acting, Known
 from icsolve.report.derivation.ratios import OneMotion, Ratios, independent_motions, speed_words
@@ -183,7 +171,7 @@ def _area(work: Worked, load: Force, over: Area, gain: float) -> list[Block]:
     if over.bore is not None:
         bore, rod = over.bore.value, 0.0 if over.rod is None else over.rod.value
         size = math.pi * (bore - rod) * (bore + rod) / 4.0
-        squares = [(sign, Square(work.number(d))) for sign, d in ((1, bore), (-1, rod)) if d]
+        squares = [(sign, Of("square", work.number(d))) for sign, d in ((1, bore), (-1, rod)) if d]
         numbers = (Quotient(product(Name("pi"), total(squares)), Num("4")),)
     area, square = work.quantity(size, f"{units.length}^2"), f"{units.force}/{units.length}^2"
     blocks: list[Block] = [words("The area of ", load_name(load.name), ":"), formula(name, *numbers, area)]
@@ -439,7 +427,7 @@ def factor_of(
         return 0.0, []
     angle = work.number(math.degrees(math.atan2(dy, dx)) % 360.0)
     x, y = map(work.number, v)
-    along = Sum(((1, product(x, Trig("cos", angle))), (1, product(y, Trig("sin", angle)))))
+    along = Sum(((1, product(x, Of("cos", angle))), (1, product(y, Of("sin", angle)))))
     extra = [work.number(f) for f in (acting.gain, units) if f != 1.0]
     whole = product(*extra, along) if extra else along
     said = f" has its point move at ({x.digits}, {y.digits}) {work.units.length}/s:"
@@ -469,5 +457,7 @@ def _found(work: Worked) -> Iterable[Block]:
             numbers = [work.number(abs(part)) for part in found.components]
             for part, value in zip(parts, found.components, strict=True):
                 yield formula(part, work.quantity(value, found.unit))
-            sides = tuple(RootOf(Sum(tuple((1, Square(one)) for one in some))) for some in (parts, numbers))
+            sides = tuple(
+                Of("sqrt", Sum(tuple((1, Of("square", one)) for one in some))) for some in (parts, numbers)
+            )
         yield formula(load_name(name), *sides, work.quantity(found.value, found.unit))

@@ -11,14 +11,13 @@ from icsolve.answer.bodies import Reaction
 from icsolve.case import Rope, Screw, Torque, Weight
 from icsolve.explain.document import Block, Formula, Section, formula, words
 from icsolve.explain.formula import (
-    Exp,
     Expr,
     Name,
     Num,
+    Of,
     Quantity,
     Quotient,
     Sum,
-    Trig,
     minus,
     product,
     solved_for,
@@ -165,9 +164,9 @@ def _slipping(work: Worked, rope: Rope) -> Iterable[Block]:
         )  # fmt: skip
         more, less = (k + 1, k) if pulls[k] >= pulls[k - 1] else (k, k + 1)
         ratio = Quotient(_symbol(work.known, rope, more), _symbol(work.known, rope, less))
-        numbers = Exp(product(work.number(mu.value), work.number(angle)))
+        numbers = Of("exp", product(work.number(mu.value), work.number(angle)))
         grown = [work.number(math.exp(mu.value * angle))] if mu.value * angle < MOST_EXPONENT else []
-        yield formula(ratio, Exp(product(Name("mu"), wrap)), numbers, *grown)
+        yield formula(ratio, Of("exp", product(Name("mu"), wrap)), numbers, *grown)
 
 
 def _grown(work: Worked, rope: Rope, known: Name) -> Iterable[Block]:
@@ -324,9 +323,9 @@ def _screw(work: Worked, screw: Screw) -> Iterable[Block]:
     yield words("The angle of its thread, and that of friction:")
     sizes = Quotient(lead, product(pi2, work.number(r)))
     pitch = Quotient(Name("l"), product(turn, Name("r")))
-    yield formula(Trig("tan", names[0]), pitch, sizes, work.number(rise))
+    yield formula(Of("tan", names[0]), pitch, sizes, work.number(rise))
     yield formula(names[0], work.quantity(slope, "deg"))
-    yield formula(Trig("tan", names[1]), Name("mu"), work.number(screw.thread.mu.value))
+    yield formula(Of("tan", names[1]), Name("mu"), work.number(screw.thread.mu.value))
     yield formula(names[1], work.quantity(phi, "deg"))
     driven = _driven(work.known, screw, thrust)
     for sign, way in ((1, "Against the load, to raise it:"), (-1, "With the load, to lower it:")):
@@ -341,15 +340,15 @@ def _screw(work: Worked, screw: Screw) -> Iterable[Block]:
     yield words("As ", names[1], f" is {holds} ", names[0], f", it {locks}.")
     if driven != -1:
         yield words("Its efficiency:")
-        whole = Quotient(Trig("tan", names[0]), _tangent(*names, 1))
+        whole = Quotient(Of("tan", names[0]), _tangent(*names, 1))
         both = (work.number(slope), work.number(phi))
         gained = rise / math.tan(math.radians(phi + slope))
-        yield formula(whole, Quotient(Trig("tan", both[0]), _tangent(*both, 1)), work.number(gained))
+        yield formula(whole, Quotient(Of("tan", both[0]), _tangent(*both, 1)), work.number(gained))
 
 
 def _tangent(slope: Expr, phi: Expr, sign: int) -> Expr:
     """The tangent of the angle of friction and, or less, that of the thread."""
-    return Trig("tan", Sum(((1, phi), (sign, slope))))
+    return Of("tan", Sum(((1, phi), (sign, slope))))
 
 
 def _turned(

@@ -30,9 +30,9 @@ from icsolve.explain.formula import (
     Expr,
     Name,
     Num,
+    Of,
     Quantity,
     Sum,
-    Trig,
     names_in,
     product,
     rewritten,
@@ -244,13 +244,13 @@ def lever(
         found = Lever(Name("c", low), work.number(cosine), cosine)
         between = Sum(((1, written), (-1, work.number(headings[link]))))
         said = words("The part of ", *force, f" along the motion of {link_words(link)}:")
-        return found, [said, formula(found.name, Trig("cos", between), found.number)]
+        return found, [said, formula(found.name, Of("cos", between), found.number)]
     parts = ((at[0] - about[0]) * direction[1], (at[1] - about[1]) * direction[0])
     arm = parts[0] - parts[1]
     arm = arm if abs(arm) > NOTHING * max(*map(abs, parts), work.size) else 0.0
     found = Lever(Name("h", low), work.number(arm), arm)
     across, up = (work.difference(to, start) for to, start in zip(at, about, strict=True))
-    moments = Sum(((1, product(across, Trig("sin", written))), (-1, product(up, Trig("cos", written)))))
+    moments = Sum(((1, product(across, Of("sin", written))), (-1, product(up, Of("cos", written)))))
     turns = f", positive where it turns link {link} counterclockwise:"
     said = words("The arm of ", *force, " about ", work.centre_name(work.own_centre(link)), turns)
     return found, [said, formula(found.name, moments, work.distance(arm))]

@@ -19,6 +19,7 @@ from icsolve.grade.judge import OPEN, Judgement, Read
 from icsolve.grade.tables.columns import read_table, without_apostrophe
 from icsolve.grade.written.answer import WrittenAnswer
 from icsolve.tuples import NamedTuple
+from icsolve.wording import plural
 
 
 class Marked:
@@ -122,13 +123,12 @@ def number(value: float | None) -> str:
 
 def tail(marked: Marked) -> str:
     """From the raw answer to the feedback, with the line's end."""
-    if not marked.tail:
-        judged = marked.judged
-        off = "" if judged.off is None else f"{judged.off:.3g}"
-        score = "" if marked.score is None else shown(marked.score)
-        read = f"{number(marked.value)},{_cached(marked.unit)},{_cached(marked.direction)}"
-        marks = f"{judged.verdict},{score},{shown(marked.points)},{off},{judged.code}"
-        marked.tail = f"{cell(marked.raw)},{read},{marks},{_cached(marked.text)}\n"
+    judged = marked.judged
+    off = "" if judged.off is None else f"{judged.off:.3g}"
+    score = "" if marked.score is None else shown(marked.score)
+    read = f"{number(marked.value)},{_cached(marked.unit)},{_cached(marked.direction)}"
+    marks = f"{judged.verdict},{score},{shown(marked.points)},{off},{judged.code}"
+    marked.tail = f"{cell(marked.raw)},{read},{marks},{_cached(marked.text)}\n"
     return marked.tail
 
 
@@ -219,7 +219,7 @@ def read_results(path: str) -> Iterator[ResultRow]:
 
 
 def _unsafe(cell: str) -> str:
-    return cell[1:] if cell[:1] == "'" and cell[1:2] in tuple("=+-@\t\r\n") else cell
+    return cell[1:] if cell[:1] == "'" and cell[1:2] in _RISKY else cell
 
 
 def by_student(path: str, graded: bool = True) -> Iterator[tuple[str, list[ResultRow]]]:
@@ -440,7 +440,7 @@ def changes_csv(changes: Iterable[Change]) -> str:
 def changes_text(changes: list[Change], old: str) -> str:
     """The changes for a terminal: how many, why, and whose."""
     up, down = sum(one.by > 0.0 for one in changes), sum(one.by < 0.0 for one in changes)
-    head = f"against {old}: {len(changes)} mark{'' if len(changes) == 1 else 's'} changed"
+    head = f"against {old}: {plural(len(changes), 'mark')} changed"
     if not changes:
         return f"against {old}: no mark changed"
     lines = [f"{head}, {up} up, {down} down"]

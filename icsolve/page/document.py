@@ -8,7 +8,6 @@ import os
 import re
 from collections.abc import Iterable
 from functools import cache
-from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -36,6 +35,7 @@ from icsolve.page.poses import Array, exact, script_json
 from icsolve.report.derivation.known import Acting, Known, acting_loads, resting
 from icsolve.report.derivation.ratios import Step
 from icsolve.tuples import NamedTuple
+from icsolve.wording import escaped
 
 if TYPE_CHECKING:
     from hashlib import sha256
@@ -240,14 +240,14 @@ class PageParts(NamedTuple):
 def html_of(parts: PageParts) -> str:
     """The whole document."""
     styles = style() + parts.sheet
-    title = escape(_clean(parts.known.title))
+    title = escaped(parts.known.title)
     body = "\n".join(part for part in _body(parts) if part)
     scripts = script(parts.live)
     allowed = policy(styles, scripts)
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         f"<!-- For a server that sends its own policy: {allowed} -->\n"
-        f'<meta http-equiv="Content-Security-Policy" content="{escape(allowed)}">\n'
+        f'<meta http-equiv="Content-Security-Policy" content="{escaped(allowed)}">\n'
         '<meta name="viewport" content="width=device-width,initial-scale=1">\n'
         f"<title>{title}</title>\n<style>{styles}</style>\n</head>\n<body>\n<main>\n{body}\n</main>\n"
         f'<script type="application/json" id="data">{script_json(parts.model)}</script>\n'
@@ -255,24 +255,15 @@ def html_of(parts: PageParts) -> str:
     )
 
 
-def _clean(text: str) -> str:
-    """A text without characters that HTML has no way to write."""
-    return "".join(c if c.isprintable() or c in "\t\n" else "\N{REPLACEMENT CHARACTER}" for c in text)
-
-
-def _text(text: str) -> str:
-    return escape(_clean(text))
-
-
 def _body(parts: PageParts) -> Iterable[str]:
     known, case = parts.known, parts.known.case
-    yield f"<header><h1>{_text(known.title)}</h1>"
+    yield f"<header><h1>{escaped(known.title)}</h1>"
     if case.source:
-        yield f'<p class="source">{_text(case.source)}</p>'
+        yield f'<p class="source">{escaped(case.source)}</p>'
     if case.reconstructed:
-        yield f'<p class="remark"><strong>Reconstructed:</strong> {_text(case.reconstructed)}</p>'
+        yield f'<p class="remark"><strong>Reconstructed:</strong> {escaped(case.reconstructed)}</p>'
     if known.refusal is not None:
-        status, message = _text(known.refusal.status), _text(known.refusal.message)
+        status, message = escaped(known.refusal.status), escaped(known.refusal.message)
         yield f'<p class="remark"><strong>No answer ({status}):</strong> {message}</p>'
     yield '<noscript><p class="remark">Without JavaScript the figure stands still.</p></noscript>'
     yield '</header>\n<div class="panels">'
@@ -299,7 +290,7 @@ def _stage(parts: PageParts) -> str:
             parts.figure,
             _answers(parts),
             _controls(parts) if "motion" in parts.model else "",
-            f'<p class="hint still">{_text(parts.still)}</p>' if parts.still else "",
+            f'<p class="hint still">{escaped(parts.still)}</p>' if parts.still else "",
             "" if parts.live is not None else f'<p class="hint presolved">{why_presolved(parts.known)}</p>',
             _step_buttons(parts),
             "</section>",
@@ -317,7 +308,7 @@ def _see(parts: PageParts) -> str:
     moving = [name for name in parts.model.get("motion", {"points": ()})["points"] if is_named(name)]
 
     def boxes(what: str, kind: str, names: Iterable[str]) -> str:
-        some = (f'<label><input type="checkbox" data-{kind}="{_text(n)}">{_text(n)}</label>' for n in names)
+        some = (f'<label><input type="checkbox" data-{kind}="{n}">{n}</label>' for n in map(escaped, names))
         return f'<span class="what">{what}</span> {" ".join(some)}'
 
     rows = [
@@ -326,7 +317,7 @@ def _see(parts: PageParts) -> str:
         boxes("path of point", "curve", moving) if seen and moving else "",
         boxes("centrodes of link", "centrode", links) if seen and moving else "",
         '<label for="see-body" class="what">forces on link</label> <select id="see-body"><option value="">'
-        f"none</option>{''.join(f'<option>{_text(n)}</option>' for n in links)}</select>"
+        f"none</option>{''.join(f'<option>{escaped(n)}</option>' for n in links)}</select>"
         if links
         else "",
     ]
@@ -361,23 +352,24 @@ def _answers(parts: PageParts) -> str:
         said = f" = {figure_number(size)} {unit_word(known.case.units.force)}" + (f", {way}" if way else "")
         told.append((name, _name(name), said, size))
     items = "".join(
-        f'<li id="answer-{_text(name)}" data-answer="{_text(name)}" '
+        f'<li id="answer-{escaped(name)}" data-answer="{escaped(name)}" '
         f'data-value="{"" if value is None else repr(value)}" '
-        f'data-status="{answer.status}"><span>{shown}</span><span>{_text(sentence)}</span></li>'
+        f'data-status="{answer.status}"><span>{shown}</span><span>{escaped(sentence)}</span></li>'
         for name, shown, sentence, value in told
     )
     every = position_sentences(known)
-    more = f'<p class="hint">As written it rests where {_text("; ".join(every))}.</p>' if every[1:] else ""
+    more = f'<p class="hint">As written it rests where {escaped("; ".join(every))}.</p>' if every[1:] else ""
     return f'<ul class="answers" id="answers" aria-live="polite">{items}</ul>{more}'
 
 
 def _name(name: str) -> str:
-    return "".join(f"<sub>{_text(run.text)}</sub>" if run.low else _text(run.text) for run in name_runs(name))
+    runs = ((escaped(run.text), run.low) for run in name_runs(name))
+    return "".join(f"<sub>{text}</sub>" if low else text for text, low in runs)
 
 
 def _controls(parts: PageParts) -> str:
     motion = parts.model["motion"]
-    driver = _text(motion["driver"])
+    driver = escaped(motion["driver"])
     last = motion["first"] + motion["step"] * (motion["rows"] - 0.5)
     endless = "" if motion["verb"] == "turned" else '<p class="hint">The case gives the guides no ends.</p>\n'
     gap = motion["low"] < motion["first"] or motion["high"] > last
@@ -419,7 +411,7 @@ def _construction(parts: PageParts) -> str:
     if not parts.steps:
         return ""
     items = "".join(
-        f'<li><button type="button" data-step="{n}">{_text(_sentence(parts, n))}</button></li>'
+        f'<li><button type="button" data-step="{n}">{escaped(_sentence(parts, n))}</button></li>'
         for n in range(_count(parts) + 1)
     )
     return (
@@ -449,11 +441,11 @@ def _power(parts: PageParts) -> str:
     if equation is None:
         return _power_of_motions(parts)
     rows = ""
-    unit_of_all = _text(unit_word(equation.root[1]))
+    unit_of_all = escaped(unit_word(equation.root[1]))
     for n, (symbol, ratio, unit, own) in enumerate(equation.rows):
         rows += (
-            f'<tr><td>{symbol}</td><td><span id="size-{n}"></span> {_text(unit_word(own))}</td>'
-            f'<td>{ratio} = <span id="ratio-{n}"></span> {_text(unit_word(unit))}</td>'
+            f'<tr><td>{symbol}</td><td><span id="size-{n}"></span> {escaped(unit_word(own))}</td>'
+            f'<td>{ratio} = <span id="ratio-{n}"></span> {escaped(unit_word(unit))}</td>'
             f'<td><span id="product-{n}"></span> {unit_of_all}</td></tr>'
         )
     total = f'<span id="root-product"></span> {unit_of_all}'
@@ -473,9 +465,9 @@ def _power_of_motions(parts: PageParts) -> str:
     drivers = parts.model["live"]["drivers"] if parts.live is not None else []
     items = ""
     for n, driver in enumerate(drivers):
-        held = " and ".join(f"link {other}" for other in drivers if other != driver)
+        held = escaped(" and ".join(f"link {other}" for other in drivers if other != driver))
         items += (
-            f"<h3>Motion {n + 1}: link {_text(driver)} turns at 1 rad/s counterclockwise, {_text(held)} held"
+            f"<h3>Motion {n + 1}: link {escaped(driver)} turns at 1 rad/s counterclockwise, {held} held"
             f'</h3><p class="scroll" id="motion-{n}"></p>'
         )
     return f'<section aria-label="Power"><h2>The sum of the powers is zero</h2>{items}</section>' * bool(
@@ -487,7 +479,7 @@ def _plots(parts: PageParts) -> str:
     if not parts.plots:
         return ""
     items = "".join(
-        f'<div class="plot"><h2>{_text(heading)}</h2>{picture}</div>' for heading, picture in parts.plots
+        f'<div class="plot"><h2>{escaped(heading)}</h2>{picture}</div>' for heading, picture in parts.plots
     )
     return f'<section class="wide" aria-label="Plots"><div class="pair">{items}</div></section>'
 

@@ -6,18 +6,20 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping
 from contextlib import suppress
 from html import escape
+from itertools import accumulate
 from typing import Any
 
 from icsolve.assembly.loci import Axis, CircleLocus, Locus
 from icsolve.assembly.steps import Given, Meet, Polar, Step
 from icsolve.assembly.workspace import LENGTH, RAY, Datum, X, number_of
-from icsolve.case import Case, Load, Number, bare_name, is_named, pair_name
+from icsolve.case import Case, Load, Mark, Number, bare_name, is_named, pair_name
 from icsolve.draw.words import unit_word
 from icsolve.errors import CaseError
 from icsolve.numbers.units import numbers_in
 from icsolve.read import load
+from icsolve.read.document import parse, scalars
+from icsolve.read.names import Problems
 from icsolve.read.reading import unit_names
-from icsolve.read.settings import places
 from icsolve.report.derivation.known import Known
 from icsolve.statics.load_wrenches import is_loaded
 from icsolve.sweep.varied_numbers import numbers_of
@@ -192,16 +194,25 @@ def _along(locus: Locus, number: Callable[[Datum], int]) -> Iterable[list[Any]]:
 # --- the text of the case --------------------------------------------------------------------------------
 
 
-def text_of(case: Case) -> tuple[str, Mapping[str, Number]] | None:
+def text_of(case: Case) -> tuple[str, Case] | None:
     """The text of a case's file, where it still says what the case says (but for numbers that were set), and
-    its numbers by path."""
+    the case that it is."""
     with suppress(OSError, UnicodeDecodeError, CaseError, ValueError):
         with open(case.path, encoding="utf-8-sig", newline="") as file:
             text = file.read()
-        written = numbers_of(load(text)) if "\n" in text else None
-        if written is not None and written.keys() == numbers_of(case).keys():
+        written = load(text) if "\n" in text else None
+        if written is not None and numbers_of(written).keys() == numbers_of(case).keys():
             return text.replace("\r\n", "\n"), written
     return None
+
+
+def _places(text: str, marks: Mapping[str, Mark]) -> dict[str, list[int]]:
+    """Where in a text each number stands, from character to character; of one that the text does not have by
+    itself nothing is said."""
+    written = {scalar.mark: scalar.text for scalar in scalars(parse(text, Problems("<text>")))}
+    lines = [0, *accumulate(map(len, text.splitlines(keepends=True)))]
+    ends = ((path, lines[mark[0] - 1] + mark[1] - 1, written.get(mark, "")) for path, mark in marks.items())
+    return {path: [at, at + len(own)] for path, at, own in ends if own and text.startswith(own, at)}
 
 
 UNITS_NEEDED = ("mass", "moment of inertia", "pressure", "acceleration")
@@ -224,13 +235,13 @@ def text_data(case: Case, paths: list[str]) -> dict[str, Any] | None:
     if found is None:
         return None
     text, written = found
-    near = [f"near.{name}.{axis}" for name in case.near for axis in "xy"]
-    at = places(text, [*paths, *near])
+    at, now, before = _places(text, written.marks), numbers_of(case), numbers_of(written)
+    near = [f"{name}.{axis}" for name in case.near for axis in "xy"]
     return {
         "text": text,
-        "at": [list(at[path]) if path in at else None for path in paths],
-        "near": {path[5:]: list(at[path]) for path in near if path in at},
-        "set": [n for n, path in enumerate(paths) if numbers_of(case)[path].value != written[path].value],
+        "at": [at.get(path) for path in paths],
+        "near": {name: at[f"near.{name}"] for name in near if f"near.{name}" in at},
+        "set": [n for n, path in enumerate(paths) if now[path].value != before[path].value],
     }
 
 

@@ -11,14 +11,14 @@ from urllib.parse import quote
 from icsolve.case import Case, Spring
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.draw.figure import ASKED, Drawing, draw
-from icsolve.draw.svg import escaped
 from icsolve.draw.words import answer_sentences, description
+from icsolve.explain.document import html_page
 from icsolve.explain.given import asked_without_unknown, position_asked
 from icsolve.page import page_html
 from icsolve.report.derivation.known import Known, known_of
 from icsolve.statics.power import is_unknown
 from icsolve.tuples import NamedTuple
-from icsolve.wording import listed
+from icsolve.wording import escaped, listed, plural
 from icsolve.wording.sentences import provenance
 
 FIGURE, PAGE = ".svg", ".html"
@@ -175,18 +175,13 @@ def index_html(exhibits: Sequence[Exhibit], title: str) -> str:
     shown = [one for one in exhibits if one.status != "unreadable"]
     broken = [one for one in exhibits if one.status != "ok"]
     body = "".join((*_landing(shown), *_contents(broken), *_kinds(shown)))
-    return (
-        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
-        '<meta name="viewport" content="width=device-width,initial-scale=1">\n'
-        f"<title>{escaped(title)}</title>\n<style>{STYLE}</style></head>\n<body><main>\n"
-        f"<h1>{escaped(title)}</h1>\n<p>{escaped(_count(exhibits))}</p>\n{body}</main></body></html>\n"
-    )
+    return html_page(title, STYLE, f"<p>{escaped(_count(exhibits))}</p>\n{body}")
 
 
 def _count(exhibits: Sequence[Exhibit]) -> str:
     unread = sum(one.status == "unreadable" for one in exhibits)
     refused = sum(one.status != "ok" for one in exhibits) - unread
-    words = ["1 case" if len(exhibits) == 1 else f"{len(exhibits)} cases"]
+    words = [plural(len(exhibits), "case")]
     words += [f"{refused} without an answer"] if refused else []
     words += [f"{unread} that can't be read"] if unread else []
     return ", ".join(words) + "."

@@ -20,14 +20,14 @@ from icsolve.draw.place import Label
 from icsolve.draw.plot import PlotFrame, PlottedCurve, plot_marks
 from icsolve.draw.ropes import RopeCourse
 from icsolve.draw.scene import Scene, around, placed_labels, together
-from icsolve.draw.svg import element, escaped, number
+from icsolve.draw.svg import element, number
 from icsolve.draw.words import description, figure_number
 from icsolve.page.motion import PageMotion
 from icsolve.page.poses import FINE, Array, compact, moved
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ratios import Step
 from icsolve.tuples import NamedTuple
-from icsolve.wording import unit_of
+from icsolve.wording import escaped, unit_of
 
 ROOM = (430.0, 350.0)
 """The largest that the mechanism is drawn, through all its positions."""
@@ -232,9 +232,7 @@ def _dynamics(known: Known, motion: PageMotion) -> list[tuple[str, list[PlottedC
 
 def _plot(heading: str, x: Sequence[float], curves: Sequence[PlottedCurve], axis: str) -> Plot:
     frame, marks = plot_marks(x, curves, axis, (0.0, 0.0), SIZE)
-    left, top, right, bottom = bounds(marks)
-    view = (left - 8.0, top - 8.0, right + 8.0, bottom + 8.0)
-    return Plot(heading, tuple(marks), view, frame, tuple(curves))
+    return Plot(heading, tuple(marks), bounds(marks, 8.0), frame, tuple(curves))
 
 
 def plot_data(plot: Plot) -> dict[str, Any]:
@@ -295,18 +293,14 @@ def still_svg(known: Known) -> tuple[str, tuple[Mark, ...]]:
     from icsolve.draw.space import space_marks
 
     _, marks = space_marks(known)
-    left, top, right, bottom = bounds(marks)
-    box = (left - 10.0, top - 10.0, right + 10.0, bottom + 10.0)
-    return svg(marks, box, "figure", description(known)), tuple(marks)
+    return svg(marks, bounds(marks, 10.0), "figure", description(known)), tuple(marks)
 
 
 def circle_svg(known: Known, steps: Sequence[Step]) -> tuple[str, tuple[Mark, ...]]:
     """The Kennedy circle diagram, with the triangles of every step."""
     marks = tuple(circle_marks(known, steps, (0.0, 0.0), each=True))
-    left, top, right, bottom = bounds(marks)
-    box = (left - 4.0, top - 4.0, right + 4.0, bottom + 4.0)
     title = "Kennedy circle diagram: the links, and a chord for every centre that is known"
-    return svg(marks, box, "circle-figure", title, largest=1.1), marks
+    return svg(marks, bounds(marks, 4.0), "circle-figure", title, largest=1.1), marks
 
 
 def plot_svg(plot: Plot, n: int) -> str:

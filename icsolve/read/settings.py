@@ -1,13 +1,12 @@
-"""One number of a case replaced before it is read: ``angles.AB`` = 30; and where in its text it stands."""
+"""One number of a case replaced before it is read: ``angles.AB`` = 30."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 from collections.abc import Mapping as Named
 
 from icsolve.case import Mark
-from icsolve.read.document import Mapping, Node, Scalar, Sequence, parse, scalars
+from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.joints import JOINTS, NAMES
 from icsolve.read.keys import LOADS
 from icsolve.read.names import Problems, parts, shown, suggestion
@@ -247,35 +246,3 @@ def _labels(joint: Mapping) -> list[str]:
     pair, turned = "-".join(names), "-".join(reversed(names))
     point = [at.text] if type(at) is Scalar else []
     return [*point, turned, pair, *[f"{pair}@{name}" for name in point]]
-
-
-_SOUGHT = "the number that is sought"
-
-
-def places(text: str, paths: Iterable[str]) -> dict[str, tuple[int, int]]:
-    """Where in a text the number at each path stands, from character to character; of a number that is not
-    written (or not so that it could be set) nothing is said."""
-    tree = parse(text, Problems("<text>"))
-    if type(tree) is not Mapping:
-        return {}
-    written = {scalar.mark: scalar for scalar in scalars(tree)}
-    starts = [0, *(found.end() for found in re.finditer("\n", text))]
-    found = {}
-    for path in paths:
-        root = _copied(tree)
-        if type(root) is not Mapping or _set(root, path, _SOUGHT):
-            continue
-        mark = next((scalar.mark for scalar in scalars(root) if scalar.text == _SOUGHT), None)
-        old = written.get(mark) if mark is not None else None
-        if old is not None:
-            at = starts[old.mark[0] - 1] + old.mark[1] - 1
-            if text[at : at + len(old.text)] == old.text:
-                found[path] = (at, at + len(old.text))
-    return found
-
-
-def _copied(node: Node) -> Node:
-    """A tree of its own, in which values can be replaced."""
-    if type(node) is Mapping:
-        return Mapping({key: _copied(item) for key, item in node.items.items()}, dict(node.keys), node.mark)
-    return Sequence([_copied(item) for item in node.items], node.mark) if type(node) is Sequence else node

@@ -395,7 +395,7 @@ def _bars(answer: Answer, show: Format) -> list[str]:
     """A line for each bar that two forces pull or push."""
     if not answer.reactions:
         return []
-    from icsolve.report.bars import bars_of
+    from icsolve.report.derivation.known import bars_of
 
     rows = [(f"link {link}", f"{show(abs(f))}", axial_words(f)) for link, f in bars_of(answer).items()]
     return [f"Bars, {answer.case.units.force}: the force along each", *table(rows)] if rows else []

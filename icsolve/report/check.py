@@ -4,7 +4,7 @@ arms, tensions, friction radii."""
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from icsolve.answer import Answer, Centre, Found
@@ -33,14 +33,7 @@ from icsolve.screws import add, cross, subtract
 from icsolve.screws.space import size, spatial, times
 from icsolve.statics.load_wrenches import number_taken, vector_size
 from icsolve.tuples import NamedTuple
-from icsolve.wording import (
-    bearing,
-    direction_words,
-    holding,
-    same_way,
-    same_way_in_space,
-    turned_at_most,
-)
+from icsolve.wording import direction_words, holding, same_way, turned_at_most, way_of
 
 AGREES = "agrees"
 DISAGREES = "disagrees"
@@ -261,11 +254,10 @@ def _load(answer: Answer, name: str, sense: str | None) -> float:
         own = f"at {direction_words(heading_in(answer, name) + (0.0 if value > 0.0 else 180.0))}"
     if not own:
         return value
+    places: Mapping[str, Sequence[float]] = answer.points
     if answer.spatial is not None:
-        same = same_way_in_space(sense, own, load, answer.spatial.points)
-    else:
-        same = same_way(sense, own, load, answer.points)
-    return abs(value) if same else -abs(value)
+        places = answer.spatial.points
+    return abs(value) if same_way(sense, own, load, places) else -abs(value)
 
 
 def _given_sense(answer: Answer, name: str, value: float) -> str:
@@ -385,10 +377,10 @@ def _going(
     size = math.hypot(*vector)
     if sense is None or size == 0.0:
         return size
-    way = bearing(sense, None, answer.points, start)
+    way = way_of(sense, None, answer.points, start)
     if way is None:
         raise LookupError(f"no direction leads '{sense}' from there")
-    own = math.degrees(math.atan2(vector[1], vector[0]))
+    own = (vector[0] / size, vector[1] / size, 0.0)
     return size if turned_at_most(way, own, sense) else -size
 
 

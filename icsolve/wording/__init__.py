@@ -1,5 +1,5 @@
-"""The words of an answer: names in a row, and of a load's value its sense, its unit, and the range in which
-friction lets it be."""
+"""The words of an answer: names in a row, texts that can be no markup, and of a load's value its sense, its
+unit, and the range in which friction lets it be."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from icsolve.case import (
     is_link,
     is_named,
 )
+from icsolve.numbers import turn_of
 
 if TYPE_CHECKING:
     from icsolve.answer import Found
@@ -36,6 +37,21 @@ def listed(names: Iterable[str]) -> str:
 def plural(count: int, word: str) -> str:
     """1 load, 2 loads."""
     return f"{count} {word}" + ("" if count == 1 else "s")
+
+
+_ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;"}
+
+
+def escaped(text: str) -> str:
+    """A text that stays text in XML and HTML, in content and in attributes, whatever it says."""
+    if not text.isprintable():
+        text = "".join(c if _is_written(c) else "\N{REPLACEMENT CHARACTER}" for c in text)
+    return "".join(_ENTITIES.get(c, c) for c in text)
+
+
+def _is_written(c: str) -> bool:
+    """Whether XML has a way to write a character."""
+    return c in "\t\n\r" or " " <= c <= "\ud7ff" or "\ue000" <= c <= "\ufffd" or c > "\uffff"
 
 
 def link_words(link: str) -> str:
@@ -142,46 +158,48 @@ def unit_of(load: Load | SpatialLoad, case: Case) -> str:
 # --- senses as directions: ``right``, ``at 30 deg``, ``toward P``, ``pull`` -----------------------------
 
 
-Places = Mapping[str, tuple[float, float]]
+Places = Mapping[str, Sequence[float]]
+"""Points of the plane, or of space."""
+Way = tuple[float, float, float]
 
-_WORDS = {"right": 0.0, "up": 90.0, "left": 180.0, "down": 270.0}
+_WORDS = {"right": (1.0, 0.0), "up": (0.0, 1.0), "left": (-1.0, 0.0), "down": (0.0, -1.0)}
 _LOOSE = 45.0
 """Degrees within which a direction may be called by one of the four words."""
 _CLOSE = 1.0
 """Degrees within which it may be called by an angle or by a point."""
 
 
-def same_way(published: str, found: str, load: Load, places: Places) -> bool:
-    """Whether a force of sense ``found`` goes the way that ``published`` says, as books round directions."""
-    theirs, ours = bearing(published, load, places), bearing(found, load, places)
+def same_way(published: str, found: str, load: Load | SpatialLoad, places: Places) -> bool:
+    """Whether a load of sense ``found`` goes the way that ``published`` says, as books round directions: in
+    space ``along -z`` may be published as ``down``, or as ``away from P`` where P lies above.
+    """
+    theirs, ours = (way_of(sense, load, places) for sense in (published, found))
     if theirs is None or ours is None:
         return published == found
     return turned_at_most(theirs, ours, published)
 
 
-def same_way_in_space(
-    published: str, found: str, load: SpatialLoad, places: Mapping[str, Sequence[float]]
-) -> bool:
-    """Whether a load in space of sense ``found`` goes the way that ``published`` says: ``along -z`` may be
-    published as ``down``, or as ``away from P`` where P lies above.
+def turned_at_most(theirs: Way, ours: Way, published: str) -> bool:
+    """Whether two unit vectors differ by no more than the published words leave open."""
+    room = math.cos(math.radians(_LOOSE if published in _WORDS else _CLOSE))
+    return sum(a * b for a, b in zip(theirs, ours, strict=True)) >= room - 1e-12
+
+
+def way_of(
+    sense: str, load: Load | SpatialLoad | None, places: Places, start: Sequence[float] | None = None
+) -> Way | None:
+    """The unit vector of a sense; None where the words alone do not give one. The sense is that of a load, or
+    of what acts or moves at ``start``.
     """
-    theirs, ours = (_along(sense, load, places) for sense in (published, found))
-    if theirs is None or ours is None:
-        return published == found
-    cosine = sum(a * b for a, b in zip(theirs, ours, strict=True))
-    room = _LOOSE if published in ("up", "down") else _CLOSE
-    return cosine >= math.cos(math.radians(room)) - 1e-12
-
-
-def _along(
-    sense: str, load: SpatialLoad, places: Mapping[str, Sequence[float]]
-) -> tuple[float, float, float] | None:
-    """The unit vector of a sense in space; None where the words alone do not give one."""
-    if sense in ("up", "down"):
-        return (0.0, 0.0, 1.0 if sense == "up" else -1.0)
     lead, _, rest = sense.partition(" ")
-    start, end = places.get(getattr(load, "at", "")), places.get(rest.removeprefix("from "))
-    back = lead in ("away", "push")
+    if sense in _WORDS:
+        across, up = _WORDS[sense]
+        in_space = any(len(place) > 2 for place in places.values())
+        return (across, 0.0, up) if in_space else (across, up, 0.0)
+    if lead == "at":
+        degrees = _number(rest)
+        return None if degrees is None else (*turn_of(degrees), 0.0)
+    start, end = start or places.get(getattr(load, "at", "")), places.get(rest.removeprefix("from "))
     if lead in ("pull", "push"):
         heading = getattr(load, "heading", None)
         end = places.get(heading.point if isinstance(heading, Toward) else getattr(load, "to", ""))
@@ -192,66 +210,24 @@ def _along(
             start, end = (0.0, 0.0, 0.0), _components(rest)
     if start is None or end is None:
         return None
-    x, y, z = (b - a for a, b in zip(start, end, strict=True))
-    size = math.hypot(x, y, z) * (-1.0 if back else 1.0)
-    return (x / size, y / size, z / size) if size else None
+    x, y, *z = (b - a for a, b in zip(start, end, strict=True))
+    size = math.hypot(x, y, *z) * (-1.0 if lead in ("away", "push") else 1.0)
+    return (x / size, y / size, sum(z) / size) if size else None
 
 
-def _components(words: str) -> tuple[float, float, float] | None:
+def _components(words: str) -> Way | None:
     """``-z``, ``[0, 0.6, -0.8]``."""
     sign, axis = (-1.0, words[1:]) if words.startswith("-") else (1.0, words)
     if axis in ("x", "y", "z"):
         return (sign * (axis == "x"), sign * (axis == "y"), sign * (axis == "z"))
-    try:
-        x, y, z = (float(part) for part in words.strip("[]()").split(","))
-    except ValueError:
-        return None
-    return x, y, z
+    parts = [_number(part) for part in words.strip("[]()").split(",")]
+    x, y, z = parts if len(parts) == 3 else (None, None, None)
+    return None if x is None or y is None or z is None else (x, y, z)
 
 
-def turned_at_most(theirs: float, ours: float, published: str) -> bool:
-    """Whether two directions in degrees differ by no more than the published words leave open."""
-    room = _LOOSE if published in _WORDS else _CLOSE
-    return abs(math.remainder(theirs - ours, 360.0)) <= room + 1e-9
-
-
-def bearing(
-    sense: str, load: Load | None, places: Places, start: tuple[float, float] | None = None
-) -> float | None:
-    """Direction of a sense in degrees ccw from +x; None where the words alone do not give one. The sense is
-    that of a load, or of what acts or moves at ``start``.
-    """
-    lead, _, rest = sense.partition(" ")
-    if sense in _WORDS:
-        return _WORDS[sense]
-    if lead == "at":
-        return _degrees(rest)
-    start = start or places.get(getattr(load, "at", ""))
-    if lead == "toward":
-        return _from(start, places.get(rest))
-    if lead in {"pull", "push"}:
-        along = _from(start, places.get(_far_end(load)))
-        return along if along is None or lead == "pull" else along + 180.0
-    return None
-
-
-def _degrees(text: str) -> float | None:
+def _number(text: str) -> float | None:
+    """The number that a text begins with."""
     try:
         return float(text.split(maxsplit=1)[0])
     except (ValueError, IndexError):
         return None
-
-
-def _from(start: tuple[float, float] | None, end: tuple[float, float] | None) -> float | None:
-    if start is None or end is None or start == end:
-        return None
-    return math.degrees(math.atan2(end[1] - start[1], end[0] - start[0]))
-
-
-def _far_end(load: Load | None) -> str:
-    """The point that a pull draws a load's own point to."""
-    if isinstance(load, Spring):
-        return load.to
-    if isinstance(load, Force) and isinstance(load.heading, Toward):
-        return load.heading.point
-    return ""

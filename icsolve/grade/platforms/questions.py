@@ -16,7 +16,6 @@ import math
 import zipfile
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from html import escape
 
 from icsolve.case import Case
 from icsolve.case.expected import LoadIs, PositionIs, Target
@@ -25,7 +24,7 @@ from icsolve.grade.mistakes.lookup import ORDER, Wrong, message
 from icsolve.grade.written.words import factors_between
 from icsolve.numbers.units import parse_unit
 from icsolve.tuples import NamedTuple
-from icsolve.wording import direction_words
+from icsolve.wording import direction_words, escaped
 
 
 def figure(case: Case) -> str:
@@ -105,7 +104,7 @@ def moodle_xml(questions: Iterable[Question], category: str) -> str:
     body = "\n".join(_xml_question(question) for question in questions)
     return (
         '<?xml version="1.0" encoding="UTF-8"?>\n<quiz>\n'
-        f'<question type="category"><category><text>{_text(head)}</text></category></question>\n'
+        f'<question type="category"><category><text>{escaped(head)}</text></category></question>\n'
         f"{body}\n</quiz>\n"
     )
 
@@ -115,7 +114,7 @@ def _xml_question(question: Question) -> str:
     otherwise = f"Not right. Accepted is an answer {key.rule}."
     parts = [
         '<question type="numerical">',
-        f"<name><text>{_text(question.name)}</text></name>",
+        f"<name><text>{escaped(question.name)}</text></name>",
         _statement(question),
         '<generalfeedback format="html"><text/></generalfeedback>',
         f"<defaultgrade>{key.policy.points:.10g}</defaultgrade><penalty>0.3333333</penalty>",
@@ -129,7 +128,7 @@ def _xml_question(question: Question) -> str:
             for w, share, reach in wrong_rows(key)
         ),
         '<answer fraction="0" format="moodle_auto_format"><text>*</text>'
-        f'<feedback format="html"><text>{_text(otherwise)}</text></feedback>'
+        f'<feedback format="html"><text>{escaped(otherwise)}</text></feedback>'
         "<tolerance>0</tolerance></answer>",
         _units(key),
         "</question>",
@@ -140,10 +139,10 @@ def _xml_question(question: Question) -> str:
 def table_of(question: Question, image: str) -> str:
     """The statement in HTML: title, figure, what is given, what is asked."""
     rows = "".join(
-        f"<tr><td>{_text(name)}</td><td>{_text(value)}</td></tr>" for name, value in question.given
+        f"<tr><td>{escaped(name)}</td><td>{escaped(value)}</td></tr>" for name, value in question.given
     )
-    title = f"<p>{_text(question.title)}</p>" if question.title else ""
-    return f"{title}{image}<table>{rows}</table><p>{_text(question.asked)}</p>"
+    title = f"<p>{escaped(question.title)}</p>" if question.title else ""
+    return f"{title}{image}<table>{rows}</table><p>{escaped(question.asked)}</p>"
 
 
 def _statement(question: Question) -> str:
@@ -160,7 +159,7 @@ def _statement(question: Question) -> str:
 def _answer(fraction: float, value: float, tolerance: float, feedback: str) -> str:
     return (
         f'<answer fraction="{fraction:.7g}" format="moodle_auto_format"><text>{number(value)}</text>'
-        f'<feedback format="html"><text>{_text(feedback)}</text></feedback>'
+        f'<feedback format="html"><text>{escaped(feedback)}</text></feedback>'
         f"<tolerance>{number(tolerance)}</tolerance></answer>"
     )
 
@@ -196,7 +195,7 @@ def _units(key: NumberKey) -> str:
             "<showunits>3</showunits><unitsleft>0</unitsleft>"
         )
     rows = "".join(
-        f"<unit><multiplier>{number(multiplier)}</multiplier><unit_name>{_text(name)}</unit_name></unit>"
+        f"<unit><multiplier>{number(multiplier)}</multiplier><unit_name>{escaped(name)}</unit_name></unit>"
         for name, multiplier in unit_rows(key)
     )
     graded = "1" if key.policy.unit == "required" else "0"
@@ -289,10 +288,6 @@ def right_in_words(key: AnyKey) -> str:
     return f"{sensible(key)}{unit}{way}"
 
 
-def _text(text: str) -> str:
-    return escape("".join(c if c >= " " else " " for c in text), quote=False)
-
-
 _QTI = "http://www.imsglobal.org/xsd/ims_qtiasiv1p2"
 _CANVAS = "http://canvas.instructure.com/xsd/cccv1p0"
 _PACKAGE = "http://www.imsglobal.org/xsd/imsccv1p1/imscp_v1p1"
@@ -360,7 +355,7 @@ def _manifest(quiz: str, title: str, figures: Iterable[str]) -> str:
         f'{_HEAD}<manifest identifier="{_ident("package", quiz)}" xmlns="{_PACKAGE}" '
         f'xmlns:imsmd="{_METADATA}">'
         "<metadata><schema>IMS Content</schema><schemaversion>1.1.3</schemaversion><imsmd:lom><imsmd:general>"
-        f"<imsmd:title><imsmd:string>{_text(title)}</imsmd:string></imsmd:title></imsmd:general></imsmd:lom>"
+        f"<imsmd:title><imsmd:string>{escaped(title)}</imsmd:string></imsmd:title></imsmd:general></imsmd:lom>"
         "</metadata><organizations/><resources>"
         f'<resource identifier="{quiz}" type="imsqti_xmlv1p2"><file href="{quiz}/{quiz}.xml"/>'
         f'<dependency identifierref="{settings}"/></resource>'
@@ -371,7 +366,7 @@ def _manifest(quiz: str, title: str, figures: Iterable[str]) -> str:
 
 def _meta(quiz: str, title: str, points: float) -> str:
     return (
-        f'{_HEAD}<quiz identifier="{quiz}" xmlns="{_CANVAS}"><title>{_text(title)}</title><description/>'
+        f'{_HEAD}<quiz identifier="{quiz}" xmlns="{_CANVAS}"><title>{escaped(title)}</title><description/>'
         "<shuffle_answers>false</shuffle_answers><scoring_policy>keep_highest</scoring_policy>"
         f"<quiz_type>assignment</quiz_type><points_possible>{points:.10g}</points_possible>"
         "<allowed_attempts>1</allowed_attempts><available>false</available></quiz>\n"
@@ -381,7 +376,7 @@ def _meta(quiz: str, title: str, points: float) -> str:
 def _quiz(quiz: str, title: str, questions: list[Question]) -> str:
     body = "".join(_section(group) if len(group) > 1 else _item(group[0]) for group in _groups(questions))
     return (
-        f'{_HEAD}<questestinterop xmlns="{_QTI}"><assessment ident="{quiz}" title={_attribute(title)}>'
+        f'{_HEAD}<questestinterop xmlns="{_QTI}"><assessment ident="{quiz}" title="{escaped(title)}">'
         f'<qtimetadata>{_field("cc_maxattempts", "1")}</qtimetadata><section ident="root_section">{body}'
         "</section></assessment></questestinterop>\n"
     )
@@ -392,7 +387,7 @@ def _section(group: list[Question]) -> str:
     name = group[0].key.question
     items = "".join(map(_item, group))
     return (
-        f'<section ident="{_ident("group", name)}" title={_attribute(name)}><selection_ordering><selection>'
+        f'<section ident="{_ident("group", name)}" title="{escaped(name)}"><selection_ordering><selection>'
         "<selection_number>1</selection_number><selection_extension>"
         f"<points_per_item>{group[0].key.policy.points:.10g}</points_per_item></selection_extension></selection>"
         f"</selection_ordering>{items}</section>"
@@ -415,7 +410,7 @@ def _item(question: Question) -> str:
     checks = f" Check what is often mistaken: {' '.join(list(causes)[:_CAUSES])}" if causes else ""
     otherwise = f"Not right. Accepted is an answer {key.rule}.{checks}"
     return (
-        f'<item ident="{ident}" title={_attribute(question.name)}>'
+        f'<item ident="{ident}" title="{escaped(question.name)}">'
         f"<itemmetadata><qtimetadata>{about}</qtimetadata></itemmetadata>"
         f"<presentation>{_material(_canvas_statement(question))}"
         '<response_str ident="response1" rcardinality="Single"><render_fib fibtype="Decimal">'
@@ -465,23 +460,19 @@ def _canvas_statement(question: Question) -> str:
         path = f"$IMS-CC-FILEBASE$/figures/{_ident('figure', question.name)}.svg"
         image = f'<p><img src="{path}" alt="figure of the mechanism"/></p>'
     unit = question.key.unit_name
-    bare = f"<p>Write the number alone, in {_text(unit)}.</p>" if unit else ""
+    bare = f"<p>Write the number alone, in {escaped(unit)}.</p>" if unit else ""
     return f"{table_of(question, image)}{bare}"
 
 
 def _feedback(ident: str, text: str) -> str:
-    inside = _material(f"<p>{_text(text)}</p>")
+    inside = _material(f"<p>{escaped(text)}</p>")
     return f'<itemfeedback ident="{ident}"><flow_mat>{inside}</flow_mat></itemfeedback>'
 
 
 def _material(html: str) -> str:
-    return f'<material><mattext texttype="text/html">{_text(html)}</mattext></material>'
+    return f'<material><mattext texttype="text/html">{escaped(html)}</mattext></material>'
 
 
 def _field(label: str, entry: str) -> str:
     inside = f"<fieldlabel>{label}</fieldlabel><fieldentry>{entry}</fieldentry>"
     return f"<qtimetadatafield>{inside}</qtimetadatafield>"
-
-
-def _attribute(text: str) -> str:
-    return f'"{escape(text)}"'

@@ -10,7 +10,6 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterable
-from html import escape
 from typing import Any
 
 from icsolve.files import check_free, write_whole
@@ -26,7 +25,7 @@ from icsolve.grade.results import ResultRow, by_student, csv_text, marks_of, rea
 from icsolve.grade.tables.text import encoding_of
 from icsolve.grade.variants.record import file_name
 from icsolve.tuples import NamedTuple
-from icsolve.wording import plural
+from icsolve.wording import escaped, plural
 
 
 class PlatformFile(NamedTuple):
@@ -229,7 +228,7 @@ def junit_report(rows: Iterable[ResultRow]) -> str:
     for row in rows:
         suites.setdefault(row.case, []).append(row)
     body = "".join(
-        f"<testsuite name={_attribute(case)} {_counts(own)}>\n{''.join(map(_testcase, own))}</testsuite>\n"
+        f'<testsuite name="{escaped(case)}" {_counts(own)}>\n{"".join(map(_testcase, own))}</testsuite>\n'
         for case, own in sorted(suites.items())
     )
     counts = _counts([row for own in suites.values() for row in own])
@@ -246,26 +245,12 @@ def _counts(rows: list[ResultRow]) -> str:
 
 
 def _testcase(row: ResultRow) -> str:
-    head = (
-        f'<testcase classname={_attribute(row.case)} name={_attribute(row.student_id or "(no id)")} time="0"'
-    )
+    head = f'<testcase classname="{escaped(row.case)}" name="{escaped(row.student_id or "(no id)")}" time="0"'
     if row.verdict == "right":
         return f"{head}/>\n"
-    said = f"message={_attribute(row.code or row.verdict)}"
+    said = f'message="{escaped(row.code or row.verdict)}"'
     if row.verdict in _OPEN:
         return f"{head}><skipped {said}/></testcase>\n"
     tag = "failure" if row.verdict in _WRONG else "error"
-    return f"{head}><{tag} {said} type={_attribute(row.verdict)}>{_text(row.feedback)}</{tag}></testcase>\n"
-
-
-def _attribute(text: str) -> str:
-    return f'"{escape(_printable(text))}"'
-
-
-def _text(text: str) -> str:
-    return escape(_printable(text), quote=False)
-
-
-def _printable(text: str) -> str:
-    """Without the characters that XML has no place for."""
-    return "".join(c if c in "\t\n\r" or (c >= " " and c not in "\ufffe\uffff") else "?" for c in text)
+    kind = f'{tag} {said} type="{escaped(row.verdict)}"'
+    return f"{head}><{kind}>{escaped(row.feedback)}</{tag}></testcase>\n"

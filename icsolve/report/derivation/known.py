@@ -3,6 +3,7 @@ links move, and what loads and ropes do to them."""
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
@@ -29,7 +30,7 @@ from icsolve.scene.parts import AnswerBuilder, scene_of
 from icsolve.screws import Point, Triple
 from icsolve.screws.ropes import rope_parts
 from icsolve.solve import Attempt, attempt
-from icsolve.statics.load_wrenches import Wrench, as_given, place_of, points_of, wrenches
+from icsolve.statics.load_wrenches import Wrench, as_given, line_of, place_of, points_of, wrenches
 from icsolve.statics.power import known_value
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording import unit_of
@@ -182,10 +183,7 @@ def _at_rest(case: Case, answer: Answer | None, refusal: SceneError | None) -> K
         row, angles = positions[0].answer.case, tuple(one for one in own.angles if one.value.path in at)
         own = replace(row, lengths=own.lengths, angles=angles, unknowns=(), expect=())
     elif positions:  # other ways in which the figure assembles at this value are not meant
-        placed = {
-            name for name, place in own.points.items() if isinstance(place, Coordinates) and None not in place
-        }
-        here = positions[0].answer.shown_points
+        here, placed = positions[0].answer.shown_points, given_places(own)
         own = replace(own, near={name: at for name, at in here.items() if name not in placed})
     known = known_of(own)
     posed = case.unknowns or tuple(map(Unknown, at))
@@ -262,11 +260,14 @@ def _points(case: Case, answer: Answer | None, scene: AnswerBuilder | None) -> d
     found = {} if answer is None else dict(answer.points)
     if scene is not None:
         found = {p: case_point(scene.figure.frame, at) for p, at in scene.figure.points.items()}
-    for name in names:
-        place = case.points.get(name)
-        if isinstance(place, Coordinates) and place.x is not None and place.y is not None:
-            found.setdefault(name, (place.x.value, place.y.value))
+    found.update((name, at) for name, at in given_places(case).items() if name not in found)
     return found if set(names) <= set(found) else {**_figure(case, names), **found}
+
+
+def given_places(case: Case) -> dict[str, Point]:
+    """Where the points are that the case gives by both coordinates."""
+    given = ((name, at) for name, at in case.points.items() if isinstance(at, Coordinates))
+    return {name: (at.x.value, at.y.value) for name, at in given if at.x is not None and at.y is not None}
 
 
 def _figure(case: Case, names: list[str]) -> dict[str, Point]:
@@ -443,3 +444,63 @@ def moving_names(case: Case) -> tuple[str, ...]:
     """The links, and what stands for one: free ends of ropes, screws that a torque turns."""
     ends = (rope.end for rope in case.ropes if rope.is_free)
     return (*case.links, *ends, *(screw.rotor for screw in case.screws))
+
+
+# --- bars: links that forces load at two points alone ---------------------------------------------------
+
+
+ALONG = 1e-9
+"""Of the length of a bar, and of its force: places are one, and forces along it, but for rounding."""
+
+ROUNDED = 1e-14
+"""What is left of the forces at an end, as a part of them, is rounding."""
+
+
+def bars_of(answer: Answer) -> dict[str, float]:
+    """The force along each link that is loaded at two points alone and by no couple, as its end without a
+    load has it: positive where the bar is pulled [case force]. None is told of what equilibrium leaves open.
+    """
+    case, found = answer.case, dict[str, float]()
+    tied = {link for rope in case.ropes for link in rope.links}
+    tied.update(link for screw in case.screws for link in screw.links)
+    moved = answer.accelerations is not None  # inertia forces act all along
+    if answer.reactions is None or moved:
+        return {}
+    for link in case.links:
+        held = [] if link == case.ground else [r for _, r in answer.reactions.of_link(link)]
+        ends = [*dict.fromkeys(r.at for r in held)]
+        if len(ends) != 2 or link in tied or any(None in (r.x, r.y) or r.moment != 0.0 for r in held):
+            continue
+        places, span = _loaded(answer, link), math.dist(*ends)
+        free = [end for end in ends if not any(p and math.dist(p, end) <= ALONG * span for p in places)]
+        if not free or not all(p and min(math.dist(p, end) for end in ends) <= ALONG * span for p in places):
+            continue
+        x, y = (sum(getattr(r, part) for r in held if r.at == free[0]) for part in "xy")
+        own, other = free[0], ends[1 - ends.index(free[0])]
+        u, v = ((a - b) / span for a, b in zip(own, other, strict=True))
+        size = sum(r.magnitude or 0.0 for r in held if r.at == free[0])
+        if math.hypot(x, y) <= ROUNDED * size:
+            found[link] = 0.0
+        elif abs(x * v - y * u) <= ALONG * math.hypot(x, y):
+            found[link] = x * u + y * v
+    return found
+
+
+def _loaded(answer: Answer, link: str) -> list[Point | None]:
+    """The places of the loads on a link; None of a couple, and of a load along a line."""
+    points = {
+        **given_places(answer.case),
+        **answer.points,
+    }  # the case alone has those of loads at coordinates
+    return [place for load in answer.case.loads for place in _places(answer.case, points, load, link)]
+
+
+def _places(case: Case, points: Mapping[str, Point], load: Load, link: str) -> list[Point | None]:
+    if link not in (load.link, getattr(load, "against", None) or case.ground):
+        return []
+    if not points.keys() >= {*points_of(load)}:  # spread along a line
+        return [None]
+    if link == load.link:
+        return [place_of(load, points)]
+    line = line_of(load)
+    return [place_of(load, points) if line is None else points[line[1]]]
