@@ -5,6 +5,7 @@ Each generator takes a `random.Random` and gives a scene without loads whose poi
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Callable, Iterable
 from random import Random
@@ -95,6 +96,35 @@ def stephenson(rng: Random) -> Scene:
 def butterfly(rng: Random) -> Scene:
     """Double butterfly: eight links, no loop of fewer than five."""
     return pinned(rng, BUTTERFLY)
+
+
+def folding(rng: Random) -> Scene:
+    """A chain of one to three four-bars, the rocker of each the crank of the next: parallelograms, crossed
+    ones, kites and others of whole sides, which fold onto their frames."""
+    points, angles = {"A0": [0, 0]}, {"A0-B0": rng.randint(20, 160)}
+    lengths, near, joints = {}, {}, [{"pin": [1, 2], "at": "A0"}]
+    at, heading, loops = 0.0, math.radians(angles["A0-B0"]), rng.randint(1, 3)
+    for k in range(loops):
+        one, two = rng.randint(1, 3), rng.randint(2, 5)
+        crank, coupler, rocker, base = rng.choice(
+            [(one, two, one, two), (one, two, two, one), (one, one, two, two), (one, two, 5 - one, 3)]
+        )
+        lengths |= {f"A{k}-B{k}": crank, f"B{k}-C{k}": coupler, f"C{k}-A{k + 1}": rocker}
+        points[f"A{k + 1}"] = [at + base, 0]
+        b = at + cmath.rect(crank, heading)
+        to = at + base - b
+        x = (coupler**2 - rocker**2 + abs(to) ** 2) / (2.0 * abs(to))
+        c = b + to / abs(to) * (x + rng.choice([1j, -1j]) * math.sqrt(max(coupler**2 - x * x, 0.0)))
+        near[f"C{k}"] = [round(c.real, 3), round(c.imag, 3)]
+        if k:
+            angles[f"C{k - 1}-A{k}-B{k}"] = 0
+        joints += [
+            {"pin": [2 * k + 2, 2 * k + 3], "at": f"B{k}"},
+            {"pin": [2 * k + 4, 1], "at": f"A{k + 1}"},
+            {"pin": [2 * k + 3, 2 * k + 4], "at": f"C{k}"},
+        ]
+        at, heading = at + base, cmath.phase(c - at - base)
+    return scene(points, joints, lengths=lengths, angles=angles, near=near)
 
 
 def flier(rng: Random) -> Scene:

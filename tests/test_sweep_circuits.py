@@ -3,9 +3,7 @@ how far a link turns."""
 
 from __future__ import annotations
 
-import cmath
 import json
-import math
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -73,44 +71,13 @@ def followed(case: icsolve.Case, link: str) -> list[Followed]:
         return []
 
 
-def folding(rng: Random) -> dict[str, Any]:
-    """A chain of one to three four-bars, the rocker of each the crank of the next: parallelograms, crossed
-    ones, kites and others of whole sides, which fold onto their frames."""
-    points, angles = {"A0": [0, 0]}, {"A0-B0": rng.randint(20, 160)}
-    lengths, near, joints = {}, {}, [{"pin": [1, 2], "at": "A0"}]
-    at, heading, loops = 0.0, math.radians(angles["A0-B0"]), rng.randint(1, 3)
-    for k in range(loops):
-        one, two = rng.randint(1, 3), rng.randint(2, 5)
-        crank, coupler, rocker, base = rng.choice(
-            [(one, two, one, two), (one, two, two, one), (one, one, two, two), (one, two, 5 - one, 3)]
-        )
-        lengths |= {f"A{k}-B{k}": crank, f"B{k}-C{k}": coupler, f"C{k}-A{k + 1}": rocker}
-        points[f"A{k + 1}"] = [at + base, 0]
-        b = at + cmath.rect(crank, heading)
-        to = at + base - b
-        x = (coupler**2 - rocker**2 + abs(to) ** 2) / (2.0 * abs(to))
-        c = b + to / abs(to) * (x + rng.choice([1j, -1j]) * math.sqrt(max(coupler**2 - x * x, 0.0)))
-        near[f"C{k}"] = [round(c.real, 3), round(c.imag, 3)]
-        if k:
-            angles[f"C{k - 1}-A{k}-B{k}"] = 0
-        joints += [
-            {"pin": [2 * k + 2, 2 * k + 3], "at": f"B{k}"},
-            {"pin": [2 * k + 3, 2 * k + 4], "at": f"C{k}"},
-            {"pin": [2 * k + 4, 1], "at": f"A{k + 1}"},
-        ]
-        at, heading = at + base, cmath.phase(c - at - base)
-    loads = {"P": {"torque": 10, "link": 2 * loops + 2}, "U": {"torque": "unknown", "link": 2}}
-    figure = {"points": points, "lengths": lengths, "angles": angles, "near": near}
-    return {"icsolve": 1, **figure, "joints": joints, "loads": loads}
-
-
 @pytest.mark.parametrize("seed", range(100) if FULL else (8, 13, 26, 57, 79))
 def test_at_every_change_point_the_motion_goes_straight_on(seed: int) -> None:
     """Chains of four-bars that fold, whichever link is turned: after a change point each point goes on as it
     came (to a tenth of a step of 0.01 degree, beside which its way is straight), also where several branches
     change at once, where two points coincide, and in parts to which no motion leads."""
     try:
-        case = icsolve.load(json.dumps(folding(Random(seed))) + "\n")
+        case = icsolve.load(json.dumps(mechanisms.loaded(mechanisms.folding, Random(seed))) + "\n")
         icsolve.solve(case)
     except icsolve.SceneError:
         pytest.skip("it does not assemble, or is locked as drawn")
