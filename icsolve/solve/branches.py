@@ -166,7 +166,7 @@ class Branches:
                     at = lowest(smooth, near, reach)
                     at = as_written(near) if at is None else at
                     least = margin(at)
-                    found.append((abs(least), least, float(at)))
+                    found += [(abs(least), least, float(at))] if not least.is_nan() else []
             if found:
                 size, least, place = min(found)
                 yield (0 if not size > ZERO else 1 if least > 0 else -1), place
@@ -262,14 +262,18 @@ class Branches:
             best_one = int(np.argmin(np.where(self.ids == i, sampled, np.inf)))
             m, k = divmod(best_one, SAMPLES + 1)
             least, at, step = float(sampled[m, k]), float(self.values[k]), (self.high - self.low) / SAMPLES
+
+            def along(values: Array, i: int = i, m: int = m) -> Array:
+                there = off(self._places(self.functions[m], values))
+                return np.where([self.on(m, float(v)) == i for v in values], there, np.nan)
+
             for _ in range(CLOSER if meant else 0):
                 values = np.clip(np.linspace(at - step, at + step, 33), self.low, self.high)
-                there = np.nan_to_num(off(self._places(self.functions[m], values)), nan=np.inf)
+                there = np.nan_to_num(along(values), nan=np.inf)
                 least, at = min((least, at), (float(there.min()), float(values[np.argmin(there)])))
                 step /= 8.0
             if meant:
-                beside = np.array([at - step, at, at + step, plain_within(at, step)])
-                there = off(self._places(self.functions[m], beside))
+                there = along(np.array([at - step, at, at + step, plain_within(at, step)]))
                 rough = max(rough, float(np.nanmax(np.abs(there[:3] - least))))  # it may come nearer between
                 drawn += [i] if there[3] <= DRAWN * np.nanmax(np.abs(self.places)) else []
             best.append(least)
@@ -324,11 +328,13 @@ POINTLIKE = 1e-3
 
 
 class Enclosed(NamedTuple):
-    """Brackets with one position each; clusters of cells that stay open; what the search gave up on."""
+    """Brackets with one position each; clusters of cells that stay open; whether none is too wide to look
+    into; and where in those that are the power changes its sign, perhaps where it is 0."""
 
     brackets: list[tuple[float, float]]
     open_cells: list[tuple[float, float]]
     complete: bool
+    changes: list[tuple[float, float]]
 
 
 def isolate(function: LoadFunction, low: float, high: float) -> Enclosed:
@@ -338,13 +344,17 @@ def isolate(function: LoadFunction, low: float, high: float) -> Enclosed:
     cells = Interval(edges[:-1].copy(), edges[1:].copy())
     brackets: list[tuple[float, float]] = []
     complete = True
+    crowds: list[tuple[float, float]] = []
+    changes: list[tuple[float, float]] = []
     for _ in range(HALVINGS):
         cells, found = _pass(function, cells)
         brackets += found
-        if not cells.low.size:
-            break
         if cells.low.size > MOST_CELLS:
-            complete = float(np.sum(cells.high - cells.low)) <= POINTLIKE * (high - low)
+            complete &= float(np.sum(cells.high - cells.low)) <= POINTLIKE * (high - low)
+            cells, crowded = _without_crowds(cells)
+            crowds += _clusters(*_in_order(crowded))
+            changes += _sign_changes(function, crowded)
+        if not cells.low.size:
             break
         middle = 0.5 * (cells.low + cells.high)
         inside = (middle > cells.low) & (middle < cells.high)
@@ -354,8 +364,34 @@ def isolate(function: LoadFunction, low: float, high: float) -> Enclosed:
             np.concatenate([cells.low, middle[inside]]),
             np.concatenate([np.where(inside, middle, cells.high), cells.high[inside]]),
         )
+    open_cells = sorted([*_clusters(*_in_order(cells)), *crowds])
+    return Enclosed(sorted(brackets), open_cells, complete, sorted(changes))
+
+
+def _without_crowds(cells: Interval) -> tuple[Interval, Interval]:
+    """The cells but those of which the most lie side by side, as around a place where points of the figure
+    coincide: no halving decides these, and they would take the others' turn; and these."""
+    low, high = _in_order(cells)
+    clusters = np.cumsum(np.append(False, low[1:] > high[:-1]))
+    sizes = np.bincount(clusters)
+    largest = np.argsort(-sizes)
+    many = np.cumsum(sizes[largest][::-1])[::-1] > MOST_CELLS // 4
+    crowded = np.isin(clusters, largest[many])
+    return Interval(low[~crowded], high[~crowded]), Interval(low[crowded], high[crowded])
+
+
+def _sign_changes(function: LoadFunction, cells: Interval) -> list[tuple[float, float]]:
+    """The cells at whose ends the power has unlike signs."""
+    places = np.concatenate([cells.low, cells.high])
+    (power,) = enclose(function.record, [function.power], function.enclosed(Interval(places, places)))
+    low, high = np.split(_signs(Interval(*(np.broadcast_to(side, places.shape) for side in power))), 2)
+    other = low * high < 0
+    return list(zip(cells.low[other].tolist(), cells.high[other].tolist(), strict=True))
+
+
+def _in_order(cells: Interval) -> tuple[Array, Array]:
     order = np.argsort(cells.low)
-    return Enclosed(sorted(brackets), _clusters(cells.low[order], cells.high[order]), complete)
+    return cells.low[order], cells.high[order]
 
 
 def _pass(function: LoadFunction, cells: Interval) -> tuple[Interval, list[tuple[float, float]]]:

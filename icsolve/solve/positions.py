@@ -44,6 +44,7 @@ from icsolve.solve.refinement import (
     modes_meet,
     placed_by_coordinates,
     refined,
+    vanishing,
     within_a_turn,
 )
 from icsolve.solve.rest_position import RestPosition, taut
@@ -409,8 +410,9 @@ def search_modes(
         if not search.complete and notes is not None:
             doubt = f"{path} was searched from {low:g} to {high:g}, but not proven to have no other position."
             notes.append(doubt)
-        for bracket in search.brackets:
-            position = refined(function, bracket, (low, high), whole)
+        places = [refined(function, bracket, (low, high), whole) for bracket in search.brackets]
+        places += [vanishing(function, bracket, (low, high), whole) for bracket in search.changes]
+        for position in places:
             if position is not None and (kept is None or branches.on(n, position.value) in kept):
                 found.append((n, position))
         for cluster in search.open_cells if search.complete else ():
@@ -418,8 +420,8 @@ def search_modes(
             if any(cluster[0] - branches.slack <= value <= cluster[1] + branches.slack for value in ends):
                 continue
             if not modes_meet(function, cluster):
-                places = in_open_cells(function, cluster)
-                there = [in_range(function, place, (low, high), whole) for place in places]
+                within = in_open_cells(function, cluster)
+                there = [in_range(function, place, (low, high), whole) for place in within]
                 on = (one for one in there if one and (kept is None or branches.on(n, one.value) in kept))
                 found += [(n, one) for one in on]
                 continue

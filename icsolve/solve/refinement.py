@@ -57,6 +57,14 @@ def refined(
     return in_range(function, closest, span, turns)
 
 
+def vanishing(
+    function: LoadFunction, bracket: tuple[float, float], span: tuple[float, float], turns: bool
+) -> RestPosition | None:
+    """The same where the power, which changes its sign, is shown to be 0, and does not jump."""
+    exact = _zero(function, as_written(_closed_in(function, *bracket)), *map(as_written, bracket))
+    return in_range(function, rounded(exact), span, turns) if exact is not None else None
+
+
 def _values(function: LoadFunction, at: Decimal, nodes: Sequence[int]) -> list[Decimal]:
     """Nodes of a function at a decimal of its free number [case units, degrees], in all digits."""
     record, exact = function.record, exact_record(function.compiled)

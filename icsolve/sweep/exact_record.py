@@ -317,8 +317,8 @@ def lowest(
             except Unreached:
                 return None
             bend = (high - 2 * here + low) / STEP
-            if not bend > FLAT:
-                return None
+            if not bend > FLAT:  # so near to a zero that the value is 0 on both sides
+                return at if at != as_written(near) and not (low or here or high) else None
             move = (low - high) / (2 * bend)
             if abs(move) > reach:
                 return None
