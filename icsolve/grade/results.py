@@ -123,12 +123,11 @@ def number(value: float | None) -> str:
 def tail(marked: Marked) -> str:
     """From the raw answer to the feedback, with the line's end."""
     if not marked.tail:
-        judged = marked.judged
+        judged, score = marked.judged, marked.score
         off = "" if judged.off is None else f"{judged.off:.3g}"
-        score = "" if marked.score is None else shown(marked.score)
+        marks = f"{judged.verdict},{'' if score is None else shown(score)},{shown(marked.points)}"
         read = f"{number(marked.value)},{_cached(marked.unit)},{_cached(marked.direction)}"
-        marks = f"{judged.verdict},{score},{shown(marked.points)},{off},{judged.code}"
-        marked.tail = f"{cell(marked.raw)},{read},{marks},{_cached(marked.text)}\n"
+        marked.tail = f"{cell(marked.raw)},{read},{marks},{off},{judged.code},{_cached(marked.text)}\n"
     return marked.tail
 
 
@@ -248,6 +247,7 @@ def marks_of(rows: Sequence[ResultRow]) -> StudentMarks:
     return StudentMarks(score, most, len(judged), len(rows) - len(judged))
 
 
+@lru_cache(maxsize=4096)
 def shown(number: float) -> str:
     """A mark without needless digits."""
     return f"{number:.10g}"

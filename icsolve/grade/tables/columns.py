@@ -316,7 +316,7 @@ _MONTHS = {
 }
 _FOREIGN = re.compile(rf"\b({'|'.join(_MONTHS)})\b", re.IGNORECASE)
 _SLASHED = re.compile(r"(?<!\d)(\d{1,2})([/-])(\d{1,2})\2(\d{4}|\d{2})(?![\d/-])")
-_SLASHED_BYTES = re.compile(rb"(?<![\d/-])(\d{1,2})([/-])(\d{1,2})\2(?:\d{4}|\d{2})(?![\d/-])")
+_SLASHED_BYTES = re.compile(rb"(\d(?<![\d/-]\d)\d?)([/-])(\d{1,2})\2(?:\d{4}|\d{2})(?![\d/-])")
 _NAMED = {"CET": 1, "MEZ": 1, "CEST": 2, "MESZ": 2, "BST": 1, "EST": -5, "EDT": -4} | {
     "CST": -6,
     "CDT": -5,
