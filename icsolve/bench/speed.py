@@ -11,7 +11,6 @@ import random
 import sys
 import tempfile
 from collections.abc import Callable, Sequence
-from shutil import rmtree
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -293,15 +292,15 @@ def read_plainly(path: str) -> None:
             float(row[2].partition(" ")[0])
 
 
-def judging(path: str, folder: str) -> float:
-    """Seconds to judge every answer; no verdict is remembered. Keys and wrong answers are made before."""
+def judging(path: str, folder: str) -> Callable[[], object]:
+    """A call that judges every answer; no verdict is remembered. Keys and wrong answers are made before."""
     with open(path, encoding="utf-8", newline="") as file:
         rows = list(csv.reader(file))[1:]
     store, reader = CaseStore(folder, Course()), Reader()
     keys = {name: key for name in {row[1] for row in rows} if isinstance(key := store.key(name), NumberKey)}
     for key in keys.values():
         key.wrongs.near(0.0)
-    return min(once(lambda: [judge(keys[row[1]], reader.read(row[2])) for row in rows]) for _ in range(3))
+    return lambda: [judge(keys[row[1]], reader.read(row[2])) for row in rows]
 
 
 def grading(effort: Effort, kept: Kept) -> str:
@@ -313,20 +312,20 @@ def grading(effort: Effort, kept: Kept) -> str:
             _put(os.path.join(cases, f"{kind}.yaml"), template(kind))
         names = [kind for kind in kinds() if unknowns(load(template(kind)))]
         asked, size = asked_of(cases, names), max(40, 10 * effort.scenes)
-        answers = write_class(path, size, asked)
-        plainly = min(once(lambda: read_plainly(path)) for _ in range(5))
-        alone = judging(path, cases)
-        out = os.path.join(folder, "results.csv")
-        wholes = [_command("grade", path, "--cases", cases, "-o", out, "--force", "-q")]
+        answers, students = write_class(path, size, asked), 30 * effort.scenes
+        paths, out = [path], os.path.join(folder, "results.csv")
         if answers > MANY:  # starting, and solving each case with every mistake, takes as long for any class
-            write_class(path, 3 * size, asked)
-            wholes.append(_command("grade", path, "--cases", cases, "-o", out, "--force", "-q"))
+            paths.append(os.path.join(folder, "larger.csv"))
+            write_class(paths[1], 3 * size, asked)
+        varied = _variants(folder, students)
+        judged = judging(path, cases)
+        taken: list[list[float]] = []
+        for _ in range(1 + effort.rounds // 3):  # all in turns: a busy machine slows them alike
+            read = min(once(lambda: read_plainly(path)) for _ in range(5))
+            graded = [_command("grade", one, "--cases", cases, "-o", out, "--force", "-q") for one in paths]
+            taken.append([read, min(once(judged) for _ in range(3)), _command(*varied), *graded])
+        plainly, alone, variants, *wholes = map(min, zip(*taken, strict=True))
         more = (wholes[-1] - wholes[0]) / 2.0
-        students = 30 * effort.scenes
-        variants = _variants(folder, students)
-        for name in os.listdir(cases):
-            os.unlink(os.path.join(cases, name))
-        os.rmdir(cases)
     kept.gates.append(ratio("judging answers / reading them by csv and float", alone / plainly, 5))
     if answers > MANY:
         kept.gates.append(ratio("a further answer by the command `grade` / the same", more / plainly, 25))
@@ -343,17 +342,15 @@ def grading(effort: Effort, kept: Kept) -> str:
     return table((f"{answers} answers", "x csv", "us an answer"), rows)
 
 
-def _variants(folder: str, students: int) -> float:
-    """Seconds of a process that gives each student a four-bar of their own."""
+def _variants(folder: str, students: int) -> list[str]:
+    """The command that gives each student a four-bar of their own."""
     ranges = "variables: {a: {range: [1, 1.5], step: 0.01}, phi: {range: [40, 80], step: 0.1}}\n"
     text = template("four-bar").replace("AB: 1,", "AB: $a,").replace("AB: 60", "AB: $phi")
     case, roster = os.path.join(folder, "varied.yaml"), os.path.join(folder, "roster.csv")
     _put(case, text.replace("lengths:", f"{ranges}lengths:", 1))
     _put(roster, "student_id\n" + "".join(f"{n:05d}\n" for n in range(students)))
     out = os.path.join(folder, "sheets")
-    seconds = _command("variants", case, "--roster", roster, "-o", out, "--no-figures", "-q", "--force")
-    rmtree(out)
-    return seconds
+    return ["variants", case, "--roster", roster, "-o", out, "--no-figures", "-q", "--force"]
 
 
 def _put(path: str, text: str) -> None:

@@ -39,6 +39,8 @@ class CaseStore:
         self._near: dict[str, str] = {}
         self._solved: dict[str, SolvedCase | Varied | NoKeyError] = {}
         self._cases: dict[str, Case] = {}
+        self._common: dict[str, AnyKey] = {}
+        """the keys that were asked for, of questions that ask the same of all"""
         self.records: dict[str, VariantRecord] = {}
         """the numbers that were handed out, by case"""
 
@@ -176,10 +178,18 @@ class CaseStore:
 
         Raises NoKeyError.
         """
-        return self.solved(question.partition(":")[0], student).key(question)
+        key = self._common.get(question)
+        if key is None:
+            name = question.partition(":")[0]
+            key = self.solved(name, student).key(question)
+            if self.variation(name) is None:
+                self._common[question] = key
+        return key
 
     def common_key(self, question: str) -> AnyKey | None:
         """The key of a question that asks the same of all; None where there is none."""
+        if question in self._common:
+            return self._common[question]
         try:
             return self.key(question) if self.variation(question.partition(":")[0]) is None else None
         except NoKeyError:

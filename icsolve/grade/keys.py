@@ -208,7 +208,7 @@ class _Key:
         """The unit of the right answer."""
         return parsed_unit(self.unit_name)
 
-    @property
+    @cached_property
     def rule(self) -> str:
         """What a student may know of the band before the answer."""
         return in_words(self.policy.tolerance)

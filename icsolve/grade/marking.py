@@ -90,7 +90,7 @@ class Counts:
 
 def _count_text(texts: Counter[str], text: str, n: int) -> None:
     """Count a text; of too many the commonest half is kept."""
-    texts[text] += n
+    texts[text] = texts.get(text, 0) + n
     if len(texts) > _MOST_TEXTS:
         common = texts.most_common(_MOST_TEXTS // 2)
         texts.clear()
@@ -220,7 +220,8 @@ class Marker:
             self._add_missing(student, found)
         for entry, judged in found:
             variant = self._variant(entry) if self.case_store.varied else ""
-            yield self._result(entry._replace(student=student), judged, variant)
+            own = entry if entry.student == student else entry._replace(student=student)
+            yield self._result(own, judged, variant)
 
     def _add_missing(self, student: str, found: list[tuple[StoredAnswer, Marked]]) -> None:
         """What the student owes and did not answer; an answer under a name that is nearly that of a case
@@ -253,7 +254,8 @@ class Marker:
 
     def _result(self, entry: StoredAnswer, marked: Marked, variant: str = "") -> Result:
         """Counted, as the line of the variant that is the student's own, or that the answer names."""
-        marked = self._final(entry, marked)
+        if self._overrides:
+            marked = self._final(entry, marked)
         if not marked.count:
             if len(self._uncounted) >= _MEMORY:
                 self.counted()

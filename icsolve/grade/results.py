@@ -248,6 +248,7 @@ def marks_of(rows: Sequence[ResultRow]) -> StudentMarks:
     return StudentMarks(score, most, len(judged), len(rows) - len(judged))
 
 
+@lru_cache(maxsize=4096)
 def shown(number: float) -> str:
     """A mark without needless digits."""
     return f"{number:.10g}"

@@ -305,7 +305,7 @@ class Record:
         if not (isinstance(x, Traced) or isinstance(y, Traced)):
             return degrees
         one, two = self.lifted(x), self.lifted(y)
-        return self._of_two(Op.ANGLE, (one.index, two.index), degrees, one.row or two.row)
+        return self._of_two(Op.ANGLE, one.index, two.index, degrees, one.row or two.row)
 
     def turns(self, x: Scalar, y: Scalar, about: Scalar = 0.0) -> Scalar:
         """By how much a vector has turned from +x, whole turns too: those nearest to a guess, which
@@ -343,7 +343,9 @@ class Record:
             return self.subtract(a, self.nodes[b.a])
         if a.op is NEG:
             return self.subtract(b, self.nodes[a.a])
-        return self._sum(ADD, *((a, b) if a.index <= b.index else (b, a)), a.value + b.value)
+        if a.index > b.index:
+            a, b = b, a
+        return self._sum(ADD, a, b, a.value + b.value)
 
     def subtract(self, a: Scalar, b: Scalar) -> Scalar:
         """a - b"""
@@ -363,9 +365,10 @@ class Record:
 
     def _sum(self, op: int, a: Traced, b: Traced, value: float) -> Scalar:
         """A sum or difference; two exact numbers that cancel leave nothing."""
-        if value == 0.0 and not (a.row or b.row) and self._exact(a.index) and self._exact(b.index):
+        row = a.row or b.row
+        if value == 0.0 and not row and self._exact(a.index) and self._exact(b.index):
             return 0.0
-        return self._of_two(op, (a.index, b.index), value, a.row or b.row)
+        return self._of_two(op, a.index, b.index, value, row)
 
     def multiply(self, a: Scalar, b: Scalar) -> Scalar:
         """a b"""
@@ -381,8 +384,9 @@ class Record:
             a = self.lifted(a)
         if a.op is NEG or b.op is NEG:
             return self._outside(self.multiply, a, b)
-        of = (a.index, b.index) if a.index <= b.index else (b.index, a.index)
-        return self._of_two(MUL, of, a.value * b.value, a.row or b.row)
+        if a.index > b.index:
+            a, b = b, a
+        return self._of_two(MUL, a.index, b.index, a.value * b.value, a.row or b.row)
 
     def divide(self, a: Scalar, b: Scalar) -> Scalar:
         """a / b"""
@@ -399,7 +403,7 @@ class Record:
         if a.op is NEG or b.op is NEG:
             return self._outside(self.divide, a, b)
         value = a.value / b.value if b.value else math.copysign(math.inf, a.value)
-        return self._of_two(Op.DIV, (a.index, b.index), value, a.row or b.row)
+        return self._of_two(Op.DIV, a.index, b.index, value, a.row or b.row)
 
     def _outside(self, operation: Callable[[Scalar, Scalar], Scalar], a: Traced, b: Traced) -> Scalar:
         """A product or quotient with the minus signs of its operands before it."""
@@ -421,12 +425,12 @@ class Record:
         """A number as a node of this record."""
         return value if isinstance(value, Traced) else self._constant(float(value), 0.0, "exact")
 
-    def _of_two(self, op: int, of: tuple[int, int], value: float, row: bool) -> Traced:
+    def _of_two(self, op: int, a: int, b: int, value: float, row: bool) -> Traced:
         """What an operation makes of two nodes; the same is made once."""
-        known = self._known[op]
+        known, of = self._known[op], (a, b)
         found = known.get(of)
         if found is None:
-            found = known[of] = Traced(self, op, of[0], of[1], value, row, 0.0, of)
+            found = known[of] = Traced(self, op, a, b, value, row, 0.0, of)
         return found
 
     def _of_one(self, op: int, a: Traced, value: float, beside: int = 0) -> Traced:

@@ -47,7 +47,7 @@ from icsolve.sweep.exact_record import hides
 from icsolve.sweep.first_contact import FirstContact, FirstContacts, Mask, radius_ratio
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.record_runner import Key
-from icsolve.sweep.recorded_scene import RestingContact
+from icsolve.sweep.recorded_scene import TILT, RestingContact
 from icsolve.sweep.request import Columns
 from icsolve.sweep.rows_on_record import SweepRun
 from icsolve.sweep.starting_position import start_of
@@ -70,6 +70,7 @@ class Follow(NamedTuple):
     curve, body, freedom : profile, follower and its guide [case length, rad]
     side : of a flat face the side on which it has its body
     sense : 1 where the gap grows as the follower moves on
+    lean : 1 where the way of the follower lies ccw from the normal, else -1
     driver : the link that a sweep turns, or the length that it varies from ``start``, to move the follower
     frame, written : names and places of two points of the cam
     pivot : of a cam that is pinned to the frame [case length]; else not a number
@@ -81,6 +82,7 @@ class Follow(NamedTuple):
     freedom: Freedom
     side: float
     sense: float
+    lean: float
     driver: str
     start: float
     frame: tuple[str, str]
@@ -151,7 +153,7 @@ class Follow(NamedTuple):
         at, bend = (place.x.value, place.y.value), joint.radii[cam]
         ends = (bend.value, 1.0) if isinstance(bend, Number) else (1.0, 0.0)
         above, below = radius_ratio(np.array(ends[0]), np.array(ends[1]), self.curve.size).tolist()
-        return RestingContact(touch.place, joint, at, cam, (above, below), roller)
+        return RestingContact(touch.place, joint, at, cam, (above, below), self.lean * TILT, roller)
 
     def contact(self, case: Case, pose: LinkPose, met: Candidate) -> Touching:
         """A row's contact; raises SceneError where there is no one."""
@@ -196,14 +198,15 @@ class CamMotion:
         outward = 0.0 if touch.links[0] == seeking.cam else 180.0
         normal = turn_of(self.touching[k].normal + outward)
         x, y = freedom.velocity(seeking.trace(self.touching[k].at, normal))
-        sense = math.copysign(1.0, x * normal[0] + y * normal[1])
+        along, across = x * normal[0] + y * normal[1], y * normal[0] - x * normal[1]
+        sense, lean = math.copysign(1.0, along), math.copysign(1.0, along * across)
         frame, written = self._frame(seeking.cam, own[0])
         driver, start = self._driver(seeking.guided, body.at, guide)
         turns = guided(self.whole, seeking.cam)
         pivot = (math.nan, math.nan)
         if turns is not None and turns.against == self.whole.ground and isinstance(turns.freedom, Turn):
             pivot = turns.freedom.about
-        return Follow(seeking, curve, body, freedom, side, sense, driver, start, frame, written, pivot)
+        return Follow(seeking, curve, body, freedom, side, sense, lean, driver, start, frame, written, pivot)
 
     def _frame(self, cam: str, first: str) -> tuple[tuple[str, str], tuple[Point, Point]]:
         """Two points of a cam that tell its pose."""

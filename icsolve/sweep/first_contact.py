@@ -115,17 +115,19 @@ class FirstContact:
         rows = len(px)
         if self.shifts:
             dx, dy = guide
-            off = _outer(dy, line.x) - _outer(dx, line.y) - (px * dy - py * dx)[:, None]
+            off = _outer(dy, line.x)
+            off -= _outer(dx, line.y)
+            off -= (px * dy - py * dx)[:, None]
         else:
             qx, qy = guide
             square = (px - qx) ** 2 + (py - qy) ** 2
-            off = (
-                line.square
-                - 2.0 * (_outer(qx, line.x) + _outer(qy, line.y))
-                + (qx * qx + qy * qy - square)[:, None]
-            )
+            off = _outer(qx, line.x)
+            off += _outer(qy, line.y)
+            off *= -2.0
+            off += line.square
+            off += (qx * qx + qy * qy - square)[:, None]
         beyond = off > 0.0
-        row, chord = np.nonzero(beyond[:, line.first] != beyond[:, line.first + 1])
+        row, chord = line.chords(beyond[:, :-1] != beyond[:, 1:])
         a, b = line.first[chord], line.first[chord] + 1
         share = off[row, a] / (off[row, a] - off[row, b])
         x, y = (v[a] + share * (v[b] - v[a]) for v in (line.x, line.y))
@@ -157,7 +159,7 @@ class FirstContact:
         most = 2.0 * line.rise * (1.0 if self.shifts else 2.0 * reach) + AT_ONE * self.size**2
         # else it is far from both ends of the chord
         small = np.abs(off) < most + (0.0 if self.shifts else long.max())
-        row, k = np.nonzero(small[:, line.first] | small[:, line.first + 1])
+        row, k = line.chords(small[:, :-1] | small[:, 1:])
         a, b = off[row, line.first[k]], off[row, line.first[k] + 1]
         if self.shifts:
             least, along, room = np.minimum(np.abs(a), np.abs(b)), 0.0, 2.0 * line.rise
@@ -275,6 +277,8 @@ class _Line:
         self.u = np.concatenate([np.arange(n + 1) / n for n in counts])
         self.piece = np.repeat(np.arange(len(counts)), np.array(counts) + 1)
         self.first = np.concatenate([np.arange(n) + sum(counts[:k]) + k for k, n in enumerate(counts)])
+        self.chord = np.full(len(self.u), -1)
+        self.chord[self.first] = np.arange(len(self.first))
         self.x, self.y, self.nx, self.ny = self.at(self.piece, self.u)
         self.square = self.x**2 + self.y**2
         self.step = 1.0 / np.array(counts)
@@ -290,6 +294,14 @@ class _Line:
             shapely.prepare([inside, inside.exterior])
             apart = shapely.distance(inside.exterior, shapely.points(self.x, self.y))
             self.good = ~shapely.contains_xy(inside, self.x, self.y) & (apart > radius - CLOSE * self.size)
+
+    def chords(self, chosen: Mask) -> tuple[Which, Which]:
+        """Rows and chords that are chosen, of (rows, samples but the last): from a sample to the next, which
+        may be of another piece."""
+        row, sample = np.nonzero(chosen)
+        chord = self.chord[sample]
+        real = chord >= 0
+        return row[real], chord[real]
 
     def at(self, pieces: Which, u: Array) -> tuple[Array, Array, Array, Array]:
         """Places and normals on the pieces at their parameters ``u``: x, y, nx, ny, (rows,) each [frame]."""

@@ -372,22 +372,18 @@ def _with_statics(compiled: CompiledSweep, asked: RowRequest, found: RecordedSta
     rubs = asked.answers and refusals.rubs(case)
     pulls = pressing(scene, found).pulls if case.ropes and found.answers and not rubs else None
     given = motion_fits(scene, found, compiled.setting.paths, sense=asked.rates and not moves)
-    fits = (*compiled.fits, *given)
-    compiled = compiled._replace(
+    rows = rubbing(scene, found.motions, found.balance) if rubs and not found.refusal else None
+    return compiled._replace(
+        refusal=None if rubs else found.refusal,
+        fits=(*compiled.fits, *given, *(pull.index for pull in pulls or () if varies(pull))),
         delicate=found.delicate,
         idle=found.idle,
+        rubbing=rows,
         cancels=found.cancels,
         spent=found.spent,
-        fits=(*fits, *(pull.index for pull in pulls or () if varies(pull))),
+        dynamic=asked.dynamic and found.moves is not None,
         taut=pulls is not None and all(varies(pull) or float(pull) > 0.0 for pull in pulls),
-    )
-    if asked.dynamic:
-        untold = found.moves is None or asked.terms or rubs
-        compiled = compiled._replace(dynamic=found.moves is not None, untold=untold)
-    if not rubs:
-        return compiled._replace(refusal=found.refusal)
-    return (
-        compiled if found.refusal else compiled._replace(rubbing=rubbing(scene, found.motions, found.balance))
+        untold=asked.dynamic and (found.moves is None or asked.terms or rubs),
     )
 
 

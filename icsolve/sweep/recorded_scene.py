@@ -54,8 +54,8 @@ from icsolve.tuples import NamedTuple, replace
 Points = dict[str, Point]
 
 TILT = 40.0
-"""Degrees by which the normal of a contact is off where the record is made: nothing rests there, as in a
-dwell."""
+"""Degrees by which the normal of a contact is off where the record is made, toward the way in which its
+follower moves: nothing rests there, as in a dwell, and nothing all but jams."""
 
 
 Twists = Mapping[str, tuple[Triple, ...]]
@@ -317,6 +317,7 @@ class RestingContact(NamedTuple):
     place : where it stands among the joints
     joint, at : the contact as written, and its place there [case units]
     cam, radius : which of its links is the cam; its radius of curvature there, a ratio
+    tilt : by how many degrees the normal is off where the record is made
     roller : of a roller, of which the normal tells the place, the centre, and how far the contact is from it
         along the normal
     """
@@ -326,6 +327,7 @@ class RestingContact(NamedTuple):
     at: Point
     cam: int
     radius: tuple[float, float]
+    tilt: float
     roller: tuple[str, float] | None = None
 
     @property
@@ -338,7 +340,7 @@ class RestingContact(NamedTuple):
     @property
     def written(self) -> tuple[float, ...]:
         """Values of the inputs beside the position as written."""
-        return (*turn_of(self.joint.normal.value + TILT), *self.radius, *self.at)
+        return (*turn_of(self.joint.normal.value + self.tilt), *self.radius, *self.at)
 
 
 def rested(scene: RecordedScene, contacts: Sequence[RestingContact], inputs: dict[str, int]) -> RecordedScene:

@@ -171,7 +171,8 @@ def _refuse_values(name: str, bound: str, array: Array, turns: bool) -> None:
 
 def refuse_far(name: str, degrees: Array) -> None:
     """Refuse turns that nobody would count, of which doubles leave too few digits to an angle."""
-    if np.any(np.abs(degrees[np.isfinite(degrees)]) > FARTHEST):
+    beyond = np.abs(degrees) > FARTHEST
+    if beyond.any() and np.isfinite(degrees[beyond]).any():
         raise RequestError(f"the values of {shown(name)} lie beyond {FARTHEST:.0f} degrees; take turns off")
 
 

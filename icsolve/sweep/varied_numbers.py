@@ -24,6 +24,8 @@ def with_numbers(case: Case, values: Mapping[str, float | Number]) -> Case:
     values : by path, in its canonical form (`find_number`), numbers in case units, degrees; a path that the
         case does not have is passed over
     """
+    if not values:
+        return case
     held = [name for name, numbers in parts_of(case).items() if not numbers.keys().isdisjoint(values)]
     return replace(case, **{name: _changed(getattr(case, name), values) for name in held}) if held else case
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Iterator
+from functools import lru_cache
 
 from icsolve.tuples import NamedTuple, cached_property
 
@@ -98,6 +99,7 @@ _OTHERWISE = {
 """What is told where a question asks for something else than a load."""
 
 
+@lru_cache(maxsize=4096)
 def message(code: str, where: str = "", kind: str = "load") -> str:
     """The line for a mistake in an answer of a ``kind``: what was asked for.
 
@@ -259,6 +261,8 @@ class Wrongs:
         written, if that is known."""
         reach = self.reach
         first, last = _within(self._values, value, reach * abs(value) * (1.0 + reach))
+        if first == last:
+            return ()
         some = self.all[first:last]
         if len(some) == 1 and some[0].code in PLAIN:
             return some if abs(value - some[0].value) <= reach * abs(some[0].value) else ()

@@ -316,7 +316,10 @@ _MONTHS = {
 }
 _FOREIGN = re.compile(rf"\b({'|'.join(_MONTHS)})\b", re.IGNORECASE)
 _SLASHED = re.compile(r"(?<!\d)(\d{1,2})([/-])(\d{1,2})\2(\d{4}|\d{2})(?![\d/-])")
-_SLASHED_BYTES = re.compile(rb"(?<![\d/-])(\d{1,2})([/-])(\d{1,2})\2(?:\d{4}|\d{2})(?![\d/-])")
+_SLASHED_BYTES = re.compile(
+    rb"([/-])(?:(?<=[^\d/-](\d).)|(?<=[^\d/-](\d\d).))(\d{1,2})\1(?:\d{4}|\d{2})(?![\d/-])"
+)
+"""From the first slash, which is found soonest; the number before it is one of two groups."""
 _NAMED = {"CET": 1, "MEZ": 1, "CEST": 2, "MESZ": 2, "BST": 1, "EST": -5, "EDT": -4} | {
     "CST": -6,
     "CDT": -5,
@@ -390,10 +393,10 @@ def order_of(file: IO[bytes]) -> str:
     """How dates with slashes are ordered in a file, by those that can be read in one way only: ``day``,
     ``month``, or '' where none, or both, are to be seen."""
     seen = set()
-    rest = b""
+    rest = b"\n"
     while block := file.read(1 << 20):
         for found in _SLASHED_BYTES.finditer(rest + block):
-            first, second = int(found.group(1)), int(found.group(3))
+            first, second = int(found.group(2) or found.group(3)), int(found.group(4))
             if first > 12 >= second > 0:
                 seen.add("day")
             elif second > 12 >= first > 0:

@@ -138,22 +138,24 @@ class Reader:
         what one column says against another is flagged."""
         if unit or way:
             return _with_columns(self.read(text), unit, way)
-        if text[-1:].isdigit() and "_" not in text and self.decimal != "comma":
-            try:
-                number = float(text)
-            except ValueError:
+        if self.decimal == "comma":
+            return self.slowly(text)
+        digits = text.partition(" ")[0]
+        after = self._rests.get(text[len(digits) :])
+        if after is None or not digits[-1:].isdigit() or "_" in digits or len(text) > LONGEST:
+            quick = _QUICK.match(text)
+            if quick is None:
                 return self.slowly(text)
-            if number - number == 0.0:
-                return _made((number, None, None, text, "", ""))
-        quick = _QUICK.match(text)
-        if quick is not None and self.decimal != "comma":
             digits, rest = quick.groups()
             after = self._rests.get(rest) or self._remember(rest)
-            _, word, said, _, flag, note = after
+        _, word, said, _, flag, note = after
+        try:
             number = float(digits)
-            if not flag and (number >= 0.0 or said is None):
-                return _made((number, word, said, digits, "", note))
-        return self.slowly(text)
+        except ValueError:
+            return self.slowly(text)
+        if flag or (number < 0.0 and said is not None) or number - number != 0.0:
+            return self.slowly(text)
+        return _made((number, word, said, digits, "", note))
 
     def _remember(self, rest: str) -> WrittenAnswer:
         if len(self._rests) >= _MOST:
@@ -249,7 +251,7 @@ _NAMED = re.compile(
 )
 
 
-may_name = re.compile(r"\W*(?:[^\W\d_]|\d[^<>&≤≥]*[<>&≤≥])").match
+may_name = re.compile(r"\W*+(?:[^\W\d_]|\d[^<>&≤≥]*+[<>&≤≥])").match
 """Whether a text begins with a letter, or has a number before a sign of order: few do, and are looked at."""
 
 
