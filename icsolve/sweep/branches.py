@@ -37,8 +37,9 @@ STEPS, STEPS_A_ROW, CLOSED = 2000, 20, 4
 point is found by a closed form."""
 CELLS = 4
 MOST_CELLS = 1_000_000
-OFF_NICE = (3.0 - math.sqrt(5.0)) / 2.0
 """Branches are looked for at so many places in a longest step, and at most at so many at all."""
+OFF_NICE = (3.0 - math.sqrt(5.0)) / 2.0
+"""So much of a step they are beside the start of the line, which is often a round number."""
 
 LAST = ("followed", ())
 """What a record keeps the line under that was followed last: rows on it are looked for again and again."""

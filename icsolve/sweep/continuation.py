@@ -123,16 +123,19 @@ class ChangePoints(NamedTuple):
 
     def reached(self, at: Array, line: InputLine) -> Mask:
         """To which places, (places,), the motion leads, also by turning the other way round."""
+        return self._inside(self._within(at, line))
+
+    def _inside(self, at: Array) -> Mask:
         low, high = self.limits
-        back = self._within(at, line)
-        return (back >= low) & (back <= high)
+        return (at >= low) & (at <= high)
 
     def _followed(self, at: Array, line: InputLine) -> Array:
         """Each place so many whole turns away that the motion leads there; where none does, the nearest to
         the start: beyond a limit on both sides a branch goes on from the sign as written."""
         period = line.period or math.inf
+        back = self._within(at, line)
         nearest = line.start + np.remainder(at - line.start + period / 2.0, period) - period / 2.0
-        return np.where(self.reached(at, line), self._within(at, line), nearest)
+        return np.where(self._inside(back), back, nearest)
 
     def _within(self, at: Array, line: InputLine) -> Array:
         """The places, those beyond a limit so many whole turns away that they are not beyond that limit."""

@@ -14,7 +14,6 @@ from functools import partial
 from itertools import chain
 
 import numpy as np
-import numpy.typing as npt
 
 from icsolve.assembly.driven.groups import ROUNDS, NewtonGroup, Solver
 from icsolve.numbers.decimals import CONTEXT, as_written
@@ -23,6 +22,7 @@ from icsolve.numbers.replay import Array, Code
 from icsolve.sweep.continuation import (
     ChangePoints,
     InputLine,
+    Mask,
     PathSegment,
     State,
     Step,
@@ -44,9 +44,6 @@ TRIALS = 64
 QUICK = 6
 """Rounds of Newton's method that a step may take."""
 HALVINGS = 30
-
-Mask = npt.NDArray[np.bool_]
-
 
 AROUND, PLACES = [Decimal(2) ** -k for k in (14, 12, 10)], 6
 """Beside a singular position values are those of the polynomial through so many places on each side of it,

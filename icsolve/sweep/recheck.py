@@ -30,8 +30,6 @@ from icsolve.sweep.row_parts import SweepPart, SweepParts
 
 CLEAR = 2.0**-12
 """A row farther from a change point than this part of the longest step is on the side that floats say."""
-
-
 PASSED = Decimal(2) ** -14
 """Within this part of the longest step doubles tell where a group goes through a singular position."""
 BESIDE = 2.0**-20

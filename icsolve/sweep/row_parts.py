@@ -23,8 +23,7 @@ from icsolve.sweep.branches import (
     may_vanish,
     signs_of,
 )
-from icsolve.sweep.continuation import InputLine, State, written_state
-from icsolve.sweep.path_tracking import Mask
+from icsolve.sweep.continuation import InputLine, Mask, State, written_state
 from icsolve.sweep.program import CompiledSweep, Signs, live_roots
 from icsolve.sweep.record_runner import Rows, Runner
 from icsolve.sweep.request import Columns

@@ -205,13 +205,12 @@ class SweepRun:
     def _islands(self, part: SweepPart, tracker: PathTracker) -> None:
         """Say to which rows no motion leads."""
         line, order = tracker.line, np.argsort(part.places)
-        apart = ~tracker.change_points.reached(part.places[order], line) & (self.codes[part.rows[order]] == 0)
+        places, answered = part.places[order], self.codes[part.rows[order]] == 0
+        apart = answered & ~tracker.change_points.reached(places, line) & ~tracker.ending(places)
         ends = np.flatnonzero(np.diff(apart, prepend=False, append=False)).reshape(-1, 2)
         if len(ends):
             (name,) = line.slope
-            spans = [
-                f"{part.places[order][a]:.6g} to {part.places[order][b - 1]:.6g}" for a, b in ends[:SPANS]
-            ]
+            spans = [f"{places[a]:.6g} to {places[b - 1]:.6g}" for a, b in ends[:SPANS]]
             self.notes.append(
                 f"no motion leads from the position as written to the rows at {self.columns.names[name]} = "
                 f"{', '.join(spans)}{' ...' if len(ends) > SPANS else ''}: "
