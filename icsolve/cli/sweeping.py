@@ -49,18 +49,21 @@ LONGEST = 60
 
 
 class SweepSpan(click.ParamType):  # type: ignore[type-arg]
-    """A path and its values."""
+    """A path or a link, and its values."""
 
-    name = "PATH=FROM:TO:STEP"
+    def __init__(self, what: str, example: str) -> None:
+        self.name = f"{what}=FROM:TO:STEP"
+        self.example = f"{example}=0:360:1"
 
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> tuple[str, Values]:
         """The path and its values."""
         path, equals, span = str(value).partition("=")
-        numbers = _numbers(span)
-        if not (path.strip() and equals) or numbers is None:
-            self.fail(f"{value!r} is not PATH=FROM:TO:STEP, e.g. angles.AB=0:360:1", param, ctx)
+        numbers, slip = _numbers(span) if path.strip() and equals else ([], "")
+        if slip or not numbers:
+            why = f": {slip};" if slip else ","
+            self.fail(f"{value!r} is not {self.name}{why} e.g. {self.example}", param, ctx)
         if ":" not in span:
             return path.strip(), _array([float(number) for number in numbers])
         first, last, step = numbers
@@ -80,16 +83,21 @@ def _reversed(span: str) -> str:
     return f"{first}:{last}:{step[1:] if step[0] in '+-' else '-' + step}"
 
 
-def _numbers(span: str) -> list[Fraction] | None:
-    """The numbers of a span, exact; None where it is none."""
-    words = span.split(":" if ":" in span else ",")
-    try:
-        numbers = [Decimal(word.strip()) for word in words]
-    except InvalidOperation:
-        return None
-    if not all(number.is_finite() and abs(number.adjusted()) < LONGEST for number in numbers):
-        return None
-    return [Fraction(number) for number in numbers] if ":" not in span or len(numbers) == 3 else None
+def _numbers(span: str) -> tuple[list[Fraction], str]:
+    """The numbers of a span, exact; with what is wrong where it is none."""
+    words = [word.strip() for word in span.split(":" if ":" in span else ",")]
+    numbers = []
+    for word in words:
+        try:
+            number = Decimal(word)
+        except InvalidOperation:
+            return [], f"{word!r} is no bare number" if word else "a number is missing"
+        if not number.is_finite() or abs(number.adjusted()) >= LONGEST:
+            return [], f"{word!r} is no number of a mechanism"
+        numbers.append(Fraction(number))
+    if ":" in span and len(numbers) != 3:
+        return [], f"a range has three numbers, and here are {len(numbers)}"
+    return numbers, ""
 
 
 def _array(values: list[float]) -> Values:
@@ -138,10 +146,17 @@ class SweepOptions(NamedTuple):
 @click.command("sweep", cls=Verb)
 @CASE
 @click.option(
-    "--vary", type=SweepSpan(), multiple=True, help="A number and its values; several are a product."
+    "--vary",
+    type=SweepSpan("PATH", "angles.AB"),
+    multiple=True,
+    help="A number and its values; several are a product.",
 )
 @click.option(
-    "--drive", type=SweepSpan(), metavar="LINK=SPAN", multiple=True, help="A link, degrees: 2=0:360:1."
+    "--drive",
+    type=SweepSpan("LINK", "2"),
+    metavar="LINK=SPAN",
+    multiple=True,
+    help="A link, degrees: 2=0:360:1.",
 )
 @OUTPUT
 @click.option("--error", is_flag=True, help="Bounds on the rounding errors of all numbers too.")
