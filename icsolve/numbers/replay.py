@@ -20,6 +20,7 @@ from icsolve.numbers.source import PYTHON, straight_line
 from icsolve.tuples import cached_property
 
 Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
 BLOCK = 4096
 """Rows that run at once: some thirty buffers of them fit the second-level cache."""
 FEW = 256

@@ -13,7 +13,6 @@ from collections.abc import Mapping, Sequence
 from decimal import Decimal, localcontext
 
 import numpy as np
-import numpy.typing as npt
 
 from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
 from icsolve.assembly.ways import ways_of
@@ -24,7 +23,7 @@ from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.decimals import CONTEXT, as_written, decimal_ratio
 from icsolve.numbers.intervals import Ends
 from icsolve.numbers.record import varies
-from icsolve.numbers.replay import Array, Code
+from icsolve.numbers.replay import Array, Code, Mask
 from icsolve.scene import solve_scene
 from icsolve.screws import velocity
 from icsolve.solve.branches import nearest
@@ -98,7 +97,6 @@ class Zero(NamedTuple):
     lies_flat: bool
 
 
-Mask = npt.NDArray[np.bool_]
 Turns = tuple[tuple[Array, Array], dict[int, Array]]
 """Two axes, and by the node of a guess how far an angle has turned on their grid [degrees]."""
 

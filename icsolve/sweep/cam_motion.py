@@ -40,11 +40,11 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers import turn_of
 from icsolve.numbers.balls import Balls
 from icsolve.numbers.decimals import CONTEXT, as_written
-from icsolve.numbers.replay import Array
+from icsolve.numbers.replay import Array, Mask
 from icsolve.scene.refusals import rubs
 from icsolve.sweep.branches import signs_of
 from icsolve.sweep.exact_record import hides
-from icsolve.sweep.first_contact import FirstContact, FirstContacts, Mask, radius_ratio
+from icsolve.sweep.first_contact import FirstContact, FirstContacts, radius_ratio
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.record_runner import Key
 from icsolve.sweep.recorded_scene import TILT, RestingContact

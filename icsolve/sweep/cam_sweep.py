@@ -16,9 +16,8 @@ from icsolve.case import Case
 from icsolve.case.joints import Mesh
 from icsolve.case.profiles import Flat, Knife, Roller
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.replay import Array
+from icsolve.numbers.replay import Array, Mask
 from icsolve.sweep.cam_motion import CamMotion, Rows, cam_motion
-from icsolve.sweep.first_contact import Mask
 from icsolve.sweep.program import RowRequest, setting_of
 from icsolve.sweep.record_runner import Key, Progress
 from icsolve.sweep.record_runner import Rows as Which

@@ -11,10 +11,9 @@ import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-import numpy.typing as npt
 
 from icsolve.numbers import RADIAN
-from icsolve.numbers.replay import Array
+from icsolve.numbers.replay import Array, Mask
 from icsolve.sweep.program import CompiledSweep
 from icsolve.tuples import NamedTuple
 
@@ -25,7 +24,6 @@ BENT = 0.25
 COUNTED = 60.0
 """The most, in degrees, that a counted angle may turn in one step."""
 
-Mask = npt.NDArray[np.bool_]
 Step = tuple[float, Array, Array]
 """A place on the line, the unknowns of the groups there, and the counted turns."""
 SAME = 1e-6

@@ -12,13 +12,12 @@ import math
 from collections.abc import Callable, Generator, Iterator
 
 import numpy as np
-import numpy.typing as npt
 
 from icsolve.assembly.order import order_of
 from icsolve.assembly.steps import PointGroup
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.replay import Array
+from icsolve.numbers.replay import Array, Mask
 from icsolve.numbers.tape import UNIT
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
@@ -132,9 +131,6 @@ class FoundPositions(list[FoundPosition]):
 
 class _EnoughError(Exception):
     """A search has solved so many scenes that it ends."""
-
-
-Mask = npt.NDArray[np.bool_]
 
 
 class Asked(NamedTuple):

@@ -26,7 +26,7 @@ from icsolve.numbers import Scalar
 from icsolve.numbers.decimals import CONTEXT, as_written
 from icsolve.numbers.jets import BallArray, Cells, Jet
 from icsolve.numbers.record import Op, Record, Traced, live, terms_of
-from icsolve.numbers.replay import Array
+from icsolve.numbers.replay import Array, Mask
 from icsolve.numbers.roots import MOST_ORDER, NOTHING, STEP, last_that_holds, slope, zeros_between
 from icsolve.numbers.tape import UNIT
 from icsolve.scene import solve_scene
@@ -34,7 +34,7 @@ from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.continuation import SAME
 from icsolve.sweep.exact_record import APART, Unreached, Values
-from icsolve.sweep.find_by_scenes import FoundPosition, FoundPositions, Mask, Query, Scenes
+from icsolve.sweep.find_by_scenes import FoundPosition, FoundPositions, Query, Scenes
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recheck import Recheck
 from icsolve.sweep.request import RequestError, along_of, columns_of

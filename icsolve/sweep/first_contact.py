@@ -17,7 +17,7 @@ import numpy.typing as npt
 from icsolve.cams.contact_candidates import Freedom, Shift
 from icsolve.cams.curve import MEETING, Body, Curve
 from icsolve.cams.pieces import TURN, CircularArc, Piece, PolarPiece, Spline, Straight
-from icsolve.numbers.replay import Array
+from icsolve.numbers.replay import Array, Mask
 from icsolve.tuples import NamedTuple
 
 CLOSE = 1e-4
@@ -33,7 +33,6 @@ AT_ONE = 1e-12
 AT_END = 1e-9
 """So near to the end of a piece (of its length) doubles leave open whether the next one is touched."""
 
-Mask = npt.NDArray[np.bool_]
 Which = npt.NDArray[np.intp]
 Vectors = tuple[Array, Array]
 """x and y, (n,) each."""

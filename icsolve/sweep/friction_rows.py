@@ -11,13 +11,12 @@ import math
 from collections.abc import Callable, Iterator
 
 import numpy as np
-import numpy.typing as npt
 
 from icsolve.kinematics.motion import Motions
 from icsolve.kinematics.speeds import fastest
 from icsolve.numbers import Scalar
 from icsolve.numbers.record import Traced, varies
-from icsolve.numbers.replay import Array
+from icsolve.numbers.replay import Array, Mask
 from icsolve.statics.equilibrium import Statics, equilibrium
 from icsolve.statics.friction import rates_of, rubs_of
 from icsolve.statics.friction.equations import forces_of
@@ -37,7 +36,6 @@ ITERATIONS, STEPS = 24, 12
 SETTLED = 2.0**-49
 """A change of this fraction of the largest force is none."""
 
-Mask = npt.NDArray[np.bool_]
 Take = Callable[[Scalar], Array | float]
 """The rows' values of an expression."""
 Form = tuple[Scalar, ...]

@@ -18,11 +18,10 @@ import numpy as np
 from icsolve.assembly.driven.groups import ROUNDS, NewtonGroup, Solver
 from icsolve.numbers.decimals import CONTEXT, as_written
 from icsolve.numbers.record import Op
-from icsolve.numbers.replay import Array, Code
+from icsolve.numbers.replay import Array, Code, Mask
 from icsolve.sweep.continuation import (
     ChangePoints,
     InputLine,
-    Mask,
     PathSegment,
     State,
     Step,

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from icsolve.numbers.adjoint import noise_of
 from icsolve.numbers.backward import Backward
 from icsolve.numbers.record import Op, Record, Root, Traced, live, terms_of, varies
-from icsolve.numbers.replay import BLOCK, Array, Code
+from icsolve.numbers.replay import BLOCK, Array, Code, Mask
 from icsolve.sweep.exact_record import RowScenes
 from icsolve.sweep.friction_rows import FrictionRows
 from icsolve.sweep.program import CompiledSweep, live_roots
@@ -43,7 +43,6 @@ BATCH = 8
 
 Key = tuple[str, str]
 Rows = npt.NDArray[np.int64]
-Mask = npt.NDArray[np.bool_]
 Progress = Callable[[int], None]
 """Called with a number of rows that were done."""
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from icsolve.case import is_angle
 from icsolve.numbers.intervals import enclose_one
-from icsolve.numbers.replay import BLOCK, Array, code_of
+from icsolve.numbers.replay import BLOCK, Array, Mask, code_of
 from icsolve.sweep.branches import (
     MOST_CELLS,
     STEEP,
@@ -23,7 +23,7 @@ from icsolve.sweep.branches import (
     may_vanish,
     signs_of,
 )
-from icsolve.sweep.continuation import InputLine, Mask, State, written_state
+from icsolve.sweep.continuation import InputLine, State, written_state
 from icsolve.sweep.program import CompiledSweep, Signs, live_roots
 from icsolve.sweep.record_runner import Rows, Runner
 from icsolve.sweep.request import Columns
