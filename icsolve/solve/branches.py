@@ -18,11 +18,10 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.case import Case
-from icsolve.errors import SceneError, Status
 from icsolve.numbers.decimals import CONTEXT, as_written
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.replay import Array, Code
-from icsolve.solve.load_function import LoadFunction
+from icsolve.solve.load_function import EVEN, LoadFunction, nearest
 from icsolve.solve.refinement import plain_within
 from icsolve.sweep.branches import DOUBT, may_vanish
 from icsolve.sweep.exact_record import ZERO, Unreached, exact_record, lowest
@@ -33,8 +32,6 @@ ZOOMS = 5
 """So many times the place where a margin is lowest is looked for sixteen times more closely."""
 CLOSER = 3
 """So many times the place where a branch comes nearest to `near` is looked for eight times more closely."""
-EVEN = 0.99
-"""Two branches whose distances from `near` have at least this ratio are about equally near."""
 DRAWN = 1e-14
 """Of several that pass through `near` one does so at a value of few decimals, as it was drawn: to so much of
 the figure."""
@@ -297,24 +294,6 @@ def _exactly(function: LoadFunction, node: int, value: Decimal) -> Decimal:
         )
         return found
     return Decimal("NaN")
-
-
-def nearest(case: Case, off: Sequence[float], rough: float = 0.0) -> int:
-    """Which of some branches, so far from `near` each [case units], is meant; within ``rough`` of it all are
-    equally near.
-
-    Raises SceneError where two are about equally near.
-    """
-    order = sorted(range(len(off)), key=lambda n: off[n])
-    if len(order) > 1 and max(off[order[0]], rough) >= EVEN * max(off[order[1]], rough):
-        more = ", or give near for more points of one position" if rough else ""
-        raise SceneError(
-            Status.AMBIGUOUS,
-            f"two branches of the figure pass about equally near to near ({off[order[0]]:.4g} and "
-            f"{off[order[1]]:.4g} {case.units.length} from it): move near toward the one that is meant"
-            f"{more}.",
-        )
-    return order[0]
 
 
 CELLS = 256

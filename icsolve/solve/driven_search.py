@@ -22,7 +22,7 @@ from icsolve.numbers import RADIAN
 from icsolve.numbers.decimals import as_written
 from icsolve.numbers.replay import Array, Code
 from icsolve.scene import solve_scene
-from icsolve.solve.load_function import bearers, given_at
+from icsolve.solve.load_function import bearers, given_at, nearest
 from icsolve.solve.rest_position import AT_LIMIT, PROBE, RestPosition
 from icsolve.sweep.find_by_scenes import Query
 from icsolve.sweep.find_on_record import RangeSearch
@@ -40,15 +40,16 @@ SAMPLES = 181
 ROUNDS = 4
 SAME = 1e-6
 MOST_WORK = 400
-"""So many mechanisms are led at most, times the square of how many links they have."""
+"""So many mechanisms are driven at most, times the square of how many links they have."""
 NOT_ALL = "the ways in which the figure assembles are not shown to be all."
 UNPROVEN = "beside what was balanced no bound of its error is proven."
 
 
 class DrivenMechanism:
-    """A mechanism led from the position as written over a range of a datum, or of a link's turning (degrees).
+    """A mechanism driven from the position as written over a range of a datum, or of a link's turning
+    (degrees).
 
-    Raises SceneError where nothing turns in it, or it can't be led so.
+    Raises SceneError where nothing turns in it, or it can't be driven so.
     """
 
     def __init__(self, case: Case, along: str, span: tuple[float, float]) -> None:
@@ -256,10 +257,10 @@ def converted(
 def driven_mechanisms(
     case: Case, path: str, span: tuple[float, float], start: float | None, known: Sequence[RestPosition]
 ) -> tuple[list[DrivenMechanism], bool]:
-    """The mechanism in each way in which it assembles at some values of a datum and in known positions;
-    whether these are all there.
+    """The mechanism in each way in which it assembles at some values of a datum and in known positions, or in
+    that which `near` means; whether these are all there.
 
-    Raises SceneError where it assembles at none.
+    Raises SceneError where it assembles at none, or two are about equally near.
     """
     low, high = span
     found: list[DrivenMechanism] = []
@@ -275,7 +276,7 @@ def driven_mechanisms(
         for way in ways.ways:
             if not any(one.passes(value, way.points) for one in found):
                 if len(found) >= most:
-                    return found, False
+                    return _meant(case, found), False
                 found.append(DrivenMechanism(replace(written, near=way.near), path, span))
     for rest in known:
         if not any(one.passes(rest.value, dict(rest.answer.points)) for one in found):
@@ -283,13 +284,17 @@ def driven_mechanisms(
             found.append(DrivenMechanism(replace(given_at(case, path, rest.value), near=near), path, span))
     if not found:
         raise refusal or SceneError(Status.CANNOT_ASSEMBLE, f"the figure assembles for no {path} searched.")
-    return found, complete
+    return _meant(case, found), complete
 
 
-def nearest_of(led: Sequence[DrivenMechanism]) -> float | None:
+def _meant(case: Case, found: list[DrivenMechanism]) -> list[DrivenMechanism]:
+    return [found[nearest(case, [one.off(case.near) for one in found])]] if case.near else found
+
+
+def nearest_of(driven: Sequence[DrivenMechanism]) -> float | None:
     """Where the generalised load is smallest: sampled, then closed in on."""
     best = (math.inf, math.nan)
-    for one in led:
+    for one in driven:
         step = (one.span[1] - one.span[0]) / 72
         values = np.linspace(*one.span, 73).tolist()
         for _ in range(9):

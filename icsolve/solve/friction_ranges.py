@@ -14,7 +14,7 @@ from icsolve.case import Case, is_angle
 from icsolve.case.joints import with_friction
 from icsolve.errors import SceneError
 from icsolve.numbers.roots import last_that_holds, zero_between
-from icsolve.solve.branches import Branches, nearest
+from icsolve.solve.branches import Branches
 from icsolve.solve.driven_search import NOT_ALL, driven_mechanisms
 from icsolve.solve.known_loads import Spare, moving_loads, smooth, spare_friction
 from icsolve.solve.load_function import TogetherError
@@ -63,7 +63,7 @@ def find_ranges(case: Case, path: str, span: tuple[float, float] | None, start: 
     try:
         modes = _in_modes(smooth(case), path, (low, high), start, even, span is None)
     except TogetherError:
-        modes, complete = _led(smooth(case), path, (low, high), start, even, span is None)
+        modes, complete = _in_driven_modes(smooth(case), path, (low, high), start, even, span is None)
         notes += [] if complete else [NOT_ALL]
     turns = span is None and is_angle(path)
     found = [one for mode in modes for one in _runs(case, mode, turns)]
@@ -89,17 +89,16 @@ def _in_modes(
     return modes
 
 
-def _led(
+def _in_driven_modes(
     case: Case, path: str, span: tuple[float, float], start: float | None, even: list[float], whole: bool
 ) -> tuple[list[RoughMode], bool]:
     """The ways of a figure whose points only together have places, along its motion; whether these are all
     of them."""
-    led, complete = driven_mechanisms(case, path, span, start, ())
+    driven, complete = driven_mechanisms(case, path, span, start, ())
     if start is None:
-        refuse_unwritten(case, path, led[0].links, not whole)
-    meant = [led[nearest(case, [one.off(case.near) for one in led])]] if case.near else led
+        refuse_unwritten(case, path, driven[0].links, not whole)
     modes = []
-    for one in meant:
+    for one in driven:
         rests = [] if one.balances_everywhere() else one.rests()
         values = sorted({*even, *(rest.value for rest in rests)})
         places = one.places(np.array(values))[1]

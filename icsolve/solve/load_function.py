@@ -189,6 +189,28 @@ def _order_of_all(case: Case, order: Callable[[Case, list[str]], Order]) -> Orde
         return order(case, needed)
 
 
+EVEN = 0.99
+"""Two branches whose distances from `near` have at least this ratio are about equally near."""
+
+
+def nearest(case: Case, off: Sequence[float], rough: float = 0.0) -> int:
+    """Which of some branches, so far from `near` each [case units], is meant; within ``rough`` of it all are
+    equally near.
+
+    Raises SceneError where two are about equally near.
+    """
+    order = sorted(range(len(off)), key=lambda n: off[n])
+    if len(order) > 1 and max(off[order[0]], rough) >= EVEN * max(off[order[1]], rough):
+        more = ", or give near for more points of one position" if rough else ""
+        raise SceneError(
+            Status.AMBIGUOUS,
+            f"two branches of the figure pass about equally near to near ({off[order[0]]:.4g} and "
+            f"{off[order[1]]:.4g} {case.units.length} from it): move near toward the one that is meant"
+            f"{more}.",
+        )
+    return order[0]
+
+
 def given_at(case: Case, path: str, value: float) -> Case:
     """The case with its free datum at a value, as if written so."""
     section, name, *part = path.split(".")

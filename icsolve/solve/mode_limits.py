@@ -101,7 +101,7 @@ def _rest_at_limit(one: LoadFunction, two: LoadFunction, limit: Limit) -> list[R
         size = max((abs(c) for at in a.points.values() for c in at), default=1.0)
         if any(math.dist(at, b.points[name]) > 0.02 * size for name, at in a.points.items()):
             return []
-        link = _fastest(a, one.links)  # of the motion there: the link that is led stands still
+        link = _fastest(a, one.links)  # of the motion there: the link that is driven stands still
         last = limit.value - limit.side * 4.0 * limit.error
         p, q = balancing_torque(one, last, link), balancing_torque(two, last, link)
         if (p > 0.0) == (q > 0.0) and p != 0.0 and q != 0.0:

@@ -13,7 +13,7 @@ from icsolve.case import Case, Coordinates, TorsionSpring, is_angle, is_named
 from icsolve.case.joints import Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Code
-from icsolve.solve.branches import Branches, isolate, nearest
+from icsolve.solve.branches import Branches, isolate
 from icsolve.solve.driven_search import (
     NOT_ALL,
     DrivenMechanism,
@@ -196,14 +196,14 @@ def _find_followed(
         found = _exchanged(case, path, span)
     if found is not None and (found.any_value or found.positions) and not case.near:
         return found._replace(path=path, positions=tuple(_settled_turns(found.positions, path, whole)))
-    led, complete = driven_mechanisms(case, path, span, start, found.positions if found is not None else ())
+    known = found.positions if found is not None else ()
+    driven, complete = driven_mechanisms(case, path, span, start, known)
     if start is None:
-        refuse_unwritten(case, path, led[0].links, not whole)
-    meant = [led[nearest(case, [one.off(case.near) for one in led])]] if case.near else led
-    left = [one for one in meant if not one.balances_everywhere()]
+        refuse_unwritten(case, path, driven[0].links, not whole)
+    left = [one for one in driven if not one.balances_everywhere()]
     if not left:
         return Search(path, (), (), True, None)
-    notes = [] if len(left) == len(meant) else [_balanced(len(meant) - len(left), len(meant))]
+    notes = [] if len(left) == len(driven) else [_balanced(len(driven) - len(left), len(driven))]
     rests = [rest for one in left for rest in one.rests()]
     notes += [note for one in left for note in one.search.notes]
     if not complete:
@@ -276,10 +276,10 @@ def rest_of(case: Case, along: str) -> RestPosition:
     except TogetherError:
         if along in case.links:
             raise
-        return led_rest(case, along)
+        return driven_rest(case, along)
 
 
-def led_rest(case: Case, along: str) -> RestPosition:
+def driven_rest(case: Case, along: str) -> RestPosition:
     """The same where points only together have places."""
     own, value = _as_written(case, along)
     return DrivenMechanism(case, own, (value, value)).described(value, 0.0)

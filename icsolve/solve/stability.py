@@ -15,7 +15,7 @@ from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.roots import zero_between
 from icsolve.read.names import shown
 from icsolve.scene import solve_scene
-from icsolve.solve.positions import led_rest, moved_by, refuse_motion, rest_of
+from icsolve.solve.positions import driven_rest, moved_by, refuse_motion, rest_of
 from icsolve.solve.rest_position import RestPosition, balances, holding
 from icsolve.statics.power import has_friction
 from icsolve.sweep.varied_numbers import find_number, refuse_space, with_numbers
@@ -84,17 +84,17 @@ def rest_as_written(case: Case, of: str) -> RestPosition:
 
 
 def _by_another(case: Case, link: str, refusal: SceneError) -> RestPosition:
-    """The position for a link that the search can't lead (a coupler, a block that slides), by one that it
+    """The position for a link that the search can't drive (a coupler, a block that slides), by one that it
     can.
 
     Where the loads balance, the second derivative of their work by one coordinate is that by another times
-    the square of the ratio of their rates; where they do not, or none can be led alone, the link is led with
-    all the others. Raises ``refusal`` where it stands still.
+    the square of the ratio of their rates; where they do not, or none can be driven alone, the link is driven
+    with all the others. Raises ``refusal`` where it stands still.
     """
     try:
         other = _driven(case)
     except SceneError:
-        return led_rest(case, link)
+        return driven_rest(case, link)
     rest = rest_as_written(case, other)
     rates, velocities = rest.answer.rates or {}, rest.answer.velocities or {}
     own, by = rates.get(link), rates.get(other)
@@ -105,7 +105,7 @@ def _by_another(case: Case, link: str, refusal: SceneError) -> RestPosition:
     if not isinstance(own, float) or not isinstance(by, float) or not own:
         raise refusal
     if not balances(rest):  # the second derivative by another coordinate is not that by this one
-        return led_rest(case, link)
+        return driven_rest(case, link)
     if rest.stiffness is None:
         return rest
     ratio, unit = (by / own) ** 2, rest.stiffness.unit

@@ -26,7 +26,6 @@ from icsolve.numbers.record import varies
 from icsolve.numbers.replay import Array, Code, Mask
 from icsolve.scene import solve_scene
 from icsolve.screws import velocity
-from icsolve.solve.branches import nearest
 from icsolve.solve.load_function import (
     PARTS,
     RecordedMode,
@@ -36,6 +35,7 @@ from icsolve.solve.load_function import (
     given_at,
     modes_of,
     moved,
+    nearest,
     order_of_all,
     places_on,
     read_anew,
