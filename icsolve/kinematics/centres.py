@@ -20,13 +20,13 @@ from operator import attrgetter
 
 from icsolve.answer import Centre
 from icsolve.assembly.workspace import PlacedCase
-from icsolve.case import Pair, is_named, ordered_pair
+from icsolve.case import Joint, Pair, is_named, ordered_pair
 from icsolve.kinematics import Closure, is_dead, products, rate_sizes
 from icsolve.numbers import ROUNDING, ROUNDING_NOISE, Arithmetic, Showing, all_vanish
 from icsolve.screws import Point, Triple, cross, subtract
 from icsolve.screws.joints import freedoms, joint_freedoms, joint_points, pitch_point
 from icsolve.structure import Bond, Topology
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, cached_property
 from icsolve.wording import listed
 
 BodyPair = tuple[int, int]
@@ -96,6 +96,7 @@ class Kennedy:
         self.heap: list[tuple[float, int, BodyPair, LocatedCentre]] = []
         self.partners: dict[int, frozenset[int]] | None = None
         self.joined: dict[int, set[int]] = {body: set() for body in self.bodies}
+        self.settled: dict[int, set[int]] = {body: set() for body in self.bodies}
         for i, j in (*primaries, *normals):
             self.joined[i].add(j)
             self.joined[j].add(i)
@@ -139,25 +140,24 @@ class Kennedy:
         while self.heap:
             _, _, pair, known = heapq.heappop(self.heap)
             if pair not in self.known:
+                i, j = pair
                 self.known[pair] = known
+                self.settled[i].add(j)
+                self.settled[j].add(i)
                 self.missing.discard(pair)
                 self._spread(pair)
                 return True
         return False
 
     def _spread(self, pair: BodyPair) -> None:
+        """The lines of all centres for which with a new one just two of a triangle are known."""
         i, j = pair
-        known = self.known
-        thirds = self.bodies if self.partners is None else self.partners[i] & self.partners[j]
-        for k in thirds:
-            if k in pair:
-                continue
-            ik, jk = ordered(i, k), ordered(j, k)
-            if jk in known:
-                if ik not in known and self.twist_of(ik) is not None:
-                    self._join(ik, pair, jk)
-            elif ik in known and self.twist_of(jk) is not None:
-                self._join(jk, pair, ik)
+        thirds = (self.settled[i] ^ self.settled[j]) - {i, j}
+        for k in sorted(thirds if self.partners is None else thirds & self.partners[i] & self.partners[j]):
+            one, two = (i, j) if k in self.settled[j] else (j, i)
+            target = ordered(one, k)
+            if self.twist_of(target) is not None:
+                self._join(target, pair, ordered(two, k))
 
     def _join(self, target: BodyPair, one: BodyPair, two: BodyPair) -> None:
         p, q = self.known[one], self.known[two]
@@ -168,14 +168,14 @@ class Kennedy:
             through = CentreLine((one, two), point.point, error)
             self._offer(target, LocatedCentre(point.point, error, "construction", (through,)))
             return
-        self._draw(target, CentreLine((one, two), line, ROUNDING + error / sine))
+        error = ROUNDING + error / sine
+        lines = self.lines.get(target)
+        if not lines or len(lines) < ENOUGH or error < lines[-1].error:
+            self._draw(target, CentreLine((one, two), line, error))
 
     def _draw(self, pair: BodyPair, line: CentreLine) -> None:
         lines = self.lines.setdefault(pair, [])
-        if len(lines) == ENOUGH:
-            if line.error >= lines[-1].error:
-                return
-            lines.pop()
+        del lines[ENOUGH - 1 :]
         for other in lines:
             point, sine = _meet(line.line, other.line)
             error = line.error + other.error
@@ -250,6 +250,15 @@ class CentreFinder:
         self.points, self.arithmetic = points, a
         self.fastest = max((_length(t) for ts in twists.values() for t in ts), default=0.0)
         self.relative, self.moving = cache(self._relative), cache(self._moving)
+
+    @cached_property
+    def joints_of(self) -> Mapping[str, Sequence[Joint]]:
+        """The joints that each link has."""
+        found: dict[str, list[Joint]] = {}
+        for joint in self.case.joints:
+            for link in joint.links:
+                found.setdefault(link, []).append(joint)
+        return found
 
     def find(self, pairs: Iterable[Pair], slack: float = 0.0) -> dict[Pair, Centre]:
         """A `Centre` for every pair of links.
@@ -352,10 +361,11 @@ class CentreFinder:
     def _own(self, pair: Pair) -> tuple[Triple, str] | None:
         """The centre of the joint between two links, which stands even where they do not move (a weld
         has none)."""
-        if any(not joint.freedom and set(joint.links) == set(pair) for joint in self.case.joints):
+        shared = [joint for joint in self.joints_of.get(pair[0], ()) if pair[1] in joint.links]
+        if any(not joint.freedom and set(joint.links) == set(pair) for joint in shared):
             return None
-        for joint in self.case.joints:
-            single = {*pair} <= {*joint.links} and joint.freedom == 1
+        for joint in shared:
+            single = joint.freedom == 1
             if single and all(point in self.points for point in joint_points(joint)):
                 by = "given" if joint.stands_in else "inspection"
                 return joint_freedoms(joint, self.points, self.arithmetic)[0], by
