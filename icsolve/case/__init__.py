@@ -202,6 +202,8 @@ class Case:
 
 def refuse_no_case(given: object) -> None:
     """Refuse what is no case where one is to be solved."""
+    if isinstance(given, Case):
+        return
     path = given if isinstance(given, str) and "\n" not in given else getattr(given, "name", "press.yaml")
     refuse_other(given, Case, f"a case is wanted, as icsolve.load({str(path)!r}) gives it")
 
