@@ -33,7 +33,7 @@ from icsolve.explain import explain
 from icsolve.manual import template
 from icsolve.page import page_html
 from icsolve.report import answer_text
-from icsolve.report.check import value_of
+from icsolve.report.check import compare, value_of
 from icsolve.report.derivation.known import Known, known_of
 from icsolve.report.derivation.ratios import answer_ratios
 from icsolve.statics.load_wrenches import reacting
@@ -221,6 +221,32 @@ def test_what_is_told_is_taken_as_an_expected_value_and_as_an_answer(
         expected = "not-graded" if kind == "space" else ",right,"
         assert expected in marks[0]
         assert all(",wrong," in mark for mark in marks[1:])
+
+
+def turned_round(sense: str) -> str:
+    """The words of the opposite direction."""
+    lead, _, rest = sense.partition(" ")
+    if lead == "at":
+        return f"at {(float(rest.split()[0]) + 180.0) % 360.0} deg"
+    if lead in ("along", "about"):
+        axis = rest.partition(" to ")
+        return f"{lead} {axis[2]} to {axis[0]}" if axis[1] else f"{lead} -{rest}".replace("--", "")
+    ways = {"ccw": "cw", "pull": "push", "toward": "away from", "away": "toward"}
+    other = {**ways, **{there: back for back, there in ways.items()}}[lead]
+    return f"{other} {rest.removeprefix('from ')}".strip()
+
+
+@pytest.mark.parametrize("kind", TOLD)
+def test_the_opposite_of_what_is_told_disagrees(kind: str) -> None:
+    """By words of the same sort."""
+    found = {name: one for name, one in icsolve.solve(icsolve.load(TOLD[kind])).answers.items() if one.sense}
+    for name, one in found.items():
+        if one.unit in ("kg", "N/mm", "N*m/rad"):  # of a weight or a spring the stiffness is positive
+            continue
+        for sense, verdict in ((one.sense, "agrees"), (turned_round(one.sense), "disagrees")):
+            text = f"{TOLD[kind]}\nexpect:\n  {name}: {abs(one.value)} {one.unit} {sense}\n"
+            (row,) = compare(icsolve.solve(icsolve.load(text)))
+            assert row.verdict == verdict, (sense, row)
 
 
 @pytest.fixture(autouse=True)

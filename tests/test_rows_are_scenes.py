@@ -26,6 +26,7 @@ from icsolve.case.joints import Guided
 from icsolve.numbers.units import BOUNDS
 from icsolve.scene import solve_scene
 from icsolve.sweep.evaluator import Evaluated
+from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.program import setting_of
 from icsolve.sweep.table import Sweep
 from icsolve.sweep.varied_numbers import numbers_of, with_numbers
@@ -938,3 +939,37 @@ loads:
     found, whole = rows.answers["T"]
     assert found == pytest.approx(whole * (size / 100.0), rel=1e-15, abs=0.0)  # each rounded once
     assert (found != 0.0) == (at == "C")
+
+
+SPARE = """icsolve: 1
+points: {{A: [0, 0], C: [unknown, 0], X: [4, 3]}}
+lengths: {{AB: 1, BC: 3, XY: {0}, YC: 2.5}}
+angles: {{AB: 60}}
+near: {{C: [3.4, 0], Y: [3.8, 2.4]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4, 5], at: C}}
+  - {{slide: [4, 1], at: C, along: 0}}
+  - {{pin: [5, 6], at: Y}}
+  - {{pin: [6, 1], at: X}}
+loads:
+  M: {{torque: 100, link: 2}}
+  F: {{force: unknown, link: 4, at: C, angle: 180}}
+"""
+
+
+@pytest.mark.parametrize("length", [0.6, 0.7, 1.2, 3.0])
+def test_a_dyad_that_the_answer_does_not_need_changes_no_row_where_it_does_not_reach(length: float) -> None:
+    """In dead centres, beside them and at what is found a row has a scene of its own: all as without it."""
+    text = SPARE.format(length)
+    case, alone = (icsolve.load(one) for one in (text, re.sub(r"  - .pin: .[56], .*\n", "", text)))
+    angles = [0.0, 60.0, 120.0, 179.9999999999, 180.0, 180.00000000001, 181.0, 300.0, 359.99999999999, 360.0]
+    rows, plain = (icsolve.sweep(one, {"angles.AB": angles}) for one in (case, alone))
+    assert [*rows.status] == [*plain.status]
+    np.testing.assert_allclose(rows.answers["F"], plain.answers["F"], rtol=1e-14)
+    for query in (Query("dead", "F"), Query("max", "F"), Query("value", "F", -300.0)):
+        found, wanted = (find(one, {"angles.AB": [0.0, 360.0]}, query) for one in (case, alone))
+        assert [(spot.kind, spot.at) for spot in found] == [(spot.kind, spot.at) for spot in wanted]
+        for spot, other in zip(found, wanted, strict=True):
+            assert spot.answer == (None if other.answer is None else pytest.approx(other.answer, rel=1e-14))

@@ -243,11 +243,13 @@ def _load(answer: Answer, name: str, sense: str | None) -> float:
     space = answer.case.space
     loads: dict[str, Any] = {load.name: load for load in (space or answer.case).loads}
     value, load = _load_value(answer, name, loads), loads.get(name)
+    found = answer.answers.get(name)
+    if found is not None and found.components is not None:
+        return _going(answer, found.components, answer.points.get(loads[f"{name}.x"].at), sense)
     if sense is None or load is None:
         return value
     if isinstance(load, Torque):
         return _turned(value if load.positive == "ccw" else -value, sense)
-    found = answer.answers.get(name)
     own = found.sense if found is not None else _given_sense(answer, name, value)
     at_end = isinstance(load, Force) and not is_link(load.link)  # of a rope: away from its last pulley
     if at_end and sense not in ("pull", "push"):

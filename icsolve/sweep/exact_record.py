@@ -31,7 +31,7 @@ from icsolve.numbers.replay import BINARY
 from icsolve.numbers.roots import STEP
 from icsolve.numbers.units import found_number
 from icsolve.statics.load_wrenches import counted_about
-from icsolve.sweep.program import CompiledSweep, live_roots
+from icsolve.sweep.program import CompiledSweep, live_roots, roots_of
 from icsolve.sweep.varied_numbers import numbers_of, with_numbers
 from icsolve.tuples import replace
 
@@ -410,6 +410,21 @@ class RowScenes:
         self.directions = {own.path: (c, s) for own, c, s in record.directions.values()}
         self.numbers = {path: value for path, value in record.vary.items() if path.endswith("@")}
         self.springs = compiled.springs
+        self.spare = self._hanging_on_dead_roots()
+
+    def _hanging_on_dead_roots(self) -> frozenset[str]:
+        """The points and directions that need a branch which bears on nothing that is asked."""
+        record = self.compiled.record
+        dead = record.roots.keys() - {root.node for root in self.roots}
+        if not dead:
+            return frozenset()
+        nodes = {
+            name: [v.index for v in pair if isinstance(v, Traced) and v.row]
+            for name, pair in (*self.points.items(), *self.directions.items())
+        }
+        return frozenset(
+            name for name, of in nodes.items() if not dead.isdisjoint(r.node for r in roots_of(record, of))
+        )
 
     def refuse_apart(self, given: Mapping[int, Decimal]) -> None:
         """Raise SceneError where the links do not reach one another, spare conditions are not met, or two
@@ -429,37 +444,45 @@ class RowScenes:
             raise SceneError(Status.CANNOT_ASSEMBLE, APART) from None
         if any(abs(v) > AGREED for v in off if not v.is_nan()):
             raise SceneError(Status.CANNOT_ASSEMBLE, APART)
-        if any(v.is_nan() for v in (*margins, *off, *exact.values(self._flat(), given))):
+        flat = self._flat(without=self.spare)
+        if any(v.is_nan() for v in (*margins, *off, *exact.values(flat, given))):
             raise SceneError(Status.CHANGE_POINT, ANYWHERE)
 
     def case(self, given: Mapping[int, Decimal], values: Mapping[str, Decimal]) -> Case:
         """The case of a row: ``given`` has its inputs by node, ``values`` its varied numbers.
 
-        Raises SceneError where nothing says where a point is.
+        Raises SceneError where nothing says where a point is. One of no bearing on what is asked is then left
+        out, as in a scene, which does not examine it.
         """
         ox, oy, scale = map(Decimal, self.scene.frame)
         try:
-            flat = self.exact.values(self._flat(), given)
+            found = iter(self.exact.values(self._flat(), given))
         except Unreached:
             raise SceneError(Status.CANNOT_ASSEMBLE, APART) from None
-        if any(value.is_nan() for value in flat):
+        placed = {name: (next(found), next(found)) for name, _ in self._pairs()}
+        rest = [*found]
+        lacking = {name for name, pair in placed.items() if any(v.is_nan() for v in pair)}
+        if lacking - self.spare or any(value.is_nan() for value in rest):
             raise SceneError(Status.CHANGE_POINT, ANYWHERE)
-        found = iter(flat)
+        found = iter(rest)
         points: dict[str, Coordinates | Centroid] = {}
         with localcontext(CONTEXT):
-            for name in self.points:
-                x, y = (_without_dust(next(found)) / scale + o for o in (ox, oy))
+            for name in (name for name in self.points if name not in lacking):
+                x, y = (_without_dust(v) / scale + o for v, o in zip(placed[name], (ox, oy), strict=True))
                 points[name] = Coordinates(_exact(x, f"points.{name}.x"), _exact(y, f"points.{name}.y"))
-            pairs = {path: (next(found), next(found)) for path in self.directions}
+            pairs = {path: placed[path] for path in self.directions if path not in lacking}
             turned = {path: angle(*pair) for path, pair in pairs.items()}
             lost = {path for path, pair in pairs.items() if max(map(abs, pair)) <= ZERO}
         numbers = {path: _exact(v, path) for path, v in {**values, **turned}.items()}
         numbers |= {path: _exact(next(found), path) for path in self.numbers}
         return self._with(points, numbers, {name: float(next(found)) for name in self.springs}, lost)
 
-    def _flat(self) -> list[Scalar]:
-        pairs = (*self.points.values(), *self.directions.values())
-        return [*(v for pair in pairs for v in pair), *self.numbers.values(), *self.springs.values()]
+    def _pairs(self) -> list[tuple[str, tuple[Scalar, Scalar]]]:
+        return [*self.points.items(), *self.directions.items()]
+
+    def _flat(self, without: Collection[str] = ()) -> list[Scalar]:
+        pairs = [v for name, pair in self._pairs() if name not in without for v in pair]
+        return [*pairs, *self.numbers.values(), *self.springs.values()]
 
     def _with(
         self,
@@ -475,7 +498,7 @@ class RowScenes:
             for given in case.motion
         ]
         carries = {
-            link: tuple(name for name in names if name in self.points) for link, names in case.carries.items()
+            link: tuple(name for name in names if name in points) for link, names in case.carries.items()
         }
         case = replace(case, lengths=(), angles=(), near={}, expect=(), motion=tuple(motion))
         return replace(case, points=points, carries=carries)

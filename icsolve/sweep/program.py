@@ -167,12 +167,13 @@ def live_roots(compiled: CompiledSweep) -> list[Root]:
     stack += compiled.rubbing.nodes if compiled.rubbing is not None else ()
     key = ("live roots", tuple(stack))
     if key not in record.kept:
-        record.kept[key] = _live_roots(record, stack)
+        record.kept[key] = roots_of(record, stack)
     found: list[Root] = record.kept[key]
     return found
 
 
-def _live_roots(record: Record, stack: list[int]) -> list[Root]:
+def roots_of(record: Record, stack: list[int]) -> list[Root]:
+    """The branches that bear on nodes, in order."""
     alive: set[int] = set()
     while stack:
         alive.update(live(record.nodes, stack))
