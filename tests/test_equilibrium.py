@@ -2059,6 +2059,85 @@ def test_a_rope_with_a_free_end_rests_where_its_counterweight_says(
         assert found["stiffness"]["value"] == pytest.approx(-75 / 16, rel=1e-9)
 
 
+WHEELS = """icsolve: 1
+points: {A: [0, 0], D: [4, 0]}
+joints: [{pin: [1, 2], at: A}, {pin: [1, 3], at: D}, MESH]
+loads: {M: {torque: 12, link: 2}, T: {torque: unknown, link: 3}}
+"""
+MESHES = [
+    "{gears: [2, 3], teeth: [20, 50]}",
+    "{gears: [2, 3], teeth: [20, -60]}",
+    "{belt: [2, 3], radii: [1, 2]}",
+]
+
+
+@pytest.mark.parametrize("link", ["2", "3"])
+@pytest.mark.parametrize("mesh", MESHES)
+def test_wheels_with_which_no_point_moves_are_neutral(mesh: str, link: str) -> None:
+    """Under torques that stay as they are the stiffness is zero, at no limit of anything."""
+    case = icsolve.load(WHEELS.replace("MESH", mesh))
+    found = with_stability(case, icsolve.solve(case), link)
+    assert found.stability == "neutral" and not found.why_no_stiffness
+    assert found.stiffness is not None and (found.stiffness.value, found.stiffness.error) == (0.0, 0.0)
+
+
+SEESAW = """icsolve: 1
+points: {A: [0, 0], B: [2, 0.5], C: [-2, -0.5]}
+links: {2: [B, C]}
+joints: [{pin: [1, 2], at: A}]
+loads: {P: LOAD, Q: OTHER}
+"""
+EVERYWHERE = {
+    "lever with equal weights": (
+        SEESAW.replace("LOAD", "{weight: 10, link: 2, at: B}").replace(
+            "OTHER", "{weight: 10, link: 2, at: C}"
+        ),
+        "2",
+    ),
+    "two torques": (
+        SEESAW.replace("LOAD", "{torque: 10, link: 2}").replace("OTHER", "{torque: -10, link: 2}"),
+        "2",
+    ),
+    **{
+        mesh: (WHEELS.replace("MESH", mesh).replace("unknown", torque), "3")
+        for mesh, torque in zip(MESHES, ("30", "-36", "-24"), strict=True)
+    },
+    "Roberval's balance": (
+        "icsolve: 1\npoints: {A: [0, 0], B: [0, 3], P: [-6, 1.5], Q: [7, 1.5]}\n"
+        "lengths: {AC: 2, AD: 2, BE: 2, BF: 2, CE: 3, DF: 3}\n"
+        "angles: {AC: 200, CAD: 180, EBF: 180}\nnear: {E: [-2, 2.3], F: [2, 3.7]}\nlinks: {4: [P], 5: [Q]}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [1, 3], at: B}, {pin: [2, 4], at: C}, {pin: [3, 4], at: E}, "
+        "{pin: [2, 5], at: D}, {pin: [3, 5], at: F}]\n"
+        "loads: {W: {weight: 5, link: 4, at: P}, V: {weight: 5, link: 5, at: Q}}\n",
+        "angles.AC",
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", EVERYWHERE)
+def test_loads_that_balance_everywhere_rest_at_any_value_along_a_sweep(
+    kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The status is that of an unknown datum; 'the loads balance nowhere' was told of them. One load a little
+    larger balances the others in some positions, or in none."""
+    text, along = EVERYWHERE[kind]
+    path = tmp_path / "case.yaml"
+    path.write_text(text, encoding="utf-8")
+    asked = ["--vary", f"{along}=150:220:10"] if "." in along else ["--drive", f"{along}=0:90:10"]
+    assert exit_status("sweep", str(path), *asked, "--find", "rest", "--json") == 1
+    told = json.loads(capsys.readouterr().out)
+    assert (told["status"], told["positions"]) == ("any-value", [])
+    assert "balance in every position" in told["message"]
+    first, size = next(
+        (name, value.value)
+        for name, value in numbers_of(icsolve.load(text)).items()
+        if name.startswith("loads.")
+    )
+    more = ["--set", f"{first}={size * 1.01}"]
+    assert exit_status("sweep", str(path), *asked, *more, "--find", "rest", "--json") == 0
+    assert json.loads(capsys.readouterr().out)["status"] == "ok"
+
+
 RESTING = [name for name in FILES if name.startswith("equilibrium")]
 
 

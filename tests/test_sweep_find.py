@@ -122,6 +122,62 @@ def test_where_the_torque_is_zero_and_where_it_has_a_value() -> None:
         assert [answer for _, _, answer in spots] == pytest.approx([value] * 2, rel=1e-13)
 
 
+DRUM = """icsolve: 1
+points: {A: [0, 0], B: [0.2, -1]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {rope: [A, B], on: [2, 3], radii: {A: 0.2}, wraps: {A: cw}}
+  - {slide: [3, 1], at: B, along: 90}
+loads: {W: {weight: 100, link: 3, at: B}, P: {torque: unknown, link: 2, turns: cw}}
+"""
+WHEELS = """icsolve: 1
+points: {A: [0, 0], D: [4, 0]}
+joints: [{pin: [1, 2], at: A}, {pin: [1, 3], at: D}, {gears: [2, 3], teeth: [20, 50]}]
+loads: {M: {torque: 8, link: 2}, P: {torque: unknown, link: 3}}
+"""
+SLIDES = """icsolve: 1
+points: {A: [0, 0], B: [1, 0]}
+joints:
+  - {slide: [2, 1], at: A, along: 0, mu: 0.1}
+  - {slide: [3, 1], at: B, along: 90}
+  - {slide: [3, 2], at: B, along: 45}
+motion: {point: A, link: 2, speed: 1, angle: 0}
+loads: {W: {weight: 100, link: 3, at: B}, P: {force: unknown, link: 2, at: A, angle: 180}}
+"""
+LIFT = """icsolve: 1
+points: {A: [0, 0], B: [unknown, 0]}
+lengths: {AC: 1, BC: 1, CD: 1, CE: 1}
+angles: {AC: 25, ACD: 180, BCE: 180}
+near: {B: [1.8, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: C}
+  - {slot: [3, 1], at: B, along: 0}
+loads: {W: {weight: 4, link: 2, at: D}, P: {force: unknown, link: 3, at: E, angle: 90}}
+"""
+CONSTANT = {
+    "drum": (DRUM, {}, {"2": [-90.0, 45.0]}, -20.0),
+    "wheels": (WHEELS, {}, {"3": [0.0, 700.0]}, 20.0),
+    "wheels by a number that moves nothing": (WHEELS, {"points.A.y": [-1.0, 0.0]}, {}, 20.0),
+    "slides that rub": (SLIDES, {"points.A.x": [0.0, 2.0]}, {}, 90.0),
+    "lift": (LIFT, {"angles.AC": [20.0, 60.0]}, {}, 4.0),
+}
+
+
+@pytest.mark.parametrize("kind", CONSTANT)
+def test_of_a_range_that_has_the_value_throughout_the_ends_are_told(kind: str) -> None:
+    """It was said to have the value nowhere; the value of no row is told nowhere as before."""
+    text, varied, driven, value = CONSTANT[kind]
+    case = icsolve.load(text)
+    rows = icsolve.sweep(case, varied, drive=driven)
+    np.testing.assert_allclose(rows.answers["P"], value, rtol=1e-14)
+    (ends,) = (varied | driven).values()
+    spots = find(case, varied, Query("value", "P", value), drive=driven)
+    assert [(spot.kind, spot.at, spot.answer) for spot in spots] == [("value", end, value) for end in ends]
+    assert any("over whole stretches" in note for note in spots.notes)
+    assert not [*find(case, varied, Query("value", "P", 1.5 * value), drive=driven)]
+
+
 def test_the_peaks_of_the_torque() -> None:
     """In line, where the crank is nearly square to the rod: the derivative of the closed form vanishes."""
     text = SLIDER_CRANK.replace("P_", "2000").replace("T_", "unknown")

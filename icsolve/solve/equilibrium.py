@@ -14,7 +14,7 @@ from icsolve.scene import solve_scene
 from icsolve.solve.friction_ranges import find_ranges
 from icsolve.solve.known_loads import smooth
 from icsolve.solve.load_function import given_at, naming_uncarried
-from icsolve.solve.positions import Search, find_positions
+from icsolve.solve.positions import Search, any_value, find_positions
 from icsolve.solve.rest_position import with_scene
 from icsolve.solve.two_data import find_pairs
 from icsolve.statics.power import has_friction, is_unknown
@@ -132,11 +132,7 @@ def _written(case: Case) -> Case:
 
 def _refuse_none(search: Search, noticed: tuple[str, ...]) -> None:
     if search.any_value:
-        raise SceneError(
-            Status.ANY_VALUE,
-            f"the loads balance in every position: any value of {search.path} will do.",
-            {"positions": []},
-        )
+        raise any_value(search.path)
     if not search.positions:
         raise no_value(search.path, search.nearest, (*noticed, *search.notes))
 

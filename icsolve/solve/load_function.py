@@ -386,7 +386,10 @@ def _on_record(mode: RecordedMode, path: str, span: tuple[float, float] | None) 
     wrenches = load_wrenches.wrenches(scene.place, vectors=True)
     balance = power.balance(wrenches, motions.twists, 1)
     total = power.known_power(balance, 0, record)
-    rate, poses = _rate(scene, motions.twists, given)
+    if path in scene.case.links:  # turned by degrees, whether a point moves with it or none
+        rate, poses = math.degrees(1.0) * motions.twists[path][0][2], True
+    else:
+        rate, poses = _rate(scene, motions.twists, given)
     slope = gradient(record, total, (given,))[given]
     return LoadFunction(
         compiled.setting.case,

@@ -240,7 +240,10 @@ def _balanced(some: int, of: int) -> str:
 
 def find_along(case: Case, along: str, low: float, high: float) -> tuple[list[RestPosition], list[str]]:
     """The positions of equilibrium along a sweep of an ordinary case, by a datum that poses it or by turning
-    a link from the position as written (degrees); and sentences on those that were left out."""
+    a link from the position as written (degrees); and sentences on those that were left out.
+
+    Raises SceneError (``any-value``) where the loads balance in all of them.
+    """
     with naming_uncarried(case, () if along in case.links else (along,)):
         rests = _along(case, along, low, high)
     return taut(distinct(sorted(rests, key=lambda rest: rest.value)), along)
@@ -253,12 +256,25 @@ def _along(case: Case, along: str, low: float, high: float) -> list[RestPosition
     try:
         function = moved_by(bare, along, wide)
     except TogetherError:
-        return DrivenMechanism(bare, own, (low, high)).rests()
+        led = DrivenMechanism(bare, own, (low, high))
+        if led.balances_everywhere():
+            raise any_value(own) from None
+        return led.rests()
     functions = with_other_ways(function, wide) if function.compiled.setting.moves else [function]
     branches = Branches(functions, *wide)
-    kept = frozenset({branches.on(0, value)})
+    branch = branches.on(0, value)
+    if _balances_everywhere(functions, branches.samples(branch)) is True:
+        raise any_value(own)
+    kept = frozenset({branch})
     found = (rest for _, rest in search_modes(functions, branches, kept, False))
     return [rest for rest in found if low <= rest.value <= high]
+
+
+def any_value(along: str) -> SceneError:
+    """The refusal of a case whose loads balance everywhere along a datum, or as a link turns."""
+    which = f"any value of {along}" if "." in along else f"any turn of link {along}"
+    said = f"the loads balance in every position: {which} will do."
+    return SceneError(Status.ANY_VALUE, said, {"positions": []})
 
 
 def _as_written(case: Case, along: str) -> tuple[str, float]:

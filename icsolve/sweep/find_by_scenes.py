@@ -328,7 +328,7 @@ class Scenes:
                 if size[k] <= least and (bent or any(self._meets(size, k, way) for way in (-1, 1))):
                     yield self._touching(k, float(after), found)
             elif sign[k] == 0.0:
-                yield self._having(k, before, after)
+                yield self._having(k, before, after, not miss.any())
 
     def _meets(self, size: Array, k: int, way: int) -> bool:
         """Whether there may be a corner at the value beyond place ``k``: as it falls up to there, and rises
@@ -417,16 +417,17 @@ class Scenes:
             return []
         return [FoundPosition(top.at, "value", value, error)]
 
-    def _having(self, k: int, before: float, after: float) -> Search:
+    def _having(self, k: int, before: float, after: float, throughout: bool) -> Search:
         """A place that has the value, at the end of the range or of the places that have an answer, or where
-        a stretch that has it begins or ends."""
+        a stretch that has it begins or ends; the ends of a range that has it throughout."""
         value = self.query.value
         if before == after == 0.0:
             return []
         if 0.0 in (before, after):
             self.notes[HAS.format(load=self.load)] = None
             if math.isnan(before + after):
-                return []
+                at = float(self.places[k])
+                return [FoundPosition(at, "value", value, 0.0)] if throughout else []
             n = k - 1 if after == 0.0 else k
             low, high = yield from self._closed(lambda seen: seen.answers == value, n)
             return [FoundPosition(high if after == 0.0 else low, "value", value, high - low)]

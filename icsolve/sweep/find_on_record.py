@@ -34,7 +34,7 @@ from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.continuation import SAME
 from icsolve.sweep.exact_record import APART, Unreached, Values
-from icsolve.sweep.find_by_scenes import FoundPosition, FoundPositions, Query, Scenes
+from icsolve.sweep.find_by_scenes import HAS, FoundPosition, FoundPositions, Query, Scenes
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recheck import Recheck
 from icsolve.sweep.request import RequestError, along_of, columns_of
@@ -180,12 +180,17 @@ class RangeSearch:
     # --- kinds ------------------------------------------------------------------------------------
 
     def _values(self, answer: Scalar, load: str) -> Iterator[FoundPosition]:
-        """Where the answer takes a value: its numerator less so many times its denominator vanishes."""
+        """Where the answer takes a value: its numerator less so many times its denominator vanishes; of a
+        range that has it throughout the ends."""
         top, bottom = fraction(self.record, answer)
         value = self.record.ratio((*as_written(self.query.value).as_integer_ratio(), 0))
         miss = top - value * bottom
         limits = [s for s, _ in self._limits()]
-        for s in [*self._zeros(miss), *(s for s in limits if self._is_nothing(miss, s))]:
+        places = [*self._zeros(miss), *(s for s in limits if self._is_nothing(miss, s))]
+        if self._vanishes(miss) and not self._vanishes(bottom):
+            self.notes[HAS.format(load=load)] = None
+            places = [*dict.fromkeys((*self.span, *limits))]
+        for s in places:
             if not self._is_nothing(bottom, s):
                 for spot in self._pulling(s, "value", load):
                     yield spot if spot.answer is None else spot._replace(answer=self.query.value)
