@@ -2021,8 +2021,9 @@ def test_only_what_the_motion_changes_poses_a_figure(
     case = icsolve.load(POSED)
     answer = icsolve.solve(case)
     for path in ("lengths.AB", "lengths.BC", "points.A.y", "loads.W"):
-        with pytest.raises(SceneError, match="does not pose the figure"):
+        with pytest.raises(SceneError, match="does not pose the figure") as refused:
             with_stability(case, answer, path)
+        assert "--find" not in refused.value.message  # which asks of loads that are all known
     with pytest.raises(SceneError, match="does not pose the figure"):
         icsolve.solve(
             icsolve.load(

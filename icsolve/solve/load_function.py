@@ -448,10 +448,11 @@ def naming_uncarried(case: Case, paths: Sequence[str]) -> Iterator[None]:
         raise SceneError(refusal.status, message, refusal.more) from None
 
 
-def refuse_unposed(function: LoadFunction) -> None:
-    """Refuse a number that the motion of the mechanism does not change."""
+def refuse_unposed(function: LoadFunction, sought: bool = True) -> None:
+    """Refuse a number that the motion of the mechanism does not change; ``sought``: its value is to find."""
     if not function.poses:
-        raise SceneError(Status.UNSUPPORTED, sentences.poses_nothing(function.path, moves=True))
+        said = sentences.poses_nothing(function.path, moves=True, sought=sought)
+        raise SceneError(Status.UNSUPPORTED, said)
 
 
 def _turning(twists: Mapping[str, tuple[tuple[Scalar, Scalar, Scalar], ...]]) -> list[str]:

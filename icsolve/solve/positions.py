@@ -325,7 +325,7 @@ def moved_by(case: Case, along: str, span: tuple[float, float] | None = None) ->
         if error.status != Status.UNSUPPORTED or isinstance(error, TogetherError):
             raise
         function = written_function(case, path, span)
-    refuse_unposed(function)
+    refuse_unposed(function, sought=span is not None)
     return function
 
 

@@ -173,13 +173,15 @@ def uncarried(case: Case, points: Iterable[str]) -> str:
     return said if found else ""
 
 
-def poses_nothing(path: str, moves: bool = False) -> str:
+def poses_nothing(path: str, moves: bool = False, sought: bool = True) -> str:
     """A number that is to find by the positions that it gives, and gives none; whether the mechanism
-    ``moves`` all the same."""
+    ``moves`` all the same. Without ``sought`` only the stability by it was asked, in one position."""
     why = "it moves nothing."
     if moves:
         why = "the mechanism moves without changing it. Take an angle, a length or a coordinate that the "
         why += "motion changes, or a link that turns."
+    if not sought:
+        return f"{path} does not pose the figure: {why}"
     return (
         f"{path} does not pose the figure: {why} At which value of it the loads balance in the position as "
         f"written is asked by a sweep: `icsolve sweep CASE --vary {path}=FROM:TO:STEP --find hold`, with a "
