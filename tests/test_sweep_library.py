@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import icsolve
+from icsolve.case import Number
 from icsolve.manual import kinds, template
 from icsolve.sweep.varied_numbers import numbers_of
 from library import FILES, sample
@@ -30,7 +31,7 @@ MANY = 7
 def sweeps(case: icsolve.Case) -> Iterator[icsolve.Sweep]:
     """A turn of every link, and a range of every number; those that can't be are refused."""
     turns = [({}, {link: np.arange(0.0, 361.0, 30.0)}) for link in case.links if link != case.ground]
-    ranges = [({path: around(path, number.value)}, {}) for path, number in numbers_of(case).items()]
+    ranges = [({path: around(path, number)}, {}) for path, number in numbers_of(case).items()]
     if not FULL and len(ranges) > SOME:
         ranges = Random(case.title).sample(ranges, SOME)
     for vary, drive in (*turns, *ranges):
@@ -39,10 +40,11 @@ def sweeps(case: icsolve.Case) -> Iterator[icsolve.Sweep]:
             yield icsolve.sweep(case, vary, want, drive=drive)
 
 
-def around(path: str, value: float) -> np.ndarray:
+def around(path: str, number: Number) -> np.ndarray:
+    value, least = number.value, 0.0 if number.bound else -1.0
     if path.startswith("angles.") or path.endswith(".angle"):
         return np.linspace(value - 90.0, value + 90.0, 5)
-    near = np.linspace(0.7 * value, 1.3 * value, 5) if value else np.linspace(-1.0, 1.0, 5)
+    near = np.linspace(0.7 * value, 1.3 * value, 5) if value else np.linspace(least, 1.0, 5)
     return near.round() if ".teeth" in path else near
 
 
@@ -64,8 +66,12 @@ def gaps(array: np.ndarray, ok: np.ndarray) -> list[int]:
 
 
 def left_open(sweep: icsolve.Sweep, name: str, row: int) -> bool:
-    """Whether the scene of a row has no speed of a link: another freedom moves it, or it is a structure."""
+    """Whether the scene of a row has no speed of a link, or no one centre of two: another freedom moves it,
+    or it is a structure."""
     kind, _, link = name.partition(" ")
+    if kind == "centres":
+        centres = icsolve.solve(sweep.case_of(row), all_centres=True).centres
+        return next(c.kind for pair, c in centres.items() if "-".join(pair) == link) == "undetermined"
     if kind != "rates":
         return False
     rates = icsolve.solve(sweep.case_of(row), rates=True).rates

@@ -11,6 +11,8 @@ from icsolve import case as c
 from reference import DOUBLE, Digits, Frame, Motions, Place, Points, Twist, along, motions, unit
 
 STILL = 1e-10
+LAST_DIGITS = (1e-40, 1e-9)
+"""Of numbers of size 1: what comes from the 16th digit of a coordinate, and from no other."""
 """A twist this much smaller than the mechanism's largest is rounding of the data."""
 
 
@@ -28,6 +30,17 @@ def centre(found: Motions, i: str, j: str) -> Twist | str:
     if any(sine(moving[0], t) > 1e-9 for t in moving[1:]):
         return own or "undetermined"
     return max(moving, key=_size)
+
+
+def hangs_on_last_digits(found: Motions, i: str, j: str) -> bool:
+    """Whether two links move as one, or about one centre, but for the rounding of data of 16 digits: the
+    decimals as written say that they do not, and the limits of `centre` that they do."""
+    relative = [_minus(b[j], b[i]) for b in found.basis]
+    largest = max((_size(t) for b in found.basis for t in b.values()), default=0.0)
+    most = max(relative, key=_size)
+    apart = [_size(t) / largest for t in relative] if largest else []
+    apart += [sine(most, t) for t in relative if t is not most and _size(t) > STILL * largest]
+    return any(LAST_DIGITS[0] < size <= LAST_DIGITS[1] for size in apart)
 
 
 def _own(found: Motions, i: str, j: str) -> Twist | None:
