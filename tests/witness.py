@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import combinations
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -32,15 +33,20 @@ def centre(found: Motions, i: str, j: str) -> Twist | str:
     return max(moving, key=_size)
 
 
-def hangs_on_last_digits(found: Motions, i: str, j: str) -> bool:
-    """Whether two links move as one, or about one centre, but for the rounding of data of 16 digits: the
+def hangs_on_last_digits(found: Motions) -> bool:
+    """Whether some two links move as one, or about one centre, but for the rounding of data of 16 digits: the
     decimals as written say that they do not, and the limits of `centre` that they do."""
-    relative = [_minus(b[j], b[i]) for b in found.basis]
     largest = max((_size(t) for b in found.basis for t in b.values()), default=0.0)
-    most = max(relative, key=_size)
-    apart = [_size(t) / largest for t in relative] if largest else []
-    apart += [sine(most, t) for t in relative if t is not most and _size(t) > STILL * largest]
-    return any(LAST_DIGITS[0] < size <= LAST_DIGITS[1] for size in apart)
+    if not largest:
+        return False
+    for i, j in combinations(found.case.links, 2):
+        relative = [_minus(b[j], b[i]) for b in found.basis]
+        most = max(relative, key=_size)
+        apart = [_size(t) / largest for t in relative]
+        apart += [sine(most, t) for t in relative if t is not most and _size(t) > STILL * largest]
+        if any(LAST_DIGITS[0] < size <= LAST_DIGITS[1] for size in apart):
+            return True
+    return False
 
 
 def _own(found: Motions, i: str, j: str) -> Twist | None:
