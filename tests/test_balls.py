@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import decimal
 import math
 from fractions import Fraction
@@ -32,7 +33,9 @@ def exact(value: decimal.Decimal) -> Any:
 def holds(ball: Any, true: Any) -> bool:
     """Whether a ball holds a number, and its size bounds its value."""
     if not isinstance(ball, Ball):
-        return bool(many.mpf(ball) == true)
+        return bool(
+            abs(many.mpf(ball) - true) <= many.mpf(10) ** -250
+        )  # half a turn of `many` has 400 digits
     assert ball.size >= abs(float(ball.value)) or not ball.value
     return bool(abs(exact(ball.value) - true) <= many.mpf(ball.radius) + many.mpf(10) ** -250)
 
@@ -281,3 +284,23 @@ def test_a_divisor_too_small_for_a_double_to_turn_over_is_refused(value: str, po
     """Powers of two too, by which ball and decimal are multiplied elsewhere: 1 / 2^-1074 is infinite."""
     with pytest.raises(MoreDigits):
         Balls(30).exactly(decimal.Decimal(value)) / 2.0**power
+
+
+@pytest.mark.parametrize("digits", DIGITS)
+def test_no_operation_changes_a_number_that_an_arithmetic_remembers(digits: int) -> None:
+    """They serve all scenes of a process: what one leaves in them would be in the answers of the next."""
+    balls, draw = Balls(digits, highest=False), Random(digits)
+    axes = [(x, y) for x in (-1.0, -0.0, 0.0, 1.0) for y in (-1.0, -0.0, 0.0, 1.0) if x or y]
+    for x, y in (*axes, *((draw.uniform(-1.0, 1.0), draw.uniform(-1.0, 1.0)) for _ in range(40))):
+        for a, b in ((x, y), (balls.ball(x + 0.0), balls.ball(y + 0.0))):
+            with contextlib.suppress(MoreDigits):
+                turned = balls.angle(a, b)
+                balls.rounded(turned, 180.0)
+        p, q = balls.ball(x + 0.0), balls.ball(y + 0.0)
+        for made in (p + q, p - q, p * q, -p, *([p / q] if y else []), *([balls.sqrt(p)] if x > 0.0 else [])):
+            assert holds(made, exact(made.value)) if isinstance(made, Ball) else made == made
+    for value, kept in balls.floats.items():
+        read = balls.exactly(decimal.Decimal(value))
+        told = [(b.value.as_tuple(), b.radius, b.size, b.last) for b in (kept, read)]
+        assert told[0] == told[1], value
+        assert value or not kept.value.is_signed()

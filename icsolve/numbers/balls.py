@@ -389,16 +389,16 @@ class Balls:
         What is left of it at the angle that floats give is an arc tangent of 1e-15, of which four terms of
         the series are good to 1e-135; what they leave out is less than the fifth.
         """
-        near = math.degrees(math.atan2(float(y), float(x)))
+        near = math.degrees(math.atan2(float(y), float(x))) + 0.0
         c, s = self.cos_sin(self.ball(near))
         t = (y * c - x * s) / (x * c + y * s)
-        if type(t) is not Ball:
+        if type(t) is not Ball or not t:
             return near
         square = t * t
         power = t * square
         left = (t - power / 3.0 + power * square / 5.0 - power * square * square / 7.0) * 180.0 / self.pi()
-        left.radius += (t.size + t.radius) ** 9 * 10.0 + TINY
-        return left + near
+        off = left.radius + (t.size + t.radius) ** 9 * 10.0 + TINY
+        return Ball(self, left.value, off, left.size, INEXACT) + near
 
     def rounded(self, value: Scalar, size: float = 0.0) -> tuple[float, float]:
         """The nearest double, and a bound on its error (at most 2 units in its last place).
