@@ -83,7 +83,7 @@ class SceneError(IcsolveError):
 
 
 class Status:
-    """The words that a result's ``status`` can be; the README explains each."""
+    """The words that a result's ``status`` can be; the manual explains each (`icsolve manual statuses`)."""
 
     OK = "ok"
     UNDERDETERMINED = "underdetermined"  # the figure leaves points free

@@ -358,3 +358,11 @@ def test_the_sense_of_a_load_that_is_given_is_compared_too(given: str, published
     for value, verdict in ((published, "agrees"), (wrong, "disagrees")):
         (only,) = compare(solve(load(f"icsolve: 1\npoints: {text}expect: {{P: {value}}}\n")))
         assert only.verdict == verdict, only
+
+
+def test_a_force_that_points_elsewhere_is_not_said_to_be_opposite() -> None:
+    text = f"{PUSHED['plane'].partition('  P')[0]}  P: {{force: 50, angle: 90, at: B, link: 2}}\n"
+    text += "  T: {torque: unknown, link: 2}\n"
+    for sense in ("at 80 deg", "left"):
+        (only,) = compare(solve(load(f"icsolve: 1\npoints: {text}expect: {{P: 50 {sense}}}\n")))
+        assert only.found == "50 in another direction", only

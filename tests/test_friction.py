@@ -550,6 +550,24 @@ loads: {{W: {{weight: 180, link: 2, at: M}}}}
         assert caught.value.status == "unbalanced"
 
 
+def test_reactions_of_loads_that_friction_does_not_hold_are_found_as_the_refusal_says() -> None:
+    text = """
+points: {A: [0, 0], B: [1.5, 1.3], C: [7.4, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B, mu: 0.2, radius: 0.2}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0, mu: 0.1}
+loads:
+  P: {force: 100, link: 4, at: C, angle: 180}
+  T: {torque: 160, link: 2}
+"""
+    with pytest.raises(icsolve.SceneError, match=r"`unknown`, and give the `motion` that it keeps up\.$"):
+        solved(text, reactions=True)
+    both = solved(text.replace("160", "unknown") + "motion: {link: 2, turns: ccw}\n", reactions=True)
+    assert both.reactions is not None and both.reactions["F12"].x is not None
+
+
 def test_the_sense_of_a_passive_freedom_is_open() -> None:
     text = """
 points: {A: [0, 0], C: [0, 3], K: [-0.6, 2.2]}

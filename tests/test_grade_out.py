@@ -458,6 +458,13 @@ def test_an_export_is_not_written_under_the_ending_of_something_else(kind: str, 
         assert not a_class.path(f"bad{ending}").exists()
 
 
+@pytest.mark.parametrize("option", ["roster", "variants"])
+def test_what_is_for_the_autograder_alone_is_refused_elsewhere(a_class: Class, option: str) -> None:
+    cases, to = a_class.path("cases"), a_class.path("q.gift")
+    ran = a_class.run("export", "gift", str(cases), "-o", str(to), f"--{option}", "x.csv")
+    assert ran.code == 2 and f"--{option} is for gradescope-zip" in ran.err
+
+
 def test_questions_whose_answer_is_zero_are_exported(a_class: Class) -> None:
     for name in ("lever", "pusher", "dead"):
         a_class.path(f"cases/{name}.yaml").unlink()

@@ -29,6 +29,9 @@ from icsolve.numbers.roots import zero_between
 from icsolve.read import load
 from icsolve.read.profiles import PROFILES as KEYS
 from icsolve.solve import solve
+from icsolve.solve.stability import with_stability
+from icsolve.sweep.find_by_scenes import Query
+from icsolve.sweep.find_on_record import find
 from icsolve.sweep.varied_numbers import with_numbers
 from sizes import MORE
 from texts import PAGES
@@ -545,3 +548,41 @@ def test_that_a_contact_is_lost_is_told_once(rubs: bool, reactions: bool) -> Non
     notes = solve(load(text), reactions=reactions).notes
     assert sum("is lost" in note for note in notes) == 1
     assert len({*notes}) == len(notes)
+
+
+CAM = """icsolve: 1
+units: {length: mm, force: N, torque: N*m}
+points: {A: [0, 0], B: [8, unknown]}
+lengths: {AC: 20}
+angles: {AC: 140}
+near: {B: [8, 60]}
+profile: {2: {circle: C, radius: 40}, 3: {roller: B, radius: 10}}
+joints: [{pin: [1, 2], at: A}, {contact: [2, 3], mu: 0.05}, {slide: [3, 1], at: B, along: 90}]
+loads:
+  P: {force: 500, link: 3, at: B, angle: -90}
+  T: {torque: unknown, link: 2}
+"""
+
+
+def test_what_a_profile_leaves_open_it_fixes_where_all_loads_are_known() -> None:
+    """The follower's coordinate is not to find; what rubs on the profile holds as its range says."""
+    assert solve(load(CAM.replace(", mu: 0.05", "")), rates=True).rates is not None
+    known = solve(load(CAM.replace(", mu: 0.05", "").replace("unknown, link", "3, link")))
+    assert known.status == "ok" and known.touching and known.rates is not None
+    low, high = solve(load(CAM)).answers["T"].holds or (0.0, 0.0)
+    for torque, holds in ((0.99 * low, True), (1.01 * high, True), (0.99 * high, False), (1.01 * low, False)):
+        assert solve(load(CAM.replace("unknown, link", f"{torque}, link"))).holds_still is holds
+
+
+def test_where_a_cam_rests_is_told_by_the_sweep_that_the_refusal_names() -> None:
+    text = CAM.replace(", mu: 0.05", "")
+    asked = text.replace("AC: 140", "AC: unknown").replace("  T: {torque: unknown, link: 2}\n", "")
+    with pytest.raises(SceneError, match=r"--drive 2=0:360:5 --find T=0`\.$"):
+        solve(load(asked))
+    with pytest.raises(SceneError, match="where profiles give a contact"):
+        with_stability(load(text), solve(load(text)), "2")
+    found = find(load(text), None, Query("value", "T", 0.0), drive={"2": [0.0, 360.0]})
+    for one in found:
+        written = text.replace("AC: 140", f"AC: {140 + one.at!r}").replace("unknown, link", "0, link")
+        assert "those that are given balance in this position" in "".join(solve(load(written)).notes)
+    assert len(found) == 2

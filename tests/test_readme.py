@@ -8,6 +8,7 @@ with their name. Python blocks are doctests.
 from __future__ import annotations
 
 import doctest
+import json
 import re
 import shlex
 import subprocess
@@ -167,6 +168,26 @@ def test_every_entry_of_the_figure_is_read(entry: str) -> None:
 def test_every_status_stands_in_the_manual() -> None:
     stated = set(re.findall(r"^\| `([a-z-]+)` \|", section("statuses", "Statuses"), re.MULTILINE))
     assert stated == {value for name, value in vars(Status).items() if name.isupper()}
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        "press.yaml --reactions --rates --report --sensitivity --tolerance 0.01 --stability 2",
+        "arm.yaml",
+        "cam.yaml",
+        "crate.yaml",
+        "spring.yaml --dynamic --set motion.speed=2",
+    ],
+)
+def test_every_key_of_a_result_stands_in_the_manual(
+    asked: str, files: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    spring = files / "spring.yaml"
+    spring.write_text(spring.read_text() + "motion: {link: 2, speed: 1}\n")
+    assert exit_status("solve", *asked.split(), "--json") == 0
+    page = PAGES["results"]
+    assert [key for key in json.loads(capsys.readouterr().out) if f"`{key}`" not in page] == []
 
 
 def test_every_command_and_option_stands_in_the_manual() -> None:

@@ -230,6 +230,21 @@ def test_a_mechanism_of_other_loops_has_mobility_and_no_grashof_kind() -> None:
     assert "no four-bar and no slider-crank" in text
 
 
+def test_a_four_bar_whose_position_is_to_find_is_not_said_to_be_none() -> None:
+    text = """icsolve: 1
+points: {A: [0, 0], D: [4, 0]}
+lengths: {AB: 1, BC: 3.5, CD: 2.5}
+angles: {AB: unknown}
+near: {C: [3, 4]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}]
+loads: {W: {weight: 5, link: 3, at: C}}
+"""
+    told = report(icsolve.solve(icsolve.load(text), examine=True)).text()
+    assert told.endswith("are told of one position: --set angles.AB=...")
+    given = icsolve.load(text, settings={"angles.AB": 30})
+    assert "Grashof crank-rocker" in report(icsolve.solve(given, examine=True)).text()
+
+
 def test_text_and_object_say_the_same() -> None:
     made = of_lengths(4.0, 1.0, 3.5, 2.5)
     text = made.text()

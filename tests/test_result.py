@@ -266,6 +266,8 @@ def test_a_load_that_does_no_work_is_told_why(places: tuple[str, str], unknown: 
         assert said in refusal.value.message
         rests = places is not PARALLELOGRAM and known
         assert (refusal.value.status == Status.DEAD_CENTRE) == bool(rests)
+        turned = "Give it another direction, put it on another link" in refusal.value.message
+        assert turned == bool(known and "its line is square to the motion" in said)
 
 
 def test_the_steps_that_ran_are_those_that_the_answer_needs() -> None:

@@ -214,6 +214,9 @@ def _exported(kind: str, cases: str, output: str, options: dict[str, Any]) -> in
     from icsolve.grade.platforms.export import ExportOrder, export
 
     problems: list[str] = []
+    for option in ("roster", "variants"):
+        if options[option] and kind != "gradescope-zip":
+            raise ValueError(f"--{option} is for gradescope-zip; the variants of {kind} are nobody's")
     course = course_of(options["course"], cases, False, {"seed": options["seed"]})
     case_store = CaseStore(existing(cases), course)
     case_store.check_course()

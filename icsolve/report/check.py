@@ -173,7 +173,8 @@ def _shown(values: tuple[float, ...], expected: Expected) -> str:
     if expected.sense in _OPPOSITE:
         return f"{_digits(abs(values[0]))} {_OPPOSITE[expected.sense] if values[0] < 0.0 else expected.sense}"
     if expected.sense and values[0] < 0.0:
-        return f"{_digits(-values[0])} the other way"
+        off = "the other way" if expected.sense in ("pull", "push") else "in another direction"
+        return f"{_digits(-values[0])} {off}"
     return _digits(values[0])
 
 

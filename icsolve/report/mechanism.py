@@ -192,6 +192,8 @@ class Report(NamedTuple):
     loops: tuple[Loop, ...]
     unit: str
     contacts: tuple[Pressure, ...] = ()
+    asked: tuple[str, ...] = ()
+    """the data of the figure that are to find: in each position the angles are others"""
 
     def to_dict(self) -> dict[str, Any]:
         """The object under ``report`` in the JSON of an answer."""
@@ -210,7 +212,10 @@ class Report(NamedTuple):
         lines.extend(each.text(digits) for each in self.contacts)
         for loop in self.loops:
             lines.extend(_loop_text(loop, digits, self.unit))
-        if not self.loops and not self.contacts:
+        if self.asked:
+            given = " ".join(f"--set {path}=..." for path in self.asked)
+            lines.append(f"  Grashof kind, angles and limits are told of one position: {given}")
+        elif not self.loops and not self.contacts:
             lines.append("  no four-bar and no slider-crank among the loops: no Grashof kind")
         return "\n".join(lines)
 
@@ -222,7 +227,8 @@ def report(answer: Answer) -> Report:
         loops = _loops(answer.case, answer.points, FLOATS) if answer.points else ()
     else:
         loops = scene.scene.ask(lambda found: _loops(scene.case, places_in(found), found.arithmetic))
-    return Report(answer.mobility, answer.advantage, loops, answer.case.units.length, _contacts(answer))
+    asked, unit = tuple(unknown.path for unknown in answer.case.unknowns), answer.case.units.length
+    return Report(answer.mobility, answer.advantage, loops, unit, _contacts(answer), asked)
 
 
 def _contacts(answer: Answer) -> tuple[Pressure, ...]:

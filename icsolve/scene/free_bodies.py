@@ -66,7 +66,7 @@ def holds(parts: AnswerBuilder) -> bool:
 
 SLIPS = (
     "friction is not enough to hold the known loads, so there are no reactions at rest. Make one of the "
-    "loads `unknown`, or give the `motion` that it resists."
+    "loads `unknown`, and give the `motion` that it keeps up."
 )
 
 

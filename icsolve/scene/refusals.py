@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from icsolve.case import Case, TorsionSpring, Weight
+from icsolve.case import AlongRope, Case, Force, TorsionSpring, Weight
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import Motions
 from icsolve.numbers import FLOATS, Arithmetic, Scalar, all_vanish
@@ -169,14 +169,17 @@ def _no_work(outcome: power.Outcome) -> SceneError:
     place_in = next(n for n, w in enumerate(balance.wrenches) if w is culprit)
     works = any(not arithmetic.vanishes(factors[place_in], largest) for factors in balance.factors)
     unknown = [w.load.name for w in power.unknown_loads(balance)]
+    turned = False
     if works and alike:
         cause = sentences.undone(culprit.load.name, alike)
     elif at_rest and not slack:
         why = _why_at_rest(top, motions, links[0], arithmetic) if len(links) == 1 else ""
         cause = sentences.at_rest(culprit.load.name, links, why)
     else:
-        cause = sentences.idle_load(culprit.load.name, links, not any(culprit.unit[:2]), slack)
-    message = sentences.workless(culprit.load.name, cause, others)
+        couple, load = not any(culprit.unit[:2]), culprit.load
+        turned = not (couple or slack) and isinstance(load, Force) and not isinstance(load.heading, AlongRope)
+        cause = sentences.idle_load(culprit.load.name, links, couple, slack)
+    message = sentences.workless(culprit.load.name, cause, others, turned)
     if works and len(unknown) > 1:
         message = sentences.workless_together(unknown, others)
     if len(top.members) > 2 and (ends := sentences.free_ends(top, place.case)):

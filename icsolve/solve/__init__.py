@@ -87,6 +87,10 @@ def solve(
 def _judged(found: Answer, case: Case) -> Answer:
     """An answer with whether friction holds the loads, where these are all known."""
     rests = not case.loads or any(map(is_unknown, case.loads)) or not found.mobility
+    if not rests and case.profiles is not None:
+        from icsolve.cams.solving import placed
+
+        case = placed(case)
     if case.space is not None or rests or not has_friction(case):
         return found
     from icsolve.solve import known_loads

@@ -308,12 +308,29 @@ def refuse_motion(case: Case) -> None:
         raise SceneError(Status.UNSUPPORTED, said)
 
 
+def touches_profiles(case: Case) -> bool:
+    """Whether profiles give a contact of the case its place."""
+    return case.profiles is not None and bool(case.profiles.touches)
+
+
+def refuse_profiles(case: Case) -> None:
+    """Refuse contacts that profiles give: no mode of their figure is known over a range."""
+    if touches_profiles(case):
+        raise SceneError(
+            Status.UNSUPPORTED,
+            "positions of equilibrium and their stability are not found where profiles give a contact. Write "
+            "the figure in one position, with an unknown torque on the cam: where none is needed a sweep "
+            "tells, as `icsolve sweep CASE --drive 2=0:360:5 --find T=0`.",
+        )
+
+
 def moved_by(case: Case, along: str, span: tuple[float, float] | None = None) -> LoadFunction:
     """The mechanism as it moves by a datum, or by a link that is turned.
 
     Raises CaseError for what is neither, SceneError where it can't be moved so.
     """
     refuse_motion(case)
+    refuse_profiles(case)
     if along in case.links:
         if along == case.ground:
             raise SceneError(Status.STRUCTURE, f"link {along} is the frame: it does not move.")

@@ -15,7 +15,7 @@ from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.roots import zero_between
 from icsolve.read.names import shown
 from icsolve.scene import solve_scene
-from icsolve.solve.positions import driven_rest, moved_by, refuse_motion, rest_of
+from icsolve.solve.positions import driven_rest, moved_by, refuse_motion, refuse_profiles, rest_of
 from icsolve.solve.rest_position import RestPosition, balances, holding
 from icsolve.statics.power import has_friction
 from icsolve.sweep.varied_numbers import find_number, refuse_space, with_numbers
@@ -65,6 +65,7 @@ def _refuse_unknown(case: Case, of: str) -> None:
 def rest_as_written(case: Case, of: str) -> RestPosition:
     """The position as written of a case whose loads are all known and balance."""
     refuse_motion(case)
+    refuse_profiles(case)
     if has_friction(case):
         said = "with friction a position is one of a range, and has no stability: leave out the friction."
         raise SceneError(Status.UNSUPPORTED, said)

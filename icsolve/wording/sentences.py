@@ -92,12 +92,14 @@ def loose(case: Case, names: list[str]) -> str:
     )
 
 
-def workless(load: str, cause: str, others_work: bool) -> str:
-    """The unknown does no work, and why: no value balances, or any value does."""
+def workless(load: str, cause: str, others_work: bool, turned: bool = False) -> str:
+    """The unknown does no work, and why: no value balances, or any value does; ``turned``: it would do some
+    in another direction."""
     if others_work:
+        remedy = "Give it another direction, put it" if turned else "Put the unknown"
         return (
             f"no value of {load} balances: {cause}, but the known loads do work. "
-            "Put the unknown on another link, or take another position."
+            f"{remedy} on another link, or take another position."
         )
     return (
         f"any value of {load} balances: {cause}, and the known loads do none either. "
