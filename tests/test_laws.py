@@ -6,6 +6,7 @@ answer as they should; the unknown may change roles and links. `ICSOLVE_FULL=1` 
 
 from __future__ import annotations
 
+import json
 import math
 from random import Random
 from typing import Any
@@ -20,7 +21,10 @@ import transforms
 import witness
 from growth import random_mechanism
 from icsolve.answer import Centre
+from icsolve.case import Force, Number
 from icsolve.errors import SceneError
+from icsolve.sweep.varied_numbers import with_numbers
+from library import FILES, sample
 from sizes import MORE
 from solving import LAW, kinds, random_scenes, solved, told, unknown, whole
 from transcribe import Scene
@@ -233,3 +237,24 @@ def test_a_centre_off_the_line_of_two_others_is_refused_with_its_distance(
             )
         )
     assert refused.value.status == "contradictory-centres"
+
+
+def test_an_answer_owes_nothing_to_what_was_solved_before_it() -> None:
+    """Arithmetics, plans and programs are remembered within a process: the library there and back, and loads
+    of 1e-250 in each, which a trace of any other number would swamp."""
+    names = sample(FILES, 8, "there and back")
+
+    def told(name: str) -> str:
+        case = icsolve.load(FILES[name])
+        tiny = [load for load in case.loads if isinstance(load, Force) and isinstance(load.value, Number)]
+        found = []
+        for one in [case, *(with_numbers(case, {f"loads.{load.name}": 1e-250}) for load in tiny[:1])]:
+            try:
+                found.append(json.dumps(icsolve.solve(one, all_centres=True, rates=True).to_dict()))
+            except icsolve.SceneError as refusal:
+                found.append(str(refusal))
+        return "\n".join(found)
+
+    there = {name: told(name) for name in names}
+    back = {name: told(name) for name in reversed(names)}
+    assert there == back
