@@ -2325,3 +2325,36 @@ def answered(drawn: Any) -> tuple[str, list[float]]:
     except SceneError as refusal:
         return str(refusal.status), []
     return "ok", [position.at["angles.A0-B0"] for position in found]
+
+
+def test_a_mechanism_in_a_motion_with_its_inertia_rests_nowhere() -> None:
+    text = """icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 1}
+angles: {AB: {unknown: [0, 180]}}
+joints: [{pin: [1, 2], at: A}]
+links: {2: {mass: 2 kg, centre: B}}
+loads: {W: {weight: 3, link: 2, at: B}}
+motion: {link: 2, speed: 3}
+"""
+    for asked, dynamic in ((text, True), (f"{text}dynamic: yes\n", False)):
+        with pytest.raises(SceneError, match="does not rest: leave `dynamic` out"):
+            icsolve.solve(icsolve.load(asked), dynamic=dynamic)
+    assert len(icsolve.solve(icsolve.load(text)).positions or ()) == 1
+
+
+def test_of_two_data_the_one_that_lacks_a_range_is_named_for_a_torsion_spring() -> None:
+    text = """icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 1, BC: 2}
+angles: {AB: {unknown: [-90, 90]}, BC: unknown}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}]
+loads:
+  W: {weight: 3, link: 2, at: B}
+  F: {force: 1, link: 3, at: C, angle: 0}
+  T: {spring: 5, corner: AB, free: 20, link: 2}
+"""
+    with pytest.raises(SceneError, match=r"spring T turns, .* give angles.BC a range or a start"):
+        icsolve.solve(icsolve.load(text))
+    given = icsolve.load(text.replace("BC: unknown", "BC: {unknown: [-90, 90]}"))
+    assert len(icsolve.solve(given).positions or ()) == 1
