@@ -2358,3 +2358,25 @@ loads:
         icsolve.solve(icsolve.load(text))
     given = icsolve.load(text.replace("BC: unknown", "BC: {unknown: [-90, 90]}"))
     assert len(icsolve.solve(given).positions or ()) == 1
+
+
+@pytest.mark.parametrize(
+    "tie", ["gears: [2, 3], teeth: [31, 57]", "belt: [2, 3], radii: [31, 57], crossed: true"]
+)
+def test_wheels_of_which_no_point_moves_have_a_stability(tie: str) -> None:
+    """Theirs is no limit: a torsion spring on one is felt at the other by the square of the ratio."""
+    text = """icsolve: 1
+points: {A: [0, 0], B: [88, 0]}
+joints: [{pin: [1, 2], at: A}, {pin: [1, 3], at: B}, {TIE}]
+loads:
+  T2: {torque: 10, link: 2}
+  T3: {torque: unknown, link: 3}
+""".replace("TIE", tie)
+    bare = icsolve.load(text)
+    spring = text.replace("{torque: 10, link: 2}", "{spring: 5, corner: AP, free: 30, link: 2}")
+    sprung = icsolve.load(spring.replace("[88, 0]", "[88, 0], P: [9, 0]"))
+    for link, stiffness in (("2", 5.0), ("3", 5.0 * (57 / 31) ** 2)):
+        told = with_stability(bare, icsolve.solve(bare), link)
+        assert (told.stability, told.stiffness and told.stiffness.value) == ("neutral", 0.0)
+        told = with_stability(sprung, icsolve.solve(sprung), link)
+        assert told.stiffness is not None and told.stiffness.value == pytest.approx(stiffness, rel=1e-12)

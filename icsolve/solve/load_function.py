@@ -386,7 +386,7 @@ def _on_record(mode: RecordedMode, path: str, span: tuple[float, float] | None) 
     wrenches = load_wrenches.wrenches(scene.place, vectors=True)
     balance = power.balance(wrenches, motions.twists, 1)
     total = power.known_power(balance, 0, record)
-    rate, poses = _rate(scene, motions.twists, given)
+    rate, poses = _rate(scene, motions.twists, given, path)
     slope = gradient(record, total, (given,))[given]
     return LoadFunction(
         compiled.setting.case,
@@ -472,12 +472,16 @@ def bearers(case: Case) -> dict[str, list[str]]:
 
 
 def _rate(
-    scene: RecordedScene, twists: Mapping[str, tuple[tuple[Scalar, Scalar, Scalar], ...]], given: int
+    scene: RecordedScene,
+    twists: Mapping[str, tuple[tuple[Scalar, Scalar, Scalar], ...]],
+    given: int,
+    driven: str,
 ) -> tuple[Scalar, bool]:
     """The rate of the free number in the motion: that with which the points go along their paths, over how
     far they go along them for each unit of the number; and whether all points go along such paths.
 
-    All of them count, each by the square of that: one alone may stand still in some position.
+    All of them count, each by the square of that: one alone may stand still in some position. Where links
+    only turn, as of gears on their pivots, none moves, and one beside the axis of the ``driven`` link counts.
     """
     case, record = scene.case, scene.record
     best: tuple[float, float] = (0.0, 0.0)
@@ -509,6 +513,10 @@ def _rate(
         else:
             speed = speed + going[0] * way[0] + going[1] * way[1]
             squares = squares + way[0] * way[0] + way[1] * way[1]
+    if not float(squares) and driven in twists:
+        cos, sin = record.turned(record.nodes[given])
+        dx, dy = gradient(record, cos, (given,))[given], gradient(record, sin, (given,))[given]
+        speed, squares = twists[driven][0][2] * (cos * dy - sin * dx), dx * dx + dy * dy
     return (speed / squares if float(squares) else 0.0), poses
 
 
