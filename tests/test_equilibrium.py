@@ -2380,3 +2380,22 @@ loads:
         assert (told.stability, told.stiffness and told.stiffness.value) == ("neutral", 0.0)
         told = with_stability(sprung, icsolve.solve(sprung), link)
         assert told.stiffness is not None and told.stiffness.value == pytest.approx(stiffness, rel=1e-12)
+
+
+def test_where_no_link_turns_a_coordinate_that_poses_the_figure_tells_the_stability() -> None:
+    case = icsolve.load("""icsolve: 1
+points: {A: [0, 0], P: [0, 3], B: [1, 0]}
+joints:
+  - {slide: [2, 1], at: A, along: 90}
+  - {slide: [3, 1], at: B, along: 90}
+  - {rope: [A, P, B], on: [2, 1, 3]}
+loads:
+  F: {force: 10, link: 2, at: A, angle: -90}
+  Q: {force: unknown, link: 3, at: B, angle: 90}
+""")
+    answer = icsolve.solve(case)
+    with pytest.raises(SceneError, match="Take a coordinate or a length that poses the figure"):
+        with_stability(case, answer, "2")
+    told = with_stability(case, answer, "points.A.y").stiffness
+    held = 9.0 * math.sqrt(10.0)  # V = F a - Q b, where a goes by -(sqrt(1 + (3 - b)^2)), twice derived
+    assert told is not None and told.value == pytest.approx(10.0 / held, rel=1e-9)
