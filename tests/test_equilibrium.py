@@ -2404,3 +2404,77 @@ def answered(drawn: Any) -> tuple[str, list[float]]:
     except SceneError as refusal:
         return str(refusal.status), []
     return "ok", [position.at["angles.A0-B0"] for position in found]
+
+
+def test_a_mechanism_in_a_motion_with_its_inertia_rests_nowhere() -> None:
+    text = """icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 1}
+angles: {AB: {unknown: [0, 180]}}
+joints: [{pin: [1, 2], at: A}]
+links: {2: {mass: 2 kg, centre: B}}
+loads: {W: {weight: 3, link: 2, at: B}}
+motion: {link: 2, speed: 3}
+"""
+    for asked, dynamic in ((text, True), (f"{text}dynamic: yes\n", False)):
+        with pytest.raises(SceneError, match="does not rest: leave `dynamic` out"):
+            icsolve.solve(icsolve.load(asked), dynamic=dynamic)
+    assert len(icsolve.solve(icsolve.load(text)).positions or ()) == 1
+
+
+def test_of_two_data_the_one_that_lacks_a_range_is_named_for_a_torsion_spring() -> None:
+    text = """icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 1, BC: 2}
+angles: {AB: {unknown: [-90, 90]}, BC: unknown}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}]
+loads:
+  W: {weight: 3, link: 2, at: B}
+  F: {force: 1, link: 3, at: C, angle: 0}
+  T: {spring: 5, corner: AB, free: 20, link: 2}
+"""
+    with pytest.raises(SceneError, match=r"spring T turns, .* give angles.BC a range or a start"):
+        icsolve.solve(icsolve.load(text))
+    given = icsolve.load(text.replace("BC: unknown", "BC: {unknown: [-90, 90]}"))
+    assert len(icsolve.solve(given).positions or ()) == 1
+
+
+@pytest.mark.parametrize(
+    "tie", ["gears: [2, 3], teeth: [31, 57]", "belt: [2, 3], radii: [31, 57], crossed: true"]
+)
+def test_wheels_of_which_no_point_moves_have_a_stability(tie: str) -> None:
+    """Theirs is no limit: a torsion spring on one is felt at the other by the square of the ratio."""
+    text = """icsolve: 1
+points: {A: [0, 0], B: [88, 0]}
+joints: [{pin: [1, 2], at: A}, {pin: [1, 3], at: B}, {TIE}]
+loads:
+  T2: {torque: 10, link: 2}
+  T3: {torque: unknown, link: 3}
+""".replace("TIE", tie)
+    bare = icsolve.load(text)
+    spring = text.replace("{torque: 10, link: 2}", "{spring: 5, corner: AP, free: 30, link: 2}")
+    sprung = icsolve.load(spring.replace("[88, 0]", "[88, 0], P: [9, 0]"))
+    for link, stiffness in (("2", 5.0), ("3", 5.0 * (57 / 31) ** 2)):
+        told = with_stability(bare, icsolve.solve(bare), link)
+        assert (told.stability, told.stiffness and told.stiffness.value) == ("neutral", 0.0)
+        told = with_stability(sprung, icsolve.solve(sprung), link)
+        assert told.stiffness is not None and told.stiffness.value == pytest.approx(stiffness, rel=1e-12)
+
+
+def test_where_no_link_turns_a_coordinate_that_poses_the_figure_tells_the_stability() -> None:
+    case = icsolve.load("""icsolve: 1
+points: {A: [0, 0], P: [0, 3], B: [1, 0]}
+joints:
+  - {slide: [2, 1], at: A, along: 90}
+  - {slide: [3, 1], at: B, along: 90}
+  - {rope: [A, P, B], on: [2, 1, 3]}
+loads:
+  F: {force: 10, link: 2, at: A, angle: -90}
+  Q: {force: unknown, link: 3, at: B, angle: 90}
+""")
+    answer = icsolve.solve(case)
+    with pytest.raises(SceneError, match="Take a coordinate or a length that poses the figure"):
+        with_stability(case, answer, "2")
+    told = with_stability(case, answer, "points.A.y").stiffness
+    held = 9.0 * math.sqrt(10.0)  # V = F a - Q b, where a goes by -(sqrt(1 + (3 - b)^2)), twice derived
+    assert told is not None and told.value == pytest.approx(10.0 / held, rel=1e-9)

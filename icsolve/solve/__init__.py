@@ -75,13 +75,9 @@ def solve(
         )
         return _judged(found, replace(case, dynamic=True) if dynamic and not case.dynamic else case)
     asked = {"all_centres": all_centres, "rates": rates, "reactions": reactions}
-    if without_inertia(case, dynamic):
-        from icsolve.scene.dynamics import solve_dynamic
-
-        return solve_dynamic(case, solve, **{**asked, "rates": True}, examine=examine, bound=bound)
     from icsolve.solve.equilibrium import solve_positions
 
-    return solve_positions(case, **asked)
+    return solve_positions(replace(case, dynamic=True) if without_inertia(case, dynamic) else case, **asked)
 
 
 def _judged(found: Answer, case: Case) -> Answer:

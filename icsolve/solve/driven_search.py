@@ -57,7 +57,8 @@ class DrivenMechanism:
         rates = solve_scene(self.case, rates=True).rates or {}
         turning = {link: abs(rate) for link, rate in rates.items() if isinstance(rate, float) and rate}
         if not turning:
-            said = "no link turns, and points of this mechanism can only all together be placed as it moves."
+            said = "no link turns, and points of this mechanism can only all together be placed as it moves. "
+            said += "Take a coordinate or a length that poses the figure, where there is one."
             raise SceneError(Status.UNSUPPORTED, said)
         self.links = sorted(turning, key=lambda link: (link != along, -turning[link]))
         loaded = replace(self.case, loads=(*self.case.loads, Torque(PROBE, self.links[0], None)))

@@ -14,7 +14,14 @@ from icsolve.scene import solve_scene
 from icsolve.solve.friction_ranges import find_ranges
 from icsolve.solve.known_loads import smooth
 from icsolve.solve.load_function import given_at, naming_uncarried
-from icsolve.solve.positions import Search, any_value, find_positions, refuse_profiles, touches_profiles
+from icsolve.solve.positions import (
+    Search,
+    any_value,
+    find_positions,
+    refuse_motion,
+    refuse_profiles,
+    touches_profiles,
+)
 from icsolve.solve.rest_position import with_scene
 from icsolve.solve.two_data import find_pairs
 from icsolve.statics.power import has_friction, is_unknown
@@ -29,6 +36,7 @@ def solve_positions(case: Case, **asked: bool) -> Answer:
     Raises SceneError (``any-value``, ``no-value``) where the loads balance everywhere or nowhere, with what
     the JSON object shows besides.
     """
+    refuse_motion(case)
     refuse_profiles(case)
     case = case if case.unknowns else replace(case, unknowns=(free_coordinate(case) or Unknown(""),))
     with naming_uncarried(case, [one.path for one in case.unknowns]):

@@ -372,8 +372,8 @@ def refuse_unwritten(case: Case, path: str, links: Sequence[str], bounded: bool)
         if isinstance(load, TorsionSpring) and {load.link, load.against} & turning:
             raise SceneError(
                 Status.UNDERDETERMINED,
-                f"the torsion spring {load.name} turns with {path}, and nothing says from where its "
-                f"angle counts: give a range or a start, as in {{unknown: [0, 180], from: 30}}.",
+                f"the torsion spring {load.name} turns, and nothing says from where its angle counts: give "
+                f"{path} a range or a start, as in {{unknown: [0, 180], from: 30}}.",
             )
 
 
