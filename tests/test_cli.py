@@ -460,3 +460,18 @@ def test_an_answer_with_a_number_beyond_all_doubles_is_refused_and_no_fault(numb
     with pytest.raises(SceneError, match="larger than the largest double") as refused:
         json_text({"answers": {"T12": {"value": number}}})
     assert refused.value.status == "unsupported"
+
+
+def test_an_option_that_would_do_nothing_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A column of a gradebook that is not written, and a link to turn where a number is to vary."""
+    monkeypatch.chdir(tmp_path)
+    shell = Shell(capsys)
+    Path("ladder.yaml").write_text(template("four-bar").replace("torque: unknown", "torque: 30"))
+    Path("a.csv").write_text("student,ladder\nann,1\n")
+    for option in ("total", "template"):
+        refused = shell("grade", "a.csv", "--cases", ".", f"--{option}", "a.csv")
+        assert refused.code == 2 and f"--{option} needs --write KIND=FILE" in refused.err
+    refused = shell("sweep", "ladder.yaml", "--drive", "2=0:10:1", "--find", "hold")
+    assert refused.code == 2 and "vary what poses link 2" in refused.err

@@ -227,6 +227,11 @@ def _equilibrium(case: Case, word: str, along: str, low: float, high: float) -> 
         )
     if word == "neutral" and not along.startswith("loads."):
         raise RequestError(f"--find neutral varies a load's number, as loads.P, not {along}")
+    if word == "hold" and along in case.links:
+        raise RequestError(
+            "--find hold varies a number of the case, as --vary angles.AB=0:90:1, and turns no link: vary "
+            f"what poses link {along}"
+        )
     places, notes = _found(case, word, along, low, high)
     found = [
         {"kind": word, "at": {along: one.value + 0.0}, "error": {along: one.error}, **told}

@@ -89,6 +89,9 @@ def _job(options: dict[str, Any]) -> Job:
             check_free(path, options["force"])
     if options["changes"] and not options["against"]:
         raise ValueError("--changes needs --against OLD.csv, the results to compare with")
+    for option, what in (("total", "the gradebook that has the column"), ("template", "what is filled in")):
+        if options[option] and not options["writes"]:
+            raise ValueError(f"--{option} needs --write KIND=FILE, {what}")
     if options["against"] and not os.path.isfile(options["against"]):
         raise FileNotFoundError(2, "there is no such file", options["against"])
     course = _course(options)
