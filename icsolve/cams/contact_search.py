@@ -96,7 +96,7 @@ def found(case: Case, enclosed: bool = False) -> FoundContacts:
     assert case.profiles is not None
     current = replace(case, profiles=case.profiles._replace(touches=()))
     touching = []
-    for touch in case.profiles.touches:
+    for touch in case.touches:
         search = ContactSearch(case, case.profiles, touch, current)
         current, one = search.found(enclosed)
         enclosed = enclosed and search.enclosed is not None

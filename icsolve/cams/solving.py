@@ -53,7 +53,7 @@ def _unbounded(answer: Answer) -> Answer:
 def placed(case: Case) -> Case:
     """A case whose contacts are where its profiles put them; the same case where it has no profiles, or where
     they place none."""
-    if case.profiles is None or not case.profiles.touches:
+    if not case.touches:
         return case
     try:
         return found(case).case

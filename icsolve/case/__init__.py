@@ -70,7 +70,7 @@ from icsolve.tuples import cached_property, dataclass, field
 
 if TYPE_CHECKING:
     from icsolve.case.expected import Expected, Tolerance, Variable
-    from icsolve.case.profiles import Profiles
+    from icsolve.case.profiles import Profiles, Touch
     from icsolve.case.space import Space
 
 
@@ -179,6 +179,11 @@ class Case:
         """Those that a torque turns."""
         slides = (joint for joint in self.joints if isinstance(joint, Guided))
         return tuple(Screw(slide, slide.thread) for slide in slides if slide.thread is not None)
+
+    @property
+    def touches(self) -> tuple[Touch, ...]:
+        """The contacts that profiles place."""
+        return self.profiles.touches if self.profiles is not None else ()
 
     @cached_property
     def rollings(self) -> tuple[Rolling, ...]:

@@ -125,7 +125,7 @@ def _validate(case: Case, path: str) -> int:
     answer = solve(case, examine=True)
     mobility = "" if answer.mobility is None else f", mobility {answer.mobility}"
     joints = len(case.joints if case.space is None else case.space.joints)
-    joints += len(case.profiles.touches) if case.profiles else 0
+    joints += len(case.touches)
     count = f"{plural(len(case.links), 'link')}, {plural(joints, 'joint')}"
     click.echo(f"{path}: valid: {count}{mobility}")
     for sentence in (*answer.notes, *answer.skipped):

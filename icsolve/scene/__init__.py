@@ -54,7 +54,7 @@ def solve_scene(
 
         return solve_space(case, bound)
     try:
-        if case.profiles is not None and case.profiles.touches:
+        if case.touches:
             from icsolve.cams.solving import solve_touching
 
             return solve_touching(case, solve_scene, **asked, reactions=reactions, dynamic=dynamic)
@@ -84,7 +84,7 @@ def solve_by_power(case: Case, *, rates: bool = False) -> Answer:
 
     Raises SceneError as `solve_scene`.
     """
-    if case.profiles is not None and case.profiles.touches:
+    if case.touches:
         from icsolve.cams.solving import solve_touching
 
         return solve_touching(case, lambda found, **_: solve_by_power(found, rates=rates), bound=True)

@@ -83,7 +83,7 @@ def solve(
 def _judged(found: Answer, case: Case) -> Answer:
     """An answer with whether friction holds the loads, where these are all known."""
     rests = not case.loads or any(map(is_unknown, case.loads)) or not found.mobility
-    if not rests and case.profiles is not None:
+    if not rests and case.touches:
         from icsolve.cams.solving import placed
 
         case = placed(case)
@@ -127,7 +127,7 @@ def attempt(case: Case, *, reactions: bool = False) -> Attempt:
     if case.dynamic:
         whole = _tried(case, reactions, all_centres=True, rates=True)
         return whole if whole.refusal is None else _tried(case, reactions)
-    if case.profiles is not None and case.profiles.touches:
+    if case.touches:
         return _touching(case, reactions)
     want = wanted(case, Want(True, True, False, reactions))
     try:

@@ -20,7 +20,6 @@ from icsolve.solve.positions import (
     find_positions,
     refuse_motion,
     refuse_profiles,
-    touches_profiles,
 )
 from icsolve.solve.rest_position import with_scene
 from icsolve.solve.two_data import find_pairs
@@ -82,7 +81,7 @@ def _two(case: Case, asked: Mapping[str, bool]) -> Answer:
 def free_coordinate(case: Case) -> Unknown | None:
     """The first unknown coordinate that nothing else fixes, where all loads are known; what a profile leaves
     open it fixes itself."""
-    if any(map(is_unknown, case.loads)) or not case.loads or touches_profiles(case):
+    if any(map(is_unknown, case.loads)) or not case.loads or case.touches:
         return None
     open_ones = [
         f"points.{name}.{axis}"

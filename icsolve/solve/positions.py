@@ -256,10 +256,10 @@ def _along(case: Case, along: str, low: float, high: float) -> list[RestPosition
     try:
         function = moved_by(bare, along, wide)
     except TogetherError:
-        led = DrivenMechanism(bare, own, (low, high))
-        if led.balances_everywhere():
+        driven = DrivenMechanism(bare, own, (low, high))
+        if driven.balances_everywhere():
             raise any_value(own) from None
-        return led.rests()
+        return driven.rests()
     functions = with_other_ways(function, wide) if function.compiled.setting.moves else [function]
     branches = Branches(functions, *wide)
     branch = branches.on(0, value)
@@ -308,14 +308,9 @@ def refuse_motion(case: Case) -> None:
         raise SceneError(Status.UNSUPPORTED, said)
 
 
-def touches_profiles(case: Case) -> bool:
-    """Whether profiles give a contact of the case its place."""
-    return case.profiles is not None and bool(case.profiles.touches)
-
-
 def refuse_profiles(case: Case) -> None:
     """Refuse contacts that profiles give: no mode of their figure is known over a range."""
-    if touches_profiles(case):
+    if case.touches:
         raise SceneError(
             Status.UNSUPPORTED,
             "positions of equilibrium and their stability are not found where profiles give a contact. Write "

@@ -147,7 +147,7 @@ def topology(case: Case) -> Topology:
     """
     if case.space is not None:
         raise SceneError(Status.UNSUPPORTED, "this needs a planar case, and this one is in space.")
-    if case.profiles is not None and case.profiles.touches:
+    if case.touches:
         said = "this needs contacts whose `at` and `normal` are given, and here profiles give them."
         raise SceneError(Status.UNSUPPORTED, said)
     if case.unknowns:

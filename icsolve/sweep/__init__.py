@@ -94,7 +94,7 @@ def sweep(
     refuse_size(columns, wanted.asked, wanted.error)
     if dynamic and not any(given.speed is not None for given in case.motion):
         raise SceneError(Status.MOBILITY, NO_SPEED)
-    if case.profiles is not None and case.profiles.touches:
+    if case.touches:
         from icsolve.sweep.cam_sweep import sweep_touching
 
         return sweep_touching(case, columns, wanted, progress)

@@ -82,10 +82,7 @@ def _notes(case: Case, columns: Columns, table: Table) -> Iterator[str]:
     def where(row: int) -> str:
         return ", ".join(f"{columns.names[k]} = {float(a[row]):.6g}" for k, a in columns.arrays.items())
 
-    assert case.profiles is not None
-    found = {
-        touch.links: table.values.get(("touching", "-".join(touch.links))) for touch in case.profiles.touches
-    }
+    found = {touch.links: table.values.get(("touching", "-".join(touch.links))) for touch in case.touches}
     known = {links: array for links, array in found.items() if array is not None}
     for links, (_, _, angles, _) in ((links, array.T) for links, array in known.items()):
         if np.isfinite(angles).any():

@@ -279,7 +279,7 @@ def limits_of(case: Case, own: Sequence[str]) -> list[tuple[int, NumberLimit]]:
 
 def _one_by_one(case: Case) -> bool:
     """Whether more is in the case than the record of a figure and its loads tells."""
-    return bool(case.screws) or rubs(case) or (case.profiles is not None and bool(case.profiles.touches))
+    return bool(case.screws) or rubs(case) or bool(case.touches)
 
 
 def _columns(names: Sequence[str], columns: Sequence[npt.ArrayLike]) -> tuple[list[Array], int]:

@@ -33,7 +33,7 @@ from icsolve.numbers.units import found_number
 from icsolve.statics.load_wrenches import counted_about
 from icsolve.sweep.program import CompiledSweep, live_roots, roots_of
 from icsolve.sweep.varied_numbers import numbers_of, with_numbers
-from icsolve.tuples import replace
+from icsolve.tuples import cached_property, replace
 
 ADD, SUB, MUL = Op.ADD, Op.SUB, Op.MUL
 ZERO = Decimal("1e-40")
@@ -410,9 +410,9 @@ class RowScenes:
         self.directions = {own.path: (c, s) for own, c, s in record.directions.values()}
         self.numbers = {path: value for path, value in record.vary.items() if path.endswith("@")}
         self.springs = compiled.springs
-        self.spare = self._hanging_on_dead_roots()
 
-    def _hanging_on_dead_roots(self) -> frozenset[str]:
+    @cached_property
+    def spare(self) -> frozenset[str]:
         """The points and directions that need a branch which bears on nothing that is asked."""
         record = self.compiled.record
         dead = record.roots.keys() - {root.node for root in self.roots}

@@ -92,7 +92,7 @@ def find(
     if query.load not in {"", *(load.name for load in case.loads if is_unknown(load))}:
         known = ", ".join(load.name for load in case.loads if is_unknown(load))
         raise RequestError(f"{query.load} is no unknown load of this case ({known or 'which has none'})")
-    by_itself = rubs(case) or (case.profiles is not None and bool(case.profiles.touches))
+    by_itself = rubs(case) or bool(case.touches)
     start = None if by_itself else start_of(case, columns, RowRequest(dynamic=case.dynamic))
     if start is None or start.one_by_one or start.hides:
         return Scenes(case, columns, along, query).spots()
