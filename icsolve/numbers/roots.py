@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from decimal import Decimal
+from decimal import Decimal, localcontext
 from functools import cache
 from itertools import pairwise
 
@@ -115,6 +115,8 @@ CLOSED = Decimal("1e-45")
 MOST_ORDER = 6
 """No more than so many zeros lie where no bound tells them apart."""
 MOST_STEPS = 400
+ORDERS, SLOW = (1, 3, 5, 7), 8
+"""Zeros may be of these orders; which one is asked where so many steps are not a thousand times shorter."""
 POLE, GROWN = 1000, 30
 """Where places are so many times nearer to one another a function has grown by the second, at a pole."""
 
@@ -142,8 +144,9 @@ def slope(function: ExactFunction) -> ExactFunction:
 
 
 def closed_in(function: ExactFunction, low: Decimal, high: Decimal) -> Iterator[Decimal]:
-    """A change of sign between two places, closed in by false position (Illinois); none where the function
-    grows as the places close in, through a pole."""
+    """A change of sign between two places, closed in by false position (Illinois; of the values' cube roots,
+    fifth roots and so on where steps do not become shorter, as at a zero of such an order); none where the
+    function grows as the places close in, through a pole."""
     f, g = function(low), function(high)
     if not f:
         yield low
@@ -152,19 +155,52 @@ def closed_in(function: ExactFunction, low: Decimal, high: Decimal) -> Iterator[
     if not f * g < 0:
         return
     side, wide, size = 0, (high - low) / POLE, Decimal("Infinity")
-    for _ in range(MOST_STEPS):
+    at_low, at_high, order, first = f, g, 1, high - low
+    for step in range(1, MOST_STEPS + 1):
         at = high - g * (high - low) / (g - f)
         here = function(at)
         if here.is_nan():
             return
         if (here > 0) == (g > 0):
-            moved, (high, g), f, side = high - at, (at, here), f / 2 if side > 0 else f, 1
+            before = high, at_high
+            moved, high, at_high, f, side = high - at, at, here, f / 2 if side > 0 else f, 1
+            g = _root_of(here, order)
         else:
-            moved, (low, f), g, side = at - low, (at, here), g / 2 if side < 0 else g, -1
+            before = low, at_low
+            moved, low, at_low, g, side = at - low, at, here, g / 2 if side < 0 else g, -1
+            f = _root_of(here, order)
         if not here or min(moved, high - low) <= CLOSED:
             break
         if high - low <= wide:
-            if min(abs(f), abs(g)) > GROWN * size:
+            if min(abs(at_low), abs(at_high)) > GROWN * size:
                 return
-            wide, size = (high - low) / POLE, max(abs(f), abs(g))
+            wide, size = (high - low) / POLE, max(abs(at_low), abs(at_high))
+        if step % SLOW == 0:
+            if moved > first / POLE:
+                order, side = _order((low, at_low), (high, at_high), before), 0
+                f, g = _root_of(at_low, order), _root_of(at_high, order)
+            first = moved
     yield at
+
+
+Place = tuple[Decimal, Decimal]
+"""A place and the value there."""
+
+
+def _order(low: Place, high: Place, other: Place) -> int:
+    """The order of a zero: that of which the roots of the values at three places are nearest to a line."""
+
+    def bend(order: int) -> Decimal:
+        (a, f), (b, g), (c, h) = ((at, _root_of(value, order)) for at, value in (low, high, other))
+        return abs(f + (g - f) * (c - a) / (b - a) - h) / abs(h)
+
+    return min(ORDERS, key=bend)
+
+
+def _root_of(value: Decimal, order: int) -> Decimal:
+    """The real root of an odd order, to so many digits as a choice of the next place needs."""
+    if order == 1 or not value:
+        return value
+    with localcontext() as context:
+        context.prec = 40
+        return (abs(value) ** (Decimal(1) / order)).copy_sign(value)
