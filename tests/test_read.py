@@ -605,3 +605,15 @@ def test_a_solve_loads_nothing_of_what_its_case_does_not_ask() -> None:
     command = [sys.executable, "-c", code, unpublished]
     run = subprocess.run(command, capture_output=True, text=True, check=True)
     assert run.stdout == "[]\n"
+
+
+def test_an_accent_after_its_letter_is_the_same_name() -> None:
+    """As some editors and file systems write it (Unicode's form D); one name may be written both ways."""
+    text = (
+        "icsolve: 1\npoints: {\N{LATIN SMALL LETTER E WITH ACUTE}: [0, 0], B: [3, 1]}\n"
+        "joints: [{pin: [1, 2], at: e\N{COMBINING ACUTE ACCENT}}]\n"
+        "loads: {P: {force: 2, link: 2, at: B, angle: 90}, T: {torque: unknown, link: 2}}\n"
+    )
+    case = load(text)
+    assert [*case.points] == ["\N{LATIN SMALL LETTER E WITH ACUTE}", "B"]
+    assert solve(case).answers["T"].value == -6.0

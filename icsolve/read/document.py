@@ -108,7 +108,8 @@ def _foreign(code: int) -> str:
 
 
 def checked(text: str, problems: Problems) -> str:
-    """The text without its byte order mark.
+    """The text without its byte order mark, its letters in one character each: some editors write an accent
+    after its letter, and both are one name.
 
     Raises
     ------
@@ -118,6 +119,10 @@ def checked(text: str, problems: Problems) -> str:
     text = text.removeprefix("\ufeff")
     if len(text) > LARGEST:
         raise problems.stop((1, 1), f"the text is longer than {LARGEST} characters, too long for a case")
+    if not text.isascii():
+        from unicodedata import normalize
+
+        text = normalize("NFC", text)
     if text.translate(_SPACING).isprintable():
         return text
     found = re.search(_FOREIGN, text)
