@@ -36,6 +36,8 @@ else:
     refusals = LateModule("icsolve.assembly.refusals")
 
 __all__ = [
+    "LEFT_OUT",
+    "NOT_NEEDED",
     "Figure",
     "Frame",
     "Key",
@@ -81,6 +83,11 @@ def solve_figure(case: Case, wanted: Collection[str] | None = None) -> Figure:
     return construct(case, frame, goal, names)
 
 
+LEFT_OUT = "left out"
+"""How a note begins on what can't be placed and no answer needs."""
+NOT_NEEDED = f"{LEFT_OUT}, as nothing needs it: "
+
+
 def placed_figure(case: Case, wanted: Collection[str], needed: Collection[str]) -> Figure:
     """The figure with the wanted points that the data place; those that are ``needed`` have to be.
 
@@ -97,7 +104,7 @@ def placed_figure(case: Case, wanted: Collection[str], needed: Collection[str]) 
         try:
             solve_figure(case, [*placed, point])
         except SceneError as refusal:
-            notes.append(f"left out, as nothing needs it: {refusal.message}")
+            notes.append(f"{NOT_NEEDED}{refusal.message}")
         else:
             placed[point] = None
     figure = solve_figure(case, placed)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from icsolve.assembly import LEFT_OUT
 from icsolve.cli.commands import CASES, DIGITS, JOBS, JSON, SET, Verb
 from icsolve.cli.run import DONE, NO_ANSWER, complain, for_each, in_json, json_text, on_stderr, print_json
 from icsolve.report.check import (
@@ -50,14 +51,17 @@ def check_command(
     if as_table and not as_json:
         click.echo(HEADER)
 
-    def work(case: Case, path: str) -> tuple[str, list[str]]:
-        rows = _rows(case)
-        return shown(case, path, rows), [row.verdict for row in rows]
+    def work(case: Case, path: str) -> tuple[str, list[str], list[str]]:
+        rows, left_out = _rows(case)
+        aside = [f"{path}: {note}" for note in left_out] if shown is _table_row else []
+        return shown(case, path, rows, left_out), [row.verdict for row in rows], aside
 
-    def show(found: tuple[str, list[str]]) -> int:
-        text, verdicts = found
+    def show(found: tuple[str, list[str], list[str]]) -> int:
+        text, verdicts, aside = found
         tally.update((CASE_SEEN, *verdicts))
         click.echo(text)
+        for line in aside:
+            complain(line)
         return NO_ANSWER if DISAGREES in verdicts else DONE
 
     tell = in_json(CHECK, values=[]) if as_json else on_stderr
@@ -82,27 +86,38 @@ def validate_command(cases: tuple[str, ...], settings: dict[str, str]) -> int:
 CHECK = "icsolve/check/1"
 CASE_SEEN, UNANSWERED = "case", "without an answer"
 """What is counted beside verdicts."""
-Shown = Callable[["Case", str, list[Row]], str]
+Shown = Callable[["Case", str, list[Row], list[str]], str]
 
 
-def _rows(case: Case) -> list[Row]:
+def _rows(case: Case) -> tuple[list[Row], list[str]]:
+    """The values beside what is published, and notes on what none of them needs and can't be placed.
+
+    Raises SceneError also where a published value is of what can't be placed.
+    """
+    from icsolve.scene import examined
     from icsolve.solve import solve
 
-    return compare(solve(case, **wanted(case), examine=True))
+    answer = examined(case, solve, **wanted(case))
+    rows, left_out = compare(answer), [note for note in answer.notes if note.startswith(LEFT_OUT)]
+    if left_out and not all(row.found for row in rows):
+        rows = compare(solve(case, **wanted(case), examine=True))
+    return rows, left_out
 
 
-def _json(case: Case, path: str, rows: list[Row]) -> str:
-    values = [row._asdict() for row in rows]
-    return json_text({"schema": CHECK, "case": case.name, "status": "ok", "values": values})
+def _json(case: Case, path: str, rows: list[Row], left_out: list[str]) -> str:
+    told: dict[str, Any] = {"values": [row._asdict() for row in rows]}
+    if left_out:
+        told["notes"] = left_out
+    return json_text({"schema": CHECK, "case": case.name, "status": "ok", **told})
 
 
-def _table_row(case: Case, path: str, rows: list[Row]) -> str:
+def _table_row(case: Case, path: str, rows: list[Row], left_out: list[str]) -> str:
     return table_row(case, rows)
 
 
-def _lines(case: Case, path: str, rows: list[Row]) -> str:
-    lines = [f"{path}: {_line(row)}" for row in rows]
-    return "\n".join(lines) or f"{path}: solved; no published value to compare"
+def _lines(case: Case, path: str, rows: list[Row], left_out: list[str]) -> str:
+    lines = [f"{path}: {_line(row)}" for row in rows] or [f"{path}: solved; no published value to compare"]
+    return "\n".join((*lines, *(f"{path}: {note}" for note in left_out)))
 
 
 def _line(row: Row) -> str:

@@ -100,8 +100,9 @@ def _solved(case: Case, options: Options) -> tuple[Answer, Report | None]:
         answer = with_stability(case, answer, options.stability)
     if options.report:
         from icsolve.report.mechanism import report
+        from icsolve.scene import examined
 
-        told = report(solve(case, examine=True))
+        told = report(examined(case, solve))
     return answer, told
 
 

@@ -10,11 +10,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import suppress
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer
+from icsolve.assembly import NOT_NEEDED
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.balls import is_long
@@ -22,10 +24,13 @@ from icsolve.scene import refusals
 from icsolve.scene.parts import AnswerBuilder
 from icsolve.scene.program import EvaluatedScene, HeldAt, Want, evaluate_still, prepare
 from icsolve.statics.power import has_friction, is_unknown
-from icsolve.tuples import replace
+from icsolve.tuples import LateModule, replace
 
 if TYPE_CHECKING:
+    from icsolve.scene import needed_part
     from icsolve.statics.friction.standing import Standing
+else:  # where the whole is refused
+    needed_part = LateModule("icsolve.scene.needed_part")
 
 
 def solve_scene(
@@ -62,21 +67,45 @@ def solve_scene(
             from icsolve.scene.dynamics import solve_dynamic
 
             return solve_dynamic(case, solve_scene, **{**asked, "rates": True}, reactions=reactions)
-        asked_for = Want(all_centres, rates, examine, reactions, alone)
-        want, least = wanted(case, asked_for), wanted(case, asked_for, False)
-        try:
-            return _solved(case, want, bound, reactions)
-        except SceneError as refusal:
-            if want == least:
-                raise
-            answer = _solved(case, least, bound, reactions)
-            said = "" if refusal.status == Status.SLACK else UNEXAMINED
-            return replace(answer, notes=(*answer.notes, f"{said}{refusal.message}"))
+        return _answer(case, Want(all_centres, rates, examine, reactions, alone), bound)
     except SceneError as refusal:
         if not case.noticed or refusal.status not in MISTAKEN or NOTICED in refusal.message:
             raise
         said = f"{refusal.message.rstrip('.')}.{NOTICED}{' '.join(case.noticed)}"
         raise SceneError(refusal.status, said, refusal.more) from None
+
+
+def examined(case: Case, solve: Callable[..., Answer] = solve_scene, **asked: bool) -> Answer:
+    """The answer with all of the figure that can be placed; a note on what nothing needs and can't.
+
+    Raises SceneError where what the answer needs has none.
+    """
+    try:
+        return solve(case, **asked, examine=True)
+    except SceneError as refusal:
+        answer = solve(case, **asked)
+        if any(refusal.message in note for note in answer.notes):
+            return answer
+        return replace(answer, notes=(*answer.notes, f"{NOT_NEEDED}{refusal.message}"))
+
+
+def _answer(case: Case, asked: Want, bound: bool) -> Answer:
+    """The answer; where all that is asked is refused, without links that it does not need, or without what
+    is said of contacts."""
+    want, least = wanted(case, asked), wanted(case, asked, False)
+    try:
+        return _solved(case, want, bound, asked.bodies)
+    except SceneError as refusal:
+        if want.everything and not want.examine:
+            with suppress(SceneError):
+                part, left_out = needed_part.without_spare_links(case, refusal)
+                answer = _solved(part, want, bound, asked.bodies)
+                return replace(answer, notes=(*answer.notes, left_out))
+        if want == least:
+            raise
+        answer = _solved(case, least, bound, asked.bodies)
+        said = "" if refusal.status == Status.SLACK else UNEXAMINED
+        return replace(answer, notes=(*answer.notes, f"{said}{refusal.message}"))
 
 
 def solve_by_power(case: Case, *, rates: bool = False) -> Answer:

@@ -132,8 +132,8 @@ def attempt(case: Case, *, reactions: bool = False) -> Attempt:
     want = wanted(case, Want(True, True, False, reactions))
     try:
         parts = balanced(AnswerBuilder(EvaluatedScene(prepare(case, want), certain=True)))
-    except SceneError:  # of a link or point that the answer does not need, it may be
-        return _tried(case, reactions)
+    except SceneError as refusal:  # of a link or point that the answer does not need, it may be
+        return _of_needed_part(case, refusal, reactions)
     try:
         return Attempt(_judged(judged(parts, reactions), case), None, parts)
     except SceneError as refusal:
@@ -144,6 +144,21 @@ def attempt(case: Case, *, reactions: bool = False) -> Attempt:
         return Attempt(_judged(judged(parts, False), case), None, parts)
     except SceneError as refusal:
         return Attempt(None, refusal, parts)
+
+
+def _of_needed_part(case: Case, refusal: SceneError, reactions: bool) -> Attempt:
+    """What is found of a case of which not all can be solved."""
+    from icsolve.scene.needed_part import without_spare_links
+
+    try:
+        part, left_out = without_spare_links(case, refusal)
+    except SceneError:
+        return _tried(case, reactions)
+    found = attempt(part, reactions=reactions)
+    if found.answer is None:
+        return _tried(case, reactions)
+    answer = found.answer
+    return found._replace(answer=replace(answer, notes=(*answer.notes, left_out)))
 
 
 def _tried(case: Case, reactions: bool, **more: bool) -> Attempt:

@@ -19,6 +19,7 @@ from icsolve.case import Case, refuse_no_case
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import NO_SPEED
 from icsolve.numbers.replay import Array
+from icsolve.scene.needed_part import left_out_of, needed_part, posed_by
 from icsolve.scene.refusals import rubs
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.record_runner import Progress
@@ -38,9 +39,12 @@ from icsolve.sweep.starting_position import Start, start_of
 from icsolve.sweep.table import CODE, Sweep, Table
 from icsolve.sweep.varied_numbers import refuse_space
 from icsolve.tuples import replace
+from icsolve.wording import plural
 
 __all__ = ["Sweep", "sweep"]
 
+CaseOf = Callable[[int], Case]
+"""The case of a row, by its index."""
 BY_SCENES = "each row is solved as a scene of its own."
 
 
@@ -111,7 +115,9 @@ def _together(start: Start, columns: Columns, wanted: SweepRequest, progress: Pr
     """All rows by one record."""
     work = SweepRun(start, columns, wanted.error, progress)
     work.run()
-    found = work.table.sweep(start.case, _shown(columns), wanted.error, tuple(work.notes), work.case_of)
+    left_out, case_of = _without_spare_links(work.table, start, columns, wanted, work.case_of)
+    notes = (*work.notes, *left_out)
+    found = work.table.sweep(start.case, _shown(columns), wanted.error, notes, case_of)
     if wanted.asked.rates or not found.rates:
         return found
     return replace(found, rates={}, errors={**found.errors, "rates": {}})
@@ -137,7 +143,48 @@ def _by_scenes(start: Start, columns: Columns, wanted: SweepRequest, progress: P
     places = [("points", p) for p in wanted.asked.points]  # a spare point may have none
     table.values |= {key: work.values[key] for key in places if key in work.values}
     by_scenes(table, np.flatnonzero(table.codes == 0).tolist(), work.case_of, progress)
-    return table.sweep(start.case, _shown(columns), wanted.error, (*work.notes, BY_SCENES), work.case_of)
+    left_out, case_of = _without_spare_links(table, start, columns, wanted, work.case_of)
+    notes = (*work.notes, BY_SCENES, *left_out)
+    return table.sweep(start.case, _shown(columns), wanted.error, notes, case_of)
+
+
+def _without_spare_links(
+    table: Table, start: Start, columns: Columns, wanted: SweepRequest, case_of: CaseOf
+) -> tuple[tuple[str, ...], CaseOf]:
+    """Fill in the rows that have no answer as they are, but have one without links that it does not need; a
+    note on these, and the case of a row."""
+    case, refused = start.setting.case, np.flatnonzero((table.codes != 0) & (table.codes != CODE["holds"]))
+    if not refused.size:
+        return (), case_of
+    try:
+        held = {link for path in start.paths for link in posed_by(case, path)}
+        part = needed_part(case, {*start.links, *held, *(case.inertia if wanted.asked.dynamic else ())})
+        if part is None:
+            return (), case_of
+        found = _of_rows(part, columns, refused, wanted)
+        rows = refused[found.codes == 0]
+        if not rows.size:
+            return (), case_of
+        found = found if len(rows) == len(refused) else _of_rows(part, columns, rows, wanted)
+    except SceneError:
+        return (), case_of
+    table.take(rows, found)
+    number = {row: n for n, row in enumerate(rows.tolist())}
+    note = f"{left_out_of(case, part)}, in {plural(len(rows), 'row')}"
+    return (note,), lambda row: found.case_of(number[row]) if row in number else case_of(row)
+
+
+def _of_rows(
+    case: Case,
+    columns: Columns,
+    rows: npt.NDArray[np.intp],
+    wanted: SweepRequest,
+    progress: Progress | None = None,
+) -> Sweep:
+    """Some rows, by their indices (n,), as a sweep of another case."""
+    vary = {path: array[rows] for path, array in columns.paths.items()}
+    drive = {link: array[rows] for link, array in columns.links.items()}
+    return sweep(case, vary, wanted.words, drive=drive, dynamic=wanted.asked.dynamic, progress=progress)
 
 
 def _family(start: Start, columns: Columns, wanted: SweepRequest, progress: Progress | None) -> Sweep:
@@ -155,11 +202,9 @@ def _family(start: Start, columns: Columns, wanted: SweepRequest, progress: Prog
         if not moving and not columns.links:
             by_scenes(table, rows.tolist(), case_of, progress)
             continue
-        vary = {path: columns.paths[path][rows] for path in moving}
-        drive = {link: array[rows] for link, array in columns.links.items()}
+        moved = columns._replace(paths={path: columns.paths[path] for path in moving})
         try:
-            dynamic = wanted.asked.dynamic
-            part = sweep(case, vary, wanted.words, drive=drive, dynamic=dynamic, progress=progress)
+            part = _of_rows(case, moved, rows, wanted, progress)
         except SceneError as error:
             table.codes[rows] = CODE.get(error.status, CODE[Status.NEAR_SINGULAR])
             continue

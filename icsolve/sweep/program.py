@@ -26,6 +26,7 @@ from icsolve.numbers import FLOATS, Scalar
 from icsolve.numbers.adjoint import BoundedRecord
 from icsolve.numbers.record import Record, Root, Traced, live, varies
 from icsolve.scene import refusals
+from icsolve.scene.needed_part import posed_by, without_spare_links
 from icsolve.screws import Point
 from icsolve.screws.ropes import part_rooms
 from icsolve.statics.load_wrenches import counted_about, points_of, spring_angle
@@ -100,6 +101,8 @@ class Setting(NamedTuple):
     links: tuple[str, ...]
     drive: Drive
     first: list[Mechanism] | None = None
+    left_out: str = ""
+    """the note on links that neither the answer nor what is varied needs, and that are not in the case"""
 
     @property
     def moves(self) -> bool:
@@ -190,6 +193,19 @@ def setting_of(case: Case, paths: Sequence[str], links: Sequence[str], *, posing
     no figure, or cannot be moved so.
     """
     own = tuple(find_number(case, path).path for path in paths)
+    try:
+        return _as_written(case, own, links, posing)
+    except SceneError as refusal:
+        held = {link for path in own for link in posed_by(case, path)}
+        part, left_out = without_spare_links(case, refusal, (*links, *held))
+        try:
+            return _as_written(part, own, links, posing)._replace(left_out=left_out)
+        except SceneError:
+            raise refusal from None
+
+
+def _as_written(case: Case, own: tuple[str, ...], links: Sequence[str], posing: bool) -> Setting:
+    """The setting of a case of which every link has its place."""
     top = topology(case)
     refusals.refuse_loose(case)
     figure = placed_figure(case, *wanted_points(case))
@@ -480,7 +496,8 @@ def _outputs(
         out |= {("terms", load): (factor,) for load, factor in unit_powers(scene, found)}
     out |= _in_motion(scene, asked, found)
     if asked.centres:
-        told = centres(scene, found.motions, asked.centres)
+        there = [pair for pair in asked.centres if {*pair} <= {*scene.case.links}]
+        told = centres(scene, found.motions, there)
         out |= {("centres", pair_name(scene.case, pair)): triple for pair, triple in told}
     if asked.contacts and found.answers:
         normals = pressing(scene, found, asked.contacts).contacts

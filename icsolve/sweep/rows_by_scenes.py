@@ -18,7 +18,7 @@ from icsolve.case import Case, is_named
 from icsolve.errors import SceneError, Status
 from icsolve.files import can_fork, started
 from icsolve.numbers.replay import Array
-from icsolve.scene import solve_scene
+from icsolve.scene import examined, solve_scene
 from icsolve.screws import Point
 from icsolve.sweep.program import wanted_points
 from icsolve.sweep.record_runner import Progress, Rows
@@ -66,11 +66,11 @@ def _one(table: Table, row: int, case_of: Callable[[int], Case], missing: bool) 
             rates, dynamic = table.lacks(row), asked.dynamic
             answer = solve_scene(case, rates=rates, all_centres=centres, dynamic=dynamic, alone=True)
         else:
-            answer = solve_scene(
+            solved = examined if asked.points else solve_scene
+            answer = solved(
                 case,
                 rates=asked.rates or asked.velocities,
                 all_centres=bool(asked.centres),
-                examine=bool(asked.points),
                 dynamic=asked.dynamic,
                 alone=True,
             )

@@ -161,7 +161,7 @@ def _told(case: Case, found: Attempt, centres: bool) -> Known:
         pass
     if whole is not None and centres:
         len(whole.centres)
-    asked = None if own.joints == case.joints else case
+    asked = case if case.touches and own.joints != case.joints else None
     return Known(own, found.answer, found.refusal, whole, points, twists, _size(points), given=asked)
 
 

@@ -1,0 +1,101 @@
+"""The part of a mechanism that its answer needs: links that hang on it and hold nothing of it, as a passive
+dyad, may be left out, and are where they cannot be placed or have no motion.
+
+A group of links that adds no freedom takes none either: what moves beside it moves as if it were not there
+(L. V. Assur, 1914). So the links that the plan of the answer leaves out are left out together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from icsolve.assembly import LEFT_OUT
+from icsolve.assembly.workspace import CORNER, LENGTH, RAY, data_of, number_of
+from icsolve.case import Case, Coordinates
+from icsolve.errors import SceneError
+from icsolve.statics import load_wrenches
+from icsolve.statics.power import has_number, is_unknown
+from icsolve.structure import Topology, topology
+from icsolve.structure.plan import make_plan
+from icsolve.tuples import replace
+from icsolve.wording import listed
+
+
+def needed_part(case: Case, beside: Collection[str] = ()) -> Case | None:
+    """The case without the links that neither its answer needs nor ``beside`` names; None where it needs
+    them all, or counting does not show that the others hold nothing of it.
+
+    The data of the figure stay: points are placed by those of other links too.
+    """
+    asks = case.unknowns or any(map(is_unknown, case.loads))
+    if not asks or not any(map(has_number, case.loads)):  # what is asked is how all of it moves
+        return None
+    if case.space is not None or case.touches or case.ropes or case.screws:
+        return None
+    top = topology(replace(case, unknowns=()) if case.unknowns else case)
+    beside = {*beside}.union(*(posed_by(case, unknown.path) for unknown in case.unknowns))
+    wanted = {*load_wrenches.moving_links(case), *beside, *(case.inertia if case.dynamic else ())}
+    kept = _planned(top, {top.body_of[link] for link in wanted})
+    if kept is None or len(kept) == len(top.members):
+        return None
+    links = tuple(link for link in case.links if top.body_of[link] in kept)
+    return replace(
+        case,
+        links=links,
+        joints=tuple(joint for joint in case.joints if {*joint.links} <= {*links}),
+        carries={link: points for link, points in case.carries.items() if link in links},
+        inertia={link: mass for link, mass in case.inertia.items() if link in links},
+    )
+
+
+def _planned(top: Topology, wanted: set[int]) -> frozenset[int] | None:
+    """The bodies that a plan of the wanted ones needs, and those that carry its gears."""
+    while True:
+        plan = make_plan(top, wanted)
+        if plan is None or not plan.closed:
+            return None
+        carriers = {top.bonds[k].carrier for k in plan.bonds if top.bonds[k].pivots} - plan.bodies
+        if not carriers:
+            return plan.bodies
+        wanted |= carriers
+
+
+def posed_by(case: Case, path: str) -> set[str]:
+    """The links that a datum of the figure may pose: those that a coordinate, a direction or an angle places,
+    and those at the ends of a length that is of no link; none of a number that only shapes a link."""
+    datum = next((datum for datum in data_of(case) if number_of(case, datum).path == path), None)
+    if datum is None:  # a coordinate that is to be found has none yet
+        open_ = [
+            f"points.{name}" for name, at in case.points.items() if isinstance(at, Coordinates) and None in at
+        ]
+        ends = {path.split(".")[1]} if path.rpartition(".")[0] in open_ else set()
+    else:
+        ends = {*datum.points}
+    held = {link: len(ends & {*points}) for link, points in case.carries.items()}
+    if datum is not None and datum.kind in (LENGTH, CORNER) and len(ends) in held.values():
+        return set()
+    turns = datum is not None and datum.kind in (RAY, CORNER)
+    return {link for link, count in held.items() if count > turns}
+
+
+def without_spare_links(case: Case, refusal: SceneError, beside: Collection[str] = ()) -> tuple[Case, str]:
+    """The part of a case that its answer needs (see `needed_part`), where the whole is refused, and the note
+    on what was left out. Raises the refusal where there is no such part."""
+    try:
+        part = needed_part(case, beside)
+    except SceneError:
+        raise refusal from None
+    if part is None:
+        raise refusal
+    return part, f"{left_out_of(case, part)}: {refusal.message}"
+
+
+def left_out_of(case: Case, part: Case) -> str:
+    """The words on the links that a part of a case is without."""
+    links = [link for link in case.links if link not in part.links]
+    which = (
+        f"link {links[0]}, as nothing needs it"
+        if len(links) == 1
+        else f"links {listed(links)}, as nothing needs them"
+    )
+    return f"{LEFT_OUT}: {which}"

@@ -1,0 +1,255 @@
+"""Links that hang on a mechanism and hold nothing of it change no answer, whatever becomes of them: a passive
+dyad that does not reach, whose data are too few or contradict one another, or that is stretched. What `solve`
+answers, all the other commands answer too (L. V. Assur's groups: one that adds no freedom takes none).
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from random import Random
+
+import numpy as np
+import pytest
+
+import icsolve as library
+from icsolve.errors import SceneError
+from icsolve.scene.needed_part import needed_part
+from shell import Shell
+from sizes import few
+
+
+@pytest.fixture
+def icsolve(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Shell:
+    monkeypatch.chdir(tmp_path)
+    return Shell(capsys)
+
+
+MECHANISM = """icsolve: 1
+units: {{length: mm}}
+points: {{A: [0, 0], D: [40, 0], G: [{gx}, {gy}]}}
+lengths: {{AB: {a}, BC: {b}, CD: {c}, DE: {e}, CE: {ce}{lengths}}}
+angles: {{AB: 60{angles}}}
+near: {{C: [35, 25], E: [55, 12]{near}}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}{joints}
+links: {{4: [E]}}
+loads:
+  P: {{force: 100, link: 4, at: E, angle: {angle}}}
+  T: {{torque: unknown, link: 2}}
+"""
+DYAD = "\n  - {pin: [4, 5], at: E}\n  - {pin: [5, 6], at: F}\n  - {pin: [6, 1], at: G}"
+SLIDER = (
+    "\n  - {pin: [4, 5], at: E}\n  - {pin: [5, 6], at: F}\n  - {slide: [6, 1], at: F, along: 0, through: G}"
+)
+SECOND = "\n  - {pin: [5, 7], at: H}\n  - {pin: [7, 8], at: K}\n  - {pin: [8, 1], at: A}"
+SPARE = {
+    "too short": {"lengths": ", EF: 1, FG: 20", "near": ", F: [85, 17]", "joints": DYAD},
+    "a length is missing": {"lengths": ", EF: 20", "near": ", F: [70, 5]", "joints": DYAD},
+    "two places, and no near": {"lengths": ", EF: 70, FG: 70", "joints": DYAD},
+    "contradictory": {
+        "lengths": ", EF: 70, FG: 70",
+        "angles": ", EFG: 150",
+        "near": ", F: [70, 5]",
+        "joints": DYAD,
+    },
+    "a slider out of reach": {"lengths": ", EF: 1", "near": ", F: [70, 5]", "joints": SLIDER},
+    "on a dyad that reaches one that does not": {
+        "lengths": ", EF: 70, FG: 70, EH: 10, FH: 75, HK: 1, AK: 1",
+        "near": ", F: [80, 60], H: [60, 30], K: [20, 90]",
+        "joints": DYAD + SECOND,
+    },
+    "on a dyad that does not reach another": {
+        "lengths": ", EF: 1, FG: 1, EH: 10, FH: 10, HK: 80, AK: 80",
+        "near": ", F: [80, 60], H: [60, 30], K: [20, 90]",
+        "joints": DYAD + SECOND,
+    },
+}
+
+
+def drawn(seed: int) -> dict[str, object]:
+    """The numbers of a four-bar that assembles at all angles of its crank."""
+    rng = Random(seed)
+    number = rng.uniform
+    numbers = {"a": number(8, 12), "b": number(33, 37), "c": number(24, 28), "e": number(14, 18)}
+    numbers |= {"ce": number(22, 28), "angle": number(0, 360), "gx": number(80, 95), "gy": number(-5, 5)}
+    return {name: round(value, 2) for name, value in numbers.items()}
+
+
+def texts(seed: int, kind: str) -> tuple[str, str]:
+    """A mechanism with spare links, and the same without them."""
+    bare = dict.fromkeys(("lengths", "angles", "near", "joints"), "")
+    return MECHANISM.format(**drawn(seed), **{**bare, **SPARE[kind]}), MECHANISM.format(**drawn(seed), **bare)
+
+
+SEEDS = range(few(12))
+
+
+@pytest.fixture(params=[(seed, kind) for kind in SPARE for seed in SEEDS], ids=lambda at: f"{at[1]} {at[0]}")
+def pair(request: pytest.FixtureRequest) -> tuple[str, str]:
+    return texts(*request.param)
+
+
+def test_every_way_to_ask_gives_the_answer_of_the_mechanism_alone(pair: tuple[str, str]) -> None:
+    """Equal to the last digit: the same steps lead to them."""
+    case, alone = map(library.load, pair)
+    told = library.solve(alone).answers["T"]
+    for asked in ({}, {"rates": True}, {"all_centres": True}, {"reactions": True}):
+        found = library.solve(case, **asked)
+        assert found.answers["T"].value == told.value
+        assert not asked or any(note.startswith("left out: link") for note in found.notes)
+        for link, rate in (library.solve(alone, **asked).rates or {}).items():
+            assert found.rates[link] == rate
+
+
+def test_rows_are_those_of_the_mechanism_alone(pair: tuple[str, str]) -> None:
+    case, alone = map(library.load, pair)
+    turns = np.array([0.0, 37.0, 122.0, 245.0])
+    for vary in ({"angles.AB": 60.0 + turns}, {"lengths.BC": 34.0 + turns / 200}, {"loads.P": turns}):
+        found, told = library.sweep(case, vary), library.sweep(alone, vary)
+        assert [*map(str, found.status)] == [*map(str, told.status)] == ["ok"] * 4
+        assert np.allclose(found.answers["T"], told.answers["T"], rtol=1e-12, atol=0.0)
+    found = library.sweep(case, drive={"2": turns}, want=("answers", "rates", "points"))
+    told = library.sweep(alone, drive={"2": turns}, want=("answers", "rates", "points"))
+    assert np.allclose(found.answers["T"], told.answers["T"], rtol=1e-12, atol=0.0)
+    assert np.allclose(found.rates["4"], told.rates["4"], rtol=1e-12, atol=0.0)
+    calls = [library.evaluator(of, ("angles.AB", "loads.P"))(60.0 + turns, 50.0) for of in (case, alone)]
+    assert np.allclose(*(call.answers["T"] for call in calls), rtol=1e-12, atol=0.0)
+
+
+def test_every_command_answers(icsolve: Shell, pair: tuple[str, str]) -> None:
+    value = library.solve(library.load(pair[1])).answers["T"].value
+    Path("m.yaml").write_text(pair[0] + f"expect: {{T: {value:.6g}}}\n")
+    ran = icsolve("check", "--json", "m.yaml")
+    (told,) = ran.objects()
+    assert (ran.code, told["values"][0]["verdict"]) == (0, "agrees")
+    assert icsolve("validate", "m.yaml").code == 1
+    assert str(abs(value))[:4] in icsolve("explain", "m.yaml").out
+    for command in (
+        ("draw", "m.yaml", "-o", "m.svg"),
+        ("page", "m.yaml", "-o", "m.html"),
+        ("solve", "m.yaml", "--report"),
+        ("export", "moodle-xml", "m.yaml", "-o", "m.xml"),
+        ("sweep", "m.yaml", "--vary", "angles.AB=60:90:10", "--plot", "m-plot.svg"),
+    ):
+        assert icsolve(*command).code == 0, command
+    model = json.loads(Path("m.html").read_text().split('id="data">')[1].split("</script>")[0])
+    assert model["answers"]
+    places = [
+        icsolve("sweep", name, "--vary", "angles.AB=0:350:10", "--find", "T=0").out
+        for name in ("m.yaml", "alone.yaml")
+        if Path("alone.yaml").write_text(pair[1])
+    ]
+    assert places[0] == places[1] != ""
+
+
+TRIAD = """
+  - {pin: [4, 5], at: E}
+  - {pin: [5, 6], at: F}
+  - {pin: [6, 7], at: H}
+  - {pin: [7, 1], at: G}
+  - {pin: [6, 8], at: K}
+  - {pin: [8, 1], at: A}"""
+REACHING = {
+    "a dyad": {"lengths": ", EF: 22, FG: 19", "near": ", F: [75, 10]", "joints": DYAD},
+    "a triad, by Newton's method": {
+        "lengths": ", EF: 20, FH: 12, HK: 10, FK: 9, GH: 15, AK: 79",
+        "near": ", F: [73, 12], H: [82, 10], K: [78, 3]",
+        "joints": TRIAD,
+    },
+}
+
+
+@pytest.mark.parametrize("kind", REACHING)
+@pytest.mark.parametrize("seed", range(few(9)))
+def test_rows_in_which_spare_links_do_not_reach_have_the_answer_of_their_scene(seed: int, kind: str) -> None:
+    """They reach in the position as written, and not all round; the links that move have their rates."""
+    bare = dict.fromkeys(("lengths", "angles", "near", "joints"), "")
+    case = library.load(MECHANISM.format(**drawn(seed), **{**bare, **REACHING[kind]}))
+    alone = library.load(MECHANISM.format(**drawn(seed), **bare))
+    assert library.solve(case, examine=True).points.keys() >= {"F", "G"}
+    turns = np.arange(0.0, 360.0, 24.0)
+    for want in (("answers",), ("answers", "points.C"), ("answers", "rates", "points", "centres")):
+        found, told = (
+            library.sweep(case, drive={"2": turns}, want=want),
+            library.sweep(alone, drive={"2": turns}, want=want),
+        )
+        assert {*found.status} == {*told.status} == {"ok"}
+        for kind_of, arrays in told.kinds.items():
+            for name, array in arrays.items():
+                mine = found.kinds[kind_of][name]
+                if kind_of == "centres":  # triples, of which the size says nothing
+                    assert np.allclose(np.cross(mine, array), 0.0, atol=1e-9 * np.abs(array).max())
+                else:
+                    assert np.allclose(mine, array, rtol=1e-9, atol=1e-9), (want, name)
+    reached = np.isfinite(found.points["F"][:, 0])
+    assert reached.any() and not reached.all()
+    assert np.array_equal(reached, np.isfinite(found.rates["5"]))
+    assert any("left out: links 5" in note for note in found.notes)
+    rows = np.flatnonzero(~reached)[:2]
+    for row in rows.tolist():
+        scene = library.solve(found.case_of(row), rates=True)
+        assert math.isclose(scene.answers["T"].value, found.answers["T"][row], rel_tol=1e-12)
+
+
+def test_a_position_of_rest_is_found_beside_spare_links() -> None:
+    for kind in SPARE:
+        both = [
+            library.solve(
+                library.load(text.replace("AB: 60", "AB: unknown").replace("torque: unknown", "torque: 0"))
+            )
+            for text in texts(0, kind)
+        ]
+        assert len(both[0].positions) == len(both[1].positions) > 0
+        for one, other in zip(*(answer.positions for answer in both), strict=True):
+            assert math.isclose(one.at["angles.AB"], other.at["angles.AB"], rel_tol=1e-12)
+
+
+def test_what_is_asked_of_a_spare_link_is_refused() -> None:
+    """A load on it, a motion of it, its drive: then it is needed."""
+    text, _ = texts(0, "too short")
+    on_it = text.replace("T: {torque", "M: {torque: 5, link: 6}\n  T: {torque")
+    with pytest.raises(SceneError, match="cannot meet at F"):
+        library.solve(library.load(on_it))
+    with pytest.raises(SceneError, match="cannot meet at F"):
+        library.sweep(library.load(text), drive={"6": [1.0, 2.0]})
+    assert needed_part(library.load(on_it)) is None
+
+
+def test_a_published_value_of_a_spare_link_has_no_answer(icsolve: Shell) -> None:
+    text, _ = texts(0, "too short")
+    Path("m.yaml").write_text(text + "expect: {w6/w2: 0.5}\n")
+    ran = icsolve("check", "m.yaml")
+    assert ran.code == 1
+    assert "cannot meet at F" in ran.err
+
+
+def test_rows_in_which_the_spare_links_assemble_have_them() -> None:
+    """Where another figure in each row is asked for with its points, each is as `solve` finds it."""
+    text, _ = texts(0, "too short")
+    found = library.sweep(
+        library.load(text), {"lengths.EF": [1.0, 40.0]}, want=("answers", "points", "rates")
+    )
+    assert [*map(str, found.status)] == ["ok", "ok"]
+    assert np.isfinite(found.points["F"][:, 0]).tolist() == [False, True]
+    assert found.answers["T"][0] == found.answers["T"][1]
+
+
+def test_of_a_mechanism_without_a_load_to_find_nothing_is_left_out() -> None:
+    """What is asked is how all of it moves."""
+    for kind in ("too short", "contradictory"):
+        text, _ = texts(0, kind)
+        for loads in (
+            "loads: {}",
+            "loads: {T: {torque: unknown, link: 2}}",
+            "loads: {T: {torque: 3, link: 2}}",
+        ):
+            case = library.load(text.split("loads:")[0] + loads)
+            with pytest.raises(SceneError):
+                library.solve(case)
+            with pytest.raises(SceneError):
+                library.sweep(case, drive={"2": [1.0, 2.0]}, want=("rates",))
