@@ -170,7 +170,8 @@ def test_a_contact_that_would_have_to_pull_is_told_whatever_is_asked(push: str, 
 
 
 def test_a_contact_is_looked_at_only_where_the_rest_of_the_scene_can_be_built() -> None:
-    """A rod that the answer does not need, and that does not reach, is no reason to refuse the lever."""
+    """A rod that the answer does not need, and that does not reach, is no reason to refuse the lever; and
+    no reason not to look whether its contacts push."""
     far = LEVER.format("-100", "unknown").replace("H: [1, 0]", "H: [1, 0], Q: [9, 9], S: {on: [Q, 20]}")
     far = far.replace(
         "loads:", "  - {pin: [2, 7], at: H}\n  - {pin: [7, 8], at: R}\n  - {pin: [8, 1], at: Q}\nloads:"
@@ -178,7 +179,9 @@ def test_a_contact_is_looked_at_only_where_the_rest_of_the_scene_can_be_built() 
     far = far.replace(", S: {on: [Q, 20]}", "").replace("loads:", "lengths: {HR: 1, RQ: 1}\nloads:")
     answer = icsolve.solve(icsolve.load(far))
     assert answer.answers["U"].value == pytest.approx(50.0, rel=1e-15)
-    assert any("whether its contacts have to pull was not examined" in note for note in answer.notes)
+    assert any(note.startswith("left out: links 7 and 8, as nothing needs them") for note in answer.notes)
+    pulled = icsolve.solve(icsolve.load(far.replace("-100", "100")))
+    assert any("is lost" in note for note in pulled.notes)
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import math
+from itertools import permutations
 from pathlib import Path
 from random import Random
 
@@ -253,3 +254,75 @@ def test_of_a_mechanism_without_a_load_to_find_nothing_is_left_out() -> None:
                 library.solve(case)
             with pytest.raises(SceneError):
                 library.sweep(case, drive={"2": [1.0, 2.0]}, want=("rates",))
+
+
+@pytest.mark.parametrize("kind", SPARE)
+def test_with_friction_too(kind: str) -> None:
+    """Links without a place press nothing: with friction at two pins the range, at rest, and the value in
+    motion are those of the mechanism alone."""
+    found = []
+    for text in texts(1, kind):
+        rubs = text.replace("[2, 3], at: B}", "[2, 3], at: B, mu: 0.2, radius: 2}")
+        rubs = rubs.replace("[4, 1], at: D}", "[4, 1], at: D, mu: 0.15, radius: 3}")
+        at_rest, moving = (
+            library.solve(library.load(rubs + m)) for m in ("", "motion: {link: 2, speed: 1}\n")
+        )
+        found.append((at_rest.answers["T"].holds, moving.answers["T"].value))
+    assert found[0] == found[1]
+
+
+def test_a_belt_that_no_answer_needs_is_left_in_where_pins_rub() -> None:
+    """Its tension presses them, though it does no work."""
+    bare = {"lengths": ", BM: 20, CM: 20", "angles": "", "near": ", M: [20, 30]"}
+    text = MECHANISM.format(
+        **drawn(0), **bare, joints="\n  - {pin: [3, 5], at: M}\n  - {belt: [5, 4], radii: [3, 3]}"
+    )
+    text = text.replace("links: {4: [E]}", "links: {4: [E], 3: [M]}")
+    assert needed_part(library.load(text)) is not None
+    assert (
+        needed_part(library.load(text.replace("[2, 3], at: B}", "[2, 3], at: B, mu: 0.2, radius: 2}")))
+        is None
+    )
+
+
+STRETCHED = """icsolve: 1
+points: {A: [0, 0], B: [0, 2], C: [5, 3], D: [4, 0], E: [6, 1], F: [8, 1], G: [9, 1]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 1], at: D}
+  - {pin: [4, 5], at: E}
+  - {pin: [5, 6], at: F}
+  - {pin: [6, 1], at: G}
+links: {4: [E]}
+loads: {P: {force: 10, link: 4, at: E, angle: 200}, T: {torque: unknown, link: 2}}
+"""
+
+
+def test_a_stretched_dyad_is_told_where_all_is_looked_at(icsolve: Shell) -> None:
+    """It does no work, and what the answer does not need is not looked at; but it holds what it hangs on."""
+    case = library.load(STRETCHED)
+    value = library.solve(case).answers["T"].value
+    assert library.solve(case, rates=True).answers["T"].value == value
+    assert any("stands still" in note for note in library.solve(case, rates=True).notes)
+    for asked in ({"reactions": True}, {"examine": True}):
+        with pytest.raises(SceneError, match="stands still"):
+            library.solve(case, **asked)
+    Path("m.yaml").write_text(STRETCHED)
+    assert icsolve("validate", "m.yaml").code == 1
+
+
+@pytest.mark.parametrize("links", [*permutations("345")])
+def test_the_order_in_which_a_pin_names_its_links_decides_nothing(links: tuple[str, ...]) -> None:
+    """One of the three is of a spare dyad; those that are left stay joined."""
+    text, alone = texts(0, "too short")
+    text = text.replace("  - {pin: [4, 5], at: E}\n", "").replace("EF: 1", "CF: 1")
+    case = library.load(text.replace("{pin: [3, 4], at: C}", f"{{pin: [{', '.join(links)}], at: C}}"))
+    part = needed_part(case)
+    assert part is not None
+    assert [{*joint.links} for joint in part.joints if joint.at == "C"] == [{"3", "4"}]
+    assert library.solve(case).answers["T"].value == library.solve(library.load(alone)).answers["T"].value
+    turns = [0.0, 50.0, 130.0]
+    both = [library.sweep(one, drive={"2": turns}).answers["T"] for one in (case, library.load(alone))]
+    assert np.allclose(*both, rtol=1e-12)

@@ -1179,11 +1179,13 @@ def test_a_changed_mechanism_stops_where_its_links_do_not_meet(kind: Any, seed: 
     degrees = [first + motion["step"] * n for n in some]
     found = page.run(TURN.replace("status];", "status, document.getElementById('hint').textContent];"),
                      "loads.P", "17", degrees)  # fmt: skip
+    case = icsolve.load(text)
     rows = icsolve.sweep(icsolve.load(text, {"loads.P": "17"}), drive={motion["driver"]: degrees})
     for n, (value, status, hint) in enumerate(found):
         if "do not meet" in hint:
-            beside = icsolve.sweep(icsolve.load(text), drive={motion["driver"]: degrees[n] + OFF})
-            assert set(beside.status) != {"ok"}, degrees[n]
+            beside = icsolve.sweep(case, want=("status", "rates"), drive={motion["driver"]: degrees[n] + OFF})
+            left_out = any(np.isnan(rate).any() for rate in beside.rates.values())  # what no answer needs
+            assert left_out or set(beside.status) != {"ok"}, degrees[n]
         else:
             assert status == rows.status[n], degrees[n]
             if status == "ok":

@@ -54,6 +54,15 @@ def number_of(case: Case, datum: Datum) -> Number:
     return place.x if kind == X else place.y  # type: ignore[union-attr, return-value]
 
 
+POSING = (LENGTH, RAY, CORNER, X, Y)
+"""Data that can pose a figure."""
+
+
+def datum_at(case: Case, path: str) -> Datum | None:
+    """The datum of a path that can pose the figure; of the coordinates of a point that has both, none."""
+    return next((d for d in data_of(case) if d.kind in POSING and number_of(case, d).path == path), None)
+
+
 def given_points(case: Case) -> list[str]:
     """The points that both coordinates are given of."""
     return [

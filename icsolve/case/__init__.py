@@ -180,6 +180,16 @@ class Case:
         slides = (joint for joint in self.joints if isinstance(joint, Guided))
         return tuple(Screw(slide, slide.thread) for slide in slides if slide.thread is not None)
 
+    @cached_property
+    def left_out(self) -> frozenset[str]:
+        """The points that only links carry which are left out of the case."""
+        if self.ropes or self.carries.keys() <= {*self.links}:  # a rope carries its free end
+            return frozenset()
+        out, kept = set[str](), set[str]()
+        for link, points in self.carries.items():
+            (kept if link in self.links else out).update(points)
+        return frozenset(out - kept)
+
     @property
     def touches(self) -> tuple[Touch, ...]:
         """The contacts that profiles place."""

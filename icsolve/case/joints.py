@@ -9,9 +9,15 @@ tables: `read.joints`, `wording.joints` and `draw.frame`.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from icsolve.case.figure import Guide
 from icsolve.numbers.units import Number
 from icsolve.tuples import NamedTuple, cached_property
+
+if TYPE_CHECKING:
+    from collections.abc import Container
+    from typing import Self
 
 Pair = tuple[str, str]
 """Two links."""
@@ -150,6 +156,10 @@ class JointKind:
         """Whether its strands pull, which slacken where they would have to push."""
         return False
 
+    def among(self, links: Container[str]) -> Self | None:
+        """What is left of it where these links alone are: nothing without one of two."""
+        return self if all(link in links for link in self.links) else None
+
     @property
     def carried(self) -> tuple[tuple[str, str], ...]:
         """Its points, each after the link whose point it is."""
@@ -277,6 +287,11 @@ class Pin(_Pin, JointKind):
     def carried(self) -> tuple[tuple[str, str], ...]:
         """Its point, of every link."""
         return tuple((link, self.at) for link in self.links)
+
+    def among(self, links: Container[str]) -> Pin | None:
+        """A pin of those of its links that are there, if these are two at least."""
+        own = tuple(link for link in self.links if link in links)
+        return self._replace(links=own) if len(own) > 1 else None
 
 
 class Thread(NamedTuple):

@@ -98,7 +98,7 @@ def _answer(case: Case, asked: Want, bound: bool) -> Answer:
     except SceneError as refusal:
         if want.everything and not want.examine:
             with suppress(SceneError):
-                part, left_out = needed_part.without_spare_links(case, refusal)
+                part, left_out = needed_part.without_spare_links(case, refusal, bodies=want.bodies)
                 answer = _solved(part, want, bound, asked.bodies)
                 return replace(answer, notes=(*answer.notes, left_out))
         if want == least:

@@ -7,25 +7,29 @@ A group of links that adds no freedom takes none either: what moves beside it mo
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 
 from icsolve.assembly import LEFT_OUT
-from icsolve.assembly.workspace import CORNER, LENGTH, RAY, data_of, number_of
+from icsolve.assembly.workspace import CORNER, LENGTH, RAY, datum_at
 from icsolve.case import Case, Coordinates
-from icsolve.errors import SceneError
+from icsolve.errors import SceneError, Status
 from icsolve.statics import load_wrenches
-from icsolve.statics.power import has_number, is_unknown
+from icsolve.statics.power import has_friction, has_number, is_unknown
 from icsolve.structure import Topology, topology
 from icsolve.structure.plan import make_plan
 from icsolve.tuples import replace
 from icsolve.wording import listed
+
+UNPLACED = (Status.CANNOT_ASSEMBLE, Status.UNDERDETERMINED, Status.INCONSISTENT, Status.AMBIGUOUS)
+"""Why links have no place. What has one may be strained, and press what rubs, though it does no work."""
 
 
 def needed_part(case: Case, beside: Collection[str] = ()) -> Case | None:
     """The case without the links that neither its answer needs nor ``beside`` names; None where it needs
     them all, or counting does not show that the others hold nothing of it.
 
-    The data of the figure stay: points are placed by those of other links too.
+    The data of the figure stay, as points are placed by those of other links too, and so do the points that
+    links carry which are left out: they are on no other.
     """
     asks = case.unknowns or any(map(is_unknown, case.loads))
     if not asks or not any(map(has_number, case.loads)):  # what is asked is how all of it moves
@@ -33,19 +37,23 @@ def needed_part(case: Case, beside: Collection[str] = ()) -> Case | None:
     if case.space is not None or case.touches or case.ropes or case.screws:
         return None
     top = topology(replace(case, unknowns=()) if case.unknowns else case)
-    beside = {*beside}.union(*(posed_by(case, unknown.path) for unknown in case.unknowns))
+    beside = {*beside}.union(*(_posed_by(case, unknown.path) for unknown in case.unknowns))
     wanted = {*load_wrenches.moving_links(case), *beside, *(case.inertia if case.dynamic else ())}
     kept = _planned(top, {top.body_of[link] for link in wanted})
     if kept is None or len(kept) == len(top.members):
         return None
     links = tuple(link for link in case.links if top.body_of[link] in kept)
-    return replace(
+    part = replace(
         case,
         links=links,
-        joints=tuple(joint for joint in case.joints if {*joint.links} <= {*links}),
-        carries={link: points for link, points in case.carries.items() if link in links},
+        joints=tuple(left for joint in case.joints if (left := joint.among(links)) is not None),
         inertia={link: mass for link, mass in case.inertia.items() if link in links},
     )
+    guides = (joint.guide for joint in part.joints if joint.guide is not None)
+    used = {p for guide in guides for p in (*(guide.ends or ()), guide.through)}
+    used.update(p for load in case.loads for p in load_wrenches.points_of(load))
+    strained = has_friction(case) and any(bond.pivots and bond.joint.pulls for bond in top.bonds)
+    return None if part.left_out & used or strained else part
 
 
 def _planned(top: Topology, wanted: set[int]) -> frozenset[int] | None:
@@ -60,10 +68,21 @@ def _planned(top: Topology, wanted: set[int]) -> frozenset[int] | None:
         wanted |= carriers
 
 
-def posed_by(case: Case, path: str) -> set[str]:
+def moving_part(
+    case: Case, paths: Iterable[str], links: Collection[str], dynamic: bool = False
+) -> Case | None:
+    """As `needed_part`, with the links that are turned and those that varied data pose, and those of inertia
+    where their forces count."""
+    beside = {*links, *(case.inertia if dynamic else ())}
+    if needed_part(case, beside) is None:
+        return None
+    return needed_part(case, beside.union(*(_posed_by(case, path) for path in paths)))
+
+
+def _posed_by(case: Case, path: str) -> set[str]:
     """The links that a datum of the figure may pose: those that a coordinate, a direction or an angle places,
     and those at the ends of a length that is of no link; none of a number that only shapes a link."""
-    datum = next((datum for datum in data_of(case) if number_of(case, datum).path == path), None)
+    datum = datum_at(case, path)
     if datum is None:  # a coordinate that is to be found has none yet
         open_ = [
             f"points.{name}" for name, at in case.points.items() if isinstance(at, Coordinates) and None in at
@@ -78,11 +97,21 @@ def posed_by(case: Case, path: str) -> set[str]:
     return {link for link, count in held.items() if count > turns}
 
 
-def without_spare_links(case: Case, refusal: SceneError, beside: Collection[str] = ()) -> tuple[Case, str]:
-    """The part of a case that its answer needs (see `needed_part`), where the whole is refused, and the note
-    on what was left out. Raises the refusal where there is no such part."""
+def without_spare_links(
+    case: Case,
+    refusal: SceneError,
+    paths: Iterable[str] = (),
+    links: Collection[str] = (),
+    *,
+    bodies: bool = False,
+) -> tuple[Case, str]:
+    """The part of a case that its answer needs (see `moving_part`), where the whole is refused, and the note
+    on what was left out; where ``bodies`` are in question because it can't be placed. Raises the refusal
+    where there is no such part."""
+    if bodies and refusal.status not in UNPLACED:
+        raise refusal
     try:
-        part = needed_part(case, beside)
+        part = moving_part(case, paths, links)
     except SceneError:
         raise refusal from None
     if part is None:

@@ -133,7 +133,7 @@ def attempt(case: Case, *, reactions: bool = False) -> Attempt:
     try:
         parts = balanced(AnswerBuilder(EvaluatedScene(prepare(case, want), certain=True)))
     except SceneError as refusal:  # of a link or point that the answer does not need, it may be
-        return _of_needed_part(case, refusal, reactions)
+        return _of_needed_part(case, refusal, reactions, want.bodies)
     try:
         return Attempt(_judged(judged(parts, reactions), case), None, parts)
     except SceneError as refusal:
@@ -146,12 +146,12 @@ def attempt(case: Case, *, reactions: bool = False) -> Attempt:
         return Attempt(None, refusal, parts)
 
 
-def _of_needed_part(case: Case, refusal: SceneError, reactions: bool) -> Attempt:
+def _of_needed_part(case: Case, refusal: SceneError, reactions: bool, bodies: bool) -> Attempt:
     """What is found of a case of which not all can be solved."""
     from icsolve.scene.needed_part import without_spare_links
 
     try:
-        part, left_out = without_spare_links(case, refusal)
+        part, left_out = without_spare_links(case, refusal, bodies=bodies)
     except SceneError:
         return _tried(case, reactions)
     found = attempt(part, reactions=reactions)

@@ -11,7 +11,7 @@ from icsolve.assembly import solve_figure
 from icsolve.case import Case, Coordinates, Unknown
 from icsolve.errors import SceneError, Status
 from icsolve.scene import solve_scene
-from icsolve.scene.needed_part import without_spare_links
+from icsolve.scene.needed_part import UNPLACED, without_spare_links
 from icsolve.solve.friction_ranges import find_ranges
 from icsolve.solve.known_loads import smooth
 from icsolve.solve.load_function import given_at, naming_uncarried
@@ -51,10 +51,6 @@ def solve_positions(case: Case, **asked: bool) -> Answer:
             except SceneError:
                 raise refusal from None
             return replace(answer, notes=(*answer.notes, left_out))
-
-
-UNPLACED = (Status.CANNOT_ASSEMBLE, Status.UNDERDETERMINED, Status.INCONSISTENT, Status.AMBIGUOUS)
-"""Why a figure has no place."""
 
 
 def _answered(case: Case, asked: Mapping[str, bool]) -> Answer:

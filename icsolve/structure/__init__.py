@@ -199,8 +199,11 @@ def _bonds(case: Case, body_of: dict[str, int], pins: dict[str, list[int]]) -> I
     for point, bodies in pins.items():
         for body in dict.fromkeys(bodies):
             pins_of.setdefault(body, []).append(point)
+    needed = {case.ground, *(load.link for load in case.loads), *(given.link for given in case.motion)}
     for joint in case.joints:
-        for links in pairs_of(joint):
+        several = len(joint.links) > 2  # they turn about a link that an answer needs in any case, if one is
+        hub = next((link for link in joint.links if link in needed), None) if several else None
+        for links in pairs_of(joint, hub):
             a, b = body_of[links[0]], body_of[links[1]]
             if not joint.freedom or a == b:
                 continue
@@ -211,10 +214,10 @@ def _bonds(case: Case, body_of: dict[str, int], pins: dict[str, list[int]]) -> I
             yield Bond(a, b, joint.freedom, joint, links, pivots, carrier)
 
 
-def pairs_of(joint: Joint) -> list[tuple[str, str]]:
-    """The pairs of links that a joint joins; a pin of several is carried by the first."""
-    first, *others = joint.links
-    return [(first, other) for other in others]
+def pairs_of(joint: Joint, hub: str | None = None) -> list[tuple[str, str]]:
+    """The pairs of links that a joint joins; a pin of several is carried by ``hub``, or the first."""
+    first = joint.links[0] if hub is None else hub
+    return [(first, other) for other in joint.links if other != first]
 
 
 def _pivots(

@@ -19,7 +19,9 @@ from icsolve.case import Case, refuse_no_case
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import NO_SPEED
 from icsolve.numbers.replay import Array
-from icsolve.scene.needed_part import left_out_of, needed_part, posed_by
+from icsolve.scene import wanted as needed
+from icsolve.scene.needed_part import UNPLACED, left_out_of, moving_part
+from icsolve.scene.program import Want
 from icsolve.scene.refusals import rubs
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.record_runner import Progress
@@ -153,12 +155,14 @@ def _without_spare_links(
 ) -> tuple[tuple[str, ...], CaseOf]:
     """Fill in the rows that have no answer as they are, but have one without links that it does not need; a
     note on these, and the case of a row."""
-    case, refused = start.setting.case, np.flatnonzero((table.codes != 0) & (table.codes != CODE["holds"]))
+    case, found_none = start.setting.case, (table.codes != 0) & (table.codes != CODE["holds"])
+    if needed(start.case, Want()).bodies:
+        found_none &= np.isin(table.codes, [CODE[status] for status in UNPLACED])
+    refused = np.flatnonzero(found_none)
     if not refused.size:
         return (), case_of
     try:
-        held = {link for path in start.paths for link in posed_by(case, path)}
-        part = needed_part(case, {*start.links, *held, *(case.inertia if wanted.asked.dynamic else ())})
+        part = moving_part(case, start.paths, start.links, wanted.asked.dynamic)
         if part is None:
             return (), case_of
         found = _of_rows(part, columns, refused, wanted)
@@ -168,6 +172,8 @@ def _without_spare_links(
         found = found if len(rows) == len(refused) else _of_rows(part, columns, rows, wanted)
     except SceneError:
         return (), case_of
+    for array in (*table.values.values(), *table.errors.values()):
+        array[rows] = np.nan  # of what is left out a row has nothing
     table.take(rows, found)
     number = {row: n for n, row in enumerate(rows.tolist())}
     note = f"{left_out_of(case, part)}, in {plural(len(rows), 'row')}"

@@ -35,7 +35,19 @@ from icsolve.assembly.driven.order import (
 )
 from icsolve.assembly.driven.poses import Arm, Rotation, Spot, minus, product
 from icsolve.assembly.driven.poses import Places as Still
-from icsolve.assembly.workspace import CORNER, LENGTH, RAY, Datum, X, Y, data_of, normalised, number_of
+from icsolve.assembly.workspace import (
+    CORNER,
+    LENGTH,
+    POSING,
+    RAY,
+    Datum,
+    X,
+    Y,
+    data_of,
+    datum_at,
+    normalised,
+    number_of,
+)
 from icsolve.case import Case, Coordinates, Number, is_named
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
@@ -174,8 +186,6 @@ def _off(now: tuple[float, float], before: Point, line: BodyLine) -> float:
 # --- the data that pose a figure, as conditions on where the links are ---
 
 
-KINDS = (LENGTH, RAY, CORNER, X, Y)
-"""Data that can pose a figure."""
 CENTRED = {X: ((0.0, 1.0), 0), Y: ((1.0, 0.0), 1)}
 """A given coordinate: the line's direction, and the axis on which it is given."""
 ALIGNED = 1e-9
@@ -187,11 +197,6 @@ class Pose(NamedTuple):
 
     datum: Datum
     spots: tuple[Spot, ...]
-
-
-def datum_at(case: Case, path: str) -> Datum | None:
-    """The datum of a path that can pose the figure; of the coordinates of a point that has both, none."""
-    return next((d for d in data_of(case) if d.kind in KINDS and number_of(case, d).path == path), None)
 
 
 def pose_of(mechanism: Mechanism, path: str) -> Pose | None:
@@ -506,7 +511,7 @@ def _held(
     for datum in data_of(mechanism.case):
         if not left.motions:
             break
-        if datum.kind not in KINDS or number_of(mechanism.case, datum).path in moving:
+        if datum.kind not in POSING or number_of(mechanism.case, datum).path in moving:
             continue
         pose = posing(mechanism, datum)
         if pose is None:

@@ -29,7 +29,9 @@ from icsolve.numbers.record import Op, Record, Traced, live, terms_of
 from icsolve.numbers.replay import Array, Mask
 from icsolve.numbers.roots import MOST_ORDER, NOTHING, STEP, last_that_holds, slope, zeros_between
 from icsolve.numbers.tape import UNIT
-from icsolve.scene import solve_scene
+from icsolve.scene import solve_scene, wanted
+from icsolve.scene.needed_part import moving_part
+from icsolve.scene.program import Want
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.continuation import SAME
@@ -93,6 +95,8 @@ def find(
         known = ", ".join(load.name for load in case.loads if is_unknown(load))
         raise RequestError(f"{query.load} is no unknown load of this case ({known or 'which has none'})")
     by_itself = rubs(case) or bool(case.touches)
+    if not by_itself and not wanted(case, Want()).everything:  # as the scene of a place solves no more
+        case = moving_part(case, columns.paths, columns.links) or case
     start = None if by_itself else start_of(case, columns, RowRequest(dynamic=case.dynamic))
     if start is None or start.one_by_one or start.hides:
         return Scenes(case, columns, along, query).spots()

@@ -17,7 +17,7 @@ from icsolve.assembly.driven.mechanism import Mechanism, mechanism, placed_late
 from icsolve.assembly.driven.motion import DrivenMotion, closing_of, set_moving
 from icsolve.assembly.steps import Meet, Polar, spare_data
 from icsolve.assembly.wheels import refuse_misfit, wheel_margins
-from icsolve.assembly.workspace import CORNER, RAY, PlacedCase, data_in, names_of, number_of
+from icsolve.assembly.workspace import CORNER, RAY, PlacedCase, data_in, datum_at, names_of, number_of
 from icsolve.case import Case, Pair, TorsionSpring, is_angle, pair_name
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import by_loops
@@ -26,7 +26,7 @@ from icsolve.numbers import FLOATS, Scalar
 from icsolve.numbers.adjoint import BoundedRecord
 from icsolve.numbers.record import Record, Root, Traced, live, varies
 from icsolve.scene import refusals
-from icsolve.scene.needed_part import posed_by, without_spare_links
+from icsolve.scene.needed_part import without_spare_links
 from icsolve.screws import Point
 from icsolve.screws.ropes import part_rooms
 from icsolve.statics.load_wrenches import counted_about, points_of, spring_angle
@@ -38,7 +38,6 @@ from icsolve.sweep.drivers import (
     ahead_on,
     closed_drive,
     condition,
-    datum_at,
     drive_of,
     pose_of,
     turning,
@@ -196,8 +195,7 @@ def setting_of(case: Case, paths: Sequence[str], links: Sequence[str], *, posing
     try:
         return _as_written(case, own, links, posing)
     except SceneError as refusal:
-        held = {link for path in own for link in posed_by(case, path)}
-        part, left_out = without_spare_links(case, refusal, (*links, *held))
+        part, left_out = without_spare_links(case, refusal, own, links)
         try:
             return _as_written(part, own, links, posing)._replace(left_out=left_out)
         except SceneError:
@@ -247,7 +245,9 @@ def wanted_points(case: Case) -> tuple[list[str], list[str]]:
     given = [name for name in names_of(case) if name in case.points]
     loads = [getattr(getattr(load, "heading", None), "point", None) for load in case.loads]
     ends = [rope.points[-1] for rope in case.ropes]
-    wanted = list(dict.fromkeys([*carried, *used, *given, *ends, *(p for p in loads if p)]))
+    wanted = [
+        p for p in dict.fromkeys((*carried, *used, *given, *ends, *loads)) if p and p not in case.left_out
+    ]
     guides = [joint.guide for joint in case.joints if joint.guide is not None]
     needed = {*used, *(p for guide in guides for p in (*(guide.ends or ()), guide.through))}
     needed |= {p for load in case.loads for p in points_of(load)} | {m.point for m in case.motion}

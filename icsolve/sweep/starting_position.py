@@ -10,13 +10,10 @@ import numpy as np
 from icsolve.assembly import place
 from icsolve.assembly.conditions import residual
 from icsolve.assembly.steps import Meet, PointGroup, spare_data
-from icsolve.assembly.workspace import Workspace, given_points
+from icsolve.assembly.workspace import Workspace
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers import FLOATS
-from icsolve.scene import wanted
-from icsolve.scene.needed_part import needed_part, posed_by
-from icsolve.scene.program import Want
 from icsolve.sweep.exact_record import hides
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, Signs, compile_sweep, setting_of
 from icsolve.sweep.record_runner import Runner
@@ -36,27 +33,12 @@ def setting(case: Case, paths: tuple[str, ...], links: tuple[str, ...]) -> Setti
     return setting_of(case, paths, links)
 
 
-@lru_cache(maxsize=64)
-def part_for(case: Case, paths: tuple[str, ...], links: tuple[str, ...], asked: RowRequest) -> Case:
-    """The part of a case that what is asked of its rows needs, as a scene solves no more for its answer."""
-    if asked.rates or asked.terms or asked.in_motion or asked.contacts or wanted(case, Want()).everything:
-        return case
-    held = {link for path in paths for link in posed_by(case, path)}
-    try:
-        part = needed_part(case, {*links, *held}.union(*asked.centres))
-    except SceneError:
-        return case
-    if part is None or not {*asked.points} <= {*given_points(case)}.union(*part.carries.values()):
-        return case
-    return part
-
-
 @lru_cache(maxsize=16)
 def runner(
     case: Case, paths: tuple[str, ...], links: tuple[str, ...], asked: RowRequest, signs: Signs
 ) -> Runner:
     """The runner of a compiled sweep, once a case and what is asked."""
-    return Runner(compile_sweep(setting(part_for(case, paths, links, asked), paths, links), asked, signs))
+    return Runner(compile_sweep(setting(case, paths, links), asked, signs))
 
 
 def is_hard(setting: Setting) -> bool:
@@ -112,7 +94,7 @@ class Start(NamedTuple):
     @property
     def setting(self) -> Setting:
         """Its position, and what the varied numbers do."""
-        return setting(part_for(self.case, self.paths, self.links, self.asked), self.paths, self.links)
+        return setting(self.case, self.paths, self.links)
 
     def runner(self, signs: Signs = ()) -> Runner:
         """The runner; the branches in ``signs`` have theirs as inputs."""

@@ -244,7 +244,7 @@ def _spots(case: Case, top: Topology, ref: Mapping[str, Point]) -> dict[int, lis
         for name in case.carries.get(link, ()):
             if name in ref:
                 found[top.body_of[link]][top.body_of[link], name] = None
-    told = {name for spots in found.values() for _, name in spots}
+    told = {name for spots in found.values() for _, name in spots} | case.left_out
     told |= {rope.points[-1] for rope in case.ropes if rope.is_free}
     for name in ref:
         if name not in told:
