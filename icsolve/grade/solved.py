@@ -37,7 +37,7 @@ from icsolve.grade.tolerance import NoKeyError
 from icsolve.read.expect import target_of
 from icsolve.read.names import Problems, parts
 from icsolve.read.reading import Reading
-from icsolve.statics.power import is_unknown
+from icsolve.statics.power import is_unknown, loads_to_find
 from icsolve.tuples import cached_property, replace
 
 
@@ -81,7 +81,7 @@ def asked_of(case: Case, what: str) -> Target:
     target = target_of(reading_of(case), what, points_of(case))
     if isinstance(target, str):
         raise NoKeyError(f"{case.name}: {target}")
-    if isinstance(target, LoadIs) and target.load not in unknowns(case):
+    if isinstance(target, LoadIs) and target.load not in {*unknowns(case), *loads_to_find(case)}:
         raise NoKeyError(f"{case.name}: {what} is given in the case, not asked")
     return target
 

@@ -31,7 +31,7 @@ from icsolve.numbers.roots import MOST_ORDER, NOTHING, STEP, last_that_holds, sl
 from icsolve.numbers.tape import UNIT
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
-from icsolve.statics.power import is_unknown
+from icsolve.statics.power import loads_to_find
 from icsolve.sweep.continuation import SAME
 from icsolve.sweep.exact_record import APART, Unreached, Values
 from icsolve.sweep.find_by_scenes import HAS, FoundPosition, FoundPositions, Query, Scenes
@@ -89,9 +89,11 @@ def find(
     refuse_no_case(case)
     columns = columns_of(case, vary, drive)
     along = along_of(columns)
-    if query.load not in {"", *(load.name for load in case.loads if is_unknown(load))}:
-        known = ", ".join(load.name for load in case.loads if is_unknown(load))
-        raise RequestError(f"{query.load} is no unknown load of this case ({known or 'which has none'})")
+    loads = loads_to_find(case)
+    if query.load not in {"", *loads}:
+        raise RequestError(
+            f"{query.load} is no unknown load of this case ({', '.join(loads) or 'which has none'})"
+        )
     by_itself = rubs(case) or bool(case.touches)
     start = None if by_itself else start_of(case, columns, RowRequest(dynamic=case.dynamic))
     if start is None or start.one_by_one or start.hides:
