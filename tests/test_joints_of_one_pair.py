@@ -32,3 +32,12 @@ def test_two_meshes_of_unlike_ratio_lock_each_other() -> None:
 
 def test_contact_whose_normal_passes_the_pivot_lets_the_wheel_turn() -> None:
     assert icsolve.solve(icsolve.load(WHEEL)).answers["T"].value == pytest.approx(30.0)
+
+
+def test_each_of_several_joints_has_its_own_reaction() -> None:
+    """Three belts between two pulleys: the third took the name, and the place, of the second."""
+    text = WHEELS.replace("{gears: [2, 3], teeth: [20, 40]}", "{belt: [2, 3], radii: [3, 5]}")
+    belts = "".join(f"\n  - {{belt: [2, 3], radii: [{r}, {5 * r / 3!r}]}}" for r in (1.5, 0.6))
+    case = icsolve.load(text.replace("\n  - {gears: [2, 3], teeth: [30, 30]}", belts))
+    reactions = icsolve.solve(case, reactions=True).reactions
+    assert reactions is not None and len(reactions) == len(case.joints) == 5
