@@ -140,7 +140,8 @@ class SolvedCase:
             try:
                 what = question.partition(":")[2] or "".join(unknowns(self.case)[:1])
                 another = partial(is_another, self.case, self.target(question), what)
-                self._keys[question] = replace(self._made(question), another=lru_cache(another))
+                made = self._made(question)
+                self._keys[question] = replace(made, another=lru_cache(another), name=what)
             except SceneError as error:
                 raise NoKeyError(f"{question} has no answer ({error.status}): {error.message}") from None
         return self._keys[question]
