@@ -17,7 +17,8 @@ import icsolve
 from cams import sliding, swinging
 from icsolve.case import Case
 from icsolve.read import load
-from icsolve.sweep import find_by_scenes
+from icsolve.solve import solve
+from icsolve.sweep import find_by_scenes, sweep
 from icsolve.sweep.find_by_scenes import FoundPosition
 from icsolve.sweep.find_on_record import Query, find
 from sizes import FULL, MORE
@@ -328,3 +329,60 @@ motion: {link: 2, turns: ccw}
         (spot,) = find(case, {"angles.AB": [*span]}, Query("max"))
         assert abs(spot.at - place) <= spot.error <= 1e-4
         assert spot.answer == pytest.approx(10.0 + rubs, rel=1e-12)
+
+
+ROUGH_BLOCK = """icsolve: 1
+points: {A: [0, 0], C: [unknown, 0.5]}
+lengths: {AB: 2, BC: 6}
+angles: {AB: 60}
+near: {C: [7, 0.5]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0, mu: 0.2, length: 0.5}
+loads:
+  P: {force: 100, link: 4, at: C, angle: 180}
+  T: {torque: unknown, link: 2}
+motion: {link: 2, turns: cw}
+"""
+POST = """icsolve: 1
+points: {A: [0, 0], P: [3, 4], E: [5, 0], D: [-1, 1]}
+joints:
+  - {pin: [2, 1], at: D}
+  - {rope: [A, P, E], on: [2, 1], radii: {P: 0.3}, wraps: {P: cw}, mu: {P: 0.3}}
+loads:
+  P: {torque: 20, link: 2, turns: cw}
+  T: {force: unknown, at: E}
+motion: {link: 2, turns: cw}
+"""
+LIFT = """icsolve: 1
+points: {A: [0, 0], B: [2, 0], G: [3, 0]}
+joints: [{screw: [1, 2], at: B, along: 0, lead: 5 mm, radius: 10 mm, mu: 0.1}]
+loads:
+  P: {force: 1 kN, link: 2, at: G, angle: 180}
+  T: {torque: unknown, screw: 1-2}
+motion: {point: G, link: 2, speed: 0.01, angle: 0}
+"""
+PLACED: dict[str, tuple[str, tuple[str, float, float]]] = {
+    "a rough block": (ROUGH_BLOCK, ("loads.P", 50.0, 100.0)),
+    "a rough slider-crank that turns": (ROUGH_BLOCK, ("angles.AB", 20.0, 80.0)),
+    "a post": (POST, ("loads.P", 10.0, 30.0)),
+    "a screw": (LIFT, ("loads.P", 500.0, 1500.0)),
+}
+
+
+@pytest.mark.parametrize("share", [0.0, 0.125, 0.25, 0.5, 0.75, 1.0])
+@pytest.mark.parametrize("name", PLACED)
+def test_a_value_that_a_place_has_is_found_there(name: str, share: float) -> None:
+    """It was missed where rounding put it to one side of such a place and the bounds to neither: of the value
+    that a row or a scene tells, and of its neighbours inside the range."""
+    text, (path, low, high) = PLACED[name]
+    case, at = load(text), low + share * (high - low)
+    told = {float(value) for value in sweep(case, {path: [at]}).answers["T"]}
+    told.add(solve(load(text, {path: at})).answers["T"].value or 0.0)
+    if 0.0 < share < 1.0:
+        told |= {math.nextafter(value, way) for value in told for way in (-math.inf, math.inf)}
+    for value in told:
+        found = find(case, {path: [low, high]}, Query("value", "T", value))
+        assert [spot.at for spot in found if abs(spot.at - at) < 1e-3] == pytest.approx([at], rel=1e-9), value

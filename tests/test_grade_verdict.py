@@ -8,12 +8,14 @@ from pathlib import Path
 
 import pytest
 
+import icsolve
 from grade_shell import CASES, Class
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey
 from icsolve.grade.one import Task
 from icsolve.grade.tolerance import SLACK, range_in_words
+from library import FILES, sample
 
 ZERO = """\
 icsolve: 1
@@ -448,3 +450,54 @@ def test_of_a_range_an_angle_and_a_place_the_accepted_numbers_are_told(a_class: 
         == ["right"] * 2
     )
     assert store.key("wedge:I23").accepted == "at infinity within 1 deg of its direction"
+
+
+def _questions(name: str) -> list[str]:
+    """Names of what `solve` tells of a case, as ``expect`` has them, one of a kind."""
+    case = icsolve.load(FILES[name])
+    if case.space is not None or case.variables or case.unknowns:
+        return []
+    found = icsolve.solve(case, rates=True, reactions=True)
+    loads = {load.name for load in case.loads}
+    forces = {own: one for own, one in (found.reactions or {}).items() if own not in loads}
+    kinds = [
+        list(found.answers),
+        [f"I{a}-{b}" for a, b in found.centres],
+        [f"w{link}" for link, rate in (found.rates or {}).items() if isinstance(rate, float) and rate],
+        [f"v {p} on {link}" for (p, link), v in (found.velocities or {}).items() if not isinstance(v, str)],
+        [own for own, one in forces.items() if one.magnitude is not None and own not in loads],
+        [
+            f"normal {own}"
+            for own, one in forces.items()
+            if dict(one.parts).get("normal") and own not in loads
+        ],
+        [f"T {one.rope}" for one in found.tensions if one.tension],
+    ]
+    return [kind[0] for kind in kinds if kind]
+
+
+@pytest.mark.parametrize("name", sample(FILES, 4, "names of questions"))
+def test_an_answer_may_begin_with_the_name_of_its_question(name: str) -> None:
+    """Also where that has several words, or hyphens: such answers waited for a person."""
+    names = _questions(name)
+    task = Task(FILES[name]) if names else None
+    for what in names:
+        assert task is not None
+        right = task.right(what)
+        for answer in (right, f"{what} = {right}", f"{what}={right} ."):
+            assert task.grade(what, answer)["verdict"] == "right", (what, answer)
+
+
+@pytest.mark.parametrize("name", ["push", "up", "left", "cw"])
+def test_the_name_of_a_load_is_no_direction(name: str, tmp_path: Path) -> None:
+    """24 down, the load so called."""
+    file = tmp_path / "lever.yaml"
+    file.write_text(
+        "icsolve: 1\npoints: {A: [0, 0], B: [2, 0], C: [-1, 0]}\njoints: [{pin: [1, 2], at: A}]\n"
+        "loads:\n  W: {weight: 12, link: 2, at: B}\n"
+        f"  {name}: {{force: unknown, link: 2, at: C, angle: -90}}\n"
+    )
+    task = Task(file)
+    assert task.grade("", f"{name} = 24 N")["verdict"] == "right"
+    assert task.grade("", f"{name} = 24 N up")["verdict"] == "wrong"
+    assert task.grade("", f"{name} = 12 N")["verdict"] == "wrong"

@@ -275,6 +275,17 @@ loads:
   P: {force: 100, link: 2, at: D, angle: -90}
   Q: {force: 40, link: 3, at: C, angle: 0}
 """
+CORNER = """icsolve: 1
+title: A block that two planes touch in one corner
+points: {A: [0, 0], B: [1, 0], G: [0.5, 0.5]}
+joints:
+  - {contact: [1, 2], at: A, normal: 90}
+  - {contact: [1, 2], at: A, normal: 0}
+  - {contact: [1, 2], at: B, normal: 90}
+loads:
+  W: {weight: 100, link: 2, at: G}
+  F: {force: [-30, 0], link: 2, at: G}
+"""
 RIGGED = """icsolve: 1
 title: A screw lifts what a rope holds
 points: {A: [0, 0], P: [2, 3], C: [4, 1]}
@@ -358,7 +369,7 @@ def test_a_motion_the_other_way_is_solved_as_solve_does(name: str, shown: Any) -
     assert compare(page, path, changes)
 
 
-@pytest.mark.parametrize("case", [TRUSS, RIGGED])
+@pytest.mark.parametrize("case", [TRUSS, CORNER, RIGGED], ids=["truss", "corner", "rigged"])
 def test_structures_and_ropes_on_screws_are_solved_as_solve_does(case: str, shown: Any) -> None:
     """The forces in the joints of a structure, and a torque on a screw, for random numbers."""
     page, draw = shown(case), random.Random(3)

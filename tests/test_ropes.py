@@ -868,6 +868,7 @@ PULL = "{force: unknown, at: B}"
         ("{rope: [C, P, B], on: [2, 1]}", "{torque: unknown, link: 2}", "no load pulls it"),
         ("{rope: [C, P, B], on: [2, 1]}", "{force: unknown, at: B, angle: 30}", "take out 'angle'"),
         ("{rope: [C, P, B], on: [2, 1]}", "{force: unknown, at: D, angle: 30}", "needs 'link'"),
+        ("{rope: [C, P, B], on: [2, 1]}, {rope: [C, D, B], on: [2, 1]}", PULL, "one free end, B"),
         ("{ropes: [C, P, B], on: [2, 1]}", "{torque: unknown, link: 2}", "did you mean 'rope'"),
     ],
 )

@@ -973,3 +973,25 @@ def test_a_dyad_that_the_answer_does_not_need_changes_no_row_where_it_does_not_r
         assert [(spot.kind, spot.at) for spot in found] == [(spot.kind, spot.at) for spot in wanted]
         for spot, other in zip(found, wanted, strict=True):
             assert spot.answer == (None if other.answer is None else pytest.approx(other.answer, rel=1e-14))
+
+
+SLIDING = """icsolve: 1
+points: {A: [0, 0]}
+joints: [{slide: [2, 1], at: A, along: 90}]
+loads:
+  W: {weight: 100, link: 2, at: A}
+  F: {force: unknown, link: 2, at: A, angle: 80}
+"""
+
+
+@pytest.mark.parametrize("written", [90, -90, 89, 91, 0, 180])
+def test_what_only_slides_goes_toward_x_in_every_row(written: float) -> None:
+    """Where none turns the first link that moves does so toward positive x, upward where it goes along y:
+    rows of other guides had the sense that the guide as written has."""
+    case = icsolve.load(SLIDING.replace("along: 90", f"along: {written}"))
+    angles = [-180.0, -100.0, -90.0, 0.0, 30.0, 89.9999999, 90.0, 90.0000001, 91.0, 160.0, 270.0]
+    rows = icsolve.sweep(case, {"joints.A.along": angles}, want=("velocities",))
+    for angle, found in zip(angles, rows.velocities["A on 2"], strict=True):
+        scene = icsolve.solve(icsolve.load(SLIDING, {"joints.A.along": angle}), rates=True)
+        assert scene.velocities is not None
+        assert found == pytest.approx(scene.velocities["A", "2"], rel=1e-12, abs=1e-15)

@@ -98,10 +98,24 @@ def judge_answer(
     tuple[Judgement, Read]
         The verdict, and how the answer was read. Nothing that a student writes raises.
     """
+    answer = _behind_own_name(key.name, answer)
     found = _judged(key, reader, answer, unit, direction)
     if may_name(answer) and found[0].verdict in (RIGHT, WRONG) and any(map(key.another, names_in(answer))):
         return _unjudged(OTHER_NAME), flagged(OTHER_NAME)
     return found
+
+
+_PARTED = re.compile(r"[ @-]")
+
+
+def _behind_own_name(name: str, answer: str) -> str:
+    """What an answer says behind the name of what is asked: ``v C on 8 = 75``, ``F1-2@B: 35 N``, and
+    ``pull = 50 N`` where a load is called so, which else were a direction."""
+    if not name or not may_name(answer):
+        return answer
+    text = answer.replace(":", "=", 1) if _PARTED.search(name) else answer
+    before, _, after = text.partition("=")
+    return after if after and before.split() == name.split() else answer
 
 
 def _judged(key: AnyKey, reader: Reader, answer: str, unit: str, direction: str) -> tuple[Judgement, Read]:

@@ -195,8 +195,8 @@ def _nothing_else(name: str) -> bool:
 
 
 class _Key:
-    """What all keys have: the unit, how wide the accepted band is, in words, and (``another``) whether a name
-    that stands before an answer is that of another quantity."""
+    """What all keys have: the unit, how wide the accepted band is, in words, the ``name`` of what is asked,
+    and (``another``) whether a name that stands before an answer is that of another quantity."""
 
     unit_name: str
     policy: Policy
@@ -250,6 +250,7 @@ class NumberKey(_Key):
     kind: str = "load"
     period: float = 0.0
     another: Callable[[str], bool] = _nothing_else
+    name: str = ""
 
     @cached_property
     def accepted(self) -> str:
@@ -305,6 +306,7 @@ class PlaceKey(_Key):
     policy: Policy
     kind = "place"
     another: Callable[[str], bool] = _nothing_else
+    name: str = ""
 
     @property
     def accepted(self) -> str:
@@ -324,6 +326,7 @@ class RangeKey(_Key):
     unit_name: str
     policy: Policy
     another: Callable[[str], bool] = _nothing_else
+    name: str = ""
 
     @cached_property
     def end(self) -> NumberKey:
@@ -362,6 +365,7 @@ class ChoiceKey(_Key):
     policy: Policy
     kind = "position"
     another: Callable[[str], bool] = _nothing_else
+    name: str = ""
 
     @property
     def accepted(self) -> str:

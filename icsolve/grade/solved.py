@@ -37,7 +37,7 @@ from icsolve.grade.tolerance import NoKeyError
 from icsolve.read.expect import target_of
 from icsolve.read.names import Problems, parts
 from icsolve.read.reading import Reading
-from icsolve.statics.power import is_unknown
+from icsolve.statics.power import is_unknown, loads_to_find
 from icsolve.tuples import cached_property, replace
 
 
@@ -81,7 +81,7 @@ def asked_of(case: Case, what: str) -> Target:
     target = target_of(reading_of(case), what, points_of(case))
     if isinstance(target, str):
         raise NoKeyError(f"{case.name}: {target}")
-    if isinstance(target, LoadIs) and target.load not in unknowns(case):
+    if isinstance(target, LoadIs) and target.load not in {*unknowns(case), *loads_to_find(case)}:
         raise NoKeyError(f"{case.name}: {what} is given in the case, not asked")
     return target
 
@@ -140,7 +140,8 @@ class SolvedCase:
             try:
                 what = question.partition(":")[2] or "".join(unknowns(self.case)[:1])
                 another = partial(is_another, self.case, self.target(question), what)
-                self._keys[question] = replace(self._made(question), another=lru_cache(another))
+                made = self._made(question)
+                self._keys[question] = replace(made, another=lru_cache(another), name=what)
             except SceneError as error:
                 raise NoKeyError(f"{question} has no answer ({error.status}): {error.message}") from None
         return self._keys[question]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from itertools import groupby
+from itertools import groupby, takewhile
 from typing import Any
 
 import numpy as np
@@ -416,7 +416,7 @@ def _answers(known: Known, motion: PageMotion | None, loads: Sequence[Acting]) -
             one["senses"], one["sense"] = _indexed([spelt(value.sense, figure_number)])
         found.append(one)
     found += [
-        {**_named(name), "name": name, "joint": [force.by, force.on, force.where], "sense": compact(ZERO, 1)}
+        {**_named(name), "name": name, "joint": _joint_of(known, name, force), "sense": compact(ZERO, 1)}
         | {"values": exact([size]), "senses": [sense], "unit": unit_word(known.case.units.force)}
         for name, force, size, sense in forces_in_joints(known)
     ]
@@ -432,6 +432,15 @@ def forces_in_joints(known: Known) -> Iterable[tuple[str, Reaction, float, str]]
         if known.structure and isinstance(force, Reaction) and force.magnitude is not None:
             way = "" if force.direction is None else f"at {figure_number(force.direction)}\N{DEGREE SIGN}"
             yield name, force, force.magnitude, way
+
+
+def _joint_of(known: Known, name: str, force: Reaction) -> list[Any]:
+    """Where a reaction acts: its links, the point, how many joints of theirs stand there before its own."""
+    own = (force.by, force.on, force.where)
+    reactions = known.answer.reactions if known.answer else None
+    before = takewhile(lambda item: item[0] != name, (reactions or {}).items())
+    alike = [one for _, one in before if isinstance(one, Reaction) and (one.by, one.on, one.where) == own]
+    return [*own, len(alike)]
 
 
 def _asked(known: Known, rows: int) -> list[dict[str, Any]]:

@@ -26,6 +26,7 @@ from icsolve.case.expected import (
 from icsolve.numbers.units import DIMENSIONS, UnitError, parse_unit, split_quantity
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.entry import Entry
+from icsolve.read.joints import NAMES
 from icsolve.read.keys import EXPECTED, EXPECTED_TIES
 from icsolve.read.loads import dimension_of as load_dimension
 from icsolve.read.names import LONGEST_KEY, is_name, pairs, parts, shown, suggestion
@@ -116,7 +117,7 @@ def _readings(reading: Reading, key: str, points: set[str]) -> Iterator[Target]:
 
 def _in_words(reading: Reading, words: list[str], points: set[str]) -> Iterator[Target]:
     """``v C on 8``, ``h F32 A``, ``rf B``, ``T A-P-B``, of a part ``T A-P-B 2``; a share, ``thrust F12@A``,
-    ``couple 3 F23``: of a pair of gears, that of gear 3."""
+    ``couple 3 F23``: of a pair of gears, that of gear 3; ``F1-2@A contact 2``, of several joints at A."""
     match words:
         case ["v", point, "on", link] if point in points and reading.knows_link(link):
             yield SpeedIs(point, link)
@@ -128,6 +129,13 @@ def _in_words(reading: Reading, words: list[str], points: set[str]) -> Iterator[
             digits = part[0] if part else "1"
             if digits.isdigit() and 0 < int(digits) < len(rope.split("-")):
                 yield TensionIs(rope, int(digits))
+        case [*share, force, kind, number] if kind in NAMES and number.isdigit() and len(share) < 2:
+            of = _in_words(reading, [*share, force], points) if share else _reactions(reading, force, points)
+            yield from (
+                one._replace(at=f"{one.at} {kind} {number}")
+                for one in of
+                if isinstance(one, ReactionIs) and one.at
+            )
         case [share, *gear, force] if share in SHARES and len(gear) < 2:
             if all(map(reading.knows_link, gear)):
                 wholes = (whole for whole in _reactions(reading, force, points) if whole.part == "")
@@ -171,14 +179,15 @@ def _ends(reading: Reading, text: str, points: set[str]) -> list[Pair | str]:
 
 
 def _reactions(reading: Reading, key: str, points: set[str]) -> Iterator[ReactionIs]:
-    """``F34``, ``F34x``, ``F3-14``, ``F3-4@B``, ``M34``; a part stands after the links or the place."""
+    """``F34``, ``F34x``, ``F3-14``, ``F3-4@B``, ``M34``, without a point ``F3-4@belt``; a part stands after
+    the links or the place."""
     if key[:1] not in ("F", "M"):
         return
     links, mark, place = key[1:].partition("@")
     for text, part in _parts(reading, key[0], links):
         if not mark:
             yield from _reaction(reading, text, part, None)
-        elif place in points:
+        elif place in points or place in NAMES:
             yield from _reaction(reading, text, part, place)
         elif part in ("", "moment") and place[:-1] in points:
             component = _component(reading, key[0], place[-1:])

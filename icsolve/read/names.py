@@ -59,6 +59,14 @@ def shown(text: str) -> str:
     return f"'{text}'" if len(text) <= 60 else f"'{text[:40]}...'"
 
 
+def joint_names(links: Iterable[str], at: str | None) -> list[str]:
+    """By what a joint can be called in a path: its point, its links in either order, both; last the one by
+    which it is told where others stand there too."""
+    pair = "-".join(links)
+    turned = "-".join(reversed(pair.split("-")))
+    return [at, turned, pair, f"{turned}@{at}", f"{pair}@{at}"] if at else [turned, pair]
+
+
 _OTHER_WORDS = {
     "torque": "moment couple twist momentum drehmoment t",
     "force": "load pull push thrust tension f kraft cable rope wire strut cylinder actuator",

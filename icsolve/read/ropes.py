@@ -158,12 +158,20 @@ def read_pull(entry: Entry, name: str, kind: str) -> Load | None:
 
 
 def check_ends(reading: Reading, ropes: tuple[Rope, ...], joints: tuple[Joint, ...], loads: Mapping) -> None:
-    """A free end without a load pulls nothing; one on the pin of a wheel does not turn it, which is said."""
+    """A free end without a load pulls nothing, and a load pulls one end; a rope that ends on the pin of a
+    wheel does not turn it, which is said."""
     pulling = [one.items for one in loads.items.values() if type(one) is Mapping and "link" not in one.items]
     pulled = {node.text for one in pulling if type(node := one.get("at")) is Scalar}  # readable or not
     of_link = {
         link: [joint for joint in joints if link in joint.links] for rope in ropes for link in rope.links
     }
+    ended: dict[str, Rope] = {}
+    for rope in (rope for rope in ropes if rope.is_free):
+        first = ended.setdefault(rope.points[-1], rope)
+        if first is not rope:
+            said = f"the ropes {first.name} and {rope.name} have one free end, {rope.points[-1]}, and a load"
+            way = "there pulls one of them: give each end its own point, or name the link at it last in 'on'"
+            reading.refuse(reading.marks[f"joints.{rope.name}"], f"{said} {way}")
     for rope in ropes:
         for k in {0, len(rope.points) - 1} & {*range(len(rope.links))}:
             (link, at), only = (rope.links[k], rope.points[k]), of_link[rope.links[k]]

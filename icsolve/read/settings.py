@@ -7,9 +7,9 @@ from collections.abc import Mapping as Named
 
 from icsolve.case import Mark
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
-from icsolve.read.joints import JOINTS, NAMES
+from icsolve.read.joints import JOINTS, NAMES, unlike
 from icsolve.read.keys import LOADS
-from icsolve.read.names import Problems, parts, shown, suggestion
+from icsolve.read.names import Problems, joint_names, parts, shown, suggestion
 
 PATH_FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
 """How the number at a path is written, here and where one is varied."""
@@ -146,6 +146,8 @@ def _of_load(node: Node, steps: list[str], text: str, path: str) -> str:
     value = node.items[kind]
     if not steps:
         return _put(node, kind, text)
+    if type(value) is Mapping and steps == ["times"]:
+        return _put(value, "times", text)
     if type(value) is Sequence and steps in (["0"], ["1"]):  # the two ends of a load per length
         steps = ["xy"[int(steps[0])]]
     if type(value) is Sequence and steps in (["x"], ["y"], ["z"]):
@@ -193,19 +195,32 @@ def _of_motion(node: Node, steps: list[str], text: str) -> str:
 
 def _of_joint(node: Node, steps: list[str], text: str) -> str:
     joints = [item for item in node.items if type(item) is Mapping] if type(node) is Sequence else []
-    found = [joint for joint in joints if steps[0] in _labels(joint)]
-    rope = _of_rope(joints, steps)
+    found = [joint for joint in joints if steps[0].partition("#")[0] in _labels(joint)]
+    apart = dict(zip(_told_apart(found), found, strict=True))
+    if "#" in steps[0]:
+        found = [apart[steps[0]]] if steps[0] in apart else []
+    ropes = _of_ropes(joints, steps)
     others = [joint for joint in found if "rope" not in joint.items]
-    if rope is not None and not any(steps[1] in joint.items for joint in others):
-        return _put(*rope, text)
+    if ropes and not any(steps[1] in joint.items for joint in others):
+        if len(ropes) > 1:
+            names = " or ".join(f"joints.{label}.{steps[1]}.{steps[0]}" for label in ropes)
+            return f"{len(ropes)} ropes run through {steps[0]}; write {names}"
+        ((numbers, point),) = ropes.values()
+        return _put(numbers, point, text)
+    if len(steps) == 3 and steps[1] == "at":  # of a known centre
+        placed = [joint for joint in found if type(joint.items.get("at")) is Sequence]
+        if len(placed) == 1:
+            return _axis(placed[0].items["at"], steps[2:], text, f"joints.{steps[0]}.at")
     place = steps.pop() if len(steps) == 3 and steps[2] in ("0", "1") else ""  # of two teeth, two radii
     if len(steps) != 2:
         return "a number of a joint is set as joints.B.mu, with the point at which the joint stands"
     if not found:
         return f"no joint stands at {steps[0]}{suggestion(steps[0], [k for j in joints for k in _labels(j)])}"
     found = _of_that_key(found, steps[1])
+    if len(found) > 1 and apart.get(steps[0]) in found:
+        found = [apart[steps[0]]]
     if len(found) > 1:
-        names = " or ".join(f"joints.{label}.{steps[1]}" for label in (_labels(joint)[-1] for joint in found))
+        names = " or ".join(f"joints.{label}.{steps[1]}" for label, joint in apart.items() if joint in found)
         return f"{len(found)} joints stand at {steps[0]}; write {names}"
     both = found[0].items.get(steps[1])
     if place and type(both) is Sequence and int(place) < len(both.items):
@@ -214,18 +229,27 @@ def _of_joint(node: Node, steps: list[str], text: str) -> str:
     return _put(found[0], steps[1], text)
 
 
-def _of_rope(joints: list[Mapping], steps: list[str]) -> tuple[Mapping, str] | None:
-    """Where a rope has a number of a point: ``A-O-C.mu.O``, or ``O.mu``; its ``radius`` among the radii."""
+def _of_ropes(joints: list[Mapping], steps: list[str]) -> dict[str, tuple[Mapping, str]]:
+    """Where ropes, by what each is called, have a number of a point: ``A-O-C.mu.O``, or ``O.mu``; its
+    ``radius`` among the radii."""
     if len(steps) not in (2, 3):
-        return None
+        return {}
     name, key, point = steps if len(steps) == 3 else ("", steps[1], steps[0])
+    ropes = [joint for joint in joints if "rope" in joint.items]
+    found = {}
+    for joint, label in zip(ropes, _told_apart(ropes), strict=True):
+        own = joint.items.get("radii" if key == "radius" else key)
+        if type(own) is Mapping and point in own.items and name in ("", label):
+            found[label] = (own, point)
+    return found
+
+
+def _told_apart(joints: list[Mapping]) -> list[str]:
+    """What each of several joints is called alone: ``2-3@B#2`` is the second of two of one name."""
+    labels: list[str] = []
     for joint in joints:
-        own, through = joint.items.get("radii" if key == "radius" else key), joint.items.get("rope")
-        items = through.items if type(through) is Sequence else []
-        names = [item.text for item in items if type(item) is Scalar]
-        if names and type(own) is Mapping and point in own.items and name in ("", "-".join(names)):
-            return own, point
-    return None
+        labels.append(unlike(_labels(joint)[-1], labels))
+    return labels
 
 
 def _of_that_key(joints: list[Mapping], key: str) -> list[Mapping]:
@@ -238,11 +262,9 @@ def _of_that_key(joints: list[Mapping], key: str) -> list[Mapping]:
 
 
 def _labels(joint: Mapping) -> list[str]:
-    """By what a joint can be called: its point, its links, both."""
+    """By what a joint can be called."""
     at = joint.items.get("at")
     kind = next((key for key in joint.items if key in NAMES), "")
     links = joint.items.get(kind)
     names = [item.text for item in links.items if type(item) is Scalar] if type(links) is Sequence else []
-    pair, turned = "-".join(names), "-".join(reversed(names))
-    point = [at.text] if type(at) is Scalar else []
-    return [*point, turned, pair, *[f"{pair}@{name}" for name in point]]
+    return joint_names(names, at.text if type(at) is Scalar else None)

@@ -463,10 +463,12 @@ def _part(reaction: Reaction | SpatialReaction, part: str) -> float:
 
 def _reaction(answer: Answer, by: str, on: str, at: str | None) -> Reaction | SpatialReaction:
     """The one reaction between two links (at a point, where they have several joints)."""
-    found: list[Reaction | SpatialReaction] = [*(answer.reactions or {}).values()]
+    every: dict[str, Reaction | SpatialReaction] = {**(answer.reactions or {})}
     if answer.spatial is not None:
-        found = [*answer.spatial.reactions.values()]
-    found = [r for r in found if {r.by, r.on} == {by, on} and at in (None, r.where)]
+        every = {**answer.spatial.reactions}
+    between = {name: r for name, r in every.items() if {r.by, r.on} == {by, on}}
+    called = [r for name, r in between.items() if at is not None and name.partition("@")[2] == at]
+    found = called or [r for r in between.values() if at in (None, r.where)]
     if not found:
         for joint in answer.case.joints:
             if joint.pivot and {by, on} <= {*joint.links} and at in (None, joint.at):
@@ -476,8 +478,8 @@ def _reaction(answer: Answer, by: str, on: str, at: str | None) -> Reaction | Sp
         place = f" at {at}" if at else ""
         raise LookupError(f"links {by} and {on} have no joint{place}")
     if len(found) > 1:
-        which = f"F{by}-{on}@{found[0].where or 'B'}"
-        raise LookupError(f"links {by} and {on} have {len(found)} joints: say which, as in {which}")
+        which = " or ".join(name for name, r in between.items() if r in found)
+        raise LookupError(f"links {by} and {on} have {len(found)} joints: say which, {which}")
     return found[0] if (found[0].by, found[0].on) == (by, on) else found[0].reversed()
 
 

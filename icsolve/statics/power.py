@@ -27,7 +27,7 @@ from icsolve.numbers import (
     sum_of_sizes,
     zero_of,
 )
-from icsolve.statics.load_wrenches import L, Points, UnitWrench, number_of, vector_size
+from icsolve.statics.load_wrenches import L, Points, UnitWrench, number_of, number_taken, vector_size
 from icsolve.tuples import Generic, LateModule, NamedTuple
 
 if TYPE_CHECKING:
@@ -170,6 +170,12 @@ def power_rows(
 def is_unknown(load: Load | SpatialLoad) -> bool:
     """Whether a load's own number is to find; what is given by components has none."""
     return getattr(load, "value", 0.0) is None
+
+
+def loads_to_find(case: Case) -> list[str]:
+    """Names of the loads that have an answer: the unknown ones, and those that are as large as one."""
+    by_name = {load.name: load for load in case.loads}
+    return [n for n, load in by_name.items() if is_unknown(by_name[number_taken(load, by_name, FLOATS)[0]])]
 
 
 def has_number(load: Load) -> bool:

@@ -154,10 +154,12 @@ def names_by_tie(case: Case, ties: Sequence[Transmits]) -> list[str]:
     pairs = [ordered_pair(case, tie.by, tie.on) for tie in ties]
     shared = Counter(pairs)
     names: list[str] = []
+    counts: Counter[str] = Counter()
     for tie, (by, on) in zip(ties, pairs, strict=True):
         options = names_of(by, on, tie.where or tie.joint_kind)
         name = options[0] if shared[by, on] == 1 else options[-1]
-        names.append(name if name not in names else f"{name} {tie.joint_kind} {names.count(name) + 1}")
+        counts[name] += 1
+        names.append(name if counts[name] == 1 else f"{name} {tie.joint_kind} {counts[name]}")
     return names
 
 

@@ -25,7 +25,7 @@ from icsolve.numbers.source import PYTHON, straight_line
 from icsolve.numbers.units import BOUNDS, NumberLimit
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
-from icsolve.statics.power import is_unknown
+from icsolve.statics.power import loads_to_find
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.exact_record import hides
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of
@@ -243,7 +243,7 @@ class Evaluator:
             return table
         asked = self.wanted.asked
         table = Table(rows, asked)
-        loads = [load.name for load in self.case.loads if is_unknown(load)] if asked.answers else []
+        loads = loads_to_find(self.case) if asked.answers else []
         table.reserve({("answers", name): 1 for name in loads})
         table.reserve({("points", name): 2 for name in asked.points})
         table.reserve({("centres", f"{a}-{b}"): 3 for a, b in asked.centres})

@@ -206,6 +206,8 @@ class Scenes:
             self.places[[0, -1]] += [self.width, -self.width]
         self.rounded = UNIT * abs(query.value)
         """how far the value may be from the decimal that it is written as"""
+        self.room = self.rounded
+        """the same with the bounds of the answers at places that have it"""
         self.notes: dict[str, None] = {}
 
     def spots(self) -> FoundPositions:
@@ -314,7 +316,7 @@ class Scenes:
 
     def _values(self, found: Array, codes: Codes) -> Iterator[Search]:
         """Where the answer passes through the value, turns back at it, or begins or ceases to have it."""
-        miss = found - self.query.value
+        miss = self._misses(found)
         sign, size = np.sign(miss), np.abs(miss)
         for k in range(len(sign)):
             before, after = (sign[j] if 0 <= j < len(sign) else math.nan for j in (k - 1, k + 1))
@@ -329,6 +331,25 @@ class Scenes:
                     yield self._touching(k, float(after), found)
             elif sign[k] == 0.0:
                 yield self._having(k, before, after, not miss.any())
+
+    def _misses(self, found: Array) -> Array:
+        """By how much the answers at the places miss the value. Where that is next to nothing rows with
+        bounds tell it: 0 where these leave its side open, for no row beyond such a place would show that the
+        answer passes through. At an end of the range next to nothing is 0: it may lie just beyond."""
+        value, room = self.query.value, self.rounded
+        miss = found - value
+        close = np.abs(miss) <= SHARP * abs(value)
+        close[1:-1] &= np.abs(miss[1:-1]) > room
+        for k in np.flatnonzero(close).tolist():
+            answers, _, errors = self._swept(self.places[k : k + 1], True)
+            off, least = float(answers[0]) - value, SHARP * abs(value)
+            error = self.rounded + min(float(errors[0]), least)
+            at_end = k in (0, len(miss) - 1) and abs(off) <= least
+            miss[k] = 0.0 if at_end or abs(off) <= error else off
+            room = max(room, error) if miss[k] == 0.0 else room
+        miss[np.abs(miss) <= self.rounded] = 0.0
+        self.room = room
+        return miss
 
     def _meets(self, size: Array, k: int, way: int) -> bool:
         """Whether there may be a corner at the value beyond place ``k``: as it falls up to there, and rises
@@ -429,7 +450,7 @@ class Scenes:
                 at = float(self.places[k])
                 return [FoundPosition(at, "value", value, 0.0)] if throughout else []
             n = k - 1 if after == 0.0 else k
-            low, high = yield from self._closed(lambda seen: seen.answers == value, n)
+            low, high = yield from self._closed(lambda seen: np.abs(seen.answers - value) <= self.room, n)
             return [FoundPosition(high if after == 0.0 else low, "value", value, high - low)]
         at, wide = float(self.places[k]), self.width
         inner = float(self.places[k + 1 if math.isnan(before) else k - 1])

@@ -33,7 +33,7 @@ from icsolve.scene import solve_scene, wanted
 from icsolve.scene.needed_part import moving_part
 from icsolve.scene.program import Want
 from icsolve.scene.refusals import rubs
-from icsolve.statics.power import is_unknown
+from icsolve.statics.power import loads_to_find
 from icsolve.sweep.continuation import SAME
 from icsolve.sweep.exact_record import APART, Unreached, Values
 from icsolve.sweep.find_by_scenes import HAS, FoundPosition, FoundPositions, Query, Scenes
@@ -91,9 +91,11 @@ def find(
     refuse_no_case(case)
     columns = columns_of(case, vary, drive)
     along = along_of(columns)
-    if query.load not in {"", *(load.name for load in case.loads if is_unknown(load))}:
-        known = ", ".join(load.name for load in case.loads if is_unknown(load))
-        raise RequestError(f"{query.load} is no unknown load of this case ({known or 'which has none'})")
+    loads = loads_to_find(case)
+    if query.load not in {"", *loads}:
+        raise RequestError(
+            f"{query.load} is no unknown load of this case ({', '.join(loads) or 'which has none'})"
+        )
     by_itself = rubs(case) or bool(case.touches)
     if not by_itself and not wanted(case, Want()).everything:  # as the scene of a place solves no more
         case = moving_part(case, columns.paths, columns.links) or case

@@ -606,7 +606,10 @@ def _scale(scene: RecordedScene, twists: Mapping[str, tuple[Triple, ...]]) -> tu
             return _signed(scene, v, float(speed.divisor) > 0.0), target
         return _signed(scene, v, True) * _sense(scene, twists, given), target
     link = next(n for n in speeds.joint_order(scene.case) if any(map(float, twists[n][0])))
-    return _signed(scene, (twists[link][0][1], -twists[link][0][0]), float(speed.divisor) > 0.0), target
+    (x, y), record = (twists[link][0][1], -twists[link][0][0]), scene.record
+    if not record.follows and not record.vanishes(x, speeds.fastest(twists)):  # toward +x in each row
+        return _signed(scene, (x, y), True) * (x / record.sqrt(x * x)), target
+    return _signed(scene, (x, y), float(speed.divisor) > 0.0), target
 
 
 def _plain(case: Case) -> Case:

@@ -73,9 +73,10 @@ class SweepRun:
 
     def _hold(self) -> None:
         """Rows with friction and no motion: the ranges over which they hold."""
+        answered = self.codes == 0
         for key in [key for key in self.values if key[0] == "holds"]:
             found = self.values.pop(key)
-            held = (self.codes == 0) & ~np.isnan(found[:, 0])
+            held = answered & ~np.isnan(found[:, 0])
             own = self.table.holds.setdefault(key[1], np.full(found.shape, np.nan))
             own[held] = found[held]
             self.codes[held] = CODE["holds"]

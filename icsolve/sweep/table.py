@@ -18,7 +18,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers import turn_of
 from icsolve.numbers.replay import Array
 from icsolve.numbers.tape import UNIT
-from icsolve.statics.power import is_unknown
+from icsolve.statics.power import loads_to_find
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.record_runner import Key, Rows
 from icsolve.tuples import cached_property, dataclass, field
@@ -321,8 +321,8 @@ class Table:
         case_of : the case of a row, by its index
         """
         if self.asked.answers and not any(kind == "answers" for kind, _ in self.values):  # no row has one
-            for load in filter(is_unknown, case.loads):
-                self._table(self.values, ("answers", load.name), (self.rows,))
+            for name in loads_to_find(case):
+                self._table(self.values, ("answers", name), (self.rows,))
         return Sweep(
             case,
             vary,

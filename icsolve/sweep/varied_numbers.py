@@ -8,7 +8,7 @@ from typing import Any
 
 from icsolve.case import Case, Number, is_angle
 from icsolve.errors import CaseError, Problem, SceneError, Status
-from icsolve.read.names import parts, shown, suggestion
+from icsolve.read.names import joint_names, parts, shown, suggestion
 from icsolve.read.settings import like
 from icsolve.scene.sensitivity import number_at, numbers_of, parts_of
 from icsolve.tuples import replace
@@ -73,7 +73,7 @@ def find_number(case: Case, path: str, refused: str = "cannot vary") -> Number:
         return number_at(case, path)
     known = numbers_of(case)
     section, _, rest = path.partition(".")
-    found = [number for own, number in known.items() if _means(own, section, rest)]
+    found = [number for own, number in known.items() if _means(case, own, section, rest)]
     if len(found) == 1:
         return found[0]
     if found:
@@ -85,7 +85,7 @@ def find_number(case: Case, path: str, refused: str = "cannot vary") -> Number:
     raise CaseError([Problem(case.path, line, column, f"{refused} {shown(path)}: {why}")])
 
 
-def _means(own: str, section: str, rest: str) -> bool:
+def _means(case: Case, own: str, section: str, rest: str) -> bool:
     """Whether a path in other words is this number's: ``BA`` for a length ``AB``, a joint by its point."""
     head, _, tail = own.partition(".")
     if head != section:
@@ -93,14 +93,19 @@ def _means(own: str, section: str, rest: str) -> bool:
     if section in ("lengths", "angles"):
         asked, given = parts(rest), parts(tail)
         return asked == given or (section == "lengths" and asked == given[::-1])
-    if section == "joints" and own.split(".")[-2] in ("mu", "radii", "turns"):  # of a rope, by a point of it
-        *_, key, point = own.split(".")
-        return rest in (f"{point}.{key}", f"{point}.{key.replace('radii', 'radius')}")
+    if (
+        section == "joints"
+        and tail.count(".") == 2
+        and tail.partition(".")[0] in (r.name for r in case.ropes)
+    ):
+        label, key, point = tail.split(".")
+        keys = (key, key.replace("radii", "radius"))
+        return rest in {way for one in keys for way in (f"{point}.{one}", f"{label}.{one}.{point}")}
     if section == "joints":
-        (asked_at, _, asked_key), (at, _, key) = rest.rpartition("."), tail.rpartition(".")
-        pair, _, point = at.partition("@")
-        turned = "-".join(reversed(pair.split("-")))
-        return asked_key == key and asked_at in {at, pair, turned, point or pair, f"{turned}@{point}"}
+        (name, _, key), (label, _, own_key) = rest.partition("."), tail.partition(".")
+        plain = label.partition("#")[0]
+        names = (joint_names(joint.links, joint.at) for joint in case.joints)
+        return key == own_key and any(plain in called and name in called for called in names)
     return False
 
 

@@ -58,6 +58,7 @@ def read_place(text: str) -> WrittenPlace:
     words, flag = words_of(text)
     if flag:
         return WrittenPlace(flag=flag)
+    words = words.rstrip(" .")
     far = _FAR.search(words)
     if far is not None and not _PLACE_WORDS.sub("", words[: far.start()]).strip():
         rest, toward = far.group(1), _TOWARD.match(far.group(1))

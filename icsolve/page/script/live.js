@@ -52,10 +52,11 @@ if (live) {
 }
 /* Of a structure the force of the first link of a joint on the second. */
 function forceIn(name, solved) {
-  const [by, on, where] = answers.find((answer) => answer.name === name).joint;
-  const k = live.bonds.findIndex(([a, b], n) => live.at[n] === where && ((a === by && b === on) || (a === on && b === by)));
-  const w = k < 0 ? null : reactionsOf({ solved }).joints[k];
-  const sign = k >= 0 && live.bonds[k][0] === by ? 1 : -1;
+  const [by, on, where, before] = answers.find((answer) => answer.name === name).joint;
+  const joins = ([a, b], n) => live.at[n] === where && (a === by ? b === on : a === on && b === by);
+  const k = live.bonds.flatMap((bond, n) => (joins(bond, n) ? n : []))[before];
+  const w = reactionsOf({ solved }).joints[k];
+  const sign = w && live.bonds[k][0] === by ? 1 : -1;
   return w ? [sign * w[1], -sign * w[0]] : [NaN, NaN];
 }
 function valueOf(name, solved) {
