@@ -53,7 +53,7 @@ from icsolve.screws.joints import OFF_RADIUS, at_radius, freedoms, guide_directi
 from icsolve.screws.ropes import TOUCHING, RopePart, rope_parts
 from icsolve.statics import load_wrenches, power
 from icsolve.statics.load_wrenches import COUPLE, FORCE, inertia_forces, is_loaded
-from icsolve.structure import Bond
+from icsolve.structure import Bond, topology
 from icsolve.sweep.program import wanted_points
 from icsolve.sweep.varied_numbers import numbers_of
 from icsolve.tuples import NamedTuple
@@ -165,7 +165,7 @@ class _ProgramWriter:
         case = program.case
         self.scene = scene
         self.case, self.record = case, _CountingRecord()
-        self.figure, self.top = program.figure, program.top
+        self.figure, self.top = program.figure, topology(program.case, as_ties=True)
         self.names: dict[int, str] = {}
         self.workspace = Workspace(case, self.figure.frame, self.record)
         numbers = numbers_of(case)

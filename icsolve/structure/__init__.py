@@ -140,8 +140,9 @@ def reached(first: Iterable[T], following: Callable[[T], Iterable[T]]) -> dict[T
 
 
 @lru_cache(maxsize=32)
-def topology(case: Case) -> Topology:
-    """Bodies and bonds of a case.
+def topology(case: Case, *, as_ties: bool = False) -> Topology:
+    """Bodies and bonds of a case; of a pin of several ``as_ties`` those that reactions are told of, or those
+    with a link that an answer needs in any case, if one is: what else hangs there can be left out.
 
     Raises SceneError where gears or a belt have no common carrier, and for a case in space.
     """
@@ -158,7 +159,8 @@ def topology(case: Case) -> Topology:
         raise SceneError(Status.UNSUPPORTED, said)
     body_of, members = _bodies(case)
     pins = _pinned_at(case, body_of)
-    bonds = tuple(_bonds(case, body_of, pins))
+    needed = {case.ground, *(load.link for load in case.loads), *(given.link for given in case.motion)}
+    bonds = tuple(_bonds(case, body_of, pins, set() if as_ties else needed))
     at: list[list[int]] = [[] for _ in members]
     for k, bond in enumerate(bonds):
         at[bond.a].append(k)
@@ -194,15 +196,13 @@ def _pinned_at(case: Case, body_of: dict[str, int]) -> dict[str, list[int]]:
     return at
 
 
-def _bonds(case: Case, body_of: dict[str, int], pins: dict[str, list[int]]) -> Iterable[Bond]:
+def _bonds(case: Case, body_of: dict[str, int], pins: dict[str, list[int]], hubs: set[str]) -> Iterable[Bond]:
     pins_of: dict[int, list[str]] = {}
     for point, bodies in pins.items():
         for body in dict.fromkeys(bodies):
             pins_of.setdefault(body, []).append(point)
-    needed = {case.ground, *(load.link for load in case.loads), *(given.link for given in case.motion)}
     for joint in case.joints:
-        several = len(joint.links) > 2  # they turn about a link that an answer needs in any case, if one is
-        hub = next((link for link in joint.links if link in needed), None) if several else None
+        hub = next((link for link in joint.links if link in hubs), None) if len(joint.links) > 2 else None
         for links in pairs_of(joint, hub):
             a, b = body_of[links[0]], body_of[links[1]]
             if not joint.freedom or a == b:

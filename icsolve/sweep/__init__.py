@@ -47,6 +47,7 @@ __all__ = ["Sweep", "sweep"]
 
 CaseOf = Callable[[int], Case]
 """The case of a row, by its index."""
+SOLVED = (CODE["ok"], CODE["holds"])
 BY_SCENES = "each row is solved as a scene of its own."
 
 
@@ -155,7 +156,7 @@ def _without_spare_links(
 ) -> tuple[tuple[str, ...], CaseOf]:
     """Fill in the rows that have no answer as they are, but have one without links that it does not need; a
     note on these, and the case of a row."""
-    case, found_none = start.setting.case, (table.codes != 0) & (table.codes != CODE["holds"])
+    case, found_none = start.setting.case, ~np.isin(table.codes, SOLVED)
     if needed(start.case, Want()).bodies:
         found_none &= np.isin(table.codes, [CODE[status] for status in UNPLACED])
     refused = np.flatnonzero(found_none)
@@ -166,7 +167,7 @@ def _without_spare_links(
         if part is None:
             return (), case_of
         found = _of_rows(part, columns, refused, wanted)
-        rows = refused[found.codes == 0]
+        rows = refused[np.isin(found.codes, SOLVED)]
         if not rows.size:
             return (), case_of
         found = found if len(rows) == len(refused) else _of_rows(part, columns, rows, wanted)
