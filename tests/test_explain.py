@@ -956,3 +956,18 @@ def test_a_force_of_unknown_direction_is_made_of_its_components(seed: int) -> No
         assert f"    Q.{axis} = {value:.6g} N\n" in told
     assert re.search(rf"^    Q = sqrt\(Q.x\^2 \+ Q.y\^2\) = sqrt\(.*\) = {found.value:.6g} N$", told, re.M)
     assert not disagreeing(told)
+
+
+@pytest.mark.parametrize("turns", ["ccw", "cw"])
+@pytest.mark.parametrize("known", ["ccw", "cw"])
+def test_no_equation_says_a_number_twice(turns: str, known: str) -> None:
+    """One torque against another, each positive either way: `T = -50 = -50` stood there."""
+    text = explain(
+        icsolve.load(
+            "icsolve: 1\npoints: {A: [0, 0]}\njoints: [{pin: [1, 2], at: A}]\nloads:\n"
+            f"  M: {{torque: 50, link: 2, turns: {known}}}\n"
+            f"  T: {{torque: unknown, link: 2, turns: {turns}}}\n"
+        )
+    )
+    sign = "-" if turns == known else ""
+    assert f"    T = {sign}50 N*m\n" in text

@@ -386,3 +386,16 @@ def test_a_value_that_a_place_has_is_found_there(name: str, share: float) -> Non
     for value in told:
         found = find(case, {path: [low, high]}, Query("value", "T", value))
         assert [spot.at for spot in found if abs(spot.at - at) < 1e-3] == pytest.approx([at], rel=1e-9), value
+
+
+def test_a_value_that_an_even_answer_misses_by_a_digit_is_nowhere() -> None:
+    """A block on a rough table: 0.3 of its weight wherever it is."""
+    case = load(
+        "icsolve: 1\npoints: {A: [0, 0]}\njoints: [{slide: [2, 1], at: A, along: 0, mu: 0.3}]\n"
+        "loads: {W: {weight: 107, link: 2, at: A}, F: {force: unknown, link: 2, at: A, angle: 0}}\n"
+        "motion: {point: A, link: 2, speed: 1, angle: 0}\n"
+    )
+    for value, places in ((32.1, [0.0, 10.0]), (math.nextafter(32.1, 33.0), [])):
+        assert [
+            spot.at for spot in find(case, {"points.A.x": [0.0, 10.0]}, Query("value", "F", value))
+        ] == places

@@ -299,7 +299,8 @@ def _solved(work: Worked, terms: Sequence[ShownTerm], friction: Sequence[Rubbed]
     factors = [(t.sign, product(work.number(_times(t.acting, root)), work.number(t.factor))) for t in unknown]
     value = work.quantity(found.value, found.unit)
     yield words("So")
-    numbers = () if factors == [(1, Num("1"))] and len(rest) == 1 else (solved_for(rest, factors),)
+    alone = len(factors) == len(rest) == 1 and factors[0][1] == Num("1")
+    numbers = () if alone else (solved_for(rest, factors),)
     yield formula(load_name(root.load.name), *numbers, value)
 
 

@@ -216,10 +216,10 @@ class Scenes:
         if (codes == CODE["holds"]).any():
             raise SceneError(Status.UNSUPPORTED, HOLDS.format(load=self.load))
         finder = {"value": self._values, "max": self._peaks, "dead": self._dead}[self.query.kind]
-        searches = list(finder(found, codes))
         spots = FoundPositions()
         self.notes[SAID.format(count=len(self.places))] = None
         try:
+            searches = list(finder(found, codes))
             for first in range(0, len(searches), TOGETHER):
                 spots += self._together(searches[first : first + TOGETHER])
         except _EnoughError:
@@ -335,20 +335,20 @@ class Scenes:
     def _misses(self, found: Array) -> Array:
         """By how much the answers at the places miss the value. Where that is next to nothing rows with
         bounds tell it: 0 where these leave its side open, for no row beyond such a place would show that the
-        answer passes through. At an end of the range next to nothing is 0: it may lie just beyond."""
-        value, room = self.query.value, self.rounded
+        answer passes through; so at an end of the range to which the answer runs, but for last digits."""
+        value, least = self.query.value, SHARP * abs(self.query.value)
         miss = found - value
-        close = np.abs(miss) <= SHARP * abs(value)
-        close[1:-1] &= np.abs(miss[1:-1]) > room
-        for k in np.flatnonzero(close).tolist():
-            answers, _, errors = self._swept(self.places[k : k + 1], True)
-            off, least = float(answers[0]) - value, SHARP * abs(value)
-            error = self.rounded + min(float(errors[0]), least)
-            at_end = k in (0, len(miss) - 1) and abs(off) <= least
-            miss[k] = 0.0 if at_end or abs(off) <= error else off
-            room = max(room, error) if miss[k] == 0.0 else room
+        close = np.abs(miss) <= least
+        close[1:-1] &= np.abs(miss[1:-1]) > self.rounded
+        if close.any():
+            answers, _, errors = self._swept(self.places[close], True)
+            off, error = answers - value, self.rounded + np.minimum(errors, least)
+            inward = np.abs(miss[np.clip(np.flatnonzero(close), 1, len(miss) - 2)])
+            at_end = np.isin(np.flatnonzero(close), (0, len(miss) - 1)) & (8.0 * np.abs(off) < inward)
+            has = at_end | (np.abs(off) <= error)
+            miss[close] = np.where(has, 0.0, off)
+            self.room = max(self.room, *error[has].tolist()) if has.any() else self.room
         miss[np.abs(miss) <= self.rounded] = 0.0
-        self.room = room
         return miss
 
     def _meets(self, size: Array, k: int, way: int) -> bool:
