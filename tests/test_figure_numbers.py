@@ -20,7 +20,7 @@ from icsolve.numbers import Floats, Scalar, turn_of
 from icsolve.numbers.balls import Balls
 from icsolve.numbers.tape import Tape
 from icsolve.read import load
-from sizes import FULL
+from sizes import FULL, sampled
 from test_figure import FOUR_BAR, LOOP, PINS, butterfly, case
 
 U = 2.0**-53
@@ -173,6 +173,7 @@ FIGURES = {
 }  # fmt: skip
 
 
+@sampled(2, "name", "k")
 @pytest.mark.parametrize("name", FIGURES)
 @pytest.mark.parametrize("k", [-990, -40, 1, 40, 990] if FULL else [-990, 1, 40])
 def test_a_power_of_two_scales_bit_for_bit(name: str, k: int) -> None:

@@ -22,6 +22,7 @@ from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.keys import NumberKey
 from shell import Ran
+from sizes import sampled
 from test_grade_verdict import ZERO
 
 ANSWERS = (
@@ -440,6 +441,7 @@ ENDINGS = {
 """What the file, or the folder, of each kind may end in."""
 
 
+@sampled(2)
 @pytest.mark.parametrize("kind", ENDINGS)
 def test_an_export_is_not_written_under_the_ending_of_something_else(kind: str, a_class: Class) -> None:
     """Its own endings, also in capitals, and none at all; a folder may have any that no file has."""

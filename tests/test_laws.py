@@ -25,7 +25,7 @@ from icsolve.case import Force, Number
 from icsolve.errors import SceneError
 from icsolve.sweep.varied_numbers import with_numbers
 from library import FILES, sample
-from sizes import MORE
+from sizes import MORE, sampled
 from solving import LAW, kinds, random_scenes, solved, told, unknown, whole
 from transcribe import Scene
 
@@ -100,6 +100,7 @@ def test_any_link_may_be_held_still(scenes: list[Scene]) -> None:
         compare(transforms.heavy_to_forces(scene), transforms.on_another_frame(scene, frame))
 
 
+@sampled(3)
 @pytest.mark.parametrize("seed", range(6 * MORE))
 def test_changes_at_mobility_2(seed: int) -> None:
     """Both unknowns, and the centres that two freedoms leave determined."""

@@ -38,7 +38,7 @@ from icsolve.screws.ropes import offsets_of, rope_length
 from icsolve.sweep.varied_numbers import numbers_of
 from library import FILES, LIBRARY, PAGED, known, motion, page_of
 from shell import exit_status
-from sizes import FULL
+from sizes import FULL, sampled
 from test_profile_sweep import CAMS
 
 ROOT = Path(__file__).parent.parent
@@ -221,6 +221,7 @@ def test_the_position_as_written_is_in_every_motion() -> None:
                 assert value == pytest.approx(own[answer["name"]].value, rel=1e-8), name
 
 
+@sampled(2)
 @pytest.mark.parametrize(
     "name", ["linkages/peaucellier.yaml", "tools/scissor_lift.yaml", "gears/epicyclic_train.yaml"]
 )
@@ -267,6 +268,7 @@ EXERTED = {
 """What a load of each kind exerts, as the worked solution writes it, and its unit."""
 
 
+@sampled(2, "load", "asked")
 @pytest.mark.parametrize("load", EXERTED)
 @pytest.mark.parametrize("asked", [False, True], ids=["known", "asked"])
 def test_the_equation_of_a_page_has_what_each_load_exerts_in_its_own_unit(load: str, asked: bool) -> None:
@@ -577,6 +579,7 @@ def test_friction_circles_have_their_radius_and_go_with_their_pins(name: str) ->
         assert float(circles[str(pin.at)]) == pytest.approx(wanted, abs=0.006)
 
 
+@sampled(2)
 @pytest.mark.parametrize(
     "name", ["ch13/13_18_slider_crank_friction_everywhere", "dynamics/slider_crank_piston"]
 )
@@ -627,6 +630,7 @@ def test_forces_in_rubbing_pins_touch_their_friction_circles() -> None:
     assert seen == circles.keys() != set()
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", ["ch13/13_18_slider_crank_friction_everywhere", "cams/square_cam"])
 def test_velocities_of_pages_solved_beforehand_are_those_of_the_turn(name: str) -> None:
     """Every point goes as the twists of its links say, by the positions before and after: to a hundredth."""

@@ -31,7 +31,7 @@ from icsolve.page.motion import motion_of
 from icsolve.sweep.varied_numbers import numbers_of
 from icsolve.tuples import replace
 from library import FILES, page_of, sample
-from sizes import FULL
+from sizes import FULL, sampled
 
 ROOT = Path(__file__).parent.parent / "cases"
 LENGTHS = """icsolve: 1
@@ -181,6 +181,7 @@ CASES = (
 )
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", CASES)
 def test_what_is_typed_is_solved_as_solve_does(name: str, shown: Any) -> None:
     """Random changes: values to 1e-9 (of zero to 1e-12), statuses by their words."""
@@ -480,6 +481,7 @@ TURNED = {
 """A number that is changed, and what then turns which link (the input of the page where that is not said)."""
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", TURNED)
 def test_a_changed_mechanism_is_turned_as_the_sweep_turns_it(name: str, shown: Any) -> None:
     """Forth and back, to 1e-7: the fields have ten digits."""
@@ -530,6 +532,7 @@ MOVED = {
 }
 
 
+@sampled(2, "motion", "lengths")
 @pytest.mark.parametrize("motion", MOVED)
 @pytest.mark.parametrize("lengths", [(2, 4, 2), (1, 3, 2), (3, 3.5, 2.5), (1, 3.5, 2.5)])
 def test_a_changed_mechanism_goes_straight_on_through_change_points(
@@ -714,6 +717,7 @@ def test_a_link_leads_to_the_way_of_assembling_that_was_dragged_to(shown: Any) -
     assert float(page.run(answer)[0]) == pytest.approx(float(value), rel=1e-9)
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", sample(FILES, 6, "fields"))
 def test_a_field_has_the_unit_and_the_bound_of_the_reader(name: str) -> None:
     """A number reads the same with the unit that stands behind its field, and a page refuses of others what
@@ -765,6 +769,7 @@ return document.getElementById('body-said').textContent"""
 FORCE = re.compile(r"(\S+) = (\S+) \S+ at (\S+)°")
 
 
+@sampled(2)
 @pytest.mark.parametrize(
     "name",
     ["linkages/jansen_leg", "sliders/inverted_slider_crank", "tools/bolt_cutter", "tools/scissor_jack"],
@@ -825,6 +830,7 @@ RESTS = {
 }
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", sorted(p.stem for p in ROOT.glob("equilibrium/*.yaml")) if FULL else RESTS)
 def test_a_position_that_is_asked_for_is_one_of_those_of_solve(name: str, shown: Any) -> None:
     """Of any way of assembling: its datum to 1e-9 of a turn or of the unit, and its stability. The page seeks
@@ -885,6 +891,7 @@ SINGULAR = {
 """A case, and a singular position of it [degrees]."""
 
 
+@sampled(2)
 @pytest.mark.parametrize("kind", SINGULAR)
 def test_beside_a_singular_position_a_page_has_the_number_of_solve(
     kind: str, shown: Any, tmp_path: Path
@@ -929,6 +936,7 @@ LEVERS = {
 }  # fmt: skip
 
 
+@sampled(2, "asked", "kind")
 @pytest.mark.parametrize("asked", ["torque", "force"])
 @pytest.mark.parametrize("kind", LEVERS if FULL else list(LEVERS)[::3])
 def test_a_page_has_the_number_of_solve_however_near_a_singular_position_is(
@@ -977,6 +985,7 @@ return changes.map((change) => {
 PULLED = [kind for kind, (_, _, at, _) in LEVERS.items() if at == round(at)]
 
 
+@sampled(2, "asked", "kind")
 @pytest.mark.parametrize("asked", ["torque", "force"])
 @pytest.mark.parametrize("kind", PULLED if FULL else PULLED[::3])
 def test_what_is_pulled_has_the_number_of_solve_however_near_a_singular_position_is(
@@ -1023,6 +1032,7 @@ SLACKENED = {
 decides to 2^-48 of it."""
 
 
+@sampled(2)
 @pytest.mark.parametrize("kind", SLACKENED)
 def test_however_near_a_rope_is_to_going_slack_a_page_says_what_solve_says(kind: str, shown: Any) -> None:
     """The load at which a rope ceases to pull, found by the words of `solve`, and 1e-2 to 1e-15 aside."""
@@ -1063,6 +1073,7 @@ return degrees.map((at) => {
 });"""
 
 
+@sampled(2)
 @pytest.mark.parametrize("kind", CHAINS)
 def test_chains_of_crossing_bars_are_turned_with_the_values_of_the_sweep(kind: str, shown: Any) -> None:
     """With another load, forth and back, to 1e-9: where only the angle of the input follows, it is as typed;
@@ -1157,6 +1168,7 @@ def test_a_load_stays_with_the_link_that_it_is_on(link: str, shown: Any) -> None
 OFF = np.array([-1e-9, 0.0, 1e-9])
 
 
+@sampled(3, "kind")
 @pytest.mark.parametrize(
     "kind",
     [mechanisms.stephenson, mechanisms.butterfly, mechanisms.inverted_slider_crank, mechanisms.folding],
@@ -1313,6 +1325,7 @@ LOADED = {
 }
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", LOADED)
 def test_the_numbers_beside_the_loads_are_those_that_are_typed(
     name: str, window: Browser, shown: Any, tmp_path: Path

@@ -15,6 +15,7 @@ from icsolve.scene.sensitivity import band, entries, influences, numbers_of, tex
 from icsolve.statics.power import has_friction
 from library import FILES, sample
 from more_digits import SixtyDigits
+from sizes import sampled
 
 PRESS = """
 icsolve: 1
@@ -90,6 +91,7 @@ def test_what_an_answer_does_not_depend_on_has_no_sensitivity() -> None:
     }
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", sample(FILES, 2, "roundings"))
 def test_no_rounding_is_told_as_a_sensitivity(name: str) -> None:
     """A number of which the answer is free, such as where on a link that only shifts its weight hangs."""

@@ -20,7 +20,7 @@ from icsolve.solve.stability import holding_values, is_still
 from icsolve.sweep.varied_numbers import find_number, with_numbers
 from rough_scenes import Rough
 from shell import Shell
-from sizes import FULL, few
+from sizes import FULL, few, sampled
 
 NEAR = 0.01
 """Scenes that hold with coefficients so much larger and not with such smaller ones are not compared."""
@@ -466,6 +466,7 @@ PULL = """  V: {weight: 50, link: 3, at: Q}
 """
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", range(40 if FULL else 2))
 def test_a_table_that_a_sled_holds_tips_at_no_value_of_the_pull(seed: int) -> None:
     """The sled rubs by its own weight: it holds 0.2 x 50 either way where the legs can carry the table, and
@@ -489,6 +490,7 @@ def test_a_table_that_a_sled_holds_tips_at_no_value_of_the_pull(seed: int) -> No
     assert [one.value for one in found] == pytest.approx([low, high], abs=1e-12)
 
 
+@sampled(2, "pinned")
 @pytest.mark.parametrize("seed", range(40 if FULL else 2))
 @pytest.mark.parametrize("pinned", [False, True], ids=["mechanism", "structure"])
 def test_smooth_legs_hold_a_table_as_far_as_they_reach(pinned: bool, seed: int) -> None:
