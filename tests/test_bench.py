@@ -113,6 +113,7 @@ def test_the_closed_form_by_hand_is_what_solve_gives(mechanism: CrankTurning) ->
         assert icsolve.solve(case).answers["T2"].value == pytest.approx(by_hand, rel=1e-12)
 
 
+@sampled(3)
 @pytest.mark.skipif(not (shutil.which("cc") or shutil.which("gcc")), reason="no C compiler")
 @pytest.mark.parametrize("mechanism", MECHANISMS, ids=lambda m: m.name)
 def test_the_closed_form_in_c_is_that_by_hand(mechanism: CrankTurning, tmp_path: Path) -> None:
@@ -318,7 +319,7 @@ def test_least_gives_seconds_a_call() -> None:
 
 
 def test_the_whole_benchmark_in_small(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(report, "USUAL", Effort(2, 4, 4, 4, 10, 0.02, 1))
+    monkeypatch.setattr(report, "USUAL", Effort(1, 2, 2, 2, 4, 0.01, 1))
     monkeypatch.setattr(report, "FAMILIES", FAMILIES[:4])
     monkeypatch.setattr("icsolve.bench.speed.MILLION", 10_000)
     monkeypatch.setattr("icsolve.bench.promises.STARTS", STARTS[::7])

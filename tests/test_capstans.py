@@ -19,7 +19,7 @@ import icsolve
 from icsolve.errors import SceneError
 from icsolve.scene.sensitivity import influences
 from icsolve.solve.stability import holding_values
-from sizes import FULL, MORE, few
+from sizes import FULL, MORE, few, sampled
 
 mp.dps = 60
 Vector = tuple[Any, Any]
@@ -317,6 +317,7 @@ def two_cranks(seed: int, posts: int) -> tuple[str, np.ndarray]:
     return text, np.where(first > 0.0, asked, math.nan)
 
 
+@sampled(2)
 @pytest.mark.parametrize("posts", [1, 2])
 def test_a_rope_that_slips_holds_what_friction_within_its_limits_holds(posts: int) -> None:
     """The range is that of the equilibria in which the rope pulls: its finite ends are met at the corners of
@@ -350,6 +351,7 @@ def test_a_rope_that_slips_holds_what_friction_within_its_limits_holds(posts: in
     assert min(met.values()) >= (5 if FULL else 2), met
 
 
+@sampled(2)
 @pytest.mark.parametrize("posts", [1, 2])
 def test_along_its_own_number_a_load_ceases_to_hold_where_its_range_ends(posts: int) -> None:
     """The cranks on rough pins; also where the rope would have to push without friction: the load does work

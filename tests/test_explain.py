@@ -368,6 +368,7 @@ loads: {T: {torque: 100, link: 2}, P: {force: 10, link: 4, at: C, angle: 0}}
 """
 
 
+@sampled(2)
 @pytest.mark.parametrize("text", [TWO_BARS, ON_A_STROKE, ON_A_GUIDE])
 def test_virtual_work_of_two_unknowns_and_of_a_stroke(text: str) -> None:
     """One sum and one row of derivatives for each unknown, in every way in which the figure assembles."""

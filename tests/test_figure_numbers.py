@@ -371,6 +371,7 @@ def test_two_spellings_of_one_double_are_one_place(power: str) -> None:
     assert [float(a - b) for a, b in zip(exact["B"], exact["G"], strict=True)] == [0.0, 0.0]
 
 
+@sampled(2)
 @pytest.mark.parametrize("stages", [60, 190])
 def test_scissors_whose_straight_bars_say_all_their_lengths(stages: int) -> None:
     """Each bar's three lengths make a flat triangle, so that every step is in doubt: none runs twice. Along

@@ -140,18 +140,19 @@ def test_the_order_of_mention_does_not_matter() -> None:
 
 
 def test_a_chain_of_four_bars_takes_time_in_proportion() -> None:
-    """Two thousand dyads, each point by `near`: no recursion, no search."""
+    """Two thousand dyads in a full run, each point by `near`: no recursion, no search."""
     draft = Draft(0, 0)
     draft.at = {"B0": (0.3, 1.0), "A0": (0.0, 0.0)}
     draft.coordinates("B0")
-    for k in range(1, 2001):
+    count = few(2000)
+    for k in range(1, count + 1):
         draft.at[f"A{k}"], draft.at[f"B{k}"] = (2.0 * k, 0.0), (2.0 * k + 0.3 + 0.1 * math.sin(k), 1.0)
         draft.coordinates(f"A{k}")
         draft.length(f"B{k - 1}", f"B{k}")
         draft.length(f"A{k}", f"B{k}")
         draft.approximately(f"B{k}", 0.02)
     case = draft.case()
-    figure = solve_figure(case, [f"B{k}" for k in range(2001)])
+    figure = solve_figure(case, [f"B{k}" for k in range(count + 1)])
     places = {p: case_point(figure.frame, at) for p, at in figure.points.items()}
     assert max(math.dist(places[p], draft.at[p]) for p in places) < 1e-9
     assert len(solve_figure(case, ["B3"]).steps) == 4

@@ -364,6 +364,7 @@ def _run(call: list[str]) -> int:
     return subprocess.run(call, env=env, capture_output=True, check=False).returncode
 
 
+@sampled(3)
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGINT])
 def test_a_signal_leaves_nothing_half_done_at_any_moment(number: signal.Signals, here: Path) -> None:
     dice = random.Random(number)

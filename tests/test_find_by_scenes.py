@@ -105,6 +105,7 @@ def test_a_value_just_below_a_peak_is_taken_twice_and_just_above_nowhere(seed: i
     assert find(case, ends, Query("value", "T12", value)) == []
 
 
+@sampled(2)
 @pytest.mark.parametrize("offset", [0.0, -5.0])
 def test_a_value_that_is_only_touched_is_one_place(offset: float) -> None:
     """The answer of a scene is right to its last digit, and so is the value that it is asked for."""
@@ -295,6 +296,7 @@ motion: {link: 2, turns: ccw}
 """
 
 
+@sampled(3)
 @pytest.mark.parametrize(
     ("text", "path", "place", "kind"),
     [

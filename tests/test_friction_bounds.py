@@ -402,6 +402,7 @@ def test_the_error_of_rubs_is_how_far_they_are_off_and_at_most_twice_that(own: f
         assert abs(off) * 0.99 <= found <= 1.01 * most * abs(off)
 
 
+@sampled(2)
 @pytest.mark.parametrize("size", [1e-6, 1e6])
 def test_all_solutions_grow_with_the_loads(size: float) -> None:
     """The equations of two pins that hang on each other are homogeneous in the loads and the forces."""

@@ -622,6 +622,7 @@ def test_no_two_exported_variants_are_alike(a_class: Class, choices: str, made: 
     assert len(forces) == len(set(forces)) == made
 
 
+@sampled(2)
 @pytest.mark.parametrize("folder", ["ropes", "sliders"])
 def test_what_is_given_reads_as_sentences_in_gift(a_class: Class, folder: str) -> None:
     """No name stands before an equals sign with nothing after, and no sentence is made equal to something."""

@@ -190,7 +190,7 @@ loads:
 """
 
 
-@sampled(2)
+@sampled(3)
 @pytest.mark.parametrize(
     ("text", "was", "now"),
     [(BLOCK, "mu: 0.3", "mu: 0.25"), (PINNED, "angle: -60", "angle: -70"), (BAR, "torque: 4", "torque: 5")],

@@ -107,6 +107,7 @@ def holds_as_its_range_says(text: str) -> int:
     return len(checks)
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", BY_NAME)
 def test_known_loads_hold_where_the_range_of_one_of_them_says(name: str) -> None:
     """The ladder, the crate, the slope and the jack of the textbooks; a block pressed to a wall, whose load

@@ -142,6 +142,7 @@ def ring(count: int, seed: int) -> tuple[str, dict[str, Place]]:
     return f"icsolve: 1\n{text}joints:\n{joints}", at
 
 
+@sampled(2)
 @pytest.mark.parametrize("count", [3, 6, 12, 28, *([40] * (MORE > 1))])
 def test_rings_of_points_each_on_a_leg(count: int) -> None:
     text, at = ring(count, count)
@@ -512,6 +513,7 @@ loads: {{P: {{force: 100, link: 4, at: E, angle: 45}}, T: {{torque: unknown, lin
 """BC and CD are all but in line: by so many units of the 26th decimal CD is too long for that."""
 
 
+@sampled(2)
 @pytest.mark.parametrize("point", ["C", "E"])
 def test_of_two_places_that_all_but_coincide_near_picks_the_same_however_near_they_are(point: str) -> None:
     """From 0.1 to 1e-13 apart, with `near` 0.3 off in some direction: of C itself, and of E, which a turned

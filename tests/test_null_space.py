@@ -108,6 +108,7 @@ def test_a_passive_freedom_does_not_stop_the_answer() -> None:
         assert refused.value.status == "mobility", told(loaded)
 
 
+@sampled(2)
 @pytest.mark.parametrize("generator", [mechanisms.butterfly, mechanisms.flier], ids=lambda g: g.__name__)
 def test_all_28_centres_of_the_eight_bars_at_which_kennedy_stalls(generator: mechanisms.Generator) -> None:
     for seed in range(10 * MORE):

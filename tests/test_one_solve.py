@@ -87,6 +87,7 @@ def test_one_topology_one_figure_one_solve(name: str, shown: str) -> None:
     assert set(found.values()) == {1}  # in each kind of numbers once
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", MECHANISMS[:2])
 def test_a_page_adds_the_setting_of_its_sweep(name: str) -> None:
     """The sweep knows where all points are, and not only those that the answer needs."""

@@ -278,7 +278,7 @@ def case_of(name: str) -> Case:
 
 
 NAMES = [*FILES, *(f"{maker.__name__}-{seed}" for maker, seed in RANDOM)]
-WITH_PAGE = [*PAGED, *sample(NAMES[len(FILES) :], 8, "pages"), *OTHERS]
+WITH_PAGE = [*sample([*PAGED, *OTHERS], 2, "voices"), *sample(NAMES[len(FILES) :], 8, "pages")]
 TOLD_OF = [*sample(NAMES, 3, "statuses and values"), *OTHERS]
 
 

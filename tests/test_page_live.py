@@ -345,6 +345,7 @@ def test_a_position_in_which_a_rope_would_push_is_slack(shown: Any) -> None:
     assert (same["status"], other["status"]) == ("ok", "slack")
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", ["quick_return_lever", "rolling_disk", "hoist_starting"])
 def test_a_motion_the_other_way_is_solved_as_solve_does(name: str, shown: Any) -> None:
     """An acceleration is faster in the sense of the speed, whichever that was as the page was made."""
@@ -401,6 +402,7 @@ return [...document.querySelectorAll('#loads [data-load]:not(.ghost) path')].fla
 }).filter((p) => p.x < left - 1 || p.y < top - 1 || p.x > right + 1 || p.y > bottom + 1).length"""
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", ["linkages/four_bar", "ropes/windlass", *JANSEN])
 def test_no_arrow_of_a_load_is_cut_at_the_edge(name: str, shown: Any) -> None:
     """Turned through, then with loads that point each way, by fields and by the keys of a handle."""
@@ -441,6 +443,7 @@ def test_a_handle_is_dragged_by_mouse_and_by_finger(shown: Any) -> None:
         assert found == pytest.approx(values["T12"], rel=1e-9)
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", ["linkages/four_bar", "sliders/slider_crank_in_line"])
 def test_the_numbers_follow_the_turn_and_the_turn_the_numbers(name: str, shown: Any) -> None:
     """What the fields say solves to what is shown: turned, then with another load; to seven digits each."""
@@ -603,6 +606,7 @@ def test_torsion_springs_are_within_half_a_turn_as_typed_and_wind_up_as_they_are
     assert [value for _, value in found] == pytest.approx(rows.answers["T"].tolist(), rel=1e-7)
 
 
+@sampled(3)
 @pytest.mark.parametrize(
     "change", [{}, {"points.E.x": "480", "loads.P": "75"}, {"angles.BC": "35", "lengths.ED": "230"}]
 )
@@ -639,6 +643,7 @@ return [e.id, e.getAttribute('role'), e.getAttribute('aria-label'), e.matches(':
   [style.strokeWidth, style.strokeDasharray, style.strokeOpacity].join()]"""
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", ["sliders/quick_return", "tools/scissor_jack", *JANSEN])
 def test_every_handle_is_reached_and_moved_by_keys(name: str, shown: Any) -> None:
     """Tab goes from each to the next, which says what it is and shows that it has the focus; arrows change
@@ -1032,7 +1037,7 @@ SLACKENED = {
 decides to 2^-48 of it."""
 
 
-@sampled(2)
+@sampled(4)
 @pytest.mark.parametrize("kind", SLACKENED)
 def test_however_near_a_rope_is_to_going_slack_a_page_says_what_solve_says(kind: str, shown: Any) -> None:
     """The load at which a rope ceases to pull, found by the words of `solve`, and 1e-2 to 1e-15 aside."""
@@ -1090,6 +1095,7 @@ def test_chains_of_crossing_bars_are_turned_with_the_values_of_the_sweep(kind: s
     assert [float(value) for value, _ in found] == pytest.approx(values.tolist(), rel=1e-9)
 
 
+@sampled(3)
 @pytest.mark.parametrize("kind", [kind for kind in CHAINS if "flat" in kind])
 def test_scissors_of_flat_triangles_are_pulled_to_the_answers_of_solve(kind: str, shown: Any) -> None:
     page = shown(CHAINS[kind])
@@ -1202,6 +1208,7 @@ def test_a_changed_mechanism_stops_where_its_links_do_not_meet(kind: Any, seed: 
                 assert float(value) == pytest.approx(rows.answers["U"][n], rel=1e-5, abs=1e-5), degrees[n]
 
 
+@sampled(2)
 @pytest.mark.parametrize("unit", ["yd", "ft"])
 def test_numbers_that_no_decimal_tells_are_exact_in_a_page_too(unit: str, shown: Any, tmp_path: Path) -> None:
     """Inches in feet and yards: a parallelogram of such lengths has its change point where `solve` has it,

@@ -142,6 +142,7 @@ def test_with_friction_rows_beside_a_follower_at_rest_are_right_to_the_last_digi
             assert abs(value - true) <= error <= 4.0 * math.ulp(value), (row, value, true)
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", range(2 if not FULL else 20))
 def test_a_knife_edge_that_only_grazes_an_edge_rests_on_it(seed: int) -> None:
     """The tip of an arm goes in and out again through one edge of a block, at places as near to each other as

@@ -446,6 +446,7 @@ def test_a_wheel_whose_contact_a_coordinate_leaves_behind_is_read_anew(radii: st
     assert list(misses(case, path, amounts(numbers_of(case)[path]))) == []
 
 
+@sampled(3)
 @pytest.mark.parametrize("written", [0.0, 0.5, -0.9])
 def test_a_wheel_rolls_on_what_each_row_says_that_it_rolls_on(written: float) -> None:
     """A straight track is a round one in no row, nor a round one straight, whichever was written: row by row
@@ -965,6 +966,7 @@ loads:
 """
 
 
+@sampled(4)
 @pytest.mark.parametrize("length", [0.6, 0.7, 1.2, 3.0])
 def test_a_dyad_that_the_answer_does_not_need_changes_no_row_where_it_does_not_reach(length: float) -> None:
     """In dead centres, beside them and at what is found a row has a scene of its own: all as without it."""

@@ -697,6 +697,7 @@ loads:
     assert held(np.radians(one.at))["xy".index(load[-1])] == pytest.approx(3.0, abs=1e-12)
 
 
+@sampled(2)
 @pytest.mark.parametrize("turns", ["free end", "drum"])
 def test_positions_in_which_a_rope_would_have_to_push_are_left_out(turns: str) -> None:
     """A rod AB in a spring, held by a rope from B to a pulley at P: T (b x u) = -b x f, T > 0, with f of the
@@ -842,6 +843,7 @@ def told(text: str, path: str, value: float) -> str:
         return str(refused.status)
 
 
+@sampled(2)
 @pytest.mark.parametrize("angle", ["OP", "QOP"])
 def test_a_direction_that_goes_through_infinity_is_not_taken_for_its_opposite(angle: str) -> None:
     """The angle under which a block on a guide is seen, by its direction and from another line: where it is

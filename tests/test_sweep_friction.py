@@ -67,6 +67,7 @@ SAME = 1e-11
 """Part of an answer: a row is in doubles, whose roundings the equations of the rubs spread a little."""
 
 
+@sampled(2)
 @pytest.mark.parametrize(
     ("of", "more"),
     crossed(

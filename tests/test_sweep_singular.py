@@ -376,6 +376,7 @@ SINGULAR = [
 ]
 
 
+@sampled(2)
 @pytest.mark.parametrize(("text", "path", "place"), [s[1:] for s in SINGULAR], ids=[s[0] for s in SINGULAR])
 def test_a_row_is_the_same_alone_in_a_long_sweep_and_in_another_order(
     text: str, path: str, place: float
@@ -498,8 +499,8 @@ def test_a_row_where_links_fold_up_is_refused_and_its_neighbours_are_not() -> No
     assert sweep.answers["Q"][0] == pytest.approx(-sweep.answers["Q"][2], rel=1e-12)
 
 
-@sampled(2)
-@pytest.mark.parametrize("stages", range(1, 5))
+@sampled(3)
+@pytest.mark.parametrize("stages", range(1, 5 if FULL else 4))
 def test_a_lift_of_scissors_folds_and_goes_straight_on_whichever_bar_is_turned(stages: int) -> None:
     """F = n W / tan(theta) of n stages, over a turn through both folds, where all points of a stage fall in
     two; whichever bar is turned, a fold is a whole number of degrees away."""
