@@ -37,7 +37,7 @@ FOUND = Path(__file__).parent / "data" / "found"
 """Inputs that once broke something."""
 SECONDS = 10
 SHARE = 1.0
-"""How many of the commands, but for the first, a case goes through."""
+"""Of the commands but for the first, the share that a case goes through."""
 BYTES = 1 << 30
 Dice = random.Random
 TOKENS = [

@@ -319,7 +319,7 @@ def test_least_gives_seconds_a_call() -> None:
 
 
 def test_the_whole_benchmark_in_small(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(report, "USUAL", Effort(1, 2, 2, 2, 4, 0.01, 1))
+    monkeypatch.setattr(report, "USUAL", Effort(2, 4, 4, 4, 10, 0.02, 1))
     monkeypatch.setattr(report, "FAMILIES", FAMILIES[:4])
     monkeypatch.setattr("icsolve.bench.speed.MILLION", 10_000)
     monkeypatch.setattr("icsolve.bench.promises.STARTS", STARTS[::7])

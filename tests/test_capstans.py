@@ -214,6 +214,7 @@ def test_the_slope_by_the_coefficient_of_a_rope_is_that_of_the_exponential() -> 
     assert slope == pytest.approx(float(truths[1.0] * grown / mu), rel=1e-12)
 
 
+@sampled(2)
 @pytest.mark.parametrize("near", [0.4, 0.8, 1.1, 1.148, 1.3])
 def test_near_may_say_where_the_rope_puts_a_point(near: float) -> None:
     """Starts from which no rope can be laid are none; where the point lies is as good a word as any."""

@@ -174,6 +174,7 @@ def scenes(family: Family, count: int) -> Iterator[icsolve.Case]:
             yield case
 
 
+@sampled(2)
 @pytest.mark.parametrize("family", EXACT, ids=lambda family: family.name)
 def test_every_number_of_the_families_of_the_benchmark(family: Family) -> None:
     for case in scenes(family, 1000 if FULL else 4):

@@ -512,6 +512,7 @@ loads:
     assert any("= 3 N, " in text for text in texts)
 
 
+@sampled(3)
 @pytest.mark.parametrize("seed", range(12))
 @pytest.mark.parametrize("told", ["pawl", "ratchet", "title"])
 def test_a_ratchet_is_a_toothed_wheel_and_a_finger(seed: int, told: str) -> None:

@@ -472,6 +472,7 @@ def test_a_branch_that_balances_everywhere_is_said_and_the_others_are_listed() -
     )
 
 
+@sampled(2)
 @pytest.mark.parametrize("rate", [300, 100, 0])
 @pytest.mark.parametrize("span", ["[45, 179]", "[90, 170]", "[1, 90]"])
 def test_where_one_point_stands_still_the_others_tell_the_stiffness(rate: int, span: str) -> None:

@@ -310,6 +310,7 @@ loads:
 AT_REST = sorted(name for name in FILES if name.startswith("equilibrium/"))
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", sample(AT_REST, 4, "virtual work"))
 def test_positions_are_told_by_virtual_work(name: str) -> None:
     """Every position has its sum of virtual work, which recomputes, and the derivative of the answer."""

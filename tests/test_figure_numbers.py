@@ -193,6 +193,7 @@ def test_any_scale_of_the_figure(name: str, scale: float) -> None:
     assert max(math.dist((scaled[p][0] / scale, scaled[p][1] / scale), base[p]) for p in base) < 1e-13
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", FIGURES)
 @pytest.mark.parametrize("offset", [1e3, 1e6, 1e10] if FULL else [1e3, 1e10])
 def test_far_from_the_origin_nothing_is_lost(name: str, offset: float) -> None:

@@ -145,6 +145,7 @@ def firm(rng: Random, figure: Callable[[Random], Drawing]) -> tuple[Scene, Scene
             return truth, measures | {k: v for k, v in truth.items() if k != "points"}
 
 
+@sampled(2)
 @pytest.mark.parametrize("figure", FIGURES, ids=lambda f: f.__name__)
 def test_the_measured_figure_is_the_drawn_one(figure: Callable[[Random], Drawing]) -> None:
     for seed in range(6 * MORE):

@@ -657,6 +657,7 @@ def test_of_all_senses_the_one_that_the_rates_give(text: str) -> None:
     check_against_brute_force(text, "T")
 
 
+@sampled(2)
 @pytest.mark.parametrize("mu", [0.1, 0.17, 0.18, 0.3])
 def test_wedge_near_self_locking_by_brute_force(mu: float) -> None:
     """A lever drives a wedge of 20 degrees, whose angle of friction goes through 10."""

@@ -36,13 +36,13 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("ICSOLVE_DEBUG", "1")
     if not FULL:
-        monkeypatch.setattr("fuzzing.SHARE", 0.4)
-        monkeypatch.setattr(newton, "MOST_BOXES", 3_000)
+        monkeypatch.setattr("fuzzing.SHARE", 0.3)
+        monkeypatch.setattr(newton, "MOST_BOXES", 1_000)
         monkeypatch.setattr("icsolve.page.motion.COARSE", 45.0)  # rows that are solved one by one
         monkeypatch.setattr("icsolve.page.motion.STEP", 15.0)  # of doubtful rows each is so too
         monkeypatch.setattr(find_by_scenes, "PLACES", 20)
-        monkeypatch.setattr(newton, "MOST_WORK", 20_000)
-        monkeypatch.setattr(newton, "CLOSE_WORK", 5_000)
+        monkeypatch.setattr(newton, "MOST_WORK", 6_000)
+        monkeypatch.setattr(newton, "CLOSE_WORK", 2_000)
     return tmp_path
 
 

@@ -237,6 +237,7 @@ def test_the_coordinates_of_a_place_may_be_about(mark: str) -> None:
     assert (read.flag, read.x, read.y) == ("", -0.9, 1.2)
 
 
+@sampled(3)
 @pytest.mark.parametrize("way", ["cw", "CW", "clockwise", "counter clockwise", "down", "+x"])
 @pytest.mark.parametrize("mark", [" in {}", " in. {}", "in {}", " in, {}", " (in {})"])
 def test_an_in_between_number_and_direction_may_be_inches(way: str, mark: str) -> None:

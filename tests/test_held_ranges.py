@@ -16,7 +16,7 @@ import transcribe
 from growth import random_mechanism
 from icsolve.numbers.replay import Array
 from icsolve.scene import standing as all_loads
-from sizes import FULL, few
+from sizes import FULL, few, sampled
 
 Range = tuple[float, float]
 
@@ -44,6 +44,7 @@ LINEAR = {
 """Ends by linear programs (HiGHS) on cones in which the force of a pin lies, cut to 1e-5 rad."""
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", LINEAR)
 def test_ranges_beyond_a_gap_are_those_of_linear_programs(seed: int) -> None:
     """To 1e-7, as far as the programs go."""
@@ -53,6 +54,7 @@ def test_ranges_beyond_a_gap_are_those_of_linear_programs(seed: int) -> None:
     assert answer.friction is not None and answer.friction.unique.startswith("proven")
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", LINEAR)
 def test_all_loads_at_once_are_held_in_these_ranges_and_beside_none(seed: int) -> None:
     """A thousandth of its size to both sides of each end."""

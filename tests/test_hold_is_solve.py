@@ -162,6 +162,7 @@ def drawn(kind: Callable[[Random], Rough], seed: int) -> tuple[Random, Rough, Ra
     return dice, rough, held, (low, high)
 
 
+@sampled(3)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("seed", range(12 if FULL else 1))
 def test_a_load_begins_and_ceases_to_hold_at_the_ends_of_its_range(

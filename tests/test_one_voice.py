@@ -401,6 +401,7 @@ def test_the_page_says_in_its_written_position_what_solve_says(name: str) -> Non
             assert plain(sense) == plain(spelt(found.sense, figure_number))
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", WITH_PAGE)
 def test_ratios_of_speeds(name: str) -> None:
     """The ratios that a solution works with, and those in the page's table, are those of the rates."""

@@ -353,6 +353,7 @@ def solved(monkeypatch: pytest.MonkeyPatch) -> list[object]:
     return every
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", ROWS)
 def test_a_turn_of_a_cam_is_on_the_record(solved: list[object], name: str) -> None:
     """Scenes are those rows alone in which a follower turns round, or in a dwell: at most 5 of 142."""

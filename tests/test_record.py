@@ -17,6 +17,7 @@ from icsolve.sweep.program import RowRequest, compile_sweep, setting_of
 from sizes import sampled
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", range(20))
 def test_a_row_alone_has_the_bits_that_it_has_among_others(seed: int) -> None:
     """Also when it was run so often that it goes as Python; and what is divided by zero as well."""

@@ -27,7 +27,7 @@ from icsolve.screws.ropes import rope_parts
 from icsolve.solve.positions import find_along
 from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.path_tracking import PathTracker
-from sizes import MORE, few
+from sizes import MORE, few, sampled
 
 CASES = Path(__file__).parent.parent / "cases"
 
@@ -266,6 +266,7 @@ def test_without_a_motion_the_pull_on_a_capstan_holds_over_a_range() -> None:
     assert answer.answers["F"].holds == (exactly(100 / HAULED), exactly(100 * HAULED))
 
 
+@sampled(2)
 @pytest.mark.parametrize("wrap", ["cw", "ccw"])
 @pytest.mark.parametrize("turns", [0, 1, 4])
 def test_a_straight_rope_lies_on_a_post_over_whole_turns_alone(wrap: str, turns: int) -> None:

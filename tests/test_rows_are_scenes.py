@@ -225,6 +225,7 @@ loads: {P: {torque: 10, link: 4}, T: {torque: unknown, link: 2}}
 """
 
 
+@sampled(2)
 @pytest.mark.parametrize(
     "motion",
     [
@@ -678,6 +679,7 @@ def reduction(draw: random.Random, wheels: int) -> str:
     )
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", range(400 if FULL else 10))
 def test_rows_of_a_long_reduction_keep_the_slowest_wheel(seed: int) -> None:
     """What is 1e-14 and less of the fastest is no zero: its digits are known. Answers, rates and centres."""
@@ -737,6 +739,7 @@ def test_rows_of_a_crank_that_is_next_to_nothing_are_scenes(kind: str, seed: int
             ), link
 
 
+@sampled(3)
 @pytest.mark.parametrize("seed", range(300 if FULL else 4))
 @pytest.mark.parametrize("kind", SHORT)
 def test_rows_of_loads_that_all_but_cancel_are_scenes(kind: str, seed: int) -> None:

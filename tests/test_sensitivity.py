@@ -60,6 +60,7 @@ SEVERAL_FREEDOMS = {"linkages/five_bar.yaml", "linkages/pantograph.yaml"}
 """Where the null space of loops is found by elimination, among whose numbers some are zero as they stand."""
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", sorted(SEVERAL_FREEDOMS | {*sample(FILES, 15, "slopes")}))
 def test_sensitivities_of_the_library_are_derivatives(name: str) -> None:
     """By every number, also where an answer or a coefficient is zero in the position as written."""

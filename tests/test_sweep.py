@@ -106,6 +106,7 @@ def test_a_full_turn_keeps_every_link_and_joint(name: str, scene: Scene, link: s
     check_rows(turned, range(0, len(degrees), len(degrees) // 12))
 
 
+@sampled(3)
 @full_turns.EVERY
 def test_after_a_period_all_is_as_it_was(name: str, scene: Scene, link: str, period: float) -> None:
     """Also where wheels carry their rotation on: three turns of a 40-tooth crank are two of a 60-tooth one.

@@ -442,6 +442,7 @@ def test_a_change_point_of_a_group_is_told_as_the_rows_tell_it(side: float) -> N
         assert abs(spot.at - 90.0) <= spot.error <= 1e-5
 
 
+@sampled(2)
 @pytest.mark.parametrize("below", [1e-3, 1e-6, 1e-9, 1e-12])
 def test_a_value_just_below_a_peak_is_taken_twice(below: float) -> None:
     """As far from the peak as the root of what is below it; just above, nowhere."""

@@ -93,6 +93,7 @@ def checked(text: str, path: str, place: float, exact: Any, relative: float = 1e
 # --- four-bars --------------------------------------------------------------------------------------
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", range(8))
 def test_beside_the_limits_of_a_rocker_that_drives(seed: int) -> None:
     """Crank and rod in line, stretched: B is lost like a root, the torque falls like one."""
@@ -114,6 +115,7 @@ def test_beside_the_limits_of_a_rocker_that_drives(seed: int) -> None:
     checked(text, "angles.DC", float(limit), at)
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", range(8))
 def test_beside_the_dead_centres_of_a_crank(seed: int) -> None:
     """Rod and rocker in line, where the crank can go no further; and where the rocker stands still."""
@@ -339,6 +341,7 @@ def posing(case: icsolve.Case) -> list[str]:
     return paths
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", sample(FILES, 14, "singular rows"))
 def test_rows_have_the_status_and_the_value_that_solve_has(name: str) -> None:
     """Beside every dead centre, limit and change point of cases of the library."""
