@@ -37,7 +37,7 @@ FOUND = Path(__file__).parent / "data" / "found"
 """Inputs that once broke something."""
 SECONDS = 10
 SHARE = 1.0
-"""Of the commands but for the first, the share that a case goes through."""
+"""Of the cases, the share that goes through the commands that take longest: the gallery and the exports."""
 BYTES = 1 << 30
 Dice = random.Random
 TOKENS = [
@@ -245,7 +245,7 @@ def commands(dice: Dice, text: str) -> list[list[str]]:
             [["new", dice.choice(words)], ["manual", dice.choice(words)], ["manual", dice.choice(TOPICS)]]
         ),
     ]
-    return [one for n, one in enumerate(every) if n == 0 or dice.random() < SHARE]
+    return [one for one in every if one[0] not in ("gallery", "export") or dice.random() < SHARE]
 
 
 SOLVE = [

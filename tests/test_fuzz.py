@@ -36,7 +36,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("ICSOLVE_DEBUG", "1")
     if not FULL:
-        monkeypatch.setattr("fuzzing.SHARE", 0.3)
+        monkeypatch.setattr("fuzzing.SHARE", 1 / 3)
         monkeypatch.setattr(newton, "MOST_BOXES", 1_000)
         monkeypatch.setattr("icsolve.page.motion.COARSE", 45.0)  # rows that are solved one by one
         monkeypatch.setattr("icsolve.page.motion.STEP", 15.0)  # of doubtful rows each is so too
