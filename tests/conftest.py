@@ -12,15 +12,34 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from browser import REQUIRED, Browser, NoBrowserError, browser, required
-from sizes import FULL
+from sizes import FULL, few, left_out
 
 settings.register_profile(
-    "seeded", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+    "seeded",
+    max_examples=few(100),
+    derandomize=True,
+    deadline=None,
+    suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("seeded")
 
 
 KEPT = type(cache(len))
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    config.addinivalue_line(
+        "markers", "sampled(one_in, *every): a law of which a run takes a part of the trials"
+    )
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """A run takes some trials of the laws that are sampled; one that is asked for by its name is run."""
+    out = left_out(items)
+    if out and not any("[" in word for word in config.args):
+        items[:] = [item for item in items if item not in out]
+        config.hook.pytest_deselected(items=[*out])
 
 
 def pytest_collection_finish() -> None:

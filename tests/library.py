@@ -28,7 +28,7 @@ def sample(names: Iterable[str], one_in: int, law: str) -> list[str]:
     return [name for name in names if FULL or crc32(f"{law} {name}".encode()) % one_in == 0]
 
 
-PAGED = sample(FILES, 8, "pages")
+PAGED = sample(FILES, 16, "pages")
 """The cases whose pages every law of pages reads."""
 
 

@@ -17,6 +17,7 @@ import icsolve
 from icsolve.case import Number
 from icsolve.numbers.balls import Ball, Balls, BelowZero, HalfUnits, MoreDigits
 from icsolve.scene.parts import scene_of
+from sizes import sampled
 
 CASES = Path(__file__).parent.parent / "cases"
 
@@ -66,6 +67,7 @@ def numbers(draw: Random, balls: Balls, count: int) -> list[tuple[Any, Any]]:
     return found
 
 
+@sampled(4)
 @pytest.mark.parametrize("digits", DIGITS)
 @pytest.mark.parametrize("seed", range(40))
 def test_every_operation_holds_its_exact_result(digits: int, seed: int) -> None:

@@ -12,6 +12,7 @@ import icsolve
 from icsolve.explain import explain
 from icsolve.report import answer_text
 from icsolve.report.derivation.known import bars_of
+from sizes import sampled
 
 
 def truss(dice: Random, nodes: int) -> tuple[str, dict[str, float]]:
@@ -45,6 +46,7 @@ def truss(dice: Random, nodes: int) -> tuple[str, dict[str, float]]:
     return f"{text}\nloads:\n" + "\n".join(loads), {names[b]: float(forces[n]) for n, b in enumerate(bars)}
 
 
+@sampled(3)
 @pytest.mark.parametrize("seed", range(6))
 def test_bars_of_a_truss_are_pulled_and_pushed_as_its_nodes_say(seed: int) -> None:
     """Every bar is told, to 1e-9 of the largest (both in floats), and in words."""

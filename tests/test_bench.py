@@ -55,6 +55,7 @@ from icsolve.bench.speed import BY_HAND, IN_C, SWEPT
 from icsolve.case import Gears
 from icsolve.cli.commands import icsolve as command
 from icsolve.files import started
+from sizes import few, sampled
 from texts import PAGES
 
 BY_NAME = {family.name: family for family in FAMILIES}
@@ -63,6 +64,7 @@ BY_NAME = {family.name: family for family in FAMILIES}
 # --- the rivals are no straw men -------------------------------------------------------------------
 
 
+@sampled(3, "method", "name")
 @pytest.mark.parametrize("method", METHODS, ids=lambda method: method.name)
 @pytest.mark.parametrize(
     "name", ["four-bar", "Watt", "Stephenson", "from lengths", "chain of 12", "parallel"]
@@ -111,6 +113,7 @@ def test_the_closed_form_by_hand_is_what_solve_gives(mechanism: CrankTurning) ->
         assert icsolve.solve(case).answers["T2"].value == pytest.approx(by_hand, rel=1e-12)
 
 
+@sampled(3)
 @pytest.mark.skipif(not (shutil.which("cc") or shutil.which("gcc")), reason="no C compiler")
 @pytest.mark.parametrize("mechanism", MECHANISMS, ids=lambda m: m.name)
 def test_the_closed_form_in_c_is_that_by_hand(mechanism: CrankTurning, tmp_path: Path) -> None:
@@ -151,6 +154,7 @@ def test_the_bare_kernels_are_the_same_scene() -> None:
 # --- other programs --------------------------------------------------------------------------------
 
 
+@sampled(2)
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize("peer", PEERS, ids=lambda peer: peer.package)
 def test_another_program_is_used_as_it_should_be(peer: Peer) -> None:
@@ -201,7 +205,7 @@ def test_small_wheels_far_from_the_input_lose_nothing(seed: int) -> None:
 def test_the_forward_error_on_every_family() -> None:
     """At most 4 (kappa + 1) u on each family of the tables, and no answer is wrong."""
     for family in FAMILIES:
-        known = list(scenes(family, max(1, 10 // family.weight)))
+        known = list(scenes(family, max(1, few(10) // family.weight)))
         for method in METHODS[:2]:
             score = scored(method, family, known)
             assert score.failed == 0, score

@@ -22,7 +22,7 @@ from icsolve import case as c
 from icsolve.answer import Answer
 from loading import drawn
 from reference import frame_of, points_of
-from sizes import FULL, MORE
+from sizes import FULL, MORE, sampled
 from transcribe import Scene
 
 LAW = 1e-9
@@ -115,6 +115,7 @@ def random_scenes(first: int, number: int) -> Iterable[Scene]:
     return (random_mechanism(Random(seed)) for seed in range(first, first + number * MORE))
 
 
+@sampled(2)
 @pytest.mark.parametrize("generator", mechanisms.ALL, ids=lambda g: g.__name__)
 def test_reactions_of_every_kind_are_those_of_a_dense_equilibrium(generator: mechanisms.Generator) -> None:
     for seed in range(MORE):
@@ -125,7 +126,7 @@ def test_reactions_of_every_kind_are_those_of_a_dense_equilibrium(generator: mec
 
 
 def test_random_mechanisms_of_all_joint_kinds() -> None:
-    for scene in random_scenes(7000, 150 if FULL else 60):
+    for scene in random_scenes(7000, 150 if FULL else 20):
         answer = solved(scene)
         check_reactions(scene, answer)
         check_witnesses(answer, scene)

@@ -33,6 +33,7 @@ from icsolve.case import (
 from icsolve.case.expected import LoadIs, ReactionIs
 from icsolve.report.check import AGREES, DISAGREES, ERRATUM, compare, wanted
 from icsolve.solve import solve
+from sizes import sampled
 
 LIBRARY = Path(__file__).parent.parent / "cases"
 FILES = sorted(LIBRARY.rglob("*.yaml"))
@@ -131,6 +132,7 @@ def test_every_kind_of_joint_and_load_has_a_case() -> None:
     assert loads == {Force, ForceVector, Torque, Weight, Spring, TorsionSpring}
 
 
+@sampled(3)
 def test_errors_are_bounded_far_below_the_digits(name: str) -> None:
     """Every answer carries a bound of its rounding error, a billionth of it at most; with friction too."""
     for unknown, found in examined(name).answers.items():

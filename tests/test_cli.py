@@ -17,6 +17,7 @@ from icsolve.cli.run import json_text
 from icsolve.errors import SceneError
 from icsolve.manual import kinds, template
 from shell import Shell
+from sizes import sampled
 
 ROOT = str(Path(__file__).parent.parent)
 PRESS = template("four-bar")
@@ -392,6 +393,7 @@ def test_a_closed_pipe_is_quiet(icsolve: Shell) -> None:
     assert process.wait() == 141
 
 
+@sampled(3)
 @pytest.mark.parametrize(
     "call",
     [

@@ -20,6 +20,7 @@ from icsolve.assembly.walk import _middle_of_gap
 from icsolve.assembly.workspace import Workspace, data_of, frame_of, names_of, normalised
 from icsolve.errors import SceneError
 from icsolve.numbers import FLOATS
+from sizes import sampled
 
 ALL = icsolve.load("""
 icsolve: 1
@@ -99,6 +100,7 @@ def away(locus: Any, at: Any) -> float:
     return abs(c * (at[1] - y) - s * (at[0] - x))
 
 
+@sampled(3)
 @pytest.mark.parametrize("kind", ["apart", "inside", "about", "a line"])
 @pytest.mark.parametrize("seed", range(10))
 def test_loci_that_do_not_meet_come_closest_at_the_middle_of_the_gap(kind: str, seed: int) -> None:
@@ -141,6 +143,7 @@ def test_a_box_narrowed_by_a_ball_keeps_what_both_hold(seed: int) -> None:
     assert inside.any() and (high - low).sum() < before
 
 
+@sampled(2)
 @pytest.mark.parametrize("off", [0.0, 0.5, 1.0, None])
 def test_a_group_on_a_rope_is_found_from_wherever_near_is(off: float | None) -> None:
     """Two points that only a rope and lengths place together, drawn from C = B + 2.5 at 60 degrees with the

@@ -17,7 +17,7 @@ from mpmath import cos, matrix, mp, mpf, pi, sin
 import icsolve
 from icsolve.solve.stability import holding_values
 from icsolve.sweep.varied_numbers import with_numbers
-from sizes import FULL
+from sizes import FULL, few
 
 DIGITS = 50
 
@@ -109,7 +109,7 @@ def test_the_ends_of_the_range_are_corners_to_the_last_digit(part: int) -> None:
     """Finite ends within one unit in the last place, also where a contact parts there; the error told covers
     what is left, and is at most two such units."""
     dice, parted = Random(f"corners {part}"), 0
-    for _ in range(25):
+    for _ in range(few(25)):
         text = resting(dice)
         true, found = corners(text), held(text)
         if found is None:
@@ -122,7 +122,7 @@ def test_the_ends_of_the_range_are_corners_to_the_last_digit(part: int) -> None:
                 off = off if off > TINY else mpf(0)
                 assert error is not None and off <= math.ulp(end), (text, end, of(true))
                 assert off <= error <= 2.0 * max(map(math.ulp, filter(math.isfinite, found))), text
-    assert parted > 3
+    assert parted > few(3)
 
 
 @pytest.mark.parametrize("part", range(20 if FULL else 1))
@@ -130,7 +130,7 @@ def test_where_it_begins_to_hold_lies_within_the_error_told(part: int) -> None:
     """Of the weight under a given push, whether the body slides there or a contact parts: the push at the
     corner goes with the weight, so the true weight is known in all digits."""
     dice, seen = Random(f"begins {part}"), 0
-    for _ in range(12):
+    for _ in range(few(12)):
         text = resting(dice)
         found = held(text)
         ends = [end for end in found or () if math.isfinite(end) and abs(end) > 1.0]
@@ -146,7 +146,7 @@ def test_where_it_begins_to_hold_lies_within_the_error_told(part: int) -> None:
             seen += 1
             assert min(abs(mpf(one.value) - w) for w in wanted) <= one.error, (text, push, one)
             assert one.error <= 1e-12 * one.value
-    assert seen > 5
+    assert seen > few(5)
 
 
 def test_a_load_that_parts_a_contact_is_the_same_however_it_is_scaled() -> None:

@@ -8,6 +8,7 @@ import pytest
 
 import icsolve
 from icsolve.errors import SceneError, Status
+from sizes import sampled
 
 
 def refused(text: str) -> str:
@@ -127,6 +128,7 @@ FOLDED = [
 ]
 
 
+@sampled(3)
 @pytest.mark.parametrize("unknown", FOLDED)
 @pytest.mark.parametrize("known", FOLDED)
 def test_a_parallelogram_has_one_verdict_folded_either_way(unknown: str, known: str) -> None:

@@ -39,7 +39,7 @@ from icsolve.report.derivation.known import Known, known_of
 from icsolve.report.derivation.ratios import needed_steps
 from library import FILES, LIBRARY, sample
 from pictures import Picture, on_arrows, outside, overlaps, parsed, shapes
-from sizes import FULL
+from sizes import FULL, few, sampled
 
 ROOT = Path(__file__).parent.parent
 FOUR = "ch13/13_08_four_bar.yaml"
@@ -83,6 +83,7 @@ def check(picture: Picture) -> None:
     assert len(set(picture.ids)) == len(picture.ids)
 
 
+@sampled(3, "options")
 @pytest.mark.parametrize(
     ("name", "options"), [(name, options) for options in OPTIONS for name in sample(FILES, 12, options)]
 )
@@ -90,6 +91,7 @@ def test_every_case_draws_and_every_label_can_be_read(name: str, options: str) -
     check(shown(name, options))
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", sample(FILES, 10, "labels on arrows"))
 def test_no_label_stands_on_an_arrow(name: str) -> None:
     for options in ("plain", "velocities", "free bodies"):
@@ -99,7 +101,7 @@ def test_no_label_stands_on_an_arrow(name: str) -> None:
 @pytest.mark.parametrize("block", range(20 if FULL else 1))
 def test_labels_of_random_mechanisms_can_be_read(block: int) -> None:
     """Twenty-five mechanisms a block, of all kinds, every third with all centres and velocities."""
-    for seed in range(25 * block, 25 * block + 25):
+    for seed in range(25 * block, 25 * block + few(25, 5)):
         kind = mechanisms.ALL[seed % len(mechanisms.ALL)]
         scene = loading.drawn(seed % 40, kind) if seed % 2 else random_mechanism(Random(seed))
         case = icsolve.load(transcribe.text(scene))
@@ -510,6 +512,7 @@ loads:
     assert any("= 3 N, " in text for text in texts)
 
 
+@sampled(3)
 @pytest.mark.parametrize("seed", range(12))
 @pytest.mark.parametrize("told", ["pawl", "ratchet", "title"])
 def test_a_ratchet_is_a_toothed_wheel_and_a_finger(seed: int, told: str) -> None:

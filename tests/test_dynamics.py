@@ -25,7 +25,7 @@ from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.varied_numbers import find_number, with_numbers
 from reference import MANY, many, motions, points_of
 from shell import exit_status
-from sizes import MORE
+from sizes import MORE, few, sampled
 
 CASES = Path(__file__).parent.parent / "cases"
 
@@ -395,6 +395,7 @@ def test_slopes_with_inertia_forces_are_the_differences_of_the_answer() -> None:
         assert found[path] == pytest.approx((sides[1] - sides[0]) / 2e-4, rel=1e-5), path
 
 
+@sampled(2, "gravity", "bar")
 @pytest.mark.parametrize("gravity", [False, True], ids=["without gravity", "with gravity"])
 @pytest.mark.parametrize("bar", [six_bars.WATT, six_bars.STEPHENSON], ids=["Watt I", "Stephenson III"])
 def test_six_bars_by_newton_and_euler(bar: six_bars.SixBar, gravity: bool) -> None:
@@ -654,7 +655,7 @@ def test_rows_with_inertia_forces_are_their_scenes_in_random_mechanisms() -> Non
     it would lose more of, beside singular positions, goes to the scene."""
     turn, compared = np.array([-40.0, -3.0, -0.5, 1e-5, 0.25, 2.0, 9.0, 71.0]), 0
     want = ("answers", "status", "velocities", "accelerations")
-    for seed, case in enumerate(random_cases(3000, 20)):
+    for seed, case in enumerate(random_cases(3000, few(20))):
         moved_by = driven(case, Random(seed))
         if moved_by is None:
             continue
@@ -680,7 +681,7 @@ def test_rows_with_inertia_forces_are_their_scenes_in_random_mechanisms() -> Non
                 room = 1e-9 * max(loads) / unit if unit else 0.0
                 assert rows.answers[name][n] == pytest.approx(found.value, rel=1e-9, abs=room)
             compared += 1
-    assert compared >= 20 * MORE
+    assert compared >= few(20) * MORE
 
 
 def test_a_turn_with_inertia_forces_solves_no_scene(monkeypatch: pytest.MonkeyPatch) -> None:

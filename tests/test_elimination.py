@@ -31,7 +31,7 @@ from icsolve.numbers.linear import (
 )
 from icsolve.numbers.quadratics import Quadratics, every_zero
 from icsolve.numbers.roots import below_zero, last_that_holds, zero_between
-from sizes import FULL
+from sizes import FULL, sampled
 
 Matrix = list[list[float]]
 
@@ -438,6 +438,7 @@ def test_a_box_whose_points_are_too_near_or_too_far_apart_is_empty() -> None:
 # --- inequalities ---------------------------------------------------------------------------------------
 
 
+@sampled(3)
 @pytest.mark.parametrize("seed", range(60))
 def test_the_range_that_inequalities_leave_is_that_of_their_corners(seed: int) -> None:
     """Planes of whole numbers cut a cube, or leave nothing of it: its corners, by solving for where any three

@@ -20,6 +20,7 @@ from icsolve.numbers.intervals import WHOLE, Interval, enclose, enclose_one
 from icsolve.numbers.jets import BallArray, Jet
 from icsolve.numbers.record import Record, Traced
 from icsolve.numbers.tape import Tape
+from sizes import sampled
 
 many = mp.clone()
 many.dps = 40
@@ -84,6 +85,7 @@ def enclosed(ends: Sequence[Ends], make: Callable[..., Any], alone: bool = False
     return float(found.low[0]), float(found.high[0])
 
 
+@sampled(2)
 @pytest.mark.parametrize("alone", [False, True], ids=["many", "alone"])
 @pytest.mark.parametrize("name", OPERATIONS)
 def test_an_interval_holds_the_range_of_an_operation_and_a_few_ulps_more(name: str, alone: bool) -> None:

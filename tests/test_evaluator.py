@@ -23,6 +23,7 @@ from icsolve.numbers.record import OPERATIONS, Op, Record, Traced
 from icsolve.numbers.source import JAVASCRIPT, straight_line
 from icsolve.sweep.varied_numbers import numbers_of, with_numbers
 from library import FILES, sample
+from sizes import sampled
 
 FOUR_BAR = """icsolve: 1
 points: {A: [0, 0], D: [4, 0]}
@@ -55,6 +56,7 @@ def some_inputs(case: Case, draw: random.Random) -> tuple[str, ...]:
     return tuple(draw.sample(known, min(4, len(known))))
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", sample(FILES, 2, "evaluator"))
 def test_rows_of_the_library_are_the_scenes_own(name: str) -> None:
     path = FILES[name]

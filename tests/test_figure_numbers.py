@@ -20,7 +20,7 @@ from icsolve.numbers import Floats, Scalar, turn_of
 from icsolve.numbers.balls import Balls
 from icsolve.numbers.tape import Tape
 from icsolve.read import load
-from sizes import FULL
+from sizes import FULL, sampled
 from test_figure import FOUR_BAR, LOOP, PINS, butterfly, case
 
 U = 2.0**-53
@@ -173,6 +173,7 @@ FIGURES = {
 }  # fmt: skip
 
 
+@sampled(2, "name", "k")
 @pytest.mark.parametrize("name", FIGURES)
 @pytest.mark.parametrize("k", [-990, -40, 1, 40, 990] if FULL else [-990, 1, 40])
 def test_a_power_of_two_scales_bit_for_bit(name: str, k: int) -> None:
@@ -192,6 +193,7 @@ def test_any_scale_of_the_figure(name: str, scale: float) -> None:
     assert max(math.dist((scaled[p][0] / scale, scaled[p][1] / scale), base[p]) for p in base) < 1e-13
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", FIGURES)
 @pytest.mark.parametrize("offset", [1e3, 1e6, 1e10] if FULL else [1e3, 1e10])
 def test_far_from_the_origin_nothing_is_lost(name: str, offset: float) -> None:
@@ -370,6 +372,7 @@ def test_two_spellings_of_one_double_are_one_place(power: str) -> None:
     assert [float(a - b) for a, b in zip(exact["B"], exact["G"], strict=True)] == [0.0, 0.0]
 
 
+@sampled(2)
 @pytest.mark.parametrize("stages", [60, 190])
 def test_scissors_whose_straight_bars_say_all_their_lengths(stages: int) -> None:
     """Each bar's three lengths make a flat triangle, so that every step is in doubt: none runs twice. Along

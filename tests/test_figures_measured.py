@@ -19,7 +19,7 @@ import witness
 from figures import from_lengths, without_order
 from loading import drawn, loaded, sound
 from mechanisms import bearing, heading, polar, scene, spot
-from sizes import MORE
+from sizes import MORE, sampled
 from solving import LAW, solved, told
 from transcribe import Scene
 
@@ -145,6 +145,7 @@ def firm(rng: Random, figure: Callable[[Random], Drawing]) -> tuple[Scene, Scene
             return truth, measures | {k: v for k, v in truth.items() if k != "points"}
 
 
+@sampled(2)
 @pytest.mark.parametrize("figure", FIGURES, ids=lambda f: f.__name__)
 def test_the_measured_figure_is_the_drawn_one(figure: Callable[[Random], Drawing]) -> None:
     for seed in range(6 * MORE):
@@ -182,6 +183,7 @@ def check_figure(scene: Scene, measured: Scene, close: float) -> None:
     assert answer.answers["U"].value == pytest.approx(witness.answers(found)["U"], rel=LAW), told(measured)
 
 
+@sampled(2)
 @pytest.mark.parametrize("generator", DYADIC, ids=lambda g: g.__name__)
 def test_lengths_and_angles_give_back_the_figure(generator: mechanisms.Generator) -> None:
     done = 0

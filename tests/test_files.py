@@ -20,7 +20,7 @@ import pytest
 from icsolve.files import KeptError, folder_of, one_call, reading, scratch, whole_file, write_whole
 from icsolve.manual import template
 from shell import exit_status
-from sizes import FULL
+from sizes import FULL, sampled
 
 ROOT = str(Path(__file__).parent.parent)
 VARIED = (
@@ -92,6 +92,7 @@ def _tree(folder: Path) -> dict[str, bytes]:
     return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
 
 
+@sampled(3)
 @pytest.mark.parametrize("writer", [name for name in WRITERS if name != "new"])
 def test_a_file_that_is_replaced_keeps_its_mode_and_its_links(writer: str, here: Path) -> None:
     target, link = Path(_named(writer)), Path(_named(writer, "."))
@@ -105,6 +106,7 @@ def test_a_file_that_is_replaced_keeps_its_mode_and_its_links(writer: str, here:
     assert os.listdir("out") == [target.name]
 
 
+@sampled(3)
 @pytest.mark.parametrize("writer", WRITERS)
 def test_a_link_to_nothing_gets_its_file(writer: str) -> None:
     link, target = Path(_named(writer, ".")), Path(_named(writer))
@@ -114,6 +116,7 @@ def test_a_link_to_nothing_gets_its_file(writer: str) -> None:
     assert target.stat().st_size
 
 
+@sampled(3)
 @pytest.mark.parametrize("writer", WRITERS)
 def test_a_pipe_is_written_to_and_stays_one(writer: str) -> None:
     pipe = _named(writer)
@@ -127,6 +130,7 @@ def test_a_pipe_is_written_to_and_stays_one(writer: str) -> None:
     assert stat.S_ISFIFO(os.stat(pipe).st_mode)
 
 
+@sampled(3)
 @pytest.mark.parametrize("writer", WRITERS)
 def test_a_device_stays_a_device(writer: str) -> None:
     link = Path(_named(writer))
@@ -161,6 +165,7 @@ def test_no_folder_is_called_a_hyphen(writer: str, capsys: pytest.CaptureFixture
     assert not Path("-").exists()
 
 
+@sampled(3)
 @pytest.mark.parametrize("writer", [w for w in WRITERS if w != "new"])
 @pytest.mark.parametrize("by", ["its name", "a link", "a hard link"])
 def test_what_is_read_is_never_written_over(writer: str, by: str, here: Path) -> None:
@@ -202,6 +207,7 @@ def alone(option: str, here: Path, capsys: pytest.CaptureFixture[str]) -> str:
     return ALONE[option]
 
 
+@sampled(3, "force", "one")
 @pytest.mark.parametrize("force", ["", "--force"])
 @pytest.mark.parametrize(("one", "other"), [*itertools.combinations(OUTPUTS, 2)])
 def test_two_outputs_of_one_call_never_take_the_same_file(
@@ -300,6 +306,7 @@ FAULTS = 1
 """For each command and run of the tests; ICSOLVE_FAULTS=30 tries more."""
 
 
+@sampled(3)
 @pytest.mark.skipif(STRACE is None, reason="strace is not installed")
 @pytest.mark.parametrize("writer", [*WRITERS, *FOLDERS] if FULL else ["page", "canvas", "variants"])
 def test_a_fault_of_the_system_leaves_every_target_whole(writer: str, here: Path) -> None:
@@ -357,6 +364,7 @@ def _run(call: list[str]) -> int:
     return subprocess.run(call, env=env, capture_output=True, check=False).returncode
 
 
+@sampled(3)
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGINT])
 def test_a_signal_leaves_nothing_half_done_at_any_moment(number: signal.Signals, here: Path) -> None:
     dice = random.Random(number)
@@ -380,6 +388,7 @@ def test_a_signal_leaves_nothing_half_done_at_any_moment(number: signal.Signals,
         assert not [name for name in _tree(here / "out") if ".part" in name]
 
 
+@sampled(3)
 @pytest.mark.parametrize("command", FOLDERS)
 def test_a_folder_is_written_whole_or_not_at_all(command: str, here: Path) -> None:
     """Ended as any of its files is drafted: each takes a random name then."""

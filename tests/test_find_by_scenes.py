@@ -21,7 +21,7 @@ from icsolve.solve import solve
 from icsolve.sweep import find_by_scenes, sweep
 from icsolve.sweep.find_by_scenes import FoundPosition
 from icsolve.sweep.find_on_record import Query, find
-from sizes import FULL, MORE
+from sizes import FULL, MORE, sampled
 
 mp.dps = 60
 RADIUS, AWAY, ROLLER = 40, 20, 10
@@ -66,6 +66,7 @@ def held(found: list[FoundPosition], true: list[mpf]) -> None:
         assert abs(mpf(spot.at) - place) <= spot.error <= 1e-4, (spot, place)
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", range(4 * MORE))
 def test_a_peak_wherever_the_range_begins_and_however_long_it_is(seed: int) -> None:
     """In the first and the last of the places at which it is searched, too, and so near to its ends that the
@@ -82,6 +83,7 @@ def test_a_peak_wherever_the_range_begins_and_however_long_it_is(seed: int) -> N
     assert abs(torque(place, offset) - spot.answer) <= 1e-14 * abs(spot.answer)
 
 
+@sampled(4)
 @pytest.mark.parametrize("seed", range(4 * MORE))
 def test_a_value_just_below_a_peak_is_taken_twice_and_just_above_nowhere(seed: int) -> None:
     """Between two of the places, where no row tells that it was passed."""
@@ -104,6 +106,7 @@ def test_a_value_just_below_a_peak_is_taken_twice_and_just_above_nowhere(seed: i
     assert find(case, ends, Query("value", "T12", value)) == []
 
 
+@sampled(2)
 @pytest.mark.parametrize("offset", [0.0, -5.0])
 def test_a_value_that_is_only_touched_is_one_place(offset: float) -> None:
     """The answer of a scene is right to its last digit, and so is the value that it is asked for."""
@@ -173,6 +176,7 @@ RANGES = [(-10, 30), (-10, 0), (-9, 17.1), (0, 10), (-4.7, 8.3), (0, 7.3), (-1, 
 """Over a jump, and up to it or from it on, in turn: of neighbours both."""
 
 
+@sampled(4)
 @pytest.mark.parametrize("n", range(len(JUMPS)))
 def test_a_peak_at_a_jump_is_told_wherever_the_range_begins(n: int) -> None:
     """The answer of the very instant of a jump is neither the one before nor the one behind, or none at all:
@@ -243,6 +247,7 @@ motion: {{point: B, link: 2, speed: 1, angle: {way}}}
 """
 
 
+@sampled(2)
 @pytest.mark.parametrize(
     ("mu", "touches", "way"),
     [
@@ -292,6 +297,7 @@ motion: {link: 2, turns: ccw}
 """
 
 
+@sampled(3)
 @pytest.mark.parametrize(
     ("text", "path", "place", "kind"),
     [

@@ -35,7 +35,7 @@ from icsolve.statics.friction.equations import (
     slopes as jacobian,
 )
 from reference import frame_of, motions, points_of
-from sizes import FULL, MORE
+from sizes import FULL, MORE, sampled
 
 EXACT = 1e-12
 LAW = 1e-9
@@ -651,11 +651,13 @@ loads:
 """
 
 
+@sampled(2)
 @pytest.mark.parametrize("text", [QUICK_RETURN, BLOCK, SIX_BAR], ids=["quick return", "block", "six-bar"])
 def test_of_all_senses_the_one_that_the_rates_give(text: str) -> None:
     check_against_brute_force(text, "T")
 
 
+@sampled(2)
 @pytest.mark.parametrize("mu", [0.1, 0.17, 0.18, 0.3])
 def test_wedge_near_self_locking_by_brute_force(mu: float) -> None:
     """A lever drives a wedge of 20 degrees, whose angle of friction goes through 10."""
@@ -959,6 +961,7 @@ def test_solutions_that_multiply_are_not_counted_for_long(monkeypatch: pytest.Mo
     assert homotopy.all_roots(alike(12)) is None
 
 
+@sampled(3, "text")
 @pytest.mark.parametrize("large", [10**k for k in range(7, 18, 2)])
 @pytest.mark.parametrize("text", [QUICK_RETURN, SIX_BAR], ids=["quick return", "six-bar"])
 def test_two_torques_against_each_other_change_nothing(text: str, large: int) -> None:

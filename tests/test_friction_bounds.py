@@ -41,7 +41,7 @@ from icsolve.statics.reactions import names_by_tie
 from icsolve.statics.witness import refuse_apart
 from icsolve.tuples import replace
 from more_digits import SixtyDigits
-from sizes import FULL, MORE
+from sizes import FULL, MORE, few, sampled
 from test_friction import BLOCK, QUICK_RETURN, SIX_BAR, brake, lever, slider_crank, turning, wedge
 
 CW = "motion: {link: 2, turns: cw}\n"
@@ -171,6 +171,7 @@ def test_the_true_load_lies_within_its_bound(name: str, monkeypatch: pytest.Monk
     assert abs(true_load(case, seen.found[-1]) - mpf(answer.value)) <= answer.error
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", SCENES)
 def test_both_ends_of_a_range_lie_within_its_bound(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     seen = Seen(monkeypatch)
@@ -401,6 +402,7 @@ def test_the_error_of_rubs_is_how_far_they_are_off_and_at_most_twice_that(own: f
         assert abs(off) * 0.99 <= found <= 1.01 * most * abs(off)
 
 
+@sampled(2)
 @pytest.mark.parametrize("size", [1e-6, 1e6])
 def test_all_solutions_grow_with_the_loads(size: float) -> None:
     """The equations of two pins that hang on each other are homogeneous in the loads and the forces."""
@@ -472,7 +474,7 @@ motion: {{link: 2, turns: {turns}}}
 def test_beside_a_dead_centre_every_load_is_proven_or_jams() -> None:
     """The force's share in the sum of power is next to none there: rounding makes roots that are none."""
     proven = 0
-    for seed in range(24 * MORE):
+    for seed in range(few(24) * MORE):
         rng = Random(seed)
         numbers = {
             "crank": rng.uniform(0.5, 1.5),
@@ -494,9 +496,10 @@ def test_beside_a_dead_centre_every_load_is_proven_or_jams() -> None:
             assert found.error is not None, seed
             assert found.error <= 2.0 * math.ulp(found.value), seed
             proven += 1
-    assert proven >= 6
+    assert proven >= few(6)
 
 
+@sampled(2, "side", "gap")
 @pytest.mark.parametrize("side", [1.0, -1.0])
 @pytest.mark.parametrize("gap", [1e-1, 1e-4, 1e-7, 1e-9, 1e-12, 1e-13])
 def test_pins_that_wedge_a_rod_beside_its_dead_centre_do_it_in_both_senses(gap: float, side: float) -> None:
@@ -556,7 +559,7 @@ def test_beside_a_change_point_friction_is_what_it_is_farther_from_it(block: int
     in coordinates that lose their digits there it jammed at some of them, or had the value of another
     solution (15 of 40). Few are not proven, and say so."""
     open_ = 0
-    for seed in range(5 * block, 5 * block + 5):
+    for seed in range(5 * block, 5 * block + few(5)):
         found: list[float] = []
         for gap in GAPS:
             try:

@@ -16,6 +16,7 @@ from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.keys import NumberKey
 from icsolve.grade.one import Task
+from sizes import sampled
 
 pytestmark = pytest.mark.usefixtures("wide_ranges")
 
@@ -107,6 +108,7 @@ loads: {P: {force: 10, link: 2, at: B, angle: 0}, M: {torque: 0, link: 2}}
 """
 
 
+@sampled(2)
 @pytest.mark.parametrize("text", [CRANK_THAT_RUBS, BLOCK_THAT_RUBS, BAR_THAT_RUBS])
 def test_no_answer_to_a_range_is_wrong_by_a_drawing_that_says_nothing_of_it(
     a_class: Class, text: str

@@ -17,6 +17,7 @@ from icsolve.explain.worked import Worked
 from icsolve.report.derivation.known import Known
 from icsolve.sweep.varied_numbers import numbers_of
 from icsolve.wording.statement import Statement
+from sizes import sampled
 
 
 def rows(name: str) -> dict[str, str]:
@@ -81,6 +82,7 @@ def test_an_unknown_spring_tells_its_free_length_and_ends() -> None:
     assert told.startswith("spring of a stiffness to be found, on link")
 
 
+@sampled(3)
 @pytest.mark.parametrize("path", sorted(CASES.rglob("*.yaml")), ids=lambda path: path.stem)
 def test_every_number_of_a_plane_case_is_told(path: Path) -> None:
     """Each number that the file gives stands in some row, as written or in case units, under a question and

@@ -22,7 +22,7 @@ from icsolve.grade.platforms.export import ExportOrder, questions
 from icsolve.grade.platforms.questions import rights
 from icsolve.grade.written.answer import Reader
 from icsolve.wording.statement import Statement
-from sizes import FULL
+from sizes import FULL, sampled
 
 pytestmark = pytest.mark.usefixtures("wide_ranges")
 BAR = """\
@@ -278,6 +278,7 @@ STUCK_BY = 0.2 * math.sin(math.atan(0.3))
 """The radius of the friction circle, within which the line of P has to pass."""
 
 
+@sampled(2)
 @pytest.mark.parametrize("degrees", [70, 178, *([0, 350] * FULL)])
 def test_ranges_of_rest_are_angles_too(a_class: Class, degrees: int) -> None:
     """Either range is right, in any turn and however it is named, and no other arc; so it is asked for."""
@@ -401,6 +402,7 @@ def case_of(a_class: Class, kind: str) -> str:
     return what
 
 
+@sampled(2)
 @pytest.mark.parametrize("kind", [*_TEXTS, *_FILES])
 def test_the_right_answer_as_a_program_is_told_it_is_right(a_class: Class, kind: str) -> None:
     """Of every kind of question; so PrairieLearn shows it, and a text that it takes for wrong is none."""
@@ -410,6 +412,7 @@ def test_the_right_answer_as_a_program_is_told_it_is_right(a_class: Class, kind:
     assert judged["verdict"] == "right", (task.right(what), judged)
 
 
+@sampled(2)
 @pytest.mark.parametrize("kind", [*_TEXTS, *_FILES])
 def test_the_right_answers_of_an_exported_question_are_right(a_class: Class, kind: str) -> None:
     """Each number that Moodle and Canvas hold as right, in the unit of the question, as a student would write

@@ -92,7 +92,7 @@ def test_the_other_ways_to_assemble_that_are_tried_are_few() -> None:
 
 
 def test_shares_of_the_loads_add_up_to_the_unknown() -> None:
-    for path in sorted(CASES.rglob("*.yaml")):
+    for path in (FILES[name] for name in sample(FILES, 3, "shares")):
         try:
             answer = solved(icsolve.load(path))
         except icsolve.SceneError:
@@ -105,7 +105,7 @@ def test_shares_of_the_loads_add_up_to_the_unknown() -> None:
 
 def test_every_case_of_the_library_gets_its_wrong_answers() -> None:
     """No rule fails on any joint or load, and each case has dozens of wrong answers."""
-    for name in sample(FILES, 3, "wrong answers"):
+    for name in sample(FILES, 6, "wrong answers"):
         try:
             answer = solved(icsolve.load(FILES[name]))
         except icsolve.SceneError:

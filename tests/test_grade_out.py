@@ -22,6 +22,7 @@ from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.keys import NumberKey
 from shell import Ran
+from sizes import sampled
 from test_grade_verdict import ZERO
 
 ANSWERS = (
@@ -440,6 +441,7 @@ ENDINGS = {
 """What the file, or the folder, of each kind may end in."""
 
 
+@sampled(2)
 @pytest.mark.parametrize("kind", ENDINGS)
 def test_an_export_is_not_written_under_the_ending_of_something_else(kind: str, a_class: Class) -> None:
     """Its own endings, also in capitals, and none at all; a folder may have any that no file has."""
@@ -620,6 +622,7 @@ def test_no_two_exported_variants_are_alike(a_class: Class, choices: str, made: 
     assert len(forces) == len(set(forces)) == made
 
 
+@sampled(2)
 @pytest.mark.parametrize("folder", ["ropes", "sliders"])
 def test_what_is_given_reads_as_sentences_in_gift(a_class: Class, folder: str) -> None:
     """No name stands before an equals sign with nothing after, and no sentence is made equal to something."""

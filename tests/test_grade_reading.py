@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from icsolve.grade.written.answer import Reader
 from icsolve.grade.written.two_numbers import read_place, read_range
-from sizes import FULL
+from sizes import FULL, few, sampled
 
 CORPUS = Path(__file__).parent / "data" / "answers.tsv"
 
@@ -57,7 +57,7 @@ JOINED = st.lists(PIECES, max_size=9)
 
 
 @given(st.one_of(st.text(max_size=60), JOINED.map("".join), JOINED.map(" ".join)))
-@settings(max_examples=600 if FULL else 100)
+@settings(max_examples=600 if FULL else 40)
 def test_any_text_is_read_or_flagged(text: str) -> None:
     """Nothing raises, and what is read is a finite number."""
     read = Reader().read(text)
@@ -126,7 +126,7 @@ NAMES = re.compile(r"(?<!\w)[A-Za-z]{1,2}_?\d{1,3}'?(?![\w.,]*\d)")
 
 
 @given(st.one_of(st.text(max_size=60), JOINED.map("".join), JOINED.map(" ".join)))
-@settings(max_examples=600)
+@settings(max_examples=few(600))
 def test_a_text_with_a_digit_is_never_invalid(text: str) -> None:
     """But for the digits of names, as in T12."""
     if any(c in "0123456789" for c in NAMES.sub("", text)):
@@ -146,6 +146,7 @@ CONVENTIONS = [
 ]  # fmt: skip
 
 
+@sampled(3)
 @pytest.mark.parametrize("form", CONVENTIONS)
 @pytest.mark.parametrize(("unit", "word", "other"), SENSES)
 def test_a_sense_that_is_said_to_be_positive_gives_the_sign_its_meaning(
@@ -236,6 +237,7 @@ def test_the_coordinates_of_a_place_may_be_about(mark: str) -> None:
     assert (read.flag, read.x, read.y) == ("", -0.9, 1.2)
 
 
+@sampled(3)
 @pytest.mark.parametrize("way", ["cw", "CW", "clockwise", "counter clockwise", "down", "+x"])
 @pytest.mark.parametrize("mark", [" in {}", " in. {}", "in {}", " in, {}", " (in {})"])
 def test_an_in_between_number_and_direction_may_be_inches(way: str, mark: str) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from grade_shell import LEVER, PRESS, Class, Ran
+from sizes import sampled
 
 pytestmark = pytest.mark.usefixtures("wide_ranges")
 
@@ -189,6 +190,7 @@ loads:
 """
 
 
+@sampled(3)
 @pytest.mark.parametrize(
     ("text", "was", "now"),
     [(BLOCK, "mu: 0.3", "mu: 0.25"), (PINNED, "angle: -60", "angle: -70"), (BAR, "torque: 4", "torque: 5")],

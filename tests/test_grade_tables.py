@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from grade_shell import Class
-from sizes import FULL
+from sizes import FULL, sampled
 
 FORMULA = '=HYPERLINK("http://x.test","click")'
 
@@ -27,6 +27,7 @@ LONG = (
 )
 
 
+@sampled(3)
 @pytest.mark.parametrize("delimiter", [",", ";", "\t", "|"])
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "cp1252"])
 @pytest.mark.parametrize("newline", ["\n", "\r\n", "\r"])

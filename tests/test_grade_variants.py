@@ -18,6 +18,7 @@ from icsolve.grade.course import Course, Person
 from icsolve.grade.keys import NumberKey, numbers_of
 from icsolve.grade.variants.record import VariantTask, key_csv
 from icsolve.grade.variants.varied import Varied, drawn, label
+from sizes import sampled
 
 VARIABLES = (Variable("P", start="100", stop="500", step="10"), Variable("a", choices=("1.5", "2", "2.5")))
 
@@ -78,6 +79,7 @@ def test_loads_that_do_not_grow_alike_are_solved_each(a_class: Class) -> None:
     test_a_key_is_what_the_case_gives_with_those_values(a_class)
 
 
+@sampled(3)
 @pytest.mark.parametrize(
     ("name", "changes", "variables"),
     [
@@ -317,6 +319,7 @@ def a_group(a_class: Class, groups: list[list[str]], handed: list[str]) -> list[
     return ran.rows()
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", range(4))
 def test_a_group_is_judged_by_the_numbers_of_the_member_whose_variant_it_hands_in(
     seed: int, a_class: Class

@@ -16,7 +16,7 @@ import transcribe
 from growth import random_mechanism
 from icsolve.numbers.replay import Array
 from icsolve.scene import standing as all_loads
-from sizes import FULL
+from sizes import FULL, few, sampled
 
 Range = tuple[float, float]
 
@@ -44,6 +44,7 @@ LINEAR = {
 """Ends by linear programs (HiGHS) on cones in which the force of a pin lies, cut to 1e-5 rad."""
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", LINEAR)
 def test_ranges_beyond_a_gap_are_those_of_linear_programs(seed: int) -> None:
     """To 1e-7, as far as the programs go."""
@@ -53,6 +54,7 @@ def test_ranges_beyond_a_gap_are_those_of_linear_programs(seed: int) -> None:
     assert answer.friction is not None and answer.friction.unique.startswith("proven")
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", LINEAR)
 def test_all_loads_at_once_are_held_in_these_ranges_and_beside_none(seed: int) -> None:
     """A thousandth of its size to both sides of each end."""
@@ -65,12 +67,12 @@ def test_all_loads_at_once_are_held_in_these_ranges_and_beside_none(seed: int) -
                 assert (depth >= 0.0) is inside, value
 
 
-@pytest.mark.parametrize("part", range(30 if FULL else 2))
+@pytest.mark.parametrize("part", range(30 if FULL else 1))
 def test_no_friction_within_its_limits_holds_a_load_that_is_not_told(part: int) -> None:
     """Frictions of any sense and share of their limits, drawn: the load that each balances lies in a range,
     to 1e-6 of the largest load."""
     compared = 0
-    for seed in range(12 * part, 12 * part + 12):
+    for seed in range(12 * part, 12 * part + few(12)):
         text, dice = scene(seed), Random(f"shares {seed}")
         case = icsolve.load(text)
         try:
@@ -90,7 +92,7 @@ def test_no_friction_within_its_limits_holds_a_load_that_is_not_told(part: int) 
                 held = any(low - room <= load <= high + room for low, high in told)
                 assert held, (text, shares, load, told)
                 compared += 1
-    assert compared > 10
+    assert compared > few(10)
 
 
 def geared(dice: Random) -> str:
@@ -111,11 +113,11 @@ loads:
 """
 
 
-@pytest.mark.parametrize("part", range(20 if FULL else 2))
+@pytest.mark.parametrize("part", range(20 if FULL else 1))
 def test_the_teeth_of_a_range_carry_on_the_flank_on_which_they_push(part: int) -> None:
     """A thousandth of the range within each end all loads at once are held, and so much beyond they are not;
     in the motion that begins at an end the torque is that of the end, to 1e-12."""
-    for seed in range(10 * part, 10 * part + 10):
+    for seed in range(10 * part, 10 * part + few(10)):
         text = geared(Random(f"geared {seed}"))
         low, high = icsolve.solve(icsolve.load(text)).answers["U"].holds
         room = 1e-3 * (high - low)

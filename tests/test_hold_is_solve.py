@@ -23,7 +23,7 @@ from icsolve.sweep.varied_numbers import find_number, with_numbers
 from reference import frame_of, points_of
 from rough_scenes import KINDS, TOUCHING, Rough, band
 from shell import Shell
-from sizes import FULL
+from sizes import FULL, sampled
 
 LEVER = """icsolve: 1
 points: {A: [0, 0], B: [2, 0], C: [-1, 0]}
@@ -118,6 +118,7 @@ def balances(case: icsolve.Case) -> bool:
     )
 
 
+@sampled(4, "kind")
 @pytest.mark.parametrize("kind", TOUCHING)
 @pytest.mark.parametrize("seed", range(60 if FULL else 4))
 def test_a_range_is_where_friction_balances_and_contacts_push(
@@ -161,6 +162,7 @@ def drawn(kind: Callable[[Random], Rough], seed: int) -> tuple[Random, Rough, Ra
     return dice, rough, held, (low, high)
 
 
+@sampled(3)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("seed", range(12 if FULL else 1))
 def test_a_load_begins_and_ceases_to_hold_at_the_ends_of_its_range(
@@ -197,6 +199,7 @@ def test_the_range_of_a_load_that_varies_is_worked_out_once(
 OF = ("mu", "other")
 
 
+@sampled(3)
 @pytest.mark.parametrize(
     ("kind", "of"), [(kind, of) for n, kind in enumerate(KINDS) for of in (OF if FULL else OF[n % 2 :][:1])]
 )
@@ -271,6 +274,7 @@ def test_positions_of_rest_say_that_friction_has_no_part_in_them(
 TABLE = "points: {A: [0, 0], B: [2, 0], G: [1, 1]}\n"
 
 
+@sampled(2)
 @pytest.mark.parametrize(
     "legs",
     [

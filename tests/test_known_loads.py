@@ -17,7 +17,7 @@ import rubbing
 import transcribe
 from growth import random_mechanism
 from icsolve.solve.stability import holding_values
-from sizes import FULL, crossed
+from sizes import FULL, crossed, sampled
 
 LADDER = """icsolve: 1
 points: {A: [0, 0], G: {centroid: [A, B]}}
@@ -107,6 +107,7 @@ def holds_as_its_range_says(text: str) -> int:
     return len(checks)
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", BY_NAME)
 def test_known_loads_hold_where_the_range_of_one_of_them_says(name: str) -> None:
     """The ladder, the crate, the slope and the jack of the textbooks; a block pressed to a wall, whose load
@@ -116,7 +117,7 @@ def test_known_loads_hold_where_the_range_of_one_of_them_says(name: str) -> None
 
 def test_known_loads_of_random_mechanisms_hold_where_the_range_of_one_of_them_says() -> None:
     compared = 0
-    for seed in range(4700, 4700 + (240 if FULL else 5)):
+    for seed in range(4700, 4700 + (240 if FULL else 2)):
         rng = Random(seed)
         text = transcribe.text(rubbing.roughened(rng, random_mechanism(rng), 3))
         if "U: {spring" in text or "U: {weight" in text or "U: {mass" in text:  # not negative
@@ -127,7 +128,7 @@ def test_known_loads_of_random_mechanisms_hold_where_the_range_of_one_of_them_sa
             continue
         if answer.answers["U"].holds and not any("contact would have to pull" in n for n in answer.notes):
             compared += holds_as_its_range_says(text)
-    assert compared >= (400 if FULL else 20)
+    assert compared >= (400 if FULL else 8)
 
 
 def test_in_a_given_motion_known_loads_are_told_what_keeps_it_up() -> None:
@@ -184,6 +185,7 @@ def test_a_contact_is_looked_at_only_where_the_rest_of_the_scene_can_be_built() 
     assert any("is lost" in note for note in pulled.notes)
 
 
+@sampled(2)
 @pytest.mark.parametrize(
     ("slope", "more"),
     crossed([7, 20, 30, 41, 63.5], ["", "  P: {force: 0, link: 2, at: C, angle: 12}\n"]),

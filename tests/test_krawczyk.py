@@ -19,6 +19,7 @@ from icsolve.assembly import solve_figure
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.balls import INEXACT, Ball, Balls, MoreDigits
 from icsolve.numbers.krawczyk import enclosed_root, turns_away
+from sizes import sampled
 
 many = mp.clone()
 many.dps = 150
@@ -101,6 +102,7 @@ def test_a_double_root_and_one_that_is_not_there_are_not_shown(offset: str) -> N
             enclosed_root(circles(offset), [1e-9, 1.0], Balls(digits, highest=True))
 
 
+@sampled(3)
 @pytest.mark.parametrize("seed", range(3))
 def test_a_double_butterfly_from_lengths_has_all_digits(seed: int) -> None:
     """Six points found together: every one rounded once, against Newton in 150 digits."""

@@ -25,7 +25,7 @@ from icsolve.case import Force, Number
 from icsolve.errors import SceneError
 from icsolve.sweep.varied_numbers import with_numbers
 from library import FILES, sample
-from sizes import MORE
+from sizes import MORE, sampled
 from solving import LAW, kinds, random_scenes, solved, told, unknown, whole
 from transcribe import Scene
 
@@ -59,13 +59,14 @@ def place_of(centre: Centre, effect: transforms.Effect) -> dict[str, Any] | None
     return {"toward": effect.direction(centre.place[0])} if centre.kind == "toward" else None
 
 
-@pytest.fixture(params=range(4 if MORE > 1 else 2))
+@pytest.fixture(params=range(4))
 def scenes(request: pytest.FixtureRequest) -> list[Scene]:
     """Each kind, and as many random mechanisms, a quarter of them at a time."""
     everything = [*kinds(200), *random_scenes(20_000, 24)]
     return everything[request.param :: 4]
 
 
+@sampled(4)
 def test_a_rigid_motion_moves_centres_and_leaves_loads(scenes: list[Scene]) -> None:
     for k, scene in enumerate(scenes):
         rng = Random(k)
@@ -73,11 +74,13 @@ def test_a_rigid_motion_moves_centres_and_leaves_loads(scenes: list[Scene]) -> N
         compare(scene, transforms.rigid_motion(scene, degrees, mechanisms.spot(rng, 30)))
 
 
+@sampled(4)
 def test_a_mirror_turns_torques_over(scenes: list[Scene]) -> None:
     for scene in scenes:
         compare(scene, transforms.mirror(scene))
 
 
+@sampled(4)
 def test_other_names_change_nothing_but_names(scenes: list[Scene]) -> None:
     for k, scene in enumerate(scenes):
         links = transforms.link_names(scene)
@@ -86,6 +89,7 @@ def test_other_names_change_nothing_but_names(scenes: list[Scene]) -> None:
         compare(scene, transforms.relabelled(scene, dict(zip(links, words, strict=True))))
 
 
+@sampled(4)
 def test_another_order_changes_nothing(scenes: list[Scene]) -> None:
     for k, scene in enumerate(scenes):
         order = list(range(len(scene["joints"])))
@@ -93,6 +97,7 @@ def test_another_order_changes_nothing(scenes: list[Scene]) -> None:
         compare(scene, transforms.reordered(scene, order))
 
 
+@sampled(4)
 def test_any_link_may_be_held_still(scenes: list[Scene]) -> None:
     """Loads between links, and all relative centres, know no frame."""
     for k, scene in enumerate(scenes):
@@ -100,6 +105,7 @@ def test_any_link_may_be_held_still(scenes: list[Scene]) -> None:
         compare(transforms.heavy_to_forces(scene), transforms.on_another_frame(scene, frame))
 
 
+@sampled(3)
 @pytest.mark.parametrize("seed", range(6 * MORE))
 def test_changes_at_mobility_2(seed: int) -> None:
     """Both unknowns, and the centres that two freedoms leave determined."""
@@ -119,6 +125,7 @@ def test_changes_at_mobility_2(seed: int) -> None:
             assert new[name].value == effect.factor.get(kind, 1.0) * old[name].value, told(scene)
 
 
+@sampled(4)
 def test_rates_of_another_frame_are_differences(scenes: list[Scene]) -> None:
     for k, scene in enumerate(scenes):
         frame = Random(k).choice([n for n in transforms.link_names(scene) if n != "1"])
@@ -140,6 +147,7 @@ def test_rates_of_another_frame_are_differences(scenes: list[Scene]) -> None:
 # --- scale by powers of two, bit for bit -----------------------------------------------------------
 
 
+@sampled(4)
 def test_a_scale_of_a_power_of_two_changes_no_bit(scenes: list[Scene]) -> None:
     for k, scene in enumerate(scenes):
         power = Random(k).choice([-40, -10, -3, -1, 1, 2, 7, 33])
@@ -167,6 +175,7 @@ def times(velocities: Any, factor: float) -> Any:
 # --- the unknown elsewhere -------------------------------------------------------------------------
 
 
+@sampled(4)
 def test_the_unknown_and_a_known_load_may_change_roles(scenes: list[Scene]) -> None:
     """With the value found put in, the known load is what the scene said."""
     for scene in scenes:
@@ -190,6 +199,7 @@ def firm(scene: Scene, name: str) -> bool:
     return witness.firmness(reference.motions(swapped)) > 1e-2
 
 
+@sampled(4)
 def test_a_torque_elsewhere_does_the_same_work(scenes: list[Scene]) -> None:
     """T on link a and T' on link b balance the same loads where T wa = T' wb."""
     for k, scene in enumerate(scenes):

@@ -18,7 +18,7 @@ from icsolve.errors import CaseError, SceneError
 from loading import drawn
 from mechanisms import heading, spot
 from shell import exit_status
-from sizes import FULL
+from sizes import FULL, sampled
 from transcribe import Scene
 
 PRESS = """\
@@ -372,6 +372,7 @@ def test_rows_are_scenes(kind: str) -> None:
         assert row == pytest.approx(icsolve.solve(icsolve.load(text)).answers["T12"].value, rel=1e-12)
 
 
+@sampled(3, "kind", "verb")
 @pytest.mark.parametrize("kind", [*LOADS, "direction"])
 @pytest.mark.parametrize("verb", ["solve", "explain", "draw", "page", "check", "validate"])
 def test_every_command_knows_it(

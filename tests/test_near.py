@@ -20,7 +20,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers import FLOATS
 from icsolve.read import load
 from icsolve.solve import solve
-from sizes import MORE, crossed
+from sizes import MORE, crossed, few, sampled
 
 
 def places_of(case: Case) -> dict[str, Place]:
@@ -63,6 +63,7 @@ def refusal(case: Case) -> str:
 AT_NEAR = "what lies at near: does not assemble"
 
 
+@sampled(2, "spread", "links")
 @pytest.mark.parametrize("spread", [1e-3, 0.02, 0.15])
 @pytest.mark.parametrize("links", range(3, 13) if MORE > 1 else (3, 5, 8, 12))
 def test_a_group_takes_the_way_nearest_to_near(links: int, spread: float) -> None:
@@ -84,6 +85,7 @@ def test_a_group_takes_the_way_nearest_to_near(links: int, spread: float) -> Non
         assert nearest or apart(places, draft.at) < 1e-6, (links, seed)
 
 
+@sampled(2)
 @pytest.mark.parametrize("links", [4, 5, 6, 7])
 def test_of_all_ways_of_a_group_none_is_nearer_however_rough_near_is(links: int) -> None:
     """Off by about the length of a rod. Every way is listed by exclusion; the one that is taken is the
@@ -140,7 +142,8 @@ def ring(count: int, seed: int) -> tuple[str, dict[str, Place]]:
     return f"icsolve: 1\n{text}joints:\n{joints}", at
 
 
-@pytest.mark.parametrize("count", [3, 6, 12, 28, 40])
+@sampled(2)
+@pytest.mark.parametrize("count", [3, 6, 12, 28, *([40] * (MORE > 1))])
 def test_rings_of_points_each_on_a_leg(count: int) -> None:
     text, at = ring(count, count)
     places = places_of(load(text))
@@ -380,7 +383,7 @@ def test_near_of_a_point_that_nothing_asks_for_counts_as_the_others() -> None:
 def test_a_group_that_does_not_close_about_near_is_not_found_elsewhere_in_silence() -> None:
     """One rod made longer or shorter: what is found lies about `near`, or that is said."""
     refusals = 0
-    for seed in range(30 * MORE):
+    for seed in range(few(30) * MORE):
         draft = linkage(9000 + seed, 3 + seed % 5)
         for p in draft.names:
             if p not in draft.points:
@@ -397,7 +400,7 @@ def test_a_group_that_does_not_close_about_near_is_not_found_elsewhere_in_silenc
         spans = [max(at[k] for at in places.values()) - min(at[k] for at in places.values()) for k in (0, 1)]
         far = [p for p in draft.near if math.dist(places[p], draft.near[p]) > max(spans) / 2.0]
         assert not far or any("near" in note for note in figure.notes)
-    assert refusals >= 3 * MORE
+    assert refusals >= few(3) * MORE
 
 
 def test_a_group_whose_near_is_far_from_all_that_comes_close_is_found_and_that_said() -> None:
@@ -468,6 +471,7 @@ def downhill(places: np.ndarray, sizes: np.ndarray) -> np.ndarray:
     return places
 
 
+@sampled(3, "rough")
 @pytest.mark.parametrize(("seed", "rough"), crossed(range(12 * MORE), [0.02, 0.15, 0.4]))
 def test_a_way_of_a_group_that_dies_is_not_exchanged_for_one_that_is_farther(seed: int, rough: float) -> None:
     """As of a dyad: where the data come closest to being met, downhill from `near`, is the way that `near`
@@ -509,6 +513,7 @@ loads: {{P: {{force: 100, link: 4, at: E, angle: 45}}, T: {{torque: unknown, lin
 """BC and CD are all but in line: by so many units of the 26th decimal CD is too long for that."""
 
 
+@sampled(2)
 @pytest.mark.parametrize("point", ["C", "E"])
 def test_of_two_places_that_all_but_coincide_near_picks_the_same_however_near_they_are(point: str) -> None:
     """From 0.1 to 1e-13 apart, with `near` 0.3 off in some direction: of C itself, and of E, which a turned

@@ -18,6 +18,7 @@ import pytest
 import icsolve
 from pictures import parsed
 from shell import exit_status
+from sizes import sampled
 from test_draw import DEAD_CENTRE, FOUR_BAR
 
 ROOT = Path(__file__).parent.parent
@@ -40,6 +41,7 @@ def test_an_answer_shows_its_worked_solution_and_its_figure(capsys: pytest.Captu
     assert answer._repr_svg_() == printed(capsys, "draw", str(FILE))
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", ["hoist_starting", "slider_crank_piston"])
 def test_an_answer_with_inertia_forces_is_shown_as_the_commands_show_it(
     name: str, capsys: pytest.CaptureFixture[str]

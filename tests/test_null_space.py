@@ -21,7 +21,7 @@ from chains import STALLED_TEN_BARS
 from growth import random_mechanism
 from loading import drawn
 from reference import MANY
-from sizes import FULL
+from sizes import FULL, few, sampled
 from solving import (
     LAW,
     MORE,
@@ -37,6 +37,7 @@ from solving import (
 from transcribe import Scene
 
 
+@sampled(3)
 @pytest.mark.parametrize("generator", mechanisms.ALL, ids=lambda g: g.__name__)
 def test_the_joints_null_space_agrees_on_every_kind(generator: mechanisms.Generator) -> None:
     for seed in range(100, 160 if FULL else 102):
@@ -49,7 +50,7 @@ def test_the_joints_null_space_agrees_on_every_kind(generator: mechanisms.Genera
 
 @pytest.mark.parametrize("block", range(8 if FULL else 1))
 def test_the_joints_null_space_agrees_on_random_mechanisms(block: int) -> None:
-    for scene in random_scenes(1000 * block, 15):
+    for scene in random_scenes(1000 * block, few(15)):
         found = reference.motions(transcribe.case(scene), digits=MANY)
         if witness.hangs_on_last_digits(found):
             continue
@@ -61,7 +62,7 @@ def test_the_joints_null_space_agrees_on_random_mechanisms(block: int) -> None:
 @pytest.mark.parametrize("block", range(3 if FULL else 1))
 def test_two_freedoms_want_two_unknowns(block: int) -> None:
     """Both are balanced for every motion; what the second freedom leaves open is said to be so."""
-    for seed in range(1000 * block, 1000 * block + 6 * MORE):
+    for seed in range(1000 * block, 1000 * block + few(6) * MORE):
         scene = random_mechanism(Random(seed), 2)
         found = reference.motions(transcribe.case(scene), digits=MANY)
         if witness.hangs_on_last_digits(found):
@@ -90,7 +91,7 @@ def test_an_unknown_with_nothing_to_balance_is_zero() -> None:
 
 def test_a_passive_freedom_does_not_stop_the_answer() -> None:
     """A link that hangs free and bears no load; nor may a load on it pass in silence."""
-    for seed in range(20 * MORE):
+    for seed in range(few(20) * MORE):
         rng = Random(seed)
         scene = random_mechanism(rng)
         hung = scene | {"points": scene["points"] | {"Z": mechanisms.spot(rng)}}
@@ -107,6 +108,7 @@ def test_a_passive_freedom_does_not_stop_the_answer() -> None:
         assert refused.value.status == "mobility", told(loaded)
 
 
+@sampled(2)
 @pytest.mark.parametrize("generator", [mechanisms.butterfly, mechanisms.flier], ids=lambda g: g.__name__)
 def test_all_28_centres_of_the_eight_bars_at_which_kennedy_stalls(generator: mechanisms.Generator) -> None:
     for seed in range(10 * MORE):
@@ -118,7 +120,7 @@ def test_all_28_centres_of_the_eight_bars_at_which_kennedy_stalls(generator: mec
 @pytest.mark.parametrize("block", range(4 if FULL else 1))
 def test_all_45_centres_of_each_ten_bar_at_which_kennedy_stalls(block: int) -> None:
     """The 58 of the 230 chains of ten links."""
-    for edges in STALLED_TEN_BARS[block::4]:
+    for edges in STALLED_TEN_BARS[block :: 4 if FULL else 12]:
 
         def ten_bar(rng: Random, edges: str = edges) -> Scene:
             return mechanisms.pinned(rng, edges)

@@ -28,6 +28,7 @@ from icsolve.read.document import parse
 from icsolve.scene.program import evaluate
 from icsolve.structure import topology
 from icsolve.sweep.program import setting_of
+from sizes import sampled
 
 CASES = Path(__file__).parent.parent / "cases"
 SHOWN = {
@@ -75,6 +76,7 @@ def counted(case: Case, work: Callable[[Case], object]) -> Counter[str]:
     return found
 
 
+@sampled(3, "name", "shown")
 @pytest.mark.parametrize("shown", SHOWN)
 @pytest.mark.parametrize("name", MECHANISMS)
 def test_one_topology_one_figure_one_solve(name: str, shown: str) -> None:
@@ -85,6 +87,7 @@ def test_one_topology_one_figure_one_solve(name: str, shown: str) -> None:
     assert set(found.values()) == {1}  # in each kind of numbers once
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", MECHANISMS[:2])
 def test_a_page_adds_the_setting_of_its_sweep(name: str) -> None:
     """The sweep knows where all points are, and not only those that the answer needs."""
@@ -94,6 +97,7 @@ def test_a_page_adds_the_setting_of_its_sweep(name: str) -> None:
     assert all(count == 1 for work, count in found.items() if work.startswith("evaluate"))
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", ["four_bar", "stephenson_six_bar", "geared_five_bar"])
 def test_a_page_without_friction_sets_no_sweep_up_twice_and_reads_its_text_twice(
     name: str, monkeypatch: pytest.MonkeyPatch

@@ -43,7 +43,7 @@ from icsolve.wording import direction_words, holding, spelt
 from library import FILES, PAGED, page_of, sample
 from loading import drawn
 from shell import exit_status
-from sizes import FULL
+from sizes import FULL, sampled
 
 MAKERS = (
     mechanisms.four_bar,
@@ -278,7 +278,7 @@ def case_of(name: str) -> Case:
 
 
 NAMES = [*FILES, *(f"{maker.__name__}-{seed}" for maker, seed in RANDOM)]
-WITH_PAGE = [*PAGED, *sample(NAMES[len(FILES) :], 8, "pages"), *OTHERS]
+WITH_PAGE = [*sample([*PAGED, *OTHERS], 2, "voices"), *sample(NAMES[len(FILES) :], 8, "pages")]
 TOLD_OF = [*sample(NAMES, 3, "statuses and values"), *OTHERS]
 
 
@@ -315,6 +315,7 @@ def plain(text: str) -> str:
     return re.sub(r"\s+", " ", text.replace("−", "-").replace("·", "*").replace("°", " deg"))
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", TOLD_OF)
 def test_statuses(name: str) -> None:
     """A case has an answer in every command, or none with one status."""
@@ -332,6 +333,7 @@ ROUNDING = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?e-(?:1[5-9]|[2-9]\d|\d{3})")
 BOUNDS = ("rounding may make", "Rounding can have moved", "agree with each other to")
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", TOLD_OF)
 def test_no_rounding_is_told_as_a_number(name: str) -> None:
     """What is zero is 0 in the words of every command, save where a bound is what is told."""
@@ -341,6 +343,7 @@ def test_no_rounding_is_told_as_a_number(name: str) -> None:
     assert not [line for line in lines if ROUNDING.search(line) and not any(b in line for b in BOUNDS)]
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", TOLD_OF)
 def test_values_senses_and_ranges(name: str) -> None:
     """The value with its sense, or the range, in the words of one room."""
@@ -398,6 +401,7 @@ def test_the_page_says_in_its_written_position_what_solve_says(name: str) -> Non
             assert plain(sense) == plain(spelt(found.sense, figure_number))
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", WITH_PAGE)
 def test_ratios_of_speeds(name: str) -> None:
     """The ratios that a solution works with, and those in the page's table, are those of the rates."""
@@ -504,6 +508,7 @@ def test_an_undetermined_point_that_nothing_needs_stops_no_command(verb: str, tm
     assert exit_status(*verb.split()[:1], str(path), *verb.split()[1:], *VERBS[verb]) == 0
 
 
+@sampled(2)
 @pytest.mark.parametrize("kind", OTHERS)
 def test_every_kind_of_case_is_explained_drawn_and_paged(kind: str) -> None:
     """What has an answer has one in every command, and what rests is told where."""

@@ -27,6 +27,7 @@ from icsolve.report.derivation.known import known_of
 from icsolve.report.derivation.ratios import needed_steps
 from library import FILES, PAGED, known, motion, page_of, sample
 from pictures import parsed
+from sizes import sampled
 from test_page import hostile, ten_links
 
 DRIVEN = {
@@ -93,6 +94,7 @@ def crank_end(name: str, found: PageMotion) -> str:
     )
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", DRIVEN)
 def test_the_slider_moves_the_crank(name: str, opened: Any) -> None:
     """The crank's pin is where the sweep has it, to a tenth of a picture unit and rounding of the angle."""
@@ -400,6 +402,7 @@ STRUCK = """return [...document.querySelectorAll('#labels [data-label] text')].f
 }).map((e) => e.textContent)"""
 
 
+@sampled(3)
 @pytest.mark.parametrize(
     "name", ["linkages/four_bar.yaml", "linkages/stephenson_six_bar.yaml", "ch13/13_08_four_bar.yaml"]
 )

@@ -31,7 +31,7 @@ from icsolve.page.motion import motion_of
 from icsolve.sweep.varied_numbers import numbers_of
 from icsolve.tuples import replace
 from library import FILES, page_of, sample
-from sizes import FULL
+from sizes import FULL, sampled
 
 ROOT = Path(__file__).parent.parent / "cases"
 LENGTHS = """icsolve: 1
@@ -181,6 +181,7 @@ CASES = (
 )
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", CASES)
 def test_what_is_typed_is_solved_as_solve_does(name: str, shown: Any) -> None:
     """Random changes: values to 1e-9 (of zero to 1e-12), statuses by their words."""
@@ -355,6 +356,7 @@ def test_a_position_in_which_a_rope_would_push_is_slack(shown: Any) -> None:
     assert (same["status"], other["status"]) == ("ok", "slack")
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", ["quick_return_lever", "rolling_disk", "hoist_starting"])
 def test_a_motion_the_other_way_is_solved_as_solve_does(name: str, shown: Any) -> None:
     """An acceleration is faster in the sense of the speed, whichever that was as the page was made."""
@@ -411,6 +413,7 @@ return [...document.querySelectorAll('#loads [data-load]:not(.ghost) path')].fla
 }).filter((p) => p.x < left - 1 || p.y < top - 1 || p.x > right + 1 || p.y > bottom + 1).length"""
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", ["linkages/four_bar", "ropes/windlass", *JANSEN])
 def test_no_arrow_of_a_load_is_cut_at_the_edge(name: str, shown: Any) -> None:
     """Turned through, then with loads that point each way, by fields and by the keys of a handle."""
@@ -451,6 +454,7 @@ def test_a_handle_is_dragged_by_mouse_and_by_finger(shown: Any) -> None:
         assert found == pytest.approx(values["T12"], rel=1e-9)
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", ["linkages/four_bar", "sliders/slider_crank_in_line"])
 def test_the_numbers_follow_the_turn_and_the_turn_the_numbers(name: str, shown: Any) -> None:
     """What the fields say solves to what is shown: turned, then with another load; to seven digits each."""
@@ -491,6 +495,7 @@ TURNED = {
 """A number that is changed, and what then turns which link (the input of the page where that is not said)."""
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", TURNED)
 def test_a_changed_mechanism_is_turned_as_the_sweep_turns_it(name: str, shown: Any) -> None:
     """Forth and back, to 1e-7: the fields have ten digits."""
@@ -541,6 +546,7 @@ MOVED = {
 }
 
 
+@sampled(2, "motion", "lengths")
 @pytest.mark.parametrize("motion", MOVED)
 @pytest.mark.parametrize("lengths", [(2, 4, 2), (1, 3, 2), (3, 3.5, 2.5), (1, 3.5, 2.5)])
 def test_a_changed_mechanism_goes_straight_on_through_change_points(
@@ -611,6 +617,7 @@ def test_torsion_springs_are_within_half_a_turn_as_typed_and_wind_up_as_they_are
     assert [value for _, value in found] == pytest.approx(rows.answers["T"].tolist(), rel=1e-7)
 
 
+@sampled(3)
 @pytest.mark.parametrize(
     "change", [{}, {"points.E.x": "480", "loads.P": "75"}, {"angles.BC": "35", "lengths.ED": "230"}]
 )
@@ -647,6 +654,7 @@ return [e.id, e.getAttribute('role'), e.getAttribute('aria-label'), e.matches(':
   [style.strokeWidth, style.strokeDasharray, style.strokeOpacity].join()]"""
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", ["sliders/quick_return", "tools/scissor_jack", *JANSEN])
 def test_every_handle_is_reached_and_moved_by_keys(name: str, shown: Any) -> None:
     """Tab goes from each to the next, which says what it is and shows that it has the focus; arrows change
@@ -725,6 +733,7 @@ def test_a_link_leads_to_the_way_of_assembling_that_was_dragged_to(shown: Any) -
     assert float(page.run(answer)[0]) == pytest.approx(float(value), rel=1e-9)
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", sample(FILES, 6, "fields"))
 def test_a_field_has_the_unit_and_the_bound_of_the_reader(name: str) -> None:
     """A number reads the same with the unit that stands behind its field, and a page refuses of others what
@@ -776,6 +785,7 @@ return document.getElementById('body-said').textContent"""
 FORCE = re.compile(r"(\S+) = (\S+) \S+ at (\S+)°")
 
 
+@sampled(2)
 @pytest.mark.parametrize(
     "name",
     ["linkages/jansen_leg", "sliders/inverted_slider_crank", "tools/bolt_cutter", "tools/scissor_jack"],
@@ -836,6 +846,7 @@ RESTS = {
 }
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", sorted(p.stem for p in ROOT.glob("equilibrium/*.yaml")) if FULL else RESTS)
 def test_a_position_that_is_asked_for_is_one_of_those_of_solve(name: str, shown: Any) -> None:
     """Of any way of assembling: its datum to 1e-9 of a turn or of the unit, and its stability. The page seeks
@@ -896,6 +907,7 @@ SINGULAR = {
 """A case, and a singular position of it [degrees]."""
 
 
+@sampled(2)
 @pytest.mark.parametrize("kind", SINGULAR)
 def test_beside_a_singular_position_a_page_has_the_number_of_solve(
     kind: str, shown: Any, tmp_path: Path
@@ -940,6 +952,7 @@ LEVERS = {
 }  # fmt: skip
 
 
+@sampled(2, "asked", "kind")
 @pytest.mark.parametrize("asked", ["torque", "force"])
 @pytest.mark.parametrize("kind", LEVERS if FULL else list(LEVERS)[::3])
 def test_a_page_has_the_number_of_solve_however_near_a_singular_position_is(
@@ -988,6 +1001,7 @@ return changes.map((change) => {
 PULLED = [kind for kind, (_, _, at, _) in LEVERS.items() if at == round(at)]
 
 
+@sampled(2, "asked", "kind")
 @pytest.mark.parametrize("asked", ["torque", "force"])
 @pytest.mark.parametrize("kind", PULLED if FULL else PULLED[::3])
 def test_what_is_pulled_has_the_number_of_solve_however_near_a_singular_position_is(
@@ -1034,6 +1048,7 @@ SLACKENED = {
 decides to 2^-48 of it."""
 
 
+@sampled(4)
 @pytest.mark.parametrize("kind", SLACKENED)
 def test_however_near_a_rope_is_to_going_slack_a_page_says_what_solve_says(kind: str, shown: Any) -> None:
     """The load at which a rope ceases to pull, found by the words of `solve`, and 1e-2 to 1e-15 aside."""
@@ -1074,6 +1089,7 @@ return degrees.map((at) => {
 });"""
 
 
+@sampled(2)
 @pytest.mark.parametrize("kind", CHAINS)
 def test_chains_of_crossing_bars_are_turned_with_the_values_of_the_sweep(kind: str, shown: Any) -> None:
     """With another load, forth and back, to 1e-9: where only the angle of the input follows, it is as typed;
@@ -1090,6 +1106,7 @@ def test_chains_of_crossing_bars_are_turned_with_the_values_of_the_sweep(kind: s
     assert [float(value) for value, _ in found] == pytest.approx(values.tolist(), rel=1e-9)
 
 
+@sampled(3)
 @pytest.mark.parametrize("kind", [kind for kind in CHAINS if "flat" in kind])
 def test_scissors_of_flat_triangles_are_pulled_to_the_answers_of_solve(kind: str, shown: Any) -> None:
     page = shown(CHAINS[kind])
@@ -1168,6 +1185,7 @@ def test_a_load_stays_with_the_link_that_it_is_on(link: str, shown: Any) -> None
 OFF = np.array([-1e-9, 0.0, 1e-9])
 
 
+@sampled(3, "kind")
 @pytest.mark.parametrize(
     "kind",
     [mechanisms.stephenson, mechanisms.butterfly, mechanisms.inverted_slider_crank, mechanisms.folding],
@@ -1203,6 +1221,7 @@ def test_a_changed_mechanism_stops_where_its_links_do_not_meet(kind: Any, seed: 
                 assert float(value) == pytest.approx(rows.answers["U"][n], rel=1e-5, abs=1e-5), degrees[n]
 
 
+@sampled(2)
 @pytest.mark.parametrize("unit", ["yd", "ft"])
 def test_numbers_that_no_decimal_tells_are_exact_in_a_page_too(unit: str, shown: Any, tmp_path: Path) -> None:
     """Inches in feet and yards: a parallelogram of such lengths has its change point where `solve` has it,
@@ -1326,6 +1345,7 @@ LOADED = {
 }
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", LOADED)
 def test_the_numbers_beside_the_loads_are_those_that_are_typed(
     name: str, window: Browser, shown: Any, tmp_path: Path

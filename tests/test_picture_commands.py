@@ -17,6 +17,7 @@ from icsolve.draw.words import answer_sentences
 from icsolve.report.derivation.known import known_of
 from pictures import parsed
 from shell import exit_status
+from sizes import sampled
 from test_draw import DEAD_CENTRE, FOUR_BAR
 
 ROOT = Path(__file__).parent.parent
@@ -112,6 +113,7 @@ def test_options_that_cannot_be_are_refused(words: tuple[str, ...], press: Path)
     assert exit_status("draw", str(press), *words) == 2
 
 
+@sampled(2)
 @pytest.mark.parametrize(
     "words",
     [

@@ -33,7 +33,7 @@ from icsolve.solve.stability import with_stability
 from icsolve.sweep.find_by_scenes import Query
 from icsolve.sweep.find_on_record import find
 from icsolve.sweep.varied_numbers import with_numbers
-from sizes import MORE
+from sizes import MORE, few
 from texts import PAGES
 
 E, R, ROLLER = 20.0, 40.0, 10.0
@@ -50,7 +50,7 @@ def torque(answer: Answer) -> float:
 
 
 @given(ANGLES)
-@settings(max_examples=40)
+@settings(max_examples=few(40))
 def test_flat_follower_on_an_eccentric_circle_is_in_simple_harmonic_motion(degrees: float) -> None:
     """s = r + e sin(theta), so T = P e cos(theta); the face is touched at e cos(theta) from the axis."""
     answer = solve(sliding(CIRCLE, "{flat: B, along: 0}", degrees=degrees), rates=True)
@@ -64,7 +64,7 @@ def test_flat_follower_on_an_eccentric_circle_is_in_simple_harmonic_motion(degre
 
 
 @given(ANGLES, OFFSETS, st.sampled_from([ROLLER, 0.0]))
-@settings(max_examples=40)
+@settings(max_examples=few(40))
 def test_roller_and_knife_edge_on_an_eccentric_circle(degrees: float, offset: float, roller: float) -> None:
     """The trace point moves on a circle of r + r_roller about C:
     y = e sin(theta) + root, tan(phi) = (e cos(theta) - offset) / root, with
@@ -82,7 +82,7 @@ def test_roller_and_knife_edge_on_an_eccentric_circle(degrees: float, offset: fl
 
 
 @given(ANGLES, OFFSETS)
-@settings(max_examples=25)
+@settings(max_examples=few(25))
 def test_pressure_angle_of_a_translating_roller_follower(degrees: float, offset: float) -> None:
     """Norton, eq. 8.31: tan(phi) = (ds/dtheta - eps) / (s + sqrt(Rp^2 - eps^2)); here the whole height stands
     below, and ds/dtheta is the torque over the force. The sign of eps is that of a cam that turns ccw."""
@@ -93,7 +93,7 @@ def test_pressure_angle_of_a_translating_roller_follower(degrees: float, offset:
 
 
 @given(ANGLES)
-@settings(max_examples=40)
+@settings(max_examples=few(40))
 def test_oscillating_flat_follower_on_an_eccentric_circle(degrees: float) -> None:
     """The face through D is tangent to the disk: psi = gamma - asin(r / DC), gamma the direction of DC."""
     answer = solve(swinging(CIRCLE, "{flat: D, along: [D, E]}", degrees=degrees), rates=True)
@@ -112,7 +112,7 @@ def test_oscillating_flat_follower_on_an_eccentric_circle(degrees: float) -> Non
 
 
 @given(ANGLES)
-@settings(max_examples=40)
+@settings(max_examples=few(40))
 def test_oscillating_roller_follower_is_a_four_bar_whose_coupler_is_the_common_normal(degrees: float) -> None:
     """The equivalent linkage A-C-E-D (Uicker, sect. 1.11) has CE = r + r_roller."""
     answer = solve(swinging(CIRCLE, "{roller: E, radius: 10}", degrees=degrees), rates=True)
@@ -152,7 +152,7 @@ def turned_square(degrees: float) -> tuple[str, list[tuple[float, float]]]:
 
 
 @given(st.floats(1.0, 89.0).filter(lambda a: abs(a - 45.0) > 1e-3))
-@settings(max_examples=30)
+@settings(max_examples=few(30))
 def test_flat_face_on_a_polygon_rests_on_its_highest_corner(degrees: float) -> None:
     """The corner's normals are a range; the face chooses its own: T = P x of the corner."""
     profile, corners = turned_square(degrees)
@@ -165,7 +165,7 @@ def test_flat_face_on_a_polygon_rests_on_its_highest_corner(degrees: float) -> N
 
 
 @given(st.floats(1.0, 89.0).filter(lambda a: abs(a - 45.0) > 1e-3))
-@settings(max_examples=30)
+@settings(max_examples=few(30))
 def test_knife_edge_on_the_edge_of_a_polygon(degrees: float) -> None:
     """On the edge that the line x = 0 crosses from above: ds/dtheta = -s tan(slope)."""
     answer = solve(sliding(turned_square(degrees)[0], "{knife: B}"))

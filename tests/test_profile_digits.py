@@ -20,7 +20,7 @@ from icsolve.errors import SceneError
 from icsolve.read import load
 from icsolve.solve import solve
 from icsolve.sweep import sweep
-from sizes import MORE, crossed
+from sizes import MORE, crossed, sampled
 
 Vector = tuple[mpf, mpf]
 
@@ -219,6 +219,7 @@ def swept(case: Case, rows: list[float], truth: Callable[[float], mpf]) -> None:
         assert abs(mpf(told.answers["T12"][n]) - true) <= told.error["T12"][n] or not true, row
 
 
+@sampled(3)
 @pytest.mark.parametrize(("lean", "side"), crossed([0, 5, -12], [1, -1]))
 def test_a_face_rests_on_the_end_of_a_flank_that_it_meets_first(lean: int, side: int) -> None:
     """Flanks join arcs that go on a thousandth of a degree beyond their tangents: between the arcs a face
@@ -252,6 +253,7 @@ def test_a_face_rests_on_the_end_of_a_flank_that_it_meets_first(lean: int, side:
             assert found.value == 0.0
 
 
+@sampled(3, "follower")
 @pytest.mark.parametrize("seed", sorted({*range(2 * MORE), 7}))
 @pytest.mark.parametrize("follower", ["roller", "knife"])
 def test_a_roller_or_a_knife_edge_goes_over_from_an_edge_to_the_next(follower: str, seed: int) -> None:

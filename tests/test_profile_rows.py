@@ -23,6 +23,7 @@ from icsolve.solve import solve
 from icsolve.sweep import sweep
 from icsolve.sweep.varied_numbers import with_numbers
 from icsolve.tuples import replace
+from sizes import sampled
 
 mp.dps = 60
 FULL = bool(os.environ.get("ICSOLVE_FULL"))
@@ -109,6 +110,7 @@ def test_rows_beside_strokes_and_dwells_are_scenes(follower: str, unknown: str) 
         check(case, unknown, at, offs if FULL else rng.sample(offs, 3))
 
 
+@sampled(3)
 @pytest.mark.parametrize("seed", range(3 if not FULL else 30))
 def test_with_friction_rows_beside_a_follower_at_rest_are_right_to_the_last_digit(seed: int) -> None:
     """Where the arm turns back the normal goes through the cam's axis, so that the normal force has next to
@@ -140,6 +142,7 @@ def test_with_friction_rows_beside_a_follower_at_rest_are_right_to_the_last_digi
             assert abs(value - true) <= error <= 4.0 * math.ulp(value), (row, value, true)
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", range(2 if not FULL else 20))
 def test_a_knife_edge_that_only_grazes_an_edge_rests_on_it(seed: int) -> None:
     """The tip of an arm goes in and out again through one edge of a block, at places as near to each other as
@@ -196,6 +199,7 @@ def tips_on(corners: list[tuple[float, float]], d: float, reach: float, row: flo
     return found
 
 
+@sampled(4)
 @pytest.mark.parametrize("seed", range(4 if not FULL else 200))
 def test_a_knife_edge_on_an_arm_beside_a_corner_is_right_to_the_last_digit(seed: int) -> None:
     """Also where it goes in through one edge and out again through the next, and with and without bounds."""

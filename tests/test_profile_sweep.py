@@ -19,7 +19,7 @@ from icsolve.sweep import cam_sweep, sweep
 from icsolve.sweep.cam_sweep import SAID
 from icsolve.sweep.varied_numbers import with_numbers
 from made import number
-from sizes import FULL
+from sizes import FULL, sampled
 
 E, R, ROLLER = 20.0, 40.0, 10.0
 CIRCLE = "{circle: C, radius: 40}"
@@ -102,6 +102,7 @@ def test_first_meeting_from_outside_skips_the_hollows() -> None:
 # --- single scenes --------------------------------------------------------------------------------
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", CAMS)
 def test_rows_are_the_scenes_as_if_written_so(name: str) -> None:
     """Each row against `solve` of the case with the cam's angle written, and of the row's own case."""
@@ -320,6 +321,7 @@ DWELLS, SPINS = (load(str(LIBRARY / f"{name}.yaml")) for name in ("tangent_cam",
 ROWS = {**CAMS, "a dwell": DWELLS, "a roller that spins": SPINS, "a load that lifts the follower": PULLED}
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", ROWS)
 def test_rows_at_once_are_the_scenes_one_by_one(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     """Values, statuses, contacts, and what is said of pressure angles and of lost contacts; to rounding."""
@@ -351,6 +353,7 @@ def solved(monkeypatch: pytest.MonkeyPatch) -> list[object]:
     return every
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", ROWS)
 def test_a_turn_of_a_cam_is_on_the_record(solved: list[object], name: str) -> None:
     """Scenes are those rows alone in which a follower turns round, or in a dwell: at most 5 of 142."""
@@ -358,6 +361,7 @@ def test_a_turn_of_a_cam_is_on_the_record(solved: list[object], name: str) -> No
     assert len(solved) <= 5
 
 
+@sampled(4)
 @pytest.mark.parametrize("name", ROWS)
 def test_a_turn_of_a_cam_with_inertia_forces_is_on_the_record(
     monkeypatch: pytest.MonkeyPatch, solved: list[object], name: str

@@ -14,8 +14,10 @@ from icsolve.numbers.replay import SOON, Code
 from icsolve.read import load
 from icsolve.sweep import sweep
 from icsolve.sweep.program import RowRequest, compile_sweep, setting_of
+from sizes import sampled
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", range(20))
 def test_a_row_alone_has_the_bits_that_it_has_among_others(seed: int) -> None:
     """Also when it was run so often that it goes as Python; and what is divided by zero as well."""
@@ -42,6 +44,7 @@ def test_a_row_alone_has_the_bits_that_it_has_among_others(seed: int) -> None:
         assert np.array_equal(alone[:, 0], together[:, n], equal_nan=True), n
 
 
+@sampled(2)
 @pytest.mark.parametrize("text", [FOUR_BAR_CASE, SLIDER_CRANK_CASE], ids=["four-bar", "slider-crank"])
 def test_a_sweep_that_is_no_longer_kept_leaves_nothing_to_the_garbage_collector(text: str) -> None:
     """A record and its numbers do not keep one another: families of thousands of mechanisms would have the

@@ -16,6 +16,7 @@ import transcribe
 import witness
 from growth import random_mechanism
 from loading import drawn
+from sizes import sampled
 from transcribe import Scene
 
 CLOSE = 1e-12
@@ -337,12 +338,14 @@ def agree(scene: Scene) -> None:
     assert equilibrium.answers(case) == pytest.approx(exact, rel=1e-9)
 
 
+@sampled(2)
 @pytest.mark.parametrize("generator", mechanisms.ALL, ids=lambda g: g.__name__)
 def test_power_and_free_bodies_agree(generator: mechanisms.Generator) -> None:
     for seed in range(3):
         agree(drawn(seed, generator))
 
 
+@sampled(4)
 @pytest.mark.parametrize("block", range(4))
 def test_power_and_free_bodies_agree_on_random_mechanisms(block: int) -> None:
     for seed in range(25 * block, 25 * block + 25):

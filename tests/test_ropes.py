@@ -27,7 +27,7 @@ from icsolve.screws.ropes import rope_parts
 from icsolve.solve.positions import find_along
 from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.path_tracking import PathTracker
-from sizes import MORE
+from sizes import MORE, few, sampled
 
 CASES = Path(__file__).parent.parent / "cases"
 
@@ -266,6 +266,7 @@ def test_without_a_motion_the_pull_on_a_capstan_holds_over_a_range() -> None:
     assert answer.answers["F"].holds == (exactly(100 / HAULED), exactly(100 * HAULED))
 
 
+@sampled(2)
 @pytest.mark.parametrize("wrap", ["cw", "ccw"])
 @pytest.mark.parametrize("turns", [0, 1, 4])
 def test_a_straight_rope_lies_on_a_post_over_whole_turns_alone(wrap: str, turns: int) -> None:
@@ -663,7 +664,7 @@ loads:
 def test_positions_in_which_a_rope_would_have_to_push_are_left_out_and_named() -> None:
     """Angles to 1e-6 degree, those of the closed form from a scan by tenths of a degree."""
     met = [0, 0, 0]
-    for seed in range(600 if MORE > 1 else 16):
+    for seed in range(600 if MORE > 1 else 6):
         text, pulls, pushes = crank_and_block(seed)
         if pulls:
             answer = solved(text)
@@ -691,14 +692,14 @@ def test_positions_in_which_a_rope_would_have_to_push_are_left_out_and_named() -
         assert [one.at for one in places] == pytest.approx(pulls, abs=1e-6), text
         assert all(min(abs(float(one) - at) for one in named) <= 1e-3 for at in pushes), text
         met = [a + bool(b) for a, b in zip(met, (pulls, pushes, pulls and pushes), strict=True)]
-    assert min(met) >= 5
+    assert min(met) >= (5 if MORE > 1 else 1)
 
 
 def test_a_rope_that_has_run_out_lets_a_mechanism_go_no_further() -> None:
     """The block of a crank and block is drawn to its pulley: there the motion ends, and beyond it no row
     assembles, no load is largest and none takes a value. Limits by the closed form to 1e-9 degree."""
     met = 0
-    for seed in range(1200 if MORE > 1 else 30):
+    for seed in range(1200 if MORE > 1 else 10):
         text, _, _ = crank_and_block(seed)
         px, py, qy = (float(x) for x in re.findall(r"P: \[(.*), (.*)\], Q: \[.*, (.*)\], S", text)[0])
         r, start = float(re.findall("AB: (.*)}", text)[0]), float(re.findall("from: (.*)}}", text)[0])
@@ -720,7 +721,7 @@ def test_a_rope_that_has_run_out_lets_a_mechanism_go_no_further() -> None:
         assert limits == pytest.approx(sorted(meant), abs=1e-9), text
         peaks = find(case, turn, Query("max"))
         assert all(math.cos(math.radians(one.at) - heading) > ends for one in peaks), text
-    assert met >= 3
+    assert met >= (3 if MORE > 1 else 1)
 
 
 @pytest.mark.parametrize("name", ["O", "A-O-C"])
@@ -775,7 +776,7 @@ def test_rows_of_ropes_are_on_the_record_and_are_the_scenes(monkeypatch: pytest.
     one, hides, solved_alone = scenes._one, start.Start.hides, []
     monkeypatch.setattr(scenes, "_one", lambda *all: (solved_alone.append(all), one(*all))[1])
     told: Counter[str] = Counter()
-    for seed in (*range(8 * MORE), 130, 233):
+    for seed in (*range(few(8) * MORE), 130, 233):
         case, every = rope_rows(seed)
         for rows in every:
             monkeypatch.setattr(start.Start, "hides", hides)
@@ -796,7 +797,7 @@ def test_rows_of_ropes_are_on_the_record_and_are_the_scenes(monkeypatch: pytest.
                     np.testing.assert_allclose(
                         found.kinds[kind][key][good], array[good], rtol=1e-9, atol=room
                     )
-    assert min(told[word] for word in ("ok", "slack", "cannot-assemble")) >= 2
+    assert min(told[word] for word in ("ok", "slack", "cannot-assemble")) >= few(2)
 
 
 def test_the_last_part_of_a_rope_keeps_its_direction_in_a_motion() -> None:
@@ -825,7 +826,7 @@ loads:
 def test_power_and_free_bodies_agree_for_ropes_over_random_mechanisms() -> None:
     compared: int = 0
     refused_as: list[str] = []
-    for seed in range(100 if MORE == 1 else 3600):
+    for seed in range(34 if MORE == 1 else 3600):
         case = icsolve.load("icsolve: 1\n" + roped(seed))
         try:
             answer = icsolve.solve(case, reactions=True)
@@ -836,8 +837,8 @@ def test_power_and_free_bodies_agree_for_ropes_over_random_mechanisms() -> None:
         assert abs(witness.difference) <= max(witness.bound, 1e-9 * abs(witness.power)), roped(seed)
         assert all(one.tension is not None and one.tension >= 0.0 for one in answer.tensions)
         compared += 1
-    assert compared >= (50 if MORE == 1 else 2000)
-    assert refused_as.count("slack") >= 15
+    assert compared >= (17 if MORE == 1 else 2000)
+    assert refused_as.count("slack") >= (5 if MORE == 1 else 15)
     assert {*refused_as} <= {"slack", "inconsistent", "no-value", "dead-centre"}
 
 

@@ -32,7 +32,7 @@ from icsolve.sweep.table import Sweep
 from icsolve.sweep.varied_numbers import numbers_of, with_numbers
 from icsolve.tuples import replace
 from library import FILES, sample
-from sizes import FULL, crossed
+from sizes import FULL, crossed, sampled
 
 Row = tuple[str, dict[str, tuple[float, float]]]
 """Status, and unknown loads with their bounds."""
@@ -187,6 +187,7 @@ TWICE = (
 """Two of one freedom: they agree nowhere, everywhere, or as written alone."""
 
 
+@sampled(3)
 @pytest.mark.parametrize("motion", [*GOOD, *BAD, *TWICE])
 def test_a_motion_that_a_scene_refuses_is_refused_in_every_row(motion: str) -> None:
     """Whatever the motion is (of the frame, of what does not turn, in a direction that is none of its path,
@@ -224,6 +225,7 @@ loads: {P: {torque: 10, link: 4}, T: {torque: unknown, link: 2}}
 """
 
 
+@sampled(2)
 @pytest.mark.parametrize(
     "motion",
     [
@@ -268,6 +270,7 @@ def test_motions_that_repeat_one_another_agree_to_half_a_unit_of_their_last_deci
                 icsolve.solve(case, rates=True)
 
 
+@sampled(3, "path", "motion")
 @pytest.mark.parametrize("motion", GOOD)
 @pytest.mark.parametrize(
     "path", ["angles.AB", "lengths.AB", "joints.4-1@C.along", "motion.speed", "motion.angle"]
@@ -341,6 +344,7 @@ CHANGING = ((3, 3.5, 2.5), (1, 4, 1), (2, 4, 2))
 """Cranks, couplers and rockers that all lie on the line of a frame of 4 at 0 degrees."""
 
 
+@sampled(2)
 @pytest.mark.parametrize(
     ("lengths", "given_on"), crossed([*CHANGING, (1, 3.5, 2.5)], [(2, 1.0), (3, 1.0), (3, -1.0)])
 )
@@ -443,6 +447,7 @@ def test_a_wheel_whose_contact_a_coordinate_leaves_behind_is_read_anew(radii: st
     assert list(misses(case, path, amounts(numbers_of(case)[path]))) == []
 
 
+@sampled(3)
 @pytest.mark.parametrize("written", [0.0, 0.5, -0.9])
 def test_a_wheel_rolls_on_what_each_row_says_that_it_rolls_on(written: float) -> None:
     """A straight track is a round one in no row, nor a round one straight, whichever was written: row by row
@@ -475,6 +480,7 @@ MISFITS = (0.0, 5e-4, -8e-4, 6e-3, -0.01, 0.4, -2.0)
 """By how much of it a radius is not that of the figure; 0.2 % fits."""
 
 
+@sampled(4)
 @pytest.mark.parametrize("off", MISFITS)
 @pytest.mark.parametrize("kind", ROLLING)
 @pytest.mark.parametrize("seed", range(40 if FULL else 3))
@@ -581,6 +587,7 @@ UPRIGHT = (
 MOVING = (("rates",), ("centres",), ("rates", "centres"), ("rates", "velocities"))
 
 
+@sampled(3, "want", "load", "screw")
 @pytest.mark.parametrize("want", MOVING)
 @pytest.mark.parametrize("load", UPRIGHT)
 @pytest.mark.parametrize("screw", [True, False])
@@ -672,6 +679,7 @@ def reduction(draw: random.Random, wheels: int) -> str:
     )
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", range(400 if FULL else 10))
 def test_rows_of_a_long_reduction_keep_the_slowest_wheel(seed: int) -> None:
     """What is 1e-14 and less of the fastest is no zero: its digits are known. Answers, rates and centres."""
@@ -731,6 +739,7 @@ def test_rows_of_a_crank_that_is_next_to_nothing_are_scenes(kind: str, seed: int
             ), link
 
 
+@sampled(3)
 @pytest.mark.parametrize("seed", range(300 if FULL else 4))
 @pytest.mark.parametrize("kind", SHORT)
 def test_rows_of_loads_that_all_but_cancel_are_scenes(kind: str, seed: int) -> None:
@@ -870,6 +879,7 @@ NEXT_TO = {
 }
 
 
+@sampled(2, "asked")
 @pytest.mark.parametrize(("kind", "asked"), crossed([*NEXT_TO], ["torque", "force"]))
 def test_rows_beside_singular_positions_have_the_digits_of_scenes(kind: str, asked: str) -> None:
     """At random distances from 1 to 1e-13 degree: to 3e-9 in a sweep, to 1e-8 in an evaluator, which is what
@@ -959,6 +969,7 @@ loads:
 """
 
 
+@sampled(4)
 @pytest.mark.parametrize("length", [0.6, 0.7, 1.2, 3.0])
 def test_a_dyad_that_the_answer_does_not_need_changes_no_row_where_it_does_not_reach(length: float) -> None:
     """In dead centres, beside them and at what is found a row has a scene of its own: all as without it."""

@@ -16,7 +16,7 @@ from icsolve.read import joints, keys, load, profiles
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.schema import FORMS, schema
 from shell import exit_status
-from sizes import FULL
+from sizes import FULL, sampled
 from trees import document, tree, typed
 
 SCHEMA = schema()
@@ -140,6 +140,7 @@ def fresh(text: str, path: tuple[str | int, ...]) -> tuple[Mapping, Node]:
     return root, next(found for found, at in places(root) if at == path)
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", ALL)
 def test_both_refuse_a_broken_shape(name: str) -> None:
     for what, root in broken(ALL[name]):
@@ -158,6 +159,7 @@ def lost(text: str) -> Iterator[tuple[str, Mapping]]:
                 yield f"{key} of {path}", root
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", ALL)
 def test_a_lost_key_that_the_schema_misses_is_refused_by_the_reader(name: str) -> None:
     for what, root in lost(ALL[name]):
@@ -186,6 +188,7 @@ WORDS = [
 ROUNDS = 400 if FULL else 20
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", ALL)
 def test_what_the_schema_refuses_the_reader_refuses(name: str) -> None:
     """Values put at random in place of others (seeded)."""

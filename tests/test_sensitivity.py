@@ -15,6 +15,7 @@ from icsolve.scene.sensitivity import band, entries, influences, numbers_of, tex
 from icsolve.statics.power import has_friction
 from library import FILES, sample
 from more_digits import SixtyDigits
+from sizes import sampled
 
 PRESS = """
 icsolve: 1
@@ -59,6 +60,7 @@ SEVERAL_FREEDOMS = {"linkages/five_bar.yaml", "linkages/pantograph.yaml"}
 """Where the null space of loops is found by elimination, among whose numbers some are zero as they stand."""
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", sorted(SEVERAL_FREEDOMS | {*sample(FILES, 15, "slopes")}))
 def test_sensitivities_of_the_library_are_derivatives(name: str) -> None:
     """By every number, also where an answer or a coefficient is zero in the position as written."""
@@ -90,6 +92,7 @@ def test_what_an_answer_does_not_depend_on_has_no_sensitivity() -> None:
     }
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", sample(FILES, 2, "roundings"))
 def test_no_rounding_is_told_as_a_sensitivity(name: str) -> None:
     """A number of which the answer is free, such as where on a link that only shifts its weight hangs."""

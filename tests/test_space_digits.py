@@ -9,7 +9,7 @@ import pytest
 from mpmath import lu_solve, matrix, mp, mpf
 
 from icsolve import load, solve
-from sizes import MORE
+from sizes import MORE, sampled
 from space_statics import system
 from test_space_random import text_of, tree, vector
 
@@ -37,6 +37,7 @@ def tied(dice: Random) -> str:
     return text_of(points, joints, [f"torque: unknown, link: {links + 2}, along: [A, B]", *loads])
 
 
+@sampled(3)
 @pytest.mark.parametrize("seed", [5, 33, 34, *range(50, 50 + 10 * MORE)])
 def test_a_rod_that_carries_nothing(seed: int) -> None:
     """Both routes know a torque of zero as zero: it is not refused for what digits leave of it."""
@@ -85,6 +86,7 @@ loads:
     assert answer.answers["R"].value == 0.0
 
 
+@sampled(3)
 @pytest.mark.parametrize("seed", range(8 * MORE))
 def test_trees_of_all_joints(seed: int) -> None:
     """Also where the third of the axes lies within 1e-3 to 1e-12 of the plane of the others' forces."""

@@ -20,12 +20,13 @@ from icsolve.solve.stability import holding_values, is_still
 from icsolve.sweep.varied_numbers import find_number, with_numbers
 from rough_scenes import Rough
 from shell import Shell
-from sizes import FULL, few
+from sizes import FULL, few, sampled
 
 NEAR = 0.01
 """Scenes that hold with coefficients so much larger and not with such smaller ones are not compared."""
 
 
+@sampled(3)
 @pytest.mark.parametrize("kind", standing.KINDS)
 @pytest.mark.parametrize("part", range(20 if FULL else 1))
 def test_known_loads_hold_where_the_joints_can_balance_them(kind: Callable[[Random], str], part: int) -> None:
@@ -42,6 +43,7 @@ def test_known_loads_hold_where_the_joints_can_balance_them(kind: Callable[[Rand
     assert seen == {True, False}
 
 
+@sampled(3)
 @pytest.mark.parametrize("kind", standing.KINDS)
 @pytest.mark.parametrize("part", range(20 if FULL else 1))
 def test_where_friction_holds_joints_carry_what_equilibrium_says(
@@ -91,6 +93,7 @@ ALIKE = [
 """Kinds whose scenes are in the same units."""
 
 
+@sampled(2)
 @pytest.mark.parametrize("kinds", ALIKE, ids=lambda kinds: kinds[0].__name__)
 @pytest.mark.parametrize("part", range(10 if FULL else 1))
 def test_two_scenes_side_by_side_hold_where_both_do(
@@ -117,6 +120,7 @@ def test_two_scenes_side_by_side_hold_where_both_do(
         assert answer.holds_still is all(each), texts
 
 
+@sampled(2)
 @pytest.mark.parametrize("kinds", ALIKE, ids=lambda kinds: kinds[0].__name__)
 @pytest.mark.parametrize("part", range(10 if FULL else 1))
 def test_beside_a_scene_that_holds_a_load_has_the_range_that_it_has_alone(
@@ -149,14 +153,14 @@ def test_a_five_bar_stands_where_its_rough_pins_can_hold_it(part: int) -> None:
     """What its joints carry hangs on the frictions themselves: two of the four are open, and the forces of
     the pins turn with them. Scenes within 2e-3 of the largest load are not compared, for the grid."""
     dice, seen = Random(f"five-bar {part}"), list[bool]()
-    for _ in range(14):
+    for _ in range(few(14)):
         text = standing.five_bar(dice)
         case = icsolve.load(text)
         spare = standing.most_spare(case)
         if abs(spare) > 2e-3:
             assert icsolve.solve(case).holds_still is (spare > 0.0), (text, spare)
             seen.append(spare > 0.0)
-    assert len(seen) > 10
+    assert len(seen) > few(10)
 
 
 @pytest.mark.parametrize("kind", [standing.crates, standing.bricks])
@@ -191,6 +195,7 @@ PUSHED[standing.five_bar] = (3, "B")
 FAR = [side * value for value in (0.0, 0.1, 3.0, 17.0, 70.0, 500.0) for side in (1.0, -1.0)]
 
 
+@sampled(2)
 @pytest.mark.parametrize("kind", PUSHED)
 @pytest.mark.parametrize("part", range(20 if FULL else 1))
 def test_one_load_on_several_freedoms_has_a_range(kind: Callable[[Random], str], part: int) -> None:
@@ -231,6 +236,7 @@ def test_one_load_on_several_freedoms_has_a_range(kind: Callable[[Random], str],
     assert compared > 0
 
 
+@sampled(2)
 @pytest.mark.parametrize("kind", [standing.five_bar, standing.joined])
 @pytest.mark.parametrize("part", range(20 if FULL else 1))
 def test_a_search_asks_of_one_value_what_a_whole_range_says(kind: Callable[[Random], str], part: int) -> None:
@@ -246,6 +252,7 @@ def test_a_search_asks_of_one_value_what_a_whole_range_says(kind: Callable[[Rand
             assert is_still(case, path, mu) is holds, (case.loads, mu)
 
 
+@sampled(3)
 @pytest.mark.parametrize("kind", [standing.five_bar, standing.joined, standing.crates])
 @pytest.mark.parametrize("part", range(20 if FULL else 1))
 def test_a_load_on_several_freedoms_ceases_to_hold_where_its_range_ends(
@@ -466,6 +473,7 @@ PULL = """  V: {weight: 50, link: 3, at: Q}
 """
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", range(40 if FULL else 2))
 def test_a_table_that_a_sled_holds_tips_at_no_value_of_the_pull(seed: int) -> None:
     """The sled rubs by its own weight: it holds 0.2 x 50 either way where the legs can carry the table, and
@@ -489,6 +497,7 @@ def test_a_table_that_a_sled_holds_tips_at_no_value_of_the_pull(seed: int) -> No
     assert [one.value for one in found] == pytest.approx([low, high], abs=1e-12)
 
 
+@sampled(2, "pinned")
 @pytest.mark.parametrize("seed", range(40 if FULL else 2))
 @pytest.mark.parametrize("pinned", [False, True], ids=["mechanism", "structure"])
 def test_smooth_legs_hold_a_table_as_far_as_they_reach(pinned: bool, seed: int) -> None:
@@ -517,6 +526,7 @@ def test_of_however_many_legs_one_is_lost_where_the_weight_is_beyond_them(
     assert any("the normal force of one would have to pull" in note for note in notes) is lost
 
 
+@sampled(2)
 @pytest.mark.parametrize("kind", [standing.rod, standing.barred])
 @pytest.mark.parametrize("part", range(20 if FULL else 1))
 def test_a_range_of_rubbing_guides_has_no_gap_in_it_and_is_told_whole(
@@ -582,6 +592,7 @@ def test_known_loads_in_another_range_hold_too(part: int) -> None:
     assert again > 0
 
 
+@sampled(2)
 @pytest.mark.parametrize("angle", [90, -90])
 def test_a_load_that_does_no_work_may_lift_what_it_presses(angle: int) -> None:
     """A crate of 100, drawn up or pressed down: it holds as long as it is not lifted, not at any value."""

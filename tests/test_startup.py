@@ -21,6 +21,7 @@ from icsolve.bench.promises import MOVING
 from icsolve.manual import kinds, template
 from icsolve.read import load
 from icsolve.tuples import NamedTuple, dataclass, field, replace
+from sizes import sampled
 
 ROOT = Path(__file__).parent.parent
 
@@ -75,6 +76,7 @@ def test_a_linkage_imports_no_room_of_what_it_does_not_have(
 CAMS = ["tangent_cam", "square_cam", "oscillating_flat_follower", "offset_roller_follower"]
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", CAMS)
 def test_one_scene_of_a_cam_needs_neither(name: str) -> None:
     """Arcs, corners, a disk, a table of radii: contacts are found by closed forms and plain loops."""

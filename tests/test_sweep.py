@@ -22,7 +22,7 @@ from growth import random_mechanism
 from icsolve.answer import Answer
 from icsolve.scene.sensitivity import influences
 from loading import drawn, sound
-from sizes import FULL, MORE
+from sizes import FULL, MORE, sampled
 from transcribe import Scene
 from turned import Array, Turned, traced
 
@@ -91,6 +91,7 @@ def check_centres(sweep: icsolve.Sweep, k: int, answer: Answer) -> None:
 # --- full turns ------------------------------------------------------------------------------------
 
 
+@sampled(3)
 @full_turns.EVERY
 def test_a_full_turn_keeps_every_link_and_joint(name: str, scene: Scene, link: str, period: float) -> None:
     """Steps of half a degree: differences of fourth order are good to 1e-4 where links move fastest."""
@@ -105,6 +106,7 @@ def test_a_full_turn_keeps_every_link_and_joint(name: str, scene: Scene, link: s
     check_rows(turned, range(0, len(degrees), len(degrees) // 12))
 
 
+@sampled(3)
 @full_turns.EVERY
 def test_after_a_period_all_is_as_it_was(name: str, scene: Scene, link: str, period: float) -> None:
     """Also where wheels carry their rotation on: three turns of a 40-tooth crank are two of a 60-tooth one.
@@ -198,6 +200,7 @@ STILL = ("cam", "black_box", "three_centres", "rolling_disk", "rack")
 """Kinds that are known in one position only: contacts, given centres, rolling without radii."""
 
 
+@sampled(4)
 @pytest.mark.parametrize("generator", [g for g in mechanisms.ALL if g.__name__ not in STILL])
 def test_named_mechanisms_with_random_dimensions(generator: mechanisms.Generator) -> None:
     for seed in range(MORE):
@@ -206,10 +209,10 @@ def test_named_mechanisms_with_random_dimensions(generator: mechanisms.Generator
 
 def test_random_mechanisms_of_all_kinds_of_joints() -> None:
     done = 0
-    for seed in range(240 if FULL else 6):
+    for seed in range(240 if FULL else 3):
         scene = plain(random_mechanism(Random(seed)), seed)
         done += scene is not None and check_short_sweep(scene, seed)
-    assert done >= (180 if FULL else 5)
+    assert done >= (180 if FULL else 2)
 
 
 @pytest.mark.parametrize(

@@ -23,6 +23,7 @@ from icsolve.sweep import request
 from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.request import RequestError
 from shell import exit_status
+from sizes import sampled
 from test_sweep_command import PRESS, press
 
 __all__ = ["press"]
@@ -222,6 +223,7 @@ def _small_files() -> None:
     resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
 
 
+@sampled(3)
 @pytest.mark.parametrize("ending", ["csv", "jsonl", "npz"])
 def test_a_disk_that_is_full_leaves_no_file_and_keeps_the_old_one(
     press: Path, tmp_path: Path, ending: str

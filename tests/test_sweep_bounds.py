@@ -19,7 +19,7 @@ from figures import from_lengths
 from growth import random_mechanism
 from loading import drawn
 from recorded import truths
-from sizes import FULL, MORE
+from sizes import FULL, MORE, few, sampled
 from test_sweep import STILL, plain
 
 ALL = ("answers", "error", "points", "centres", "rates")
@@ -53,6 +53,7 @@ def bounded(case: icsolve.Case, degrees: np.ndarray, **vary: object) -> icsolve.
     return None
 
 
+@sampled(3)
 @full_turns.EVERY
 def test_on_full_turns(name: str, scene: transcribe.Scene, link: str, period: float) -> None:
     case = icsolve.load(transcribe.text(scene))
@@ -63,17 +64,18 @@ def test_on_full_turns(name: str, scene: transcribe.Scene, link: str, period: fl
 
 def test_on_random_mechanisms() -> None:
     found: list[float] = []
-    for generator in (g for g in mechanisms.ALL if g.__name__ not in STILL):
+    turning = [g for g in mechanisms.ALL if g.__name__ not in STILL]
+    for generator in turning if FULL else Random("bounds").sample(turning, few(len(turning))):
         for seed in range(MORE):
             case = icsolve.load(transcribe.text(drawn(seed, generator)))
             sweep = bounded(case, np.linspace(-7.3, 8.1, 23))
             assert sweep is not None
             found += pessimism(sweep, range(0, 23, 4 if FULL else 11))
-    for seed in range(160 if FULL else 4):
+    for seed in range(160 if FULL else 2):
         scene = plain(random_mechanism(Random(seed)), seed)
         sweep = bounded(icsolve.load(transcribe.text(scene)), np.linspace(-2.3, 3.1, 11)) if scene else None
         found += pessimism(sweep, range(0, 11, 5)) if sweep else []
-    assert len(found) > 60
+    assert len(found) > few(60)
     assert np.median(found) < 100.0
 
 
@@ -81,14 +83,14 @@ def test_on_figures_by_lengths() -> None:
     """Chains of four-bars and the like whose figure is constructed: the bounds hold from the decimals on."""
     found: list[float] = []
     for generator in (mechanisms.four_bar, mechanisms.watt, mechanisms.slider_crank, mechanisms.three_loops):
-        for seed in range(3 * MORE):
+        for seed in range(few(3) * MORE):
             scene = from_lengths(drawn(seed, generator), Random(seed))
             if scene is None:
                 continue
             case = icsolve.load(transcribe.text(scene))
             sweep = bounded(case, np.linspace(-4.3, 5.1, 9))
             found += pessimism(sweep, range(0, 9, 2)) if sweep else []
-    assert len(found) > 40
+    assert len(found) > few(40)
     assert np.median(found) < 100.0
 
 

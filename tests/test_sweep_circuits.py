@@ -19,13 +19,14 @@ from icsolve.sweep.program import RowRequest
 from icsolve.sweep.request import columns_of
 from icsolve.sweep.row_parts import SweepParts
 from icsolve.sweep.starting_position import start_of
-from sizes import FULL
+from sizes import FULL, sampled
 from test_sweep_status import PARALLELOGRAM
 
 CASES = Path(__file__).parent.parent / "cases"
 PEAUCELLIER = icsolve.load(str(CASES / "linkages" / "peaucellier.yaml"))
 
 
+@sampled(3)
 @pytest.mark.parametrize("link", ["2", "3", "4", "5", "6", "7", "8"] if FULL else ["3", "4", "7"])
 def test_peaucelliers_cell_draws_its_line_whichever_link_is_turned(link: str) -> None:
     """S stays on x = 4 in every row that assembles, also where the rhombus is flat (P and S meet there and
@@ -71,6 +72,7 @@ def followed(case: icsolve.Case, link: str) -> list[Followed]:
         return []
 
 
+@sampled(3)
 @pytest.mark.parametrize("seed", range(100) if FULL else (8, 13, 26, 57, 79))
 def test_at_every_change_point_the_motion_goes_straight_on(seed: int) -> None:
     """Chains of four-bars that fold, whichever link is turned: after a change point each point goes on as it
@@ -102,6 +104,7 @@ KINDS = (mechanisms.butterfly, mechanisms.stephenson, mechanisms.watt, mechanism
 EVERY = [(kind, seed, str(link)) for kind in KINDS for seed in range(40) for link in range(2, 9)]
 
 
+@sampled(2)
 @pytest.mark.parametrize(("kind", "seed", "link"), EVERY if FULL else LIMITED)
 def test_just_beyond_a_limit_rows_are_those_of_a_whole_turn_before(kind: Any, seed: int, link: str) -> None:
     """Whichever link of a random mechanism is turned: also where doubles do not tell whether its way ends
@@ -131,6 +134,7 @@ def test_ten_thousand_turns_of_an_arm_for_one_of_its_wheel() -> None:
     assert sweep.points["P"] == pytest.approx(100.0 * np.stack([np.cos(arm), np.sin(arm)], axis=1), abs=1e-6)
 
 
+@sampled(3, "start", "rows")
 @pytest.mark.parametrize("start", [20.0, 60.0, 100.0])
 @pytest.mark.parametrize("rows", [[180.0], [100.0, 180.0, 181.0], [175.0, 180.0, 185.0]])
 def test_a_group_at_its_change_point_says_so(

@@ -27,7 +27,7 @@ from icsolve.sweep.continuation import PathSegment
 from icsolve.sweep.find_on_record import Query, RangeSearch, find
 from icsolve.sweep.path_tracking import PathTracker
 from library import FILES, sample
-from sizes import FULL, few
+from sizes import FULL, few, sampled
 from test_sweep_status import FOUR_BAR, PARALLELOGRAM, SLIDER_CRANK
 
 mp.dps = 60
@@ -164,6 +164,7 @@ CONSTANT = {
 }
 
 
+@sampled(2)
 @pytest.mark.parametrize("kind", CONSTANT)
 def test_of_a_range_that_has_the_value_throughout_the_ends_are_told(kind: str) -> None:
     """It was said to have the value nowhere; the value of no row is told nowhere as before."""
@@ -296,7 +297,7 @@ def test_an_end_of_the_range_belongs_to_it() -> None:
             (text, path, Query("value", "T", 15.0), round(load - off + 90.0, 1)),
             (unknown, path, Query("dead"), round(load - off, 1)),
         ]
-    for text, path, query, place in trials:
+    for text, path, query, place in trials[:: 1 if FULL else 2]:
         for places in at_ends(text, path, query, place):
             assert places == pytest.approx([place], abs=1e-11), (text, query, place)
 
@@ -305,7 +306,7 @@ def test_an_end_of_the_range_belongs_to_it_where_groups_are_followed(monkeypatch
     from icsolve.assembly.driven.order import AssemblyOrder
 
     monkeypatch.setattr(AssemblyOrder, "_at_intersection", lambda self: iter(()))
-    for text, path, query, place in IN_LINE:
+    for text, path, query, place in IN_LINE if FULL else IN_LINE[1::3]:
         for places in at_ends(text, path, query, place):
             assert places == pytest.approx([place], abs=1e-11), (query, place)
 
@@ -321,6 +322,7 @@ loads: {{W: {{weight: 20, link: 3, at: C}}, T: {{torque: unknown, link: 2}}}}
 """
 
 
+@sampled(2)
 @pytest.mark.parametrize(
     ("x", "y", "bars", "side"),
     [(-3, -4, (-3, 5, -1), -2.0), (4, 3, (-3, 5, -1), -0.5)],
@@ -340,6 +342,7 @@ def test_the_limit_of_a_group_is_told_to_the_last_digit(x: int, y: int, bars: An
         assert abs(limit.at - 90.0) <= limit.error <= 2e-14, (span, limit)
 
 
+@sampled(2)
 @pytest.mark.parametrize(
     ("link", "beside"),
     [(5, 0.03), (6, 1e-8), *([(6, 1e-3), (5, 1e-5), (6, 0.03), (5, 1e-3), (6, 1e-5), (5, 1e-8)] * FULL)],
@@ -358,6 +361,7 @@ def test_a_value_beside_the_limit_of_a_group_is_found(link: int, beside: float) 
     assert [spot.at for spot in peaks[0]] == [pytest.approx(spot.at, rel=1e-12) for spot in peaks[1]]
 
 
+@sampled(2)
 @pytest.mark.parametrize("beside", [1e-3, 1e-8, *([1e-5] * FULL)])
 def test_a_value_beside_the_limit_of_two_rods_behind_a_group_is_found(beside: float) -> None:
     """Two rods on a plate that three bars hold are in line at 88.3 degrees."""
@@ -381,6 +385,7 @@ def test_a_value_beside_the_limit_of_two_rods_behind_a_group_is_found(beside: fl
     assert 88.3 - beside in [pytest.approx(spot.at, abs=1e-9) for spot in spots]
 
 
+@sampled(2)
 @pytest.mark.parametrize(
     ("k", "rods"), [((-7.75, 2.03), (6.906, 18.066109)), ((9.86, -6.89), (6.135, 3.503728))]
 )
@@ -408,6 +413,7 @@ def test_the_end_of_a_group_is_no_limit_where_what_lies_behind_it_reaches_on_nei
     assert rows.status.tolist() == ["ok", "cannot-assemble", "cannot-assemble"]
 
 
+@sampled(3)
 @pytest.mark.parametrize("beside", [0.05, 1e-3, 1e-5])
 def test_a_value_beside_a_limit_is_found_with_friction(beside: float) -> None:
     """The same of a rocker whose crank rubs, by scenes: at 90 degrees its links are in line."""
@@ -421,6 +427,7 @@ def test_a_value_beside_a_limit_is_found_with_friction(beside: float) -> None:
     assert 90.0 + beside in [pytest.approx(spot.at, abs=1e-9) for spot in spots]
 
 
+@sampled(2)
 @pytest.mark.parametrize("side", [2.0, -0.5])
 def test_a_change_point_of_a_group_is_told_as_the_rows_tell_it(side: float) -> None:
     """A plate whose bars let it go on through the position in which they are parallel."""
@@ -435,6 +442,7 @@ def test_a_change_point_of_a_group_is_told_as_the_rows_tell_it(side: float) -> N
         assert abs(spot.at - 90.0) <= spot.error <= 1e-5
 
 
+@sampled(2)
 @pytest.mark.parametrize("below", [1e-3, 1e-6, 1e-9, 1e-12])
 def test_a_value_just_below_a_peak_is_taken_twice(below: float) -> None:
     """As far from the peak as the root of what is below it; just above, nowhere."""
@@ -458,6 +466,7 @@ def test_a_value_that_is_only_touched() -> None:
         assert [spot.at for spot in spots] == pytest.approx([quarter - written], rel=1e-14)
 
 
+@sampled(2)
 @pytest.mark.parametrize(("name", "link", "rows"), NOT_DEAD)
 def test_no_dead_centre_where_the_scene_has_none(name: str, link: str, rows: np.ndarray) -> None:
     """A steelyard upright balances whatever hangs on it, and so does a Roberval balance; where a group of
@@ -548,6 +557,7 @@ def test_places_are_closed_in_on_together_and_the_figure_is_followed_once(
     assert len(lines) <= 4
 
 
+@sampled(2)
 @pytest.mark.parametrize(("span", "least", "most"), [((0.0, 1e-9), 13, 13), ((10.0, 40.0), 22, 28)], ids=str)
 def test_searches_for_a_figure_that_does_not_assemble_are_bounded(
     span: tuple[float, float], least: int, most: int, monkeypatch: pytest.MonkeyPatch
@@ -708,6 +718,7 @@ loads:
     assert held(np.radians(one.at))["xy".index(load[-1])] == pytest.approx(3.0, abs=1e-12)
 
 
+@sampled(2)
 @pytest.mark.parametrize("turns", ["free end", "drum"])
 def test_positions_in_which_a_rope_would_have_to_push_are_left_out(turns: str) -> None:
     """A rod AB in a spring, held by a rope from B to a pulley at P: T (b x u) = -b x f, T > 0, with f of the
@@ -789,6 +800,7 @@ loads:
 """
 
 
+@sampled(3, "height")
 @pytest.mark.parametrize("height", ["0.7", "1"])
 @pytest.mark.parametrize("digits", [3, 6, 8, 10, 12, None])
 def test_positions_all_but_in_one_place_are_found(height: str, digits: int | None) -> None:
@@ -806,6 +818,7 @@ def test_positions_all_but_in_one_place_are_found(height: str, digits: int | Non
         assert [spot.at for spot in found] == [float(place) for place in places]
 
 
+@sampled(2)
 @pytest.mark.parametrize("digits", [3, 6, 8, 10, 12])
 def test_positions_of_equilibrium_all_but_in_one_place_are_told_one_by_one(digits: int) -> None:
     """The same block without the force: it rests where d = free, stably, and unstably at x = 0 between them
@@ -828,6 +841,7 @@ def test_a_limit_that_two_points_share_is_told_once() -> None:
     assert (spot.at, spot.kind) == (120.0, "limit")
 
 
+@sampled(3)
 @pytest.mark.parametrize("large", [10**7, 10**11, 10**17])
 def test_loads_that_all_but_cancel_hide_no_position(large: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Two equal torques against each other on the crank change nothing, however large they are."""
@@ -850,6 +864,7 @@ def told(text: str, path: str, value: float) -> str:
         return str(refused.status)
 
 
+@sampled(2)
 @pytest.mark.parametrize("angle", ["OP", "QOP"])
 def test_a_direction_that_goes_through_infinity_is_not_taken_for_its_opposite(angle: str) -> None:
     """The angle under which a block on a guide is seen, by its direction and from another line: where it is
@@ -878,6 +893,7 @@ links: {{1: [O, Q, G]}}
             assert all(-1e-6 < spot.at - (along - turned) < 180.0 + 1e-6 for spot in spots), (case, query)
 
 
+@sampled(3)
 @pytest.mark.parametrize("span", [(-7.0, 11.0), (-5.0, 0.0), (-4.9, -4.7)])
 def test_a_limit_beyond_which_a_turn_the_other_way_leads_is_told(span: tuple[float, float]) -> None:
     """The rocker of problem 13.12 stops at -4.798 degrees, where its load does no work. It comes to what lies
@@ -891,6 +907,7 @@ def test_a_limit_beyond_which_a_turn_the_other_way_leads_is_told(span: tuple[flo
     assert min(rows.answers["T12"][2:]) > 100.0
 
 
+@sampled(2)
 @pytest.mark.parametrize(
     ("link", "sense"), [("2", -1.0), ("5", 1.0), *([("3", 1.0), ("4", -1.0), ("6", 1.0), ("7", -1.0)] * FULL)]
 )

@@ -13,7 +13,7 @@ import icsolve
 from icsolve.files import can_fork
 from icsolve.solve import attempt
 from icsolve.sweep import rows_by_scenes
-from sizes import FULL, crossed
+from sizes import FULL, crossed, sampled
 
 CASES = Path(__file__).parent.parent / "cases" / "ch13"
 WANT = ("answers", "status", "error", "points", "centres", "rates")
@@ -67,6 +67,7 @@ SAME = 1e-11
 """Part of an answer: a row is in doubles, whose roundings the equations of the rubs spread a little."""
 
 
+@sampled(2)
 @pytest.mark.parametrize(
     ("of", "more"),
     crossed(
@@ -203,6 +204,7 @@ def parallel(degrees: float, motion: str) -> icsolve.Case:
     return icsolve.load(PARALLEL.format(degrees, 4.0 + c, s) + motion)
 
 
+@sampled(2, "motion", "want")
 @pytest.mark.parametrize(
     "motion",
     [
@@ -238,6 +240,7 @@ loads:
 """
 
 
+@sampled(4, "path", "named", "push", "weight")
 @pytest.mark.parametrize("weight", "GAB")
 @pytest.mark.parametrize("push", "AB")
 @pytest.mark.parametrize("named", ["", "links: {2: [A, B]}\n"], ids=["", "named"])

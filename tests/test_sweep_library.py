@@ -17,7 +17,7 @@ from icsolve.case import Number
 from icsolve.manual import kinds, template
 from icsolve.sweep.varied_numbers import numbers_of
 from library import FILES, sample
-from sizes import FULL
+from sizes import FULL, sampled
 
 ALL = ("answers", "status", "error", "points", "centres", "rates")
 FEW = ("answers", "status", "error", "points")
@@ -78,6 +78,7 @@ def left_open(sweep: icsolve.Sweep, name: str, row: int) -> bool:
     return rates is None or isinstance(rates[link], str)
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", sample(FILES, 14, "rows"))
 def test_every_row_has_its_numbers_or_its_status(name: str) -> None:
     case = icsolve.load(FILES[name])
@@ -92,6 +93,7 @@ TEMPLATES = {f"new {kind}": template(kind) for kind in kinds()}
 SOURCES = {**{name: str(path) for name, path in FILES.items()}, **TEMPLATES}
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", [*sample(FILES, 4, "wanted"), *TEMPLATES])
 def test_what_is_wanted_besides_changes_no_row(name: str) -> None:
     """Velocities are worked out scene by scene: the rows are those of the sweep without them."""
@@ -111,6 +113,7 @@ LIMITED = "linkages/double_butterfly_symmetric.yaml"
 """Link 3 turns by less than half a degree one way; in the position as written several velocities are 0."""
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", sorted({*sample(FILES, 12, "motion"), LIMITED}))
 def test_what_rows_tell_of_their_motion_is_what_the_row_as_a_scene_tells(name: str) -> None:
     """Rates, velocities, centres, and the power of a unit of each load, of one freedom or several; to 1e-9 of

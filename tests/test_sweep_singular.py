@@ -32,7 +32,7 @@ from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.varied_numbers import numbers_of, with_numbers
 from library import FILES, sample
 from recorded import truths
-from sizes import FULL
+from sizes import FULL, sampled
 from test_sweep_status import FOUR_BAR, PARALLELOGRAM, SLIDER_CRANK
 
 mp.dps = 60
@@ -93,6 +93,7 @@ def checked(text: str, path: str, place: float, exact: Any, relative: float = 1e
 # --- four-bars --------------------------------------------------------------------------------------
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", range(8))
 def test_beside_the_limits_of_a_rocker_that_drives(seed: int) -> None:
     """Crank and rod in line, stretched: B is lost like a root, the torque falls like one."""
@@ -114,6 +115,7 @@ def test_beside_the_limits_of_a_rocker_that_drives(seed: int) -> None:
     checked(text, "angles.DC", float(limit), at)
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", range(8))
 def test_beside_the_dead_centres_of_a_crank(seed: int) -> None:
     """Rod and rocker in line, where the crank can go no further; and where the rocker stands still."""
@@ -132,6 +134,7 @@ def test_beside_the_dead_centres_of_a_crank(seed: int) -> None:
     checked(text, "angles.AB", float(limit), at)
 
 
+@sampled(4)
 @pytest.mark.parametrize("seed", range(8))
 def test_beside_change_points_the_way_goes_straight_on(seed: int) -> None:
     """All links in line where the crank lies along the frame: C goes through the line to its other side."""
@@ -157,6 +160,7 @@ def test_beside_change_points_the_way_goes_straight_on(seed: int) -> None:
     assert np.isnan(there.answers["T12"]).all()
 
 
+@sampled(4)
 @pytest.mark.parametrize("seed", range(32 if FULL else 8))
 def test_a_change_point_is_missed_by_whatever_the_decimals_miss_it(seed: int) -> None:
     """Links that miss the line by 1e-9 to 1e-30: too long or too short to fold, they are held up beside it;
@@ -237,6 +241,7 @@ def test_a_rough_near_does_not_put_a_driven_figure_on_another_branch_than_it_is_
 # --- slider-cranks ----------------------------------------------------------------------------------
 
 
+@sampled(2, "offset", "unknown")
 @pytest.mark.parametrize("offset", ["0", "0.1", "-7.3"])
 @pytest.mark.parametrize("unknown", ["P", "T"])
 def test_beside_the_dead_centres_of_a_slider_crank(offset: str, unknown: str) -> None:
@@ -278,6 +283,7 @@ loads: {{P: {{force: 10, link: 5, at: C, angle: 180}}, T12: {{torque: unknown, l
 """
 
 
+@sampled(2, "path")
 @pytest.mark.parametrize("path", ["AB", "DAB"])
 @pytest.mark.parametrize(
     ("wheels", "first", "second"),
@@ -335,6 +341,7 @@ def posing(case: icsolve.Case) -> list[str]:
     return paths
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", sample(FILES, 14, "singular rows"))
 def test_rows_have_the_status_and_the_value_that_solve_has(name: str) -> None:
     """Beside every dead centre, limit and change point of cases of the library."""
@@ -372,6 +379,7 @@ SINGULAR = [
 ]
 
 
+@sampled(2)
 @pytest.mark.parametrize(("text", "path", "place"), [s[1:] for s in SINGULAR], ids=[s[0] for s in SINGULAR])
 def test_a_row_is_the_same_alone_in_a_long_sweep_and_in_another_order(
     text: str, path: str, place: float
@@ -392,6 +400,7 @@ def test_a_row_is_the_same_alone_in_a_long_sweep_and_in_another_order(
                     assert np.array_equal(both[0], both[1], equal_nan=True), (rows[n] - place, both)
 
 
+@sampled(4)
 @full_turns.EVERY
 def test_beside_whatever_is_singular_on_a_full_turn(
     name: str, scene: transcribe.Scene, link: str, period: float
@@ -493,7 +502,8 @@ def test_a_row_where_links_fold_up_is_refused_and_its_neighbours_are_not() -> No
     assert sweep.answers["Q"][0] == pytest.approx(-sweep.answers["Q"][2], rel=1e-12)
 
 
-@pytest.mark.parametrize("stages", range(1, 5))
+@sampled(3)
+@pytest.mark.parametrize("stages", range(1, 5 if FULL else 4))
 def test_a_lift_of_scissors_folds_and_goes_straight_on_whichever_bar_is_turned(stages: int) -> None:
     """F = n W / tan(theta) of n stages, over a turn through both folds, where all points of a stage fall in
     two; whichever bar is turned, a fold is a whole number of degrees away."""
@@ -558,6 +568,7 @@ loads: {{W: {{weight: 20, link: 3, at: C}}, M: {{torque: unknown, link: 2}}}}
 """
 
 
+@sampled(2, "by", "link", "lies")
 @pytest.mark.parametrize("by", ["directions", "lengths"])
 @pytest.mark.parametrize("link", ["2", "4"])
 @pytest.mark.parametrize("lies", [0, 37])
@@ -715,8 +726,10 @@ def test_beyond_the_fold_of_a_group_nothing_assembles_however_near_it_is() -> No
     """What lies at `near` there is named, never another way a long way off; on the other side two ways lie
     about the fold, equally near to it; beyond 1e-6 degree one of them may be clearly nearer."""
     dice, asked = Random("folds"), set()
-    for n in range(60 if FULL else 6):  # of one plate a third of the distances
+    for n in range(60 if FULL else 12):  # of one plate a third of the distances, of each third of one plate
         powers = range(3, 14) if FULL else range(3 + n % 3, 14, 3)
+        if not FULL and ("beside", 10.0 ** -powers[0]) in asked:
+            continue
         for name, off, status, away in _ways_at_a_plates_fold(dice, powers):
             asked.add((name, off))
             assert away < 0.5, (name, off)
@@ -764,6 +777,7 @@ loads: {{T14: {{torque: 10, link: 4}}, T12: {{torque: unknown, link: 2}}}}
 """
 
 
+@sampled(3)
 @pytest.mark.parametrize("seed", range(24 if FULL else 6))
 def test_links_that_are_all_but_parallel_and_very_long_are_followed(seed: int) -> None:
     """Rod and rocker a million to a hundred million times the crank: what doubles leave open of a row its own
@@ -788,6 +802,7 @@ def test_links_that_are_all_but_parallel_and_very_long_are_followed(seed: int) -
     assert [spot.kind for spot in spots] == []
 
 
+@sampled(2)
 @pytest.mark.parametrize("seed", range(40 if FULL else 2))
 def test_tongs_folded_flat_are_at_a_change_point_on_either_side(seed: int) -> None:
     """Two pins of the next pair coincide there: the root of the group is double, and what its digits leave of

@@ -21,6 +21,7 @@ from icsolve.cams.solving import placed
 from icsolve.case import Case, KnownCentre
 from icsolve.scene.program import Want, evaluate, prepare
 from loading import drawn
+from sizes import sampled
 
 FILES = sorted((Path(__file__).parent.parent / "cases").rglob("*.yaml"))
 AGREE = 1e-9
@@ -48,6 +49,7 @@ def found_points(case: Case) -> dict[str, tuple[float, float]]:
     }
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", CASES)
 def test_every_centre_of_the_case(name: str) -> None:
     case = CASES[name]
@@ -66,6 +68,7 @@ def test_every_centre_of_the_case(name: str) -> None:
         assert witness.sine(theirs, shown) < AGREE, (pair, mine)
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", [name for name, case in CASES.items() if case.loads])
 def test_the_loads_by_the_plan_by_the_loop_equations_and_by_the_null_space(name: str) -> None:
     case = CASES[name]

@@ -26,7 +26,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.read import load
 from library import FILES, sample
 from shell import exit_status
-from sizes import FULL, MORE
+from sizes import FULL, MORE, sampled
 from test_figure import BUTTERFLY, FOUR_BAR, LOOP, PINS, butterfly
 from test_figure import case as figure_case
 
@@ -116,10 +116,11 @@ def roots(draft: Draft, starts: int) -> list[dict[str, Place]]:
     return found
 
 
+@sampled(2)
 @pytest.mark.parametrize("points", [5, 6, 7])
 def test_no_way_of_a_framework_is_missing(points: int) -> None:
     """Rods that need no order of construction: every figure that random starts reach is among the ways."""
-    for seed in range(80 if FULL else 2):
+    for seed in range(80 if FULL else 1):
         draft = framework(500 * points + seed, points, 0.8, 0.0)
         case = draft.case()
         found = ways_of(case)
@@ -288,6 +289,7 @@ def test_a_point_whose_data_tell_the_same_is_anywhere_along_a_curve(monkeypatch:
     assert refusal.value.status == Status.UNDERDETERMINED
 
 
+@sampled(3)
 @pytest.mark.parametrize("name", sample(FILES, 2, "digits of ways"))
 def test_a_way_has_the_points_of_the_scene_digit_by_digit(name: str) -> None:
     """Each coordinate rounded once, as `solve` tells it: a zero is no rounding of one. Points of which

@@ -15,7 +15,7 @@ import icsolve
 import rough_scenes
 import standing
 from shell import Shell
-from sizes import FULL
+from sizes import FULL, sampled
 
 LOCKS, PRESSES, JAMS = "it locks that way", "the harder it presses, the more it holds", "it holds as a jam"
 
@@ -178,6 +178,7 @@ loads:
     )
 
 
+@sampled(3, "kind")
 @pytest.mark.parametrize("kind", [gap, cam_on_bar, on_a_slope])
 @pytest.mark.parametrize("beside", ["", BESIDE], ids=["alone", "beside a block"])
 @pytest.mark.parametrize("seed", range(60 if FULL else 2))
@@ -232,6 +233,7 @@ motion: {{point: B, link: bar, speed: 1, angle: 180}}
 LEFT = "left the other way round at some joint"
 
 
+@sampled(4)
 @pytest.mark.parametrize("seed", range(60 if FULL else 4))
 def test_between_impending_motion_and_what_friction_can_hold_it_is_open(
     seed: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
