@@ -326,3 +326,26 @@ def test_the_order_in_which_a_pin_names_its_links_decides_nothing(links: tuple[s
     turns = [0.0, 50.0, 130.0]
     both = [library.sweep(one, drive={"2": turns}).answers["T"] for one in (case, library.load(alone))]
     assert np.allclose(*both, rtol=1e-12)
+
+
+WELDED = """icsolve: 1
+points: {{A: [0, 0], B: [0, 2], C: [5, 3], D: [4, 0], E: [7, 5]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [{0}], at: C}}
+  - {{pin: [4, 1], at: D}}
+  - {{weld: [4, 5], at: C}}
+loads: {{P: {{force: 10, link: {1}, at: E, angle: 200}}, T: {{torque: unknown, link: 2}}}}
+"""
+
+
+@pytest.mark.parametrize("loaded", "245")
+def test_links_that_are_welded_are_pinned_once(loaded: str) -> None:
+    """Two of the three links of a pin are one body: named after the third they were two redundant pins."""
+    found = []
+    for links in permutations("345"):
+        answer = library.solve(library.load(WELDED.format(", ".join(links), loaded)))
+        assert not answer.notes, links
+        found.append(answer.answers["T"].value)
+    assert len({*found}) == 1

@@ -165,7 +165,8 @@ class _ProgramWriter:
         case = program.case
         self.scene = scene
         self.case, self.record = case, _CountingRecord()
-        self.figure, self.top = program.figure, topology(program.case, as_ties=True)
+        several = any(len(joint.links) > 2 for joint in case.joints)
+        self.figure, self.top = program.figure, topology(case, as_ties=True) if several else program.top
         self.names: dict[int, str] = {}
         self.workspace = Workspace(case, self.figure.frame, self.record)
         numbers = numbers_of(case)

@@ -160,7 +160,7 @@ def topology(case: Case, *, as_ties: bool = False) -> Topology:
     body_of, members = _bodies(case)
     pins = _pinned_at(case, body_of)
     needed = {case.ground, *(load.link for load in case.loads), *(given.link for given in case.motion)}
-    bonds = tuple(_bonds(case, body_of, pins, set() if as_ties else needed))
+    bonds = tuple(_bonds(case, body_of, pins, None if as_ties else needed))
     at: list[list[int]] = [[] for _ in members]
     for k, bond in enumerate(bonds):
         at[bond.a].append(k)
@@ -196,17 +196,22 @@ def _pinned_at(case: Case, body_of: dict[str, int]) -> dict[str, list[int]]:
     return at
 
 
-def _bonds(case: Case, body_of: dict[str, int], pins: dict[str, list[int]], hubs: set[str]) -> Iterable[Bond]:
+def _bonds(
+    case: Case, body_of: dict[str, int], pins: dict[str, list[int]], hubs: set[str] | None
+) -> Iterable[Bond]:
     pins_of: dict[int, list[str]] = {}
     for point, bodies in pins.items():
         for body in dict.fromkeys(bodies):
             pins_of.setdefault(body, []).append(point)
     for joint in case.joints:
-        hub = next((link for link in joint.links if link in hubs), None) if len(joint.links) > 2 else None
+        several = hubs if len(joint.links) > 2 else None
+        hub = next((link for link in joint.links if link in several), None) if several else None
+        others: set[int] = set()
         for links in pairs_of(joint, hub):
             a, b = body_of[links[0]], body_of[links[1]]
-            if not joint.freedom or a == b:
+            if not joint.freedom or a == b or (several is not None and b in others):
                 continue
+            others.add(b)
             pivots: tuple[str, str] | tuple[()] = ()
             carrier = -1
             if isinstance(joint, Mesh):
