@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import icsolve
+from icsolve.explain import explain
 from icsolve.grade.one import Task
 from icsolve.report.check import compare
 from library import FILES, sample
@@ -92,3 +93,11 @@ def test_a_reaction_is_compared_and_asked_by_the_name_that_it_has(name: str, tmp
         assert {
             own: task.grade(own, f"{size:.6g}")["verdict"] for own, size in told.items()
         } == dict.fromkeys(told, "right")
+
+
+def test_each_of_several_joints_at_a_point_has_its_own_symbol_in_a_worked_solution() -> None:
+    """The push of the wall stood under the symbol of the floor's."""
+    case = icsolve.load(CORNER)
+    told = explain(case, bodies=True)
+    assert "F12@A contact 2,x + F_x = 30 + (-30) = 0" in told
+    assert "F12@A,y + F12@B,y + W_y = 65 + 35 + (-100) = 0" in told

@@ -124,7 +124,7 @@ def _reaction(known: Known, name: str, r: Reaction | SpatialReaction) -> On | No
     if x is None or y is None or z is None or mx is None or my is None or mz is None:
         return None
     low = r.by + r.on if len(r.by) == len(r.on) == 1 else f"{r.by}-{r.on}"
-    low += f"@{r.where}" if "@" in name else ""
+    low += "@" + name.partition("@")[2] if "@" in name else ""
     low, per = low if len(low) == 2 else f"{low},", known.case.units.torque_per_force_length
     rounding = None
     if r.bounds is not None:

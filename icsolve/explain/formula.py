@@ -378,8 +378,9 @@ def _latex_name(base: str, low: str) -> str:
 
 
 def _letters(text: str, plain: bool) -> str:
-    """A name of a case: letters, digits, ``_`` and primes."""
-    safe = text.replace("_", r"\_").replace("'", r"{}^{\prime}")
+    """A name of a case: letters, digits, ``_`` and primes; of several joints at a point with what tells them
+    apart."""
+    safe = text.replace("_", r"\_").replace("'", r"{}^{\prime}").replace(" ", r"\ ")
     return safe if plain else rf"\mathrm{{{safe}}}"
 
 
