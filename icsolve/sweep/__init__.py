@@ -156,6 +156,8 @@ def _without_spare_links(
 ) -> tuple[tuple[str, ...], CaseOf]:
     """Fill in the rows that have no answer as they are, but have one without links that it does not need; a
     note on these, and the case of a row."""
+    if not table.codes.any():
+        return (), case_of
     case, found_none = start.setting.case, ~np.isin(table.codes, SOLVED)
     if needed(start.case, Want()).bodies:
         found_none &= np.isin(table.codes, [CODE[status] for status in UNPLACED])

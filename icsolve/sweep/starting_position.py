@@ -119,7 +119,8 @@ def start_of(case: Case, columns: Columns, asked: RowRequest) -> Start:
     start = Start(case, tuple(columns.paths), tuple(columns.links), asked)
     try:
         found = _checked(start)
-        return found._replace(note=found.setting.left_out)
+        left_out = found.setting.left_out
+        return found._replace(note=left_out) if left_out else found
     except SceneError as error:
         if error.status not in ELSEWHERE or start.links or not start.paths:
             raise
