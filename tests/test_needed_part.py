@@ -130,6 +130,12 @@ def test_every_command_answers(icsolve: Shell, pair: tuple[str, str]) -> None:
     assert (ran.code, told["values"][0]["verdict"]) == (0, "agrees")
     assert icsolve("validate", "m.yaml").code == 1
     assert str(abs(value))[:4] in icsolve("explain", "m.yaml").out
+    stabilities = []
+    for text in pair:
+        Path("s.yaml").write_text(text)
+        (told,) = icsolve("solve", "s.yaml", "--stability", "2", "--json").objects()
+        stabilities.append(told["stability"])
+    assert stabilities[0] == stabilities[1]
     for command in (
         ("draw", "m.yaml", "-o", "m.svg"),
         ("page", "m.yaml", "-o", "m.html"),
@@ -349,3 +355,20 @@ def test_links_that_are_welded_are_pinned_once(loaded: str) -> None:
         assert not answer.notes, links
         found.append(answer.answers["T"].value)
     assert len({*found}) == 1
+
+
+@pytest.mark.parametrize("kind", SPARE)
+def test_with_inertia_forces_too(kind: str) -> None:
+    """A mass on the coupler counts, and the links that are left out have none."""
+    found = []
+    for text in texts(0, kind):
+        moving = text.replace(
+            "links: {4: [E]}", "links: {4: [E], 3: {mass: 2 kg, centre: C, inertia: 0.01 kg*m^2}}"
+        )
+        case = library.load(moving + "motion: {link: 2, speed: 10, acceleration: 4}\n")
+        answer = library.solve(case, dynamic=True)
+        rows = library.sweep(case, drive={"2": [0.0, 70.0]}, dynamic=True, want=("answers", "accelerations"))
+        assert rows.answers["T"][0] == pytest.approx(answer.answers["T"].value, rel=1e-12)
+        found.append((answer.answers["T"].value, answer.angular_accelerations["3"], rows.answers["T"][1]))
+    assert found[0] == pytest.approx(found[1], rel=1e-12)
+    assert found[0][0] != library.solve(library.load(texts(0, kind)[1])).answers["T"].value

@@ -19,6 +19,7 @@ from icsolve.kinematics.accelerations import Moving, moving
 from icsolve.kinematics.speeds import OPEN, moving_points
 from icsolve.numbers import Scalar, Showing
 from icsolve.numbers.units import Number
+from icsolve.scene.needed_part import without_spare_links
 from icsolve.scene.program import EvaluatedScene, Evaluation, Want, prepare
 from icsolve.statics.load_wrenches import COUPLE, FORCE, as_given, inertia_forces, inertia_of_one
 from icsolve.statics.power import is_unknown
@@ -62,13 +63,20 @@ def with_inertia(case: Case) -> tuple[Case, Accelerations, tuple[str, ...]]:
     """
     case = replace(case, dynamic=True)
     try:
-        return EvaluatedScene(prepare(case, Want(bodies=True)), True).ask(partial(_found, case))
+        return _loaded(case)
     except OverflowError:
         raise SceneError(Status.UNSUPPORTED, TOO_FAST) from None
     except SceneError as refusal:
-        if refusal.status != Status.STRUCTURE or any(map(is_unknown, case.loads)):
-            raise
-        raise SceneError(Status.STRUCTURE, STILL) from None
+        if refusal.status == Status.STRUCTURE and not any(map(is_unknown, case.loads)):
+            raise SceneError(Status.STRUCTURE, STILL) from None
+        part, left_out = without_spare_links(case, refusal, bodies=True)
+        loaded, found, notes = _loaded(part)
+        return loaded, found, (*notes, left_out)
+
+
+def _loaded(case: Case) -> tuple[Case, Accelerations, tuple[str, ...]]:
+    """The same where all links have a place."""
+    return EvaluatedScene(prepare(case, Want(bodies=True)), True).ask(partial(_found, case))
 
 
 STILL = (

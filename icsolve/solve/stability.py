@@ -15,6 +15,7 @@ from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.roots import zero_between
 from icsolve.read.names import shown
 from icsolve.scene import solve_scene
+from icsolve.scene.needed_part import UNPLACED, without_spare_links
 from icsolve.solve.positions import driven_rest, moved_by, refuse_motion, refuse_profiles, rest_of
 from icsolve.solve.rest_position import RestPosition, balances, holding
 from icsolve.statics.power import has_friction
@@ -44,9 +45,16 @@ def with_stability(case: Case, answer: Answer, of: str) -> Answer:
             f"give {asked} a number for that of one position."
         )
         raise SceneError(Status.UNSUPPORTED, said)
-    held = holding(case, answer)
-    rest = rest_as_written(held, of)
-    return replace(answer, stability=rest.stability, stiffness=rest.stiffness, why_no_stiffness=rest.why)
+    notes = answer.notes
+    try:
+        rest = rest_as_written(holding(case, answer), of)
+    except SceneError as refusal:
+        if refusal.status not in UNPLACED:
+            raise
+        part, left_out = without_spare_links(case, refusal, *(((of,), ()) if "." in of else ((), (of,))))
+        rest, notes = rest_as_written(holding(part, answer), of), (*notes, left_out)
+    rested = replace(answer, stability=rest.stability, stiffness=rest.stiffness, why_no_stiffness=rest.why)
+    return replace(rested, notes=tuple(dict.fromkeys(notes)))
 
 
 def _refuse_unknown(case: Case, of: str) -> None:
