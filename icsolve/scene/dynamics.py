@@ -19,7 +19,7 @@ from icsolve.kinematics.accelerations import Moving, moving
 from icsolve.kinematics.speeds import OPEN, moving_points
 from icsolve.numbers import Scalar, Showing
 from icsolve.numbers.units import Number
-from icsolve.scene.needed_part import without_spare_links
+from icsolve.scene.needed_part import by_needed_part
 from icsolve.scene.program import EvaluatedScene, Evaluation, Want, prepare
 from icsolve.statics.load_wrenches import COUPLE, FORCE, as_given, inertia_forces, inertia_of_one
 from icsolve.statics.power import is_unknown
@@ -63,15 +63,14 @@ def with_inertia(case: Case) -> tuple[Case, Accelerations, tuple[str, ...]]:
     """
     case = replace(case, dynamic=True)
     try:
-        return _loaded(case)
+        (loaded, found, notes), left_out = by_needed_part(case, _loaded, bodies=True)
     except OverflowError:
         raise SceneError(Status.UNSUPPORTED, TOO_FAST) from None
     except SceneError as refusal:
-        if refusal.status == Status.STRUCTURE and not any(map(is_unknown, case.loads)):
-            raise SceneError(Status.STRUCTURE, STILL) from None
-        part, left_out = without_spare_links(case, refusal, bodies=True)
-        loaded, found, notes = _loaded(part)
-        return loaded, found, (*notes, left_out)
+        if refusal.status != Status.STRUCTURE or any(map(is_unknown, case.loads)):
+            raise
+        raise SceneError(Status.STRUCTURE, STILL) from None
+    return loaded, found, (*notes, left_out) if left_out else notes
 
 
 def _loaded(case: Case) -> tuple[Case, Accelerations, tuple[str, ...]]:

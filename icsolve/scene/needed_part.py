@@ -7,7 +7,7 @@ A group of links that adds no freedom takes none either: what moves beside it mo
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Callable, Collection, Iterable
 
 from icsolve.assembly import LEFT_OUT
 from icsolve.assembly.workspace import CORNER, LENGTH, RAY, datum_at
@@ -17,8 +17,10 @@ from icsolve.statics import load_wrenches
 from icsolve.statics.power import has_friction, has_number, is_unknown
 from icsolve.structure import Topology, topology
 from icsolve.structure.plan import make_plan
-from icsolve.tuples import replace
-from icsolve.wording import listed
+from icsolve.tuples import TypeVar, replace
+from icsolve.wording import links_named
+
+Found = TypeVar("Found")
 
 UNPLACED = (Status.CANNOT_ASSEMBLE, Status.UNDERDETERMINED, Status.INCONSISTENT, Status.AMBIGUOUS)
 """Why links have no place. What has one may be strained, and press what rubs, though it does no work."""
@@ -119,12 +121,28 @@ def without_spare_links(
     return part, f"{left_out_of(case, part)}: {refusal.message}"
 
 
+def by_needed_part(
+    case: Case,
+    attempt: Callable[[Case], Found],
+    paths: Iterable[str] = (),
+    links: Collection[str] = (),
+    *,
+    bodies: bool = False,
+) -> tuple[Found, str]:
+    """What an attempt makes of a case, or where it is refused of the part that its answer needs, and then the
+    note on what was left out; the parameters are those of `without_spare_links`. Raises the refusal of the
+    whole where the part is refused too."""
+    try:
+        return attempt(case), ""
+    except SceneError as refusal:
+        part, left_out = without_spare_links(case, refusal, paths, links, bodies=bodies)
+        try:
+            return attempt(part), left_out
+        except SceneError:
+            raise refusal from None
+
+
 def left_out_of(case: Case, part: Case) -> str:
     """The words on the links that a part of a case is without."""
     links = [link for link in case.links if link not in part.links]
-    which = (
-        f"link {links[0]}, as nothing needs it"
-        if len(links) == 1
-        else f"links {listed(links)}, as nothing needs them"
-    )
-    return f"{LEFT_OUT}: {which}"
+    return f"{LEFT_OUT}: {links_named(links)}, as nothing needs {'it' if len(links) == 1 else 'them'}"

@@ -34,7 +34,16 @@ from icsolve.statics import load_wrenches, power
 from icsolve.statics.load_wrenches import Wrench
 from icsolve.statics.power import Bounded, Outcome, Value, known_value, load_value
 from icsolve.tuples import LateModule, NamedTuple, cached_property, replace
-from icsolve.wording import at_words, direction_words, link_words, listed, plural, sense_of, unit_of
+from icsolve.wording import (
+    at_words,
+    direction_words,
+    link_words,
+    links_named,
+    listed,
+    plural,
+    sense_of,
+    unit_of,
+)
 
 if TYPE_CHECKING:
     from icsolve.scene import sensitivity
@@ -560,7 +569,7 @@ def _redundancy(found: Evaluation) -> Iterable[str]:
 def _skipped(program: Program, outcome: Outcome) -> tuple[str, ...]:
     """What was not examined because the answer does not need it."""
     left = [link for link in program.case.links if link not in outcome.motions.twists]
-    names = (f"links {listed(left)}",) if len(left) > 1 else tuple(f"link {link}" for link in left)
+    names = (links_named(left),) if left else ()
     return (*names, *program.figure.skipped)
 
 

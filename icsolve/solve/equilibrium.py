@@ -11,7 +11,7 @@ from icsolve.assembly import solve_figure
 from icsolve.case import Case, Coordinates, Unknown
 from icsolve.errors import SceneError, Status
 from icsolve.scene import solve_scene
-from icsolve.scene.needed_part import UNPLACED, without_spare_links
+from icsolve.scene.needed_part import by_needed_part
 from icsolve.solve.friction_ranges import find_ranges
 from icsolve.solve.known_loads import smooth
 from icsolve.solve.load_function import given_at, naming_uncarried
@@ -40,17 +40,8 @@ def solve_positions(case: Case, **asked: bool) -> Answer:
     refuse_profiles(case)
     case = case if case.unknowns else replace(case, unknowns=(free_coordinate(case) or Unknown(""),))
     with naming_uncarried(case, [one.path for one in case.unknowns]):
-        try:
-            return _answered(case, asked)
-        except SceneError as refusal:
-            if refusal.status not in UNPLACED:
-                raise
-            part, left_out = without_spare_links(case, refusal)
-            try:
-                answer = _answered(part, asked)
-            except SceneError:
-                raise refusal from None
-            return replace(answer, notes=(*answer.notes, left_out))
+        answer, left_out = by_needed_part(case, lambda part: _answered(part, asked), bodies=True)
+        return replace(answer, notes=(*answer.notes, left_out)) if left_out else answer
 
 
 def _answered(case: Case, asked: Mapping[str, bool]) -> Answer:

@@ -15,7 +15,7 @@ from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.roots import zero_between
 from icsolve.read.names import shown
 from icsolve.scene import solve_scene
-from icsolve.scene.needed_part import UNPLACED, without_spare_links
+from icsolve.scene.needed_part import by_needed_part
 from icsolve.solve.positions import driven_rest, moved_by, refuse_motion, refuse_profiles, rest_of
 from icsolve.solve.rest_position import RestPosition, balances, holding
 from icsolve.statics.power import has_friction
@@ -45,16 +45,13 @@ def with_stability(case: Case, answer: Answer, of: str) -> Answer:
             f"give {asked} a number for that of one position."
         )
         raise SceneError(Status.UNSUPPORTED, said)
-    notes = answer.notes
-    try:
-        rest = rest_as_written(holding(case, answer), of)
-    except SceneError as refusal:
-        if refusal.status not in UNPLACED:
-            raise
-        part, left_out = without_spare_links(case, refusal, *(((of,), ()) if "." in of else ((), (of,))))
-        rest, notes = rest_as_written(holding(part, answer), of), (*notes, left_out)
+    paths, links = ((of,), ()) if "." in of else ((), (of,))
+    rest, left_out = by_needed_part(
+        case, lambda part: rest_as_written(holding(part, answer), of), paths, links, bodies=True
+    )
     rested = replace(answer, stability=rest.stability, stiffness=rest.stiffness, why_no_stiffness=rest.why)
-    return replace(rested, notes=tuple(dict.fromkeys(notes)))
+    told = not left_out or left_out in answer.notes
+    return rested if told else replace(rested, notes=(*answer.notes, left_out))
 
 
 def _refuse_unknown(case: Case, of: str) -> None:

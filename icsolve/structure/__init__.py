@@ -204,12 +204,12 @@ def _bonds(
         for body in dict.fromkeys(bodies):
             pins_of.setdefault(body, []).append(point)
     for joint in case.joints:
-        several = hubs if len(joint.links) > 2 else None
-        hub = next((link for link in joint.links if link in several), None) if several else None
+        several = hubs is not None and len(joint.links) > 2
+        hub = next((link for link in joint.links if link in hubs), None) if several and hubs else None
         others: set[int] = set()
         for links in pairs_of(joint, hub):
             a, b = body_of[links[0]], body_of[links[1]]
-            if not joint.freedom or a == b or (several is not None and b in others):
+            if not joint.freedom or a == b or (several and b in others):
                 continue
             others.add(b)
             pivots: tuple[str, str] | tuple[()] = ()

@@ -169,16 +169,16 @@ def _without_spare_links(
         if part is None:
             return (), case_of
         found = _of_rows(part, columns, refused, wanted)
-        rows = refused[np.isin(found.codes, SOLVED)]
-        if not rows.size:
-            return (), case_of
-        found = found if len(rows) == len(refused) else _of_rows(part, columns, rows, wanted)
     except SceneError:
+        return (), case_of
+    solved = np.flatnonzero(np.isin(found.codes, SOLVED))
+    rows = refused[solved]
+    if not rows.size:
         return (), case_of
     for array in (*table.values.values(), *table.errors.values()):
         array[rows] = np.nan  # of what is left out a row has nothing
-    table.take(rows, found)
-    number = {row: n for n, row in enumerate(rows.tolist())}
+    table.take(rows, found, solved)
+    number = dict(zip(rows.tolist(), solved.tolist(), strict=True))
     note = f"{left_out_of(case, part)}, in {plural(len(rows), 'row')}"
     return (note,), lambda row: found.case_of(number[row]) if row in number else case_of(row)
 

@@ -26,7 +26,7 @@ from icsolve.numbers import FLOATS, Scalar
 from icsolve.numbers.adjoint import BoundedRecord
 from icsolve.numbers.record import Record, Root, Traced, live, varies
 from icsolve.scene import refusals
-from icsolve.scene.needed_part import without_spare_links
+from icsolve.scene.needed_part import by_needed_part
 from icsolve.screws import Point
 from icsolve.screws.ropes import part_rooms
 from icsolve.statics.load_wrenches import counted_about, points_of, spring_angle
@@ -192,14 +192,8 @@ def setting_of(case: Case, paths: Sequence[str], links: Sequence[str], *, posing
     no figure, or cannot be moved so.
     """
     own = tuple(find_number(case, path).path for path in paths)
-    try:
-        return _as_written(case, own, links, posing)
-    except SceneError as refusal:
-        part, left_out = without_spare_links(case, refusal, own, links)
-        try:
-            return _as_written(part, own, links, posing)._replace(left_out=left_out)
-        except SceneError:
-            raise refusal from None
+    setting, left_out = by_needed_part(case, lambda part: _as_written(part, own, links, posing), own, links)
+    return setting._replace(left_out=left_out) if left_out else setting
 
 
 def _as_written(case: Case, own: tuple[str, ...], links: Sequence[str], posing: bool) -> Setting:

@@ -52,6 +52,7 @@ Codes = npt.NDArray[np.int8]
 
 Value = float | tuple[float, ...]
 OTHER = CODE["near-singular"]
+ALL = slice(None)
 
 
 # --- a sweep as it is read ------------------------------------------------------------------------
@@ -226,9 +227,10 @@ class Table:
         part.holds = {name: array[rows] for name, array in self.holds.items()}
         return part
 
-    def take(self, rows: Rows | list[int], part: Table | Sweep) -> None:
-        """The rows ``rows``, (n,) indices, from a table or a sweep of these n rows alone."""
-        self.codes[rows] = part.codes
+    def take(self, rows: Rows | list[int], part: Table | Sweep, of: Rows | slice = ALL) -> None:
+        """The rows ``rows``, (n,) indices, from a table or a sweep of these n rows alone, or from the rows
+        ``of`` of it."""
+        self.codes[rows] = part.codes[of]
         values, errors = (
             (by_key(part.kinds), by_key(part.errors))
             if isinstance(part, Sweep)
@@ -236,9 +238,9 @@ class Table:
         )
         for mine, arrays in ((self.values, values), (self.errors, errors)):
             for key, array in arrays.items():
-                self._table(mine, key, (self.rows, *array.shape[1:]))[rows] = array
+                self._table(mine, key, (self.rows, *array.shape[1:]))[rows] = array[of]
         for name, array in part.holds.items():
-            self.holds.setdefault(name, np.full((self.rows, 2), np.nan))[rows] = array
+            self.holds.setdefault(name, np.full((self.rows, 2), np.nan))[rows] = array[of]
 
     def fill(self, row: int, answer: Answer, missing: bool = False) -> None:
         """All that is asked of a solved row; or only the answers that it does not have yet."""

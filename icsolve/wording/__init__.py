@@ -4,7 +4,7 @@ unit, and the range in which friction lets it be."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from icsolve.case import (
@@ -32,6 +32,11 @@ def listed(names: Iterable[str]) -> str:
     """a, b and c."""
     *head, last = list(names) or [""]
     return f"{', '.join(head)} and {last}" if head else last
+
+
+def links_named(names: Collection[str]) -> str:
+    """link 5; links 5 and 6."""
+    return f"link{'' if len(names) == 1 else 's'} {listed(names)}"
 
 
 def plural(count: int, word: str) -> str:

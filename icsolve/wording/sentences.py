@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from icsolve.case import Case
 from icsolve.structure import Topology
-from icsolve.wording import link_words, listed, plural
+from icsolve.wording import link_words, links_named, listed, plural
 
 RECONSTRUCTED = "Reconstructed"
 
@@ -79,7 +79,7 @@ def too_close(load: str, why: str, open_by: float | None) -> str:
 
 def loose(case: Case, names: list[str]) -> str:
     """Links that no chain of joints ties to the frame."""
-    which = f"link {names[0]} is" if len(names) == 1 else f"links {listed(names)} are"
+    which = f"{links_named(names)} {'is' if len(names) == 1 else 'are'}"
     points = {*case.points, *(point for length in case.lengths for point in (length.a, length.b))}
     if set(names) <= points:
         return (
@@ -170,7 +170,7 @@ def uncarried(case: Case, points: Iterable[str]) -> str:
     entries = ", ".join(f"{link}: [{', '.join(names)}]" for link, names in found.items())
     names = [name for some in found.values() for name in some]
     goes = "it goes" if len(names) == 1 else "they go"
-    with_ = f"link {listed(found)}" if len(found) == 1 else f"links {listed(found)}"
+    with_ = links_named(found)
     said = f"no link carries {listed(names)}: if {goes} with {with_}, write `links: {{{entries}}}`."
     return said if found else ""
 
