@@ -46,6 +46,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@sampled(3)
 @pytest.mark.parametrize("path", sorted(FOUND.glob("*.yaml")), ids=lambda path: path.stem)
 def test_what_once_broke_something_goes_through_every_command(path: Path, here: Path) -> None:
     assert not faults_of(random.Random(path.name), path.read_text(encoding="utf-8", errors="surrogateescape"))

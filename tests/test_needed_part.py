@@ -18,7 +18,7 @@ import icsolve as library
 from icsolve.errors import SceneError
 from icsolve.scene.needed_part import needed_part
 from shell import Shell
-from sizes import few
+from sizes import few, sampled
 
 
 @pytest.fixture
@@ -122,6 +122,7 @@ def test_rows_are_those_of_the_mechanism_alone(pair: tuple[str, str]) -> None:
     assert np.allclose(*(call.answers["T"] for call in calls), rtol=1e-12, atol=0.0)
 
 
+@sampled(2)
 def test_every_command_answers(icsolve: Shell, pair: tuple[str, str]) -> None:
     value = library.solve(library.load(pair[1])).answers["T"].value
     Path("m.yaml").write_text(pair[0] + f"expect: {{T: {value:.6g}}}\n")
