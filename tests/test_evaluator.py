@@ -21,6 +21,7 @@ from icsolve.errors import SceneError
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.record import OPERATIONS, Op, Record, Traced
 from icsolve.numbers.source import JAVASCRIPT, straight_line
+from icsolve.scene.refusals import rubs
 from icsolve.sweep.varied_numbers import numbers_of, with_numbers
 from library import FILES, sample
 from sizes import sampled
@@ -72,6 +73,31 @@ def test_rows_of_the_library_are_the_scenes_own(name: str) -> None:
         assert found.status[n] == status
         for load, value in values.items():  # near a dead centre the digits of the row itself are fewer
             assert found.answers[load][n] == pytest.approx(value, rel=1e-7, abs=1e-9)
+
+
+@sampled(2)
+@pytest.mark.parametrize("name", sample(FILES, 1, "gradients by loads"))
+def test_in_the_figure_as_written_an_answer_is_linear_in_the_loads(name: str) -> None:
+    """Also where links move by exact data alone (a rack and its pinion, a wedge): these stay as they are."""
+    case = icsolve.load(FILES[name])
+    loads = [p for p in numbers_of(case) if p.startswith("loads.") and p.count(".") == 1]
+    if case.space is not None or case.unknowns or not loads or solved(case)[0] != "ok":
+        pytest.skip("nothing to vary, or no answer as written")
+    if by_scenes(case):
+        pytest.skip("friction, contacts with profiles, ropes and screws")
+    call = icsolve.evaluator(case, loads, gradient=True)
+    written = np.array([numbers_of(case)[p].value for p in loads])
+    here, there = call(*written), call(*(1.25 * written))
+    for load, slopes in here.gradients.items():
+        value, change = here.answers[load][0], there.answers[load][0] - here.answers[load][0]
+        size = max(abs(slopes[p][0] * w) for p, w in zip(loads, written, strict=True))
+        assert value == pytest.approx(solved(case)[1][load], rel=1e-9, abs=1e-9 * size)
+        told = sum(slopes[p][0] * w / 4.0 for p, w in zip(loads, written, strict=True))
+        assert change == pytest.approx(told, rel=1e-9, abs=1e-9 * size), load
+
+
+def by_scenes(case: Case) -> bool:
+    return bool(case.screws or case.ropes or case.touches or rubs(case))
 
 
 def test_many_rows_are_those_that_few_are() -> None:

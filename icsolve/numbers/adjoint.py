@@ -220,5 +220,5 @@ class BoundedRecord(Record):
         if isinstance(value, Traced) and noise:
             if noise < KNOWN * abs(value):
                 return False
-            self.spent.append(value.index)
+            self.spent[value.index] = float(size)
         return True

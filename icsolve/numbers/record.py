@@ -200,8 +200,9 @@ class Record:
         """what was made of some of its nodes, by what it is: nodes never change"""
         self._known: list[dict[tuple[int, ...], Traced]] = [{} for _ in range(OPERATIONS)]
         self._constants: dict[tuple[float, str], Traced] = {}
-        self.spent: list[int] = []
-        """nodes that were taken as zero, of which rounding has left no digit that says so"""
+        self.spent: dict[int, float] = {}
+        """nodes that were taken as zero, of which rounding has left no digit that says so, and beside what
+        size"""
         self.ratios: dict[int, ExactRatio] = {}
         """by node, what constants are that no double is"""
 

@@ -29,7 +29,7 @@ from icsolve.statics.power import loads_to_find
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.exact_record import hides
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of
-from icsolve.sweep.record_runner import SHALLOW, SMALL, STEEP, Key, Rows, column, usual_and_terms
+from icsolve.sweep.record_runner import SHALLOW, SMALL, STEEP, Key, Rows, Runner, column, usual_and_terms
 from icsolve.sweep.request import (
     FARTHEST,
     RequestError,
@@ -40,7 +40,7 @@ from icsolve.sweep.request import (
     request_of,
     told,
 )
-from icsolve.sweep.starting_position import is_hard
+from icsolve.sweep.starting_position import is_hard, is_open, shapes_figure
 from icsolve.sweep.table import CODE, KINDS, WORDS, Table, by_kind
 from icsolve.sweep.varied_numbers import find_number, numbers_of, with_numbers
 from icsolve.tuples import NamedTuple, dataclass, field, replace
@@ -452,7 +452,11 @@ def _compiled(case: Case, names: Mapping[str, str], asked: RowRequest, gradients
         compiled = compile_sweep(setting, asked)
     except SceneError:  # beside the case as written nothing moves: it does so by exact data alone
         return None
-    alone = compiled.refusal is not None or compiled.delicate or compiled.idle or hides(compiled)
+    alone = compiled.refusal is not None or compiled.idle or hides(compiled)
+    # in the figure as written exact data are as exact as they are in the scene
+    alone = alone or (
+        compiled.delicate and (any(map(shapes_figure, names.values())) or is_open(Runner(compiled)))
+    )
     alone = alone or bool(case.ropes and not compiled.taut)
     return None if alone else _Compiled(compiled, asked, names, gradients)
 

@@ -392,11 +392,13 @@ def _hides(compiled: CompiledSweep) -> bool:
     exact, nodes = exact_record(compiled), compiled.record.nodes
     given = {one.index: Decimal(one.value) for one in compiled.record.inputs.values()}
     try:
-        found = exact.values([nodes[k] for k in compiled.spent], given)
+        found = exact.values([nodes[k] for k, _ in compiled.spent], given)
     except Unreached:
         return True
-    sizes = [Decimal(terms_of(nodes, k)) for k in compiled.spent]
-    return any(value.is_nan() or abs(value) > ZERO * size for value, size in zip(found, sizes, strict=True))
+    return any(
+        value.is_nan() or abs(value) > ZERO * Decimal(size)
+        for value, (_, size) in zip(found, compiled.spent, strict=True)
+    )
 
 
 class RowScenes:

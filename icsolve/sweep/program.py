@@ -150,8 +150,8 @@ class CompiledSweep(NamedTuple):
     """whether contacts are told row by row"""
     cancels: bool = False
     """whether the powers of the known loads all but cancel where the record is made"""
-    spent: tuple[int, ...] = ()
-    """what was taken as zero in the sums of power, though doubles do not show it"""
+    spent: tuple[tuple[int, float], ...] = ()
+    """what was taken as zero in the sums of power, though doubles do not show it, and beside what size"""
     dynamic: bool = False
     """whether inertia forces are among the loads"""
     taut: bool = False

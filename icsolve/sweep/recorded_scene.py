@@ -103,7 +103,8 @@ class RecordedStatics(NamedTuple):
     motions : by link, one twist a freedom, expressions [frame length/s, frame length/s, rad/s]
     refusal : why there are no answers in any row; None where there are
     balance : factors of the loads
-    spent : nodes of what was taken as zero in the sums of power, though doubles do not show it
+    spent : nodes of what was taken as zero in the sums of power, though doubles do not show it, and beside
+        what size
     moves : the given motion with its accelerations; None where a scene of its own has to tell it, or it is
         not asked for
     """
@@ -112,7 +113,7 @@ class RecordedStatics(NamedTuple):
     motions: motion.Motions
     refusal: SceneError | None
     balance: power.Balance
-    spent: tuple[int, ...] = ()
+    spent: tuple[tuple[int, float], ...] = ()
     moves: Moving | None = None
 
     @property
@@ -390,7 +391,7 @@ def statics(scene: RecordedScene, everything: bool, dynamic: bool = False) -> Re
         wrenches = load_wrenches.exactly(place, moves, wrenches)
     balance = power.balance(wrenches, motions.twists, motions.mobility)
     solution = power.solve_balance(balance, scene.record)
-    spent = tuple(scene.record.spent)
+    spent = tuple(scene.record.spent.items())
     try:
         floats = place._replace(arithmetic=FLOATS)
         refusals.refuse_unbalanced(power.Outcome(floats, motions, balance, solution))

@@ -48,7 +48,7 @@ def is_hard(setting: Setting) -> bool:
     reshaping = [path for path in setting.paths if path not in setting.drive.moving]
     if any(map(drives, reshaping)) or (setting.moves and any(".radii." in path for path in reshaping)):
         return True
-    shapes = list(filter(_shapes, reshaping))
+    shapes = list(filter(shapes_figure, reshaping))
     if not shapes:
         return False
     by_itself = (
@@ -142,9 +142,9 @@ def _checked(start: Start) -> Start:
         return start
     if start.setting.left_out and (start.asked.points or start.asked.rates or start.asked.centres):
         return start._replace(one_by_one=True)  # another figure may have what is left out of this one
-    if not any(map(_shapes, start.paths)):
-        is_open = compiled.refusal is None and (compiled.idle or _is_open(start.runner()))
-        return start._replace(one_by_one=is_open)
+    if not any(map(shapes_figure, start.paths)):
+        alone = compiled.refusal is None and (compiled.idle or is_open(start.runner()))
+        return start._replace(one_by_one=alone)
     alone = compiled.delicate or compiled.idle or compiled.refusal is not None
     return start._replace(one_by_one=alone)
 
@@ -153,7 +153,7 @@ LOOSE = 1e-3
 """In a figure that stands, an answer with a bound above this fraction of it is left to the scene."""
 
 
-def _is_open(runner: Runner) -> bool:
+def is_open(runner: Runner) -> bool:
     """Whether doubles leave an answer open in the figure as written, in which only loads are varied."""
     record, values = runner.compiled.record, runner.still
     sizes = [
@@ -168,7 +168,7 @@ def _is_open(runner: Runner) -> bool:
     return any(not off <= LOOSE * abs(value) for value, off in sizes if value)
 
 
-def _shapes(path: str) -> bool:
+def shapes_figure(path: str) -> bool:
     """Whether a number is one of the figure or of a joint."""
     return path.split(".", maxsplit=1)[0] in ("points", "lengths", "angles", "joints")
 
