@@ -127,6 +127,27 @@ def test_two_gears_turn_in_the_ratio_of_their_teeth() -> None:
     assert turned.angle("5") - turned.angle("5")[240] == pytest.approx(-degrees * 2 / 3, abs=1e-9)
 
 
+@pytest.mark.parametrize("link", ["2", "3"])
+def test_a_ring_turns_the_way_of_the_wheel_inside_it(link: str) -> None:
+    """In the ratio of the teeth, whichever of the two is driven; its crank pin goes round its pivot, and the
+    torque on the wheel holds the force on the pin at that ratio."""
+    case = icsolve.load("""icsolve: 1
+points: {A: [1, 0], B: [0, 0], P: [0, 3]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: B}
+  - {gears: [2, 3], teeth: [20, -60]}
+loads:
+  F: {force: 10, link: 3, at: P, angle: 0}
+  T: {torque: unknown, link: 2}
+""")
+    ring = np.linspace(-130.0, 500.0, 43)
+    found = icsolve.sweep(case, drive={link: ring * (3.0 if link == "2" else 1.0)}, want=("answers", "points"))
+    turned = np.radians(ring)
+    assert found.points["P"] == pytest.approx(np.c_[-3.0 * np.sin(turned), 3.0 * np.cos(turned)], abs=1e-12)
+    assert found.answers["T"] == pytest.approx(10.0 * np.cos(turned), abs=1e-11)
+
+
 def test_a_rolling_disk_turns_by_its_way_over_its_radius() -> None:
     degrees = np.linspace(0.0, 360.0, 361)
     turned = swept(full_turns.DISK, "2", degrees)
