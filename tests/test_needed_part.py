@@ -326,6 +326,12 @@ def test_a_stretched_dyad_is_told_where_all_is_looked_at(icsolve: Shell) -> None
     for asked in ({"reactions": True}, {"examine": True}):
         with pytest.raises(SceneError, match="stands still"):
             library.solve(case, **asked)
+    moving = (
+        STRETCHED.replace("{4: [E]}", "{4: [E], 3: {mass: 2 kg, centre: C}}")
+        + "motion: {link: 2, speed: 10}\n"
+    )
+    with pytest.raises(SceneError, match="stands still|structure"):
+        library.solve(library.load(moving), dynamic=True)
     Path("m.yaml").write_text(STRETCHED)
     assert icsolve("validate", "m.yaml").code == 1
 

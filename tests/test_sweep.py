@@ -142,7 +142,9 @@ loads:
   T: {torque: unknown, link: 2}
 """)
     ring = np.linspace(-130.0, 500.0, 43)
-    found = icsolve.sweep(case, drive={link: ring * (3.0 if link == "2" else 1.0)}, want=("answers", "points"))
+    found = icsolve.sweep(
+        case, drive={link: ring * (3.0 if link == "2" else 1.0)}, want=("answers", "points")
+    )
     turned = np.radians(ring)
     assert found.points["P"] == pytest.approx(np.c_[-3.0 * np.sin(turned), 3.0 * np.cos(turned)], abs=1e-12)
     assert found.answers["T"] == pytest.approx(10.0 * np.cos(turned), abs=1e-11)
