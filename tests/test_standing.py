@@ -381,6 +381,44 @@ def test_a_crate_on_a_crate_slides_at_the_last_digit(push: float, holds: bool) -
     assert any(said in note for note in answer.notes)
 
 
+@pytest.mark.parametrize("seed", range(few(60, 6)))
+def test_of_two_crates_that_are_pushed_one_or_both_slide_or_tip(seed: int) -> None:
+    """The upper at its friction or about an edge of what it stands on, or both at that of the lower or about
+    an edge of the floor, whichever comes first to each side; where it is an edge, a contact parts, and the
+    load at which it does is told."""
+    rng = Random(seed)
+    wide, left, right = rng.uniform(1.0, 2.0), rng.uniform(0.0, 0.4), rng.uniform(0.6, 1.0)
+    tall, above = rng.uniform(0.3, 2.0), rng.uniform(0.05, 2.0)
+    mu, rough = rng.uniform(0.1, 0.6), rng.uniform(0.1, 0.6)
+    lower, upper = rng.uniform(20.0, 90.0), rng.uniform(20.0, 90.0)
+    g, h = rng.uniform(0.2, 0.8), rng.uniform(0.45, 0.55)
+    answer = icsolve.solve(
+        icsolve.load(f"""icsolve: 1
+points:
+  {{A: [0, 0], B: [{wide}, 0], C: [{left}, {tall}], D: [{right}, {tall}],
+   G: [{g}, 0.1], H: [{h}, {tall}], K: [{h}, {tall + above}]}}
+joints:
+  - {{contact: [1, 2], at: A, normal: 90, mu: {rough}}}
+  - {{contact: [1, 2], at: B, normal: 90, mu: {rough}}}
+  - {{contact: [2, 3], at: C, normal: 90, mu: {mu}}}
+  - {{contact: [2, 3], at: D, normal: 90, mu: {mu}}}
+loads:
+  W: {{weight: {lower}, link: 2, at: G}}
+  V: {{weight: {upper}, link: 3, at: H}}
+  P: {{force: unknown, link: 3, at: K, angle: 0}}
+""")
+    )
+    slides = min(mu * upper, rough * (lower + upper))
+    to_right = upper * (right - h) / above, (lower * (wide - g) + upper * (wide - h)) / (tall + above)
+    to_left = upper * (h - left) / above, (lower * g + upper * h) / (tall + above)
+    ends = -min(slides, *to_left), min(slides, *to_right)
+    assert answer.answers["P"].holds == pytest.approx(ends, rel=1e-9)
+    tips = [f"{end:.6g}" for end in ends if abs(end) < slides]
+    told = [note for note in answer.notes if "would have to pull" in note]
+    assert bool(told) is bool(tips)
+    assert all(note.startswith(f"by P = {' and '.join(tips)} a contact") for note in told)
+
+
 def test_the_push_that_a_stack_holds_is_found_to_the_last_digit(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -184,7 +184,7 @@ def _of_several_freedoms(scene: FrictionScene) -> AtRest:
         raise SceneError(Status.NO_VALUE, NEVER_HELD.format(statics.roots[0]))
     own, again = within.nearest(0.0)
     both = zip((own.low, own.high), own.vertices, strict=True)
-    ends = [End(value, (), (), True, vertex) for value, vertex in both]
+    ends = [End(value, (), pushes=not vertex.parts, vertex=vertex) for value, vertex in both]
     presses = not any(row.get(statics.root(0)) for row in statics.general.left)
     found = range_of(ends)._replace(how=within.how, again=again, presses=presses, shared=shared)
     finite = (end for end in ends if math.isfinite(end.value))

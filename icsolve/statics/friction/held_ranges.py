@@ -63,6 +63,12 @@ class Vertex(NamedTuple):
     toward: tuple[Pointing | None, ...]
     search: _Search
 
+    @property
+    def parts(self) -> bool:
+        """Whether a contact parts there: however joints share, it presses with nothing, and with something
+        where the load is not yet at its end."""
+        return math.isfinite(self.at.load) and self.search.is_lost(self)
+
 
 class HeldRange(NamedTuple):
     """From what load to what load it holds, perhaps infinite, and what the two ends follow from."""
@@ -225,6 +231,19 @@ class _Search:
         sets = region(by_load).vertex(vertex.end) if by_load else (frozenset[int](),)
         return tuple(frozenset(near[n] for n in one) for one in sets)
 
+    def is_lost(self, vertex: Vertex) -> bool:
+        """Whether a contact that presses elsewhere in a part can't at an end of it."""
+        forms, side = [form for form in self.forms(vertex.toward) if any(form)], (-1.0, 1.0)[vertex.end]
+        scale = max(self.unit, abs(vertex.at.load)) or 1.0
+        aim = [side * a / scale for a in self.load]
+        beside = (aim[0] - side * vertex.at.load / scale + SAME, *aim[1:])
+        for normal in map(self.reduced.form, self.limits.normals.values()):
+            size = largest_of(normal)
+            push = tuple([a / size for a in normal]) if size else normal
+            if _most(push, [*forms, beside]) <= NEAR < _most(push, forms):
+                return True
+        return False
+
     def by_load(self, forms: Sequence[Form]) -> list[Form]:
         """Inequalities with the load, in its unit, as the first variable; none where it has one value."""
         if not self.unit:
@@ -242,6 +261,12 @@ class _Search:
 def _is_beside(at: float | None, ends: tuple[_End, _End]) -> bool:
     """Whether a load, if any, lies not between two ends."""
     return at is not None and not ends[0].load <= at <= ends[1].load
+
+
+def _most(form: Form, within: Sequence[Form]) -> float:
+    """The most that inequalities leave a form, or 1 where that is more."""
+    depth: float = deepest([*within, form], [*[0.0] * len(within), 1.0]).depth
+    return depth
 
 
 def _half(to: Pointing | None) -> float:
