@@ -374,3 +374,29 @@ def test_along_its_own_number_a_load_ceases_to_hold_where_its_range_ends(posts: 
         assert found == pytest.approx(ends, rel=1e-9), seed
         compared += len(found)
     assert compared > (4 if FULL else 2)
+
+
+@pytest.mark.parametrize("seed", range(few(30, 5)))
+def test_a_crate_at_a_rope_over_a_rough_post_slides_or_tips_whichever_comes_first(seed: int) -> None:
+    """A rope that is pulled holds what the crate holds, times e to the power of mu by the quarter turn on the
+    post (L. Euler, J. A. Eytelwein); with no pull it is slack, and never pushes."""
+    rng = Random(seed)
+    rough, mu, high = rng.uniform(0.2, 0.9), rng.uniform(0.05, 0.4), rng.uniform(0.3, 2.5)
+    weight, at = rng.uniform(50.0, 500.0), rng.uniform(0.3, 0.7)
+    answer = icsolve.solve(
+        icsolve.load(f"""icsolve: 1
+points: {{A: [0, 0], B: [1, 0], G: [{at}, 0.8], H: [1, {high}], P: [4, {high - 0.25}], E: [4.25, -3]}}
+joints:
+  - {{contact: [1, 2], at: A, normal: 90, mu: {rough}}}
+  - {{contact: [1, 2], at: B, normal: 90, mu: {rough}}}
+  - {{rope: [H, P, E], on: [2, 1], radii: {{P: 0.25}}, wraps: {{P: cw}}, mu: {{P: {mu}}}}}
+loads:
+  W: {{weight: {weight}, link: 2, at: G}}
+  T: {{force: unknown, at: E}}
+""")
+    )
+    slides, tips = rough * weight, weight * (1.0 - at) / high
+    most = min(slides, tips) * math.exp(mu * math.pi / 2.0)
+    assert answer.answers["T"].holds == pytest.approx((0.0, most), rel=1e-9)
+    assert answer.answers["T"].error <= 1e-9 * most
+    assert any("would have to pull: it parts there" in note for note in answer.notes) is (tips < slides)

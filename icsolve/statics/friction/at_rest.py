@@ -211,7 +211,7 @@ def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[Static
         ties = ties_of(one.position)
         statics = statics_of(one, ties, flanks_of(one, ties, False))
         end = end_of(statics, [way * sense for sense in senses])
-        if end is not None and math.isfinite(end.value) and _pulls(statics, end):
+        if end is not None and math.isfinite(end.value) and _pulls(statics, end):  # and no contact parts
             moving.append(EndOfRange(way, one, statics, end, _proven_end(one, statics, end)))
     still = as_ropes_slip(scene, rates, 0.0)
     bare = statics_of(still, ties := ties_of(still.position), flanks_of(still, ties, False))
@@ -222,7 +222,10 @@ def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[Static
         raise SceneError(Status.NO_VALUE, NEVER_TAUT.format(bare.roots[0]))
     own, _ = within.nearest(smooth or 0.0)
     both = zip((own.low, own.high), own.vertices, strict=True)
-    ends = [_same(value, moving) or End(value, senses, vertex=vertex) for value, vertex in both]
+    ends = [
+        _same(value, moving) or End(value, senses, pushes=not vertex.parts, vertex=vertex)
+        for value, vertex in both
+    ]
     possible = (ends[0].value, ends[1].value)
     if len(moving) == 2:
         ends = [one.end for one in moving]

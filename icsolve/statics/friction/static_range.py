@@ -20,7 +20,6 @@ from typing import TYPE_CHECKING
 
 from icsolve.errors import SceneError, Status
 from icsolve.numbers import largest_of
-from icsolve.numbers.roots import zero_between
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.free_bodies import carrying
 from icsolve.statics.friction.equations import (
@@ -57,7 +56,7 @@ class End(NamedTuple):
 
     Attributes
     ----------
-    value : the unknown load [case units], perhaps infinite
+    value : the unknown load [case units], perhaps infinite; not a number where a contact parts before
     senses : (rubs,), those of the motion that is about to begin
     friction : (rubs,) [scaled]; empty where the value is infinite, or not that of an equilibrium about to
         move
@@ -132,7 +131,7 @@ def static_range(
         Self-locking: it holds with the unknown at zero (against loads), or no value moves it one way.
     """
     locks = all(math.isinf(end.value) for end in ends)  # where contacts push, one way at most
-    parts = _may_part(statics) and (locks or not all(end.pushes for end in ends))
+    parts = not all(end.pushes for end in ends) or (locks and _may_part(statics))
     parts = parts or bool(shared_normals(statics))
     if parts or _nothing_presses(statics, senses):
         return of_limits(statics, senses, within(), alone, ends)
@@ -280,13 +279,10 @@ def impending(statics: Statics, senses: Sequence[float]) -> End:
     last = every.followed(short)[0] or without_friction(equations.equations)
     change = sum(a * x for a, x in zip(equations.loads[0][1:], last, strict=True))
     pushes = equations.scaled(far).least_push(last) >= -ROUNDED
-    if not pushes and (part := _where_one_parts(equations, last, far)) is not None:
-        return End(part / statics.scale, tuple(senses), pushes=False)
-    contact = None if grows else parting(equations.equations, share)
-    if contact is not None:
-        return End(_where_it_parts(equations, contact, share) / statics.scale, tuple(senses), pushes=False)
+    if not pushes or (not grows and parting(equations.equations, share) is not None):
+        return _before(senses)
     if grows or _locks(equations):
-        return End(math.copysign(math.inf, change), tuple(senses), pushes=pushes)
+        return End(math.copysign(math.inf, change), tuple(senses))
     raise SceneError(
         Status.UNSUPPORTED,
         f"the equilibrium with friction at rest ends where {share:.3g} of it is used, and neither the forces "
@@ -295,50 +291,16 @@ def impending(statics: Statics, senses: Sequence[float]) -> End:
     )
 
 
-def _where_it_parts(equations: Reduced, contact: int, share: float) -> float:
-    """The load [scaled] at which a contact pushes with nothing, from three equilibria with less friction
-    (Lagrange): it is nearly linear in that force."""
-    found = []
-    for part in (0.999 * share, 0.998 * share, 0.997 * share):
-        y = every.followed(equations.equations.scaled(part))[0] or without_friction(equations.equations)
-        load = equations.loads[0][0] + part * sum(
-            a * x for a, x in zip(equations.loads[0][1:], y, strict=True)
-        )
-        found.append((y[contact], load))
-    (a, at_a), (b, at_b), (c, at_c) = found
-    return (
-        at_a * b * c / ((a - b) * (a - c))
-        + at_b * a * c / ((b - a) * (b - c))
-        + at_c * a * b / ((c - a) * (c - b))
-    )
-
-
 def _moving(statics: Statics, equations: Reduced, senses: Sequence[float], y: Sequence[float]) -> End:
     """The end at an equilibrium about to move, or where a contact parts before."""
-    pushes = equations.least_push(y) >= -ROUNDED
-    if not pushes and (part := _where_one_parts(equations, y, 1.0)) is not None:
-        return End(part / statics.scale, tuple(senses), pushes=False)
-    return End(equations.load(y)[0] / statics.scale, tuple(senses), equations.friction(y), pushes)
+    if equations.least_push(y) < -ROUNDED:
+        return _before(senses)
+    return End(equations.load(y)[0] / statics.scale, tuple(senses), equations.friction(y))
 
 
-def _where_one_parts(equations: Reduced, last: Sequence[float], far: float) -> float | None:
-    """The load [scaled] at which the first contact pushes with nothing, with less friction than the share
-    ``far`` of it: there friction holds the rest. None where one would have to pull without friction too."""
-
-    def held(share: float) -> tuple[Reduced, Sequence[float]]:
-        part = equations.scaled(share)
-        if contraction(part.equations) is not None:
-            return part, contracted(part.equations)
-        return part, every.followed(part.equations)[0] or last
-
-    def push(share: float) -> float:
-        part, y = held(share)
-        return part.least_push(y)
-
-    if push(0.0) <= 0.0 or push(far) >= 0.0:
-        return None
-    part, y = held(zero_between(push, 0.0, far, push(0.0), push(far)))
-    return part.load(y)[0]
+def _before(senses: Sequence[float]) -> End:
+    """An end at which a contact parts before anything moves: the limits of friction say at which load."""
+    return End(math.nan, tuple(senses), pushes=False)
 
 
 def _locks(equations: Reduced) -> bool:
