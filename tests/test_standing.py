@@ -38,7 +38,8 @@ def test_known_loads_hold_where_the_joints_can_balance_them(kind: Callable[[Rand
         case = icsolve.load(text)
         more, less = standing.off(case, 1.0 + NEAR) <= 1e-9, standing.off(case, 1.0 - NEAR) <= 1e-9
         if more == less:
-            assert icsolve.solve(case).holds_still is more, text
+            told = more if "mu:" in text else None  # where nothing rubs power alone says it
+            assert icsolve.solve(case).holds_still is told, text
             seen.add(more)
     assert seen == {True, False}
 
@@ -413,6 +414,7 @@ loads:
     to_left = upper * (h - left) / above, (lower * g + upper * h) / (tall + above)
     ends = -min(slides, *to_left), min(slides, *to_right)
     assert answer.answers["P"].holds == pytest.approx(ends, rel=1e-9)
+    assert answer.answers["P"].error <= 1e-12 * slides
     tips = [f"{end:.6g}" for end in ends if abs(end) < slides]
     told = [note for note in answer.notes if "would have to pull" in note]
     assert bool(told) is bool(tips)
