@@ -10,7 +10,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 
+from icsolve.errors import SceneError
 from icsolve.numbers import Showing, largest_of
 from icsolve.numbers.inequalities import Form, deepest, region
 from icsolve.statics.friction.pushing import (
@@ -105,7 +107,28 @@ def held(scene: RestingScene, at: float | None = None) -> HeldRanges:
         complete &= search.is_complete(None if at is None else at * limits.scale)
         unit = 1.0 / limits.scale
         found += [one._replace(low=one.low * unit, high=one.high * unit) for one in search.found]
-    return HeldRanges(tuple(joined(found)), complete)
+    return HeldRanges(tuple(_met(scene, joined(found))), complete)
+
+
+def _met(scene: RestingScene, ranges: Sequence[HeldRange]) -> list[HeldRange]:
+    """The ranges, as one where two that doubles leave apart meet in all digits."""
+    met = list(ranges[:1])
+    for one in ranges[1:]:
+        last = met[-1]
+        if _meet(scene, last, one):
+            met[-1] = last._replace(high=one.high, vertices=(last.vertices[0], one.vertices[1]))
+        else:
+            met.append(one)
+    return met
+
+
+def _meet(scene: RestingScene, lower: HeldRange, upper: HeldRange) -> bool:
+    if upper.low - lower.high > SAME * max(abs(upper.low), abs(lower.high)):
+        return False
+    with suppress(SceneError):  # no digits settle it
+        below, above = (exactly(scene, end) for end in (lower.vertices[1], upper.vertices[0]))
+        return below is not None and above is not None and below.value >= above.value
+    return False
 
 
 class _Search:

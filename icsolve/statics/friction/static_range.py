@@ -37,7 +37,7 @@ from icsolve.statics.friction.equations import (
     without_friction,
 )
 from icsolve.statics.friction.lifting import pulling
-from icsolve.statics.friction.limits import ROUNDED, SHORT, parting, too_many, well_told
+from icsolve.statics.friction.limits import ROUNDED, SHORT, parting, well_told
 from icsolve.tuples import LateModule, NamedTuple
 from icsolve.wording import listed
 
@@ -180,23 +180,28 @@ def _nothing_presses(statics: Statics, senses: Sequence[float]) -> bool:
 
 
 def of_limits(
-    statics: Statics, senses: Sequence[float], within: HeldRanges, alone: bool, ends: Sequence[End] = ()
+    statics: Statics,
+    senses: Sequence[float],
+    within: HeldRanges,
+    alone: bool,
+    ends: Sequence[End] = (),
+    toward: float | None = None,
 ) -> StaticRange:
-    """The range, of those in which friction within its limits holds, that is nearest to the load without
-    friction. It ends where the mechanism is about to move, or where a contact parts.
+    """The range, of those in which friction within its limits holds, that is nearest to a load [case units]
+    (None: to that without friction). It ends where the mechanism is about to move, or where a contact parts.
 
     Raises SceneError where there is none.
     """
     smooth = smooth_load(statics) or 0.0
     if not within.ranges:
         raise SceneError(Status.NO_VALUE, _lost(statics, smooth))
-    own, others = within.nearest(smooth)
+    own, others = within.nearest(smooth if toward is None else toward)
     moving = [] if alone else [*(end for end in ends if end.friction), *_about_to_move(statics, senses)]
     told = []
     for value, vertex in zip((own.low, own.high), own.vertices, strict=True):
         room = SAME * abs(value) if math.isfinite(value) else -1.0
         same = (end for end in moving if abs(end.value - value) <= room)
-        parts = End(value, tuple(senses), pushes=math.isinf(value), vertex=vertex)
+        parts = End(value, tuple(senses), pushes=not vertex.parts, vertex=vertex)
         told.append(next(same, parts))
     return range_of(told)._replace(how=within.how, again=others)
 
@@ -344,54 +349,57 @@ def _is_proven(statics: Statics, senses: Sequence[float]) -> bool:
     return all(sum(factors[k][j] * reach[k] for k in range(n)) < own[j] for j in range(n) if gains[j])
 
 
-SAID = "the unknown load does no work; between the ends friction was compared with the known loads"
-
-
 def pressed(statics: Statics, senses: Sequence[float], driven: bool, within: Within) -> StaticRange:
     """The range of an unknown load that does no work; ``senses`` are those of the rubs in the motion, and
-    ``driven`` tells whether the known loads do work.
+    ``driven`` tells whether the known loads do work. Of several ranges that with the largest loads.
 
     Raises SceneError where nothing drives the mechanism (any value holds) and where none holds it.
     """
-    name = statics.roots[0]
-    if _may_part(statics):
-        found = within()
-        ends = [end for one in found.ranges for end in (one.low, one.high)]
-        if driven or any(map(math.isfinite, ends)):
-            return of_limits(statics, senses, found, False)._replace(presses=True, self_locking=False)
-    (left,) = statics.general.left
-    powers = [left.get(statics.rub(k), 0.0) for k in range(len(senses))]
-    drive = left.get(statics.known, 0.0)
-    if not (driven and drive):
+    name, found = statics.roots[0], within()
+    ends = [end for one in found.ranges for end in (one.low, one.high) if math.isfinite(end)]
+    if not (driven or ends):
         raise SceneError(
             Status.ANY_VALUE, f"any value of {name} holds: it does no work, and nothing drives the mechanism."
         )
-    against = [-math.copysign(1.0, drive * p) if p else 0.0 for p in powers]
-    senses = tuple([-a for a in against])
-    equations = reduced_workless(statics, senses)
-    if equations is None:
-        raise SceneError(Status.NO_VALUE, f"no value of {name} holds: it does no work, and no friction does.")
-    roots = every.all_roots(equations.equations)
-    if roots is None:
-        raise SceneError(Status.UNSUPPORTED, too_many(statics))
-    moving = {load: equations.friction(y) for load, y in sorted((equations.load(y)[0], y) for y in roots)}
-    ends = list(moving)
-    marks = [-math.inf, *ends, math.inf]
-    holding = [
-        (a, b)
-        for a, b in pairwise(marks)
-        if a < b and _capacity(statics, against, powers, _value_inside(a, b)) >= abs(drive)
-    ]
-    if not holding:
+    if not (found.ranges or _may_part(statics)):
         raise SceneError(
             Status.NO_VALUE, f"no value of {name} holds: the friction that it makes is never enough."
         )
+    told = None if _may_part(statics) else _as_it_grows(statics, len(senses))
+    if told is None:
+        least = of_limits(statics, senses, found, False, toward=max(ends, default=0.0))
+        return least._replace(presses=True, self_locking=False)
+    own, others = found.nearest(_value_inside(told.least, told.most))
+    possible = _same_ends((own.low, own.high), (told.least, told.most))
+    inside = [one for one in told.again if own.low <= _value_inside(*one) <= own.high]
+    return told._replace(possible=possible, how=found.how, again=tuple(sorted([*inside, *others])))
+
+
+def _as_it_grows(statics: Statics, rubs: int) -> StaticRange | None:
+    """Where friction that is against the motion which the known loads drive is enough; None where nowhere."""
+    (left,) = statics.general.left
+    powers = [left.get(statics.rub(k), 0.0) for k in range(rubs)]
+    drive = left.get(statics.known, 0.0)
+    against = [-math.copysign(1.0, drive * p) if p else 0.0 for p in powers]
+    senses = tuple([-a for a in against])
+    equations = reduced_workless(statics, senses) if drive else None
+    roots = None if equations is None else every.all_roots(equations.equations)
+    if equations is None or roots is None:
+        return None
+    moving = {load: equations.friction(y) for load, y in sorted((equations.load(y)[0], y) for y in roots)}
+    holding = [
+        (a, b)
+        for a, b in pairwise([-math.inf, *moving, math.inf])
+        if a < b and _capacity(statics, against, powers, _value_inside(a, b)) >= abs(drive)
+    ]
+    if not holding:
+        return None
     least, most = max(holding, key=lambda pair: (pair[1] == math.inf, pair[1]))
-    both = (least / statics.scale, most / statics.scale)
-    again = tuple((a / statics.scale, b / statics.scale) for a, b in holding if (a, b) != (least, most))
     own = [end for end in (least, most) if math.isfinite(end)]
     about_to_move = tuple(End(end / statics.scale, senses, moving[end]) for end in own)
-    return StaticRange(*both, both, SAID, ends=about_to_move, again=again, presses=True)
+    both, *again = ((a / statics.scale, b / statics.scale) for a, b in ((least, most), *holding))
+    again.remove(both)
+    return StaticRange(*both, both, IMPENDING, ends=about_to_move, again=tuple(again), presses=True)
 
 
 def _value_inside(a: float, b: float) -> float:
@@ -401,7 +409,7 @@ def _value_inside(a: float, b: float) -> float:
 
 
 def _capacity(statics: Statics, against: Sequence[float], powers: Sequence[float], load: float) -> float:
-    """The most power that friction can take at this value of the load (scaled); -1 where a contact parts."""
+    """The most power that friction can take at this value of the load (scaled)."""
     limits = [rub.limit * a for rub, a in zip(statics.rubs, against, strict=True)]
     vectors = [
         tuple(
@@ -413,12 +421,7 @@ def _capacity(statics: Statics, against: Sequence[float], powers: Sequence[float
         )
         for rows in forces_of(statics)
     ]
-    touching = [statics.ties[rub.tie].joint.only_pushes for rub in statics.rubs]
-    equations = fixed_point(vectors, touching)
-    y, _, _ = every.followed(equations)
+    y, _, _ = every.followed(fixed_point(vectors, [False] * len(vectors)))
     if y is None:
         return math.inf
-    for forms, only in zip(equations.vectors, touching, strict=True):
-        if only and forms[0][0] + sum(a * b for a, b in zip(forms[0][1:], y, strict=True)) < 0.0:
-            return -1.0
     return sum(abs(p) * rub.limit * size for p, rub, size in zip(powers, statics.rubs, y, strict=True))
