@@ -213,8 +213,9 @@ class FrictionFound(NamedTuple):
     ``unique`` says how
     it is known that there is no other solution, '' where that is not known. At rest ``possible`` has
     the range of the unknown load in which friction within its limits can hold, ``unique`` says how
-    it was found, and ``again`` has the ranges beyond it in which it may hold again; ``shared`` is whether
-    equilibrium leaves open how joints that rub share the load.
+    it was found, and ``again`` has the ranges beyond it in which it may hold again, ``grown`` the parts of
+    these and of it, beside the range that is told, that hold however friction was left (None: ``again``, as
+    far as is known); ``shared`` is whether equilibrium leaves open how joints that rub share the load.
     """
 
     rubbing: tuple[Rubbing, ...]
@@ -225,6 +226,7 @@ class FrictionFound(NamedTuple):
     efficiency: float | None = None
     possible: tuple[float, float] | None = None
     again: tuple[tuple[float, float], ...] = ()
+    grown: tuple[tuple[float, float], ...] | None = None
     shared: bool = False
 
 

@@ -26,12 +26,12 @@ Range = tuple[float, float]
 
 class Held(NamedTuple):
     """From what to what value of a load it holds still, turned about where nowhere; how far off these may be;
-    up to where it may hold as friction was left, and where again; whether joints share what they carry."""
+    where it may hold as friction was left, and where it holds again; whether joints share what they carry."""
 
     low: float
     high: float
     error: float = 0.0
-    possible: Range = (math.inf, -math.inf)
+    possible: tuple[Range, ...] = ()
     again: tuple[Range, ...] = ()
     shared: bool = False
 
@@ -57,8 +57,7 @@ class AskedLoad(NamedTuple):
     @property
     def open(self) -> bool:
         """Whether it does only if friction was left the other way round at some joint."""
-        low, high = self.held.possible
-        return low <= self.value <= high and not self.holds
+        return any(low <= self.value <= high for low, high in self.held.possible) and not self.holds
 
 
 def asked_of(case: Case, path: str = "", here: bool = False) -> AskedLoad | None:
@@ -221,7 +220,8 @@ def _held(said: SaidCase, load: str, alone: bool | HeldAt) -> Held:
     error = UNPROVEN * largest if found.error is None else found.error
     if friction is None or friction.possible is None:
         return Held(*found.holds, error)
-    return Held(*found.holds, error, friction.possible, friction.again, friction.shared)
+    again = friction.again if friction.grown is None else friction.grown
+    return Held(*found.holds, error, (friction.possible, *friction.again), again, friction.shared)
 
 
 def _of_all(case: Case) -> Held:

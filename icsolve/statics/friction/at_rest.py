@@ -298,7 +298,14 @@ def held(scene: FrictionScene, answer_with: Callable[[Mapping[str, Value]], Answ
     jams = jammed(scene.position, scene.balance, root, (found.least, found.most))
     notes = (*answer.notes, *notes_at_rest(root, found), *([jams] if jams else ()))
     friction = FrictionFound(
-        (), 0.0, 0.0, found.how, possible=found.possible, again=found.again, shared=found.shared
+        (),
+        0.0,
+        0.0,
+        found.how,
+        possible=found.possible,
+        again=found.again,
+        grown=found.grown,
+        shared=found.shared,
     )
     bare = replace(answer, answers=answers, terms=(), advantage=None, sensitivities=Deferred(_no_slopes))
     ends = Later(lambda: list(_about_to_move(rest, answer_with)))

@@ -123,10 +123,12 @@ def _met(scene: RestingScene, ranges: Sequence[HeldRange]) -> list[HeldRange]:
 
 
 def _meet(scene: RestingScene, lower: HeldRange, upper: HeldRange) -> bool:
-    if upper.low - lower.high > SAME * max(abs(upper.low), abs(lower.high)):
+    ends = (lower.vertices[1], upper.vertices[0])
+    one, other = (end.at.load for end in ends)
+    if other - one > SAME * max(abs(one), abs(other), ends[0].search.unit):
         return False
     with suppress(SceneError):  # no digits settle it
-        below, above = (exactly(scene, end) for end in (lower.vertices[1], upper.vertices[0]))
+        below, above = (exactly(scene, end) for end in ends)
         return below is not None and above is not None and below.value >= above.value
     return False
 

@@ -91,6 +91,8 @@ class StaticRange(NamedTuple):
     self_locking : it holds with the unknown at zero, or no value moves it one way
     ends : those ends at which it is about to move
     again : other ranges in which friction within its limits can hold
+    grown : the parts of these, and of what is possible beside the interval, that hold however friction was
+        left; None where it is not told apart
     parts : at which ends a contact would have to pull: there it parts, before the end
     presses : the load does no work: it holds by what it presses
     shared : it holds as joints share the load, which equilibrium leaves open, in one way at least
@@ -103,6 +105,7 @@ class StaticRange(NamedTuple):
     self_locking: bool = False
     ends: tuple[End, ...] = ()
     again: tuple[tuple[float, float], ...] = ()
+    grown: tuple[tuple[float, float], ...] | None = None
     parts: tuple[float, ...] = ()
     presses: bool = False
     shared: bool = False
@@ -145,7 +148,8 @@ def static_range(
     own, others = found.nearest(smooth_load(statics) or 0.0)
     told = range_of([_kept(own, end, senses) for end in ends])
     possible = _same_ends((own.low, own.high), (told.least, told.most))
-    return told._replace(possible=possible, how=found.how, again=others)
+    told = told._replace(possible=possible, how=found.how, again=others)
+    return told._replace(grown=_grown(statics, senses, told))
 
 
 def _kept(own: HeldRange, end: End, senses: Sequence[float]) -> End:
@@ -365,41 +369,58 @@ def pressed(statics: Statics, senses: Sequence[float], driven: bool, within: Wit
         raise SceneError(
             Status.NO_VALUE, f"no value of {name} holds: the friction that it makes is never enough."
         )
-    told = None if _may_part(statics) else _as_it_grows(statics, len(senses))
+    told = None if _may_part(statics) else _as_it_grows(statics)
     if told is None:
         least = of_limits(statics, senses, found, False, toward=max(ends, default=0.0))
         return least._replace(presses=True, self_locking=False)
     own, others = found.nearest(_value_inside(told.least, told.most))
     possible = _same_ends((own.low, own.high), (told.least, told.most))
-    inside = [one for one in told.again if own.low <= _value_inside(*one) <= own.high]
-    return told._replace(possible=possible, how=found.how, again=tuple(sorted([*inside, *others])))
+    told = told._replace(possible=possible, how=found.how, again=others)
+    return told._replace(grown=_grown(statics, senses, told))
 
 
-def _as_it_grows(statics: Statics, rubs: int) -> StaticRange | None:
+def _as_it_grows(statics: Statics) -> StaticRange | None:
     """Where friction that is against the motion which the known loads drive is enough; None where nowhere."""
-    (left,) = statics.general.left
-    powers = [left.get(statics.rub(k), 0.0) for k in range(rubs)]
-    drive = left.get(statics.known, 0.0)
-    against = [-math.copysign(1.0, drive * p) if p else 0.0 for p in powers]
+    against, drive = _against(statics)
     senses = tuple([-a for a in against])
     equations = reduced_workless(statics, senses) if drive else None
     roots = None if equations is None else every.all_roots(equations.equations)
     if equations is None or roots is None:
         return None
     moving = {load: equations.friction(y) for load, y in sorted((equations.load(y)[0], y) for y in roots)}
-    holding = [
-        (a, b)
-        for a, b in pairwise([-math.inf, *moving, math.inf])
-        if a < b and _capacity(statics, against, powers, _value_inside(a, b)) >= abs(drive)
-    ]
+    marks = [-math.inf, *moving, math.inf]
+    holding = [(a, b) for a, b in pairwise(marks) if a < b and _is_enough(statics, _value_inside(a, b))]
     if not holding:
         return None
     least, most = max(holding, key=lambda pair: (pair[1] == math.inf, pair[1]))
     own = [end for end in (least, most) if math.isfinite(end)]
     about_to_move = tuple(End(end / statics.scale, senses, moving[end]) for end in own)
-    both, *again = ((a / statics.scale, b / statics.scale) for a, b in ((least, most), *holding))
-    again.remove(both)
-    return StaticRange(*both, both, IMPENDING, ends=about_to_move, again=tuple(again), presses=True)
+    both = (least / statics.scale, most / statics.scale)
+    return StaticRange(*both, both, IMPENDING, ends=about_to_move, presses=True)
+
+
+def _grown(statics: Statics, senses: Sequence[float], told: StaticRange) -> tuple[tuple[float, float], ...]:
+    """The parts beside a range that hold however friction was left [case units], of what friction within its
+    limits can hold: they begin and end where it is about to move. Beside the range that is told, and beside
+    an end of another at which it is not about to move, friction has to have been left the other way round."""
+    sides = [(told.most, told.possible[1], False), (told.least, told.possible[0], False)]
+    sides = [side for side in sides if side[0] != side[1]]
+    if not (sides or told.again):
+        return ()
+    moving, found = [end.value for end in _about_to_move(statics, senses)], list[tuple[float, float]]()
+    for low, high in told.again:
+        start, end = (low, high) if math.isfinite(low) else (high, low)
+        sides.append((start, end, any(_is_same(start, at) for at in moving)))
+    for start, end, holds in sides:
+        marks = [at for at in moving if min(start, end) < at < max(start, end) and not _is_same(start, at)]
+        marks.sort(reverse=end < start)
+        parts = enumerate(pairwise([start, *marks, end]))
+        found += [(min(part), max(part)) for n, part in parts if (n % 2 == 0) is holds]
+    return tuple(sorted(found))
+
+
+def _is_same(end: float, other: float) -> bool:
+    return abs(end - other) <= SAME * abs(end)
 
 
 def _value_inside(a: float, b: float) -> float:
@@ -408,8 +429,18 @@ def _value_inside(a: float, b: float) -> float:
     return a + max(1.0, abs(a)) if b == math.inf else (a + b) / 2.0
 
 
-def _capacity(statics: Statics, against: Sequence[float], powers: Sequence[float], load: float) -> float:
-    """The most power that friction can take at this value of the load (scaled)."""
+def _against(statics: Statics) -> tuple[list[float], float]:
+    """The senses of friction against the motion that the known loads drive, and their power."""
+    (left,) = statics.general.left
+    drive = left.get(statics.known, 0.0)
+    powers = [left.get(statics.rub(k), 0.0) for k in range(len(statics.rubs))]
+    return [-math.copysign(1.0, drive * p) if p else 0.0 for p in powers], drive
+
+
+def _is_enough(statics: Statics, load: float) -> bool:
+    """Whether the most power that friction can take against the motion is that of the known loads at least,
+    at a value of an unknown one that does no work [scaled]: also where the forces grow without bound."""
+    (left,), (against, drive) = statics.general.left, _against(statics)
     limits = [rub.limit * a for rub, a in zip(statics.rubs, against, strict=True)]
     vectors = [
         tuple(
@@ -423,5 +454,6 @@ def _capacity(statics: Statics, against: Sequence[float], powers: Sequence[float
     ]
     y, _, _ = every.followed(fixed_point(vectors, [False] * len(vectors)))
     if y is None:
-        return math.inf
-    return sum(abs(p) * rub.limit * size for p, rub, size in zip(powers, statics.rubs, y, strict=True))
+        return True
+    takes = (abs(left.get(statics.rub(k), 0.0)) * rub.limit for k, rub in enumerate(statics.rubs))
+    return bool(sum(a * size for a, size in zip(takes, y, strict=True)) >= abs(drive))
