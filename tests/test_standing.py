@@ -277,6 +277,30 @@ def test_a_load_on_several_freedoms_ceases_to_hold_where_its_range_ends(
         assert icsolve.solve(case).mobility == 1 or found == pytest.approx(within, rel=1e-9), text
 
 
+def test_a_second_range_of_a_load_is_found_however_narrow_it_is() -> None:
+    """Along its own number it is known, and need not be met by the values that are tried."""
+    text = """icsolve: 1
+points: {A: [0, 0], B: [-0.27, 1.02], C: [1.97, 2.32], D: [3.92, 0.95], E: [3.5, 0.02]}
+joints:
+  - {pin: [1, 2], at: A, mu: 0.13, radius: 3.88}
+  - {pin: [2, 3], at: B, mu: 0.62, radius: 2.80}
+  - {pin: [3, 4], at: C, mu: 0.74, radius: 0.07}
+  - {pin: [4, 5], at: D, mu: 0.75, radius: 0.24}
+  - {pin: [5, 1], at: E}
+loads:
+  L0: {force: [20.2, 28.9], link: 2, at: B}
+  L1: {force: [-11.0, -24.2], link: 3, at: C}
+  L2: {force: [0.2, 16.9], link: 4, at: C}
+  L3: {force: [-20.6, -25.6], link: 5, at: D}
+  F: {force: LOAD, link: 3, at: B, angle: 32}
+"""
+    friction = icsolve.solve(icsolve.load(text.replace("LOAD", "unknown"))).friction
+    assert len(friction.again) == 1
+    found = holding_values(icsolve.load(text.replace("LOAD", "30")), "loads.F", -500.0, 600.0)
+    ends = [end for one in (friction.possible, *friction.again) for end in one]
+    assert [one.value for one in found] == pytest.approx(ends, rel=1e-9)
+
+
 @pytest.mark.parametrize("seed", range(40 if FULL else 2))
 def test_what_nothing_presses_has_no_friction(seed: int) -> None:
     """Light wheels on a light arm, all pins rough, under torques alone: a tooth force would turn the outer

@@ -94,8 +94,9 @@ def asked_of(case: Case, path: str = "", here: bool = False) -> AskedLoad | None
 
 def _about(held: Held, value: float) -> Held:
     """Of several ranges the one with a value in it."""
-    low, high = next((one for one in held.again if one[0] <= value <= one[1]), held[:2])
-    return held._replace(low=low, high=high)
+    own = next((one for one in held.again if one[0] <= value <= one[1]), held[:2])
+    others = tuple([one for one in (held[:2], *held.again) if one != own])
+    return held._replace(low=own[0], high=own[1], again=others)
 
 
 def _may_hold(case: Case) -> bool:
@@ -122,6 +123,18 @@ def moving_loads(case: Case, path: str = "") -> Held:
     if found is None:
         return _of_all(replace(case, motion=(), expect=()))
     return Held(found.held.low - found.value, found.held.high - found.value, found.held.error)
+
+
+def held_along(case: Case, path: str) -> tuple[Range, ...]:
+    """The ranges of a load's own number in which a mechanism under known loads holds still; none of another
+    number, on which they hang, and where no load says."""
+    with suppress(SceneError):
+        found = asked_of(case, path)
+        if found is not None and any(
+            n.path == path for one, n in _known(case) if one.name == found.load.name
+        ):
+            return (found.held[:2], *found.held.again)
+    return ()
 
 
 def is_open(case: Case, path: str = "") -> bool:

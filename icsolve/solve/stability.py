@@ -210,7 +210,7 @@ def _driven(case: Case) -> str:
 def holding_values(case: Case, path: str, low: float, high: float) -> list[TurningPower]:
     """The values of a number at which a mechanism under known loads begins or ceases to hold still."""
     from icsolve.solve.friction_ranges import edge_of_rest
-    from icsolve.solve.known_loads import Held, Spare, moving_loads, spare_friction
+    from icsolve.solve.known_loads import Held, Spare, held_along, moving_loads, spare_friction
 
     own = find_number(case, path).path
 
@@ -226,6 +226,8 @@ def holding_values(case: Case, path: str, low: float, high: float) -> list[Turni
         return both if math.isfinite(both) else 0.0
 
     values = [low + (high - low) * k / CUTS for k in range(CUTS + 1)]
+    known = [(max(a, low), min(b, high)) for a, b in held_along(case, own)]
+    values = sorted({*values, *(0.5 * (a + b) for a, b in known if a < b)})
     for a, b in pairwise(tuple(values)):  # between two at which it slips in either sense it may hold
         if max(spare(a)[0], spare(b)[0]) < 0.0 and middle(a) * middle(b) < 0.0:
             values.append(zero_between(middle, a, b, middle(a), middle(b)))
