@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 import shapely
 
 from icsolve.answer.bodies import Reaction
-from icsolve.case import is_link
+from icsolve.case import is_link, told_links
 from icsolve.draw.frame import point_parts, rims
 from icsolve.draw.links import bars, body_of, link_part, wheel_parts
 from icsolve.draw.loads import ARC, axle, heads, hidden, kind_of, ways
@@ -72,7 +72,9 @@ def body_panels(scene: Scene, left: float, top: float, width: float) -> list[Mar
         return []
     view = scene.view._replace(scale=SMALLER * scene.view.scale)
     scene = scene._replace(view=view, at={name: view.at(p) for name, p in scene.known.points.items()})
-    pushes = {link: list(pushes_on(scene, link)) for link in scene.case.links if link != scene.case.ground}
+    pushes = {
+        link: list(pushes_on(scene, link)) for link in told_links(scene.case) if link != scene.case.ground
+    }
     largest = max((math.hypot(*push.force) for some in pushes.values() for push in some), default=0.0)
     panels = [_panel(scene, link, some, largest) for link, some in pushes.items()]
     return titled(panels, left, top, width)

@@ -22,6 +22,7 @@ from icsolve.case import (
     Torque,
     is_angle,
     ordered_pair,
+    told_links,
 )
 from icsolve.case.figure import Unknown
 from icsolve.errors import SceneError
@@ -473,7 +474,7 @@ def bars_of(answer: Answer) -> dict[str, float]:
     moved = answer.accelerations is not None  # inertia forces act all along
     if answer.reactions is None or moved:
         return {}
-    for link in case.links:
+    for link in told_links(case):
         held = [] if link == case.ground else [r for _, r in answer.reactions.of_link(link)]
         ends = [*dict.fromkeys(r.at for r in held)]
         if len(ends) != 2 or link in tied or any(None in (r.x, r.y) or r.moment != 0.0 for r in held):
