@@ -12,7 +12,7 @@ from icsolve.answer.bodies import Reaction
 from icsolve.case import is_link, told_links
 from icsolve.draw.frame import point_parts, rims
 from icsolve.draw.links import bars, body_of, link_part, wheel_parts
-from icsolve.draw.loads import ARC, axle, heads, hidden, kind_of, ways
+from icsolve.draw.loads import ARC, axle, heads, hidden, is_no_inertia, kind_of, ways
 from icsolve.draw.marks import (
     Disc,
     Mark,
@@ -120,7 +120,7 @@ def pushes_on(scene: Scene, link: str) -> Iterable[DrawnPush]:
         yield _reaction(scene, name, reaction)
     yield from _pulls(scene, link)
     for acting in acting_loads(scene.known):
-        if not is_link(acting.link):
+        if not is_link(acting.link) or is_no_inertia(acting):
             continue
         if link in (acting.link, acting.against):
             yield _load(scene, acting, 1.0 if link == acting.link else -1.0)
