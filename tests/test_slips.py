@@ -715,6 +715,13 @@ REFUSED = {
     "links without brackets": ("pin: [1, 2]", "pin: 1, 2", 9, 11, "in square brackets, [1, 2]"),
     "a link by its word": ("[1, 2]", "[1, link 2]", 9, 15, "write the name alone, 2"),
     "no space after a dash": ("- {pin: [1", "-{pin: [1", 9, 3, "write a space after the dash"),
+    "a joint below another section": (
+        "loads:",
+        "ground: 1\n  - {weld: [1, 5]}\nloads:",
+        14,
+        3,
+        "this item of a list stands under 'ground', which has a value: put it with its list",
+    ),
     "stars for dashes": ("- {pin: [1", "* {pin: [1", 9, 3, "starts with a dash, not with '*'"),
     "a star for the unknown": ("unknown", "*", 15, 17, "a value cannot start with '*'"),
     "a bracket too many": ("CDE: 0}", "CDE: 0}}", 6, 25, "this bracket closes none"),

@@ -112,6 +112,13 @@ def _of_colons(
     if "mapping values" in problem and above and ":" not in above[0]:
         written = f"{above[1]}: {above[2].strip()[:60]}"
         return (place[0] - 1, above.end(1) + 1), f"write a colon after the key, {written}"
+    item, over = (
+        re.match(r"\s*- ", line),
+        re.match(r"(\w+): +\S", lines[place[0] - 2] if place[0] > 1 else ""),
+    )
+    if "mapping values" in problem and item and over:
+        said = f"this item of a list stands under '{over[1]}', which has a value: put it with its list"
+        return (place[0], item.end() - 1), said
     if "mapping values" in problem and re.match(r"\s+[\w-]+:", line):
         return (place[0], len(line) - len(line.lstrip()) + 1), _ASKEW
     if "could not find expected ':'" in problem and at and ":" not in lines[at.line]:
