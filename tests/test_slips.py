@@ -958,6 +958,11 @@ SCENES = {
         "underdetermined",
         "nothing but angles.CDF names point F",
     ),
+    "a letter in a length": (
+        [("AB: 1,", "AF: 1,")],
+        "underdetermined",
+        "Noticed: nothing but lengths.AF names point F",
+    ),
     "a length in small letters": ([("AB: 1", "ab: 1")], "underdetermined", "did you mean A-B?"),
     "a point in small letters": (
         [("D: [4, 0]", "d: [4, 0]")],

@@ -338,14 +338,14 @@ def check_given(reading: Reading) -> None:
 
 
 def stray_points(reading: Reading, figure: FigureData) -> list[str]:
-    """Sentences on points that an angle, or both that a length, alone names: it places nothing."""
+    """Sentences on points that one length or angle alone names: it places nothing."""
     names = Counter(name for datum in (*figure.lengths, *figure.angles) for name in datum[:-1])
     shaped = {name for names in figure.further.values() for name in names}
     known = {*figure.points, *shaped, *reading.used, *reading.on_guides}
     said = []
     for datum in (*figure.angles, *figure.lengths):
         alone = [name for name in dict.fromkeys(datum[:-1]) if names[name] == 1 and name not in known]
-        if alone and (len(alone) > 1 or not isinstance(datum, Length)):
+        if alone:
             cased = [name.swapcase() if name.swapcase() in names else name for name in datum[:-1]]
             meant = f"; did you mean {'-'.join(cased)}?" if not {*cased} & {*alone} else "."
             points = f"point{'s' * (len(alone) > 1)} {listed(alone)}"
