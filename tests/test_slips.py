@@ -722,6 +722,34 @@ REFUSED = {
         3,
         "this item of a list stands under 'ground', which has a value: put it with its list",
     ),
+    "round brackets about three": (
+        "{pin: [2, 3], at: B}",
+        "{pin: (2, 3, 5), at: B}",
+        10,
+        11,
+        "write square brackets, [2, 3, 5]",
+    ),
+    "a semicolon between links": ("[2, 3]", "[2; 3]", 10, 12, "with commas between, 2, 3"),
+    "joints indented under links": ("joints:", "links:\n  4: [E]\n  joints:", 10, 3, "'links' ends above it"),
+    "the first line indented": ("icsolve: 1", "  icsolve: 1", 1, 1, "take the spaces before it away"),
+    "the last dash lost": ("  - {pin: [4, 1]", "  {pin: [4, 1]", 12, 3, "starts with a dash"),
+    "no colon, and one in the comment": (
+        "title: Four-bar press",
+        "title Press # in: a book",
+        2,
+        1,
+        "no colon",
+    ),
+    "no colon in an entry": ("at: E", "at E", 14, 28, "write a colon after 'at', at: E"),
+    "no colon before a number": ("AB: 1", "AB 1", 5, 11, "write a colon after 'AB', AB: 1"),
+    "a heading twice": ("joints:", "joints:\njoints:", 9, 1, "given twice, the first time in line 8"),
+    "a section indented": (
+        "points: {A: [0, 0], D: [4, 0]}\nlengths",
+        "points:\n  A: [0, 0]\n  D: [4, 0]\n  lengths",
+        7,
+        3,
+        "take the spaces before 'lengths' away: 'points' ends above it",
+    ),
     "stars for dashes": ("- {pin: [1", "* {pin: [1", 9, 3, "starts with a dash, not with '*'"),
     "a star for the unknown": ("unknown", "*", 15, 17, "a value cannot start with '*'"),
     "a bracket too many": ("CDE: 0}", "CDE: 0}}", 6, 25, "this bracket closes none"),
@@ -763,6 +791,11 @@ REFUSED = {
     "like alone": ("force: 100,", "like: T12,", 14, 7, "in place of its number, as in {force: {like: P}}"),
     "gravity downward": ("title:", "gravity: -9.81\ntitle:", 2, 10, "given by its size"),
 }
+
+
+def test_a_text_in_round_brackets_takes_no_heading_below_it_in() -> None:
+    case = icsolve.load(changed(("title: Four-bar press", "title: (draft\nsource:")))
+    assert (case.title, case.source) == ("(draft", "")
 
 
 @pytest.mark.parametrize("slip", REFUSED)

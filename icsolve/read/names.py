@@ -181,6 +181,8 @@ def why_no_name(text: str) -> str:
     before, sign, after = (part.strip() for part in text.partition("="))
     if sign:
         return f"write a colon in place of '=', {before}: {after.lstrip('> ')}"
+    if ";" in text:
+        return f"with commas between, {', '.join(text.replace(';', ' ').split())}, these are names"
     words = text.replace(",", " ").split()
     if len(words) == 2 and words[0].lower() in ("link", "point", "joint", "body", "gear", "load"):
         return f"write the name alone, {words[1]}"
