@@ -19,6 +19,7 @@ from icsolve.report.check import (
     NOT_EXAMINED,
     Row,
     compare,
+    row_without_answer,
     table_row,
     wanted,
 )
@@ -68,6 +69,8 @@ def check_command(
 
     def refuse(case: Case, path: str, error: SceneError) -> None:
         tally.update((CASE_SEEN, UNANSWERED))
+        if shown is _table_row:
+            click.echo(row_without_answer(case, error.status))
         tell(case, path, error)
 
     code = for_each(cases, work, refuse, settings, show=show, jobs=jobs)
