@@ -489,3 +489,21 @@ def test_a_table_of_published_values_has_a_row_of_a_case_without_an_answer(
     ran = icsolve("check", "--table", "one.yaml", "two.yaml")
     assert [line.split(" | ")[0] for line in ran.out.splitlines()[2:]] == ["| one", "| two"]
     assert "| no answer (mobility) | 0 of 2 |" in ran.out
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("manual", "frction"), "did you mean friction?"),
+        (("manual", "tolerence"), "did you mean tolerance?"),
+        (("new", "toggle"), "did you mean four-bar"),
+        (("new", "clamp"), "four-bar"),
+        (("new", "excavator"), "did you mean cylinder?"),
+    ],
+)
+def test_a_word_that_is_nearly_one_of_the_manual_or_of_a_kind_is_answered(
+    icsolve: Shell, words: tuple[str, str], said: str
+) -> None:
+    """Who looks for a thing by its name in a catalogue finds the kind that it is."""
+    ran = icsolve(*words)
+    assert ran.code == 2 and said in ran.err
