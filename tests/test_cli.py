@@ -507,3 +507,9 @@ def test_a_word_that_is_nearly_one_of_the_manual_or_of_a_kind_is_answered(
     """Who looks for a thing by its name in a catalogue finds the kind that it is."""
     ran = icsolve(*words)
     assert ran.code == 2 and said in ran.err
+
+
+def test_nothing_is_summed_up_of_files_that_cannot_be_read(icsolve: Shell) -> None:
+    ran = icsolve("check", "broken.yaml")
+    assert ran.code == 2 and "broken.yaml:3:" in ran.err and "cases" not in ran.err
+    assert "1 case: " in icsolve("check", "broken.yaml", "lever.yaml").err

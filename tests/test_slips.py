@@ -741,6 +741,13 @@ REFUSED = {
         "no colon",
     ),
     "no colon in an entry": ("at: E", "at E", 14, 28, "write a colon after 'at', at: E"),
+    "no value behind a key of two words": (
+        "loads:",
+        "expect: {v C:, w4/w2: 0.34}\nloads:",
+        13,
+        13,
+        "no value between the colon and the comma",
+    ),
     "no colon before a number": ("AB: 1", "AB 1", 5, 11, "write a colon after 'AB', AB: 1"),
     "a heading twice": ("joints:", "joints:\njoints:", 9, 1, "given twice, the first time in line 8"),
     "a section indented": (

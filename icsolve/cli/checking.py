@@ -74,7 +74,8 @@ def check_command(
         tell(case, path, error)
 
     code = for_each(cases, work, refuse, settings, show=show, jobs=jobs)
-    complain(_summary(tally))
+    if tally:  # nothing is summed up of files that can't be read
+        complain(_summary(tally))
     return code
 
 

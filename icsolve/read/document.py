@@ -366,7 +366,7 @@ class _Tree:
             elif given := re.fullmatch(r"([\w' -]*[\w']) ?:?(=|：)[=>]* ?(.+)", name):
                 name, sign, value = given.groups()
                 self.problems.refuse(mark, f"write a colon in place of '{sign}', {name}: {value[:60]}")
-            elif given := _UNDIVIDED.fullmatch(name):
+            elif node.mark == (mark[0], mark[1] + len(name)) and (given := _UNDIVIDED.fullmatch(name)):
                 name, value = given.groups()
                 self.problems.refuse(mark, f"write a colon after '{name}', {name}: {value}")
             else:
