@@ -355,7 +355,7 @@ REFUSED = {
     "the word centroid": ("at: E", "at: centroid", 14, 32, "'G: {centroid: [A, B]}' under 'points'"),
     "moment": ("torque:", "moment:", 15, 9, "did you mean 'torque'?"),
     "the letter M": ("torque:", "M:", 15, 9, "did you mean 'torque'?"),
-    "a name of two words": ("P: {", "Piston force: {", 14, 3, "a name has no spaces: write Piston_force"),
+    "a name of two words": ("P: {", "Piston force: {", 14, 3, "has no spaces: write Piston_force"),
     "a link of two words": (
         "pin: [3, 4]",
         "pin: [3, rocker arm]",
@@ -769,7 +769,13 @@ REFUSED = {
     # numbers and units, again
     "a unit of the unknown": ("unknown", "unknown lbf*in", 15, 17, "write 'unknown' alone"),
     "a letter for degrees": ("AB: 60", "AB: 60d", 6, 14, "did you mean 'deg'?"),
-    "quotation marks of print": ("force: 100", "force: “2 kN”", 14, 14, "write 2 kN without them"),
+    "quotation marks of print": (
+        "force: 100",
+        "force: “2 kN”",
+        14,
+        14,
+        "write 2 kN without these quotation marks",
+    ),
     "a point for a normal": (
         "{pin: [4, 1], at: D}",
         "{contact: [4, 1], at: D, normal: O}",

@@ -176,8 +176,8 @@ def is_name(text: str) -> bool:
     )
 
 
-def why_no_name(text: str) -> str:
-    """What a name is, for a text that is none."""
+def why_no_name(text: str, is_key: bool = False) -> str:
+    """What a name is, for a text that is none; before a colon (``is_key``) it cannot be two."""
     before, sign, after = (part.strip() for part in text.partition("="))
     if sign:
         return f"write a colon in place of '=', {before}: {after.lstrip('> ')}"
@@ -189,7 +189,11 @@ def why_no_name(text: str) -> str:
     if "(" in text:
         return f"write the name alone, {text.partition('(')[0].strip()}"
     if len(words) > 1 and "," not in text and any(len(word) > 1 and word[0].isalpha() for word in words):
-        apart = f"; where {' and '.join(words)} are two names, a comma between" if len(words) == 2 else ""
+        apart = (
+            f"; where {' and '.join(words)} are two names, a comma between"
+            if len(words) == 2 and not is_key
+            else ""
+        )
         return f"a name has no spaces: write {'_'.join(words)}{apart}"
     if len(words) > 1:
         return f"with a comma between, {', '.join(words)}, these are two names"

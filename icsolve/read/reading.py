@@ -461,7 +461,7 @@ def _oddly_written(text: str) -> str:
     if text[1:2].isdigit() and text[0] in "–—‐‑~≈=":
         return f"; write {'' if text[0] in '~≈=' else '-'}{text[1:]}"
     if text[:1] in _QUOTES and (bare := text.strip(_QUOTES + " ")):
-        return f"; write {bare} without them"
+        return f"; write {bare} without these quotation marks"
     digits = text.translate(str.maketrans("OoIl", "0011"))
     if digits != text and re.fullmatch(r"-?[\d.]+", digits):
         return f"; write digits, {digits}"

@@ -151,7 +151,7 @@ def _of_brackets(error: yaml.MarkedYAMLError, place: Mark, before: str, rest: st
     if is_open and rest[:1] == ":" and (inner := re.search(r"(\w+): +(unknown)$", before)):
         value = re.match(r":\s*(\[[^\]]*\])?", rest)
         written = f"{inner[1]}: {{{inner[2]}: {(value and value[1]) or '[0, 90]'}}}"
-        return (place[0], inner.start(2) + 1), f"an unknown and its range stands in braces, {written}"
+        return (place[0], inner.start(2) + 1), f"an unknown with its range stands in braces, {written}"
     if is_open:
         return place, f"a bracket{_opened(error)} is not closed, or a comma is missing before this"
     if "quoted scalar" in (error.context or "") and "end of stream" in problem:
