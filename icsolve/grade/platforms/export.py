@@ -156,30 +156,57 @@ class ExportOrder(NamedTuple):
 
 
 def questions(order: ExportOrder, complain: Complain) -> Iterator[Question]:
-    """A question for every unknown load of every case, and for what else the course asks of it; what can't be
-    one is told."""
+    """A question for every unknown load of every case, and for what else the course asks of it, with each of
+    its variants; what can't be one is told."""
+
+    def told(name: str, error: NoKeyError) -> None:
+        complain(f"{order.case_store.paths.get(name, name)}: {error}")
+
     for name in sorted(order.case_store.paths):
-        for own, what in _asked_for(order, name, complain).items():
-            try:
-                yield from _of_case(order, name, own, what)
-            except NoKeyError as error:
-                complain(f"{order.case_store.paths.get(name, name)}: {error}")
+        try:
+            asks = _asked_for(order, name)
+            for one in _variants(order, name) if asks else ():
+                picture = figure(one.case) if order.figures else ""
+                for own, what in list(asks.items()):
+                    try:
+                        yield _question(order, one, own, what, picture)
+                    except NoKeyError as error:
+                        told(name, error)
+                        del asks[own]
+        except NoKeyError as error:
+            told(name, error)
 
 
-def _asked_for(order: ExportOrder, name: str, complain: Complain) -> dict[str, str]:
-    """What is asked of a case, by the names of the questions; told where that is nothing."""
+class _Variant(NamedTuple):
+    """A case with one choice of its numbers, how a platform lists it, and its title without them."""
+
+    label: str
+    solved: SolvedCase
+    case: Case
+    title: str
+
+
+def _variants(order: ExportOrder, name: str) -> Iterator[_Variant]:
+    varied = order.case_store.variation(name)
+    if varied is None:
+        solved = order.case_store.solved(name)
+        yield _Variant(name, solved, solved.case, solved.case.title)
+        return
+    for n, draw in enumerate(_different(varied, order.variants), 1):
+        yield _Variant(f"{name} v{n}", varied.task(draw), varied.read(draw.values), varied.title)
+
+
+def _asked_for(order: ExportOrder, name: str) -> dict[str, str]:
+    """What is asked of a case, by the names of the questions. Raises NoKeyError where that is nothing."""
     store = order.case_store
-    try:
-        varied = store.variation(name)
-        case = store.solved(name).case if varied is None else varied.case
-        found = final_questions(case, case.name)
-        more = (question.partition(":") for question in store.course.own)
-        found |= {f"{case}:{what}": what for case, _, what in more if case == name and what}
-        if not found:
-            raise NoKeyError(f"{'a case in space' if case.space is not None else NOTHING}, so no question")
-    except NoKeyError as error:
-        complain(f"{store.paths.get(name, name)}: {error}")
-        return {}
+    varied = store.variation(name)
+    case = store.solved(name).case if varied is None else varied.case
+    more = (question.partition(":") for question in store.course.own)
+    found = final_questions(case, case.name)
+    found |= {f"{of}:{what}": what for of, _, what in more if of == name and what}
+    if not found:
+        kind = "a case in space" if case.space is not None else NOTHING
+        raise NoKeyError(f"{kind}, so no question")
     return found
 
 
@@ -201,42 +228,24 @@ def _different(varied: Varied, most: int) -> list[Draw]:
     return list(found.values())
 
 
-def _of_case(order: ExportOrder, name: str, own: str, what: str) -> Iterator[Question]:
-    """One question of a case, of each of its variants."""
-    varied = order.case_store.variation(name)
-    if varied is None:
-        solved = order.case_store.solved(name)
-        yield _question(order, solved, solved.case, _label(name, own), (own, what), solved.case.title)
-        return
-    for n, draw in enumerate(_different(varied, order.variants), 1):
-        label = _label(f"{name} v{n}", own)
-        yield _question(order, varied.task(draw), varied.read(draw.values), label, (own, what), varied.title)
-
-
-def _label(name: str, own: str) -> str:
-    """How a platform lists a question."""
-    return name + own[len(own.partition(":")[0]) :]
-
-
-def _question(
-    order: ExportOrder, solved: SolvedCase, case: Case, label: str, asks: tuple[str, str], title: str
-) -> Question:
-    own, what = asks
-    key = solved.key(own)
+def _question(order: ExportOrder, one: _Variant, own: str, what: str, picture: str) -> Question:
+    """The question ``own`` of a variant. Raises NoKeyError where the platform cannot ask it."""
+    key = one.solved.key(own)
     if isinstance(key, PlaceKey):
         raise NoKeyError(f"{what} is a place, for which no such question can ask")
     first, *others = numbers_of(key)
     choices = key.keys if isinstance(key, ChoiceKey) else (key,)
-    if not order.words and any(isinstance(one, RangeKey) for one in choices):
+    if not order.words and any(isinstance(each, RangeKey) for each in choices):
         raise NoKeyError(f"{what} holds over a range, for which no such question can ask")
     if not order.words and first.expected.asked:
         raise NoKeyError(f"{what} asks for a direction too, for which no such question can ask")
-    least = min(abs(one.value) for one in (first, *others))
+    least = min(abs(each.value) for each in (first, *others))
     if 0.0 < least < order.smallest:
         raise NoKeyError(f"{what} is {least:.3g} {key.unit_name}, and Canvas keeps four decimals")
-    picture = figure(case) if order.figures else ""
-    text, given = asked(key, solved.target(own)), tuple(Statement(case).rows())
-    return Question(label, given, text, first, key.accepted, picture, title, tuple(others))
+    text, given = asked(key, one.solved.target(own)), tuple(Statement(one.case).rows())
+    _, colon, rest = own.partition(":")
+    label = f"{one.label}{colon}{rest}"
+    return Question(label, given, text, first, key.accepted, picture, one.title, tuple(others))
 
 
 def export(kind: str, order: ExportOrder, complain: Complain) -> int:
