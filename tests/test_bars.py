@@ -104,3 +104,24 @@ loads: {P: {force: 10, link: ad, at: D, angle: -75}}
     answer = icsolve.solve(icsolve.load(text), reactions=True)
     assert bars_of(answer)["bd"] == 0.0
     assert "no force" in answer_text(answer)
+
+
+@pytest.mark.parametrize("pushed", ["rod", "barrel"])
+def test_the_barrel_of_a_cylinder_is_not_told_as_a_bar_without_force(pushed: str) -> None:
+    """Its pressure passes between its pin and the piston without stretching it, but nobody would say that
+    the cylinder has no force: that is the load's own."""
+    other, at, away = ("barrel", "Q", "P") if pushed == "rod" else ("rod", "P", "Q")
+    case = icsolve.load(f"""icsolve: 1
+points: {{O: [0, 0], P: [1.8, -0.3], Q: [2.4, 1.1]}}
+joints:
+  - {{pin: [1, body], at: O}}
+  - {{pin: [1, barrel], at: P}}
+  - {{slide: [rod, barrel], at: Q, along: [P, Q]}}
+  - {{pin: [rod, body], at: Q}}
+loads:
+  W: {{weight: 100, link: body, at: Q}}
+  p: {{force: unknown, link: {pushed}, at: {at}, away: {away}, against: {other}}}
+""")
+    answer = icsolve.solve(case, reactions=True)
+    assert not {"rod", "barrel"} & bars_of(answer).keys()
+    assert "no force" not in answer_text(answer)

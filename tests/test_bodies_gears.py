@@ -6,6 +6,8 @@ A tooth force has a tangential part T / r and a separating part (T / r) tan(phi)
 from __future__ import annotations
 
 import math
+import random
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -14,6 +16,7 @@ import icsolve
 from icsolve.answer import Answer
 from icsolve.answer.bodies import Reaction
 
+CASES = Path(__file__).parent.parent / "cases" / "gears"
 TAN = math.tan(math.radians(20))
 
 
@@ -258,3 +261,76 @@ loads:
         answer = icsolve.solve(icsolve.load(text % radius))
         assert abs(answer.answers["U"].value) == pytest.approx(5 * radius, rel=1e-15)
         assert any("belt runs over pulleys 2 and 3" in note for note in answer.notes) is (radius > limit)
+
+
+TRAIN = """\
+icsolve: 1
+points: {{O: [0, 0], P: [{apart}, 0], Q: [{end}, 0]}}
+joints:
+  - {{pin: [1, sun], at: O}}
+  - {{pin: [{arm}, planet], at: P}}
+  - {{gears: [sun, planet], teeth: [{sun}, {planet}]}}
+  - {{gears: [planet, {last}], teeth: [{planet}, %d]}}
+  - {{pin: [1, {moved}], at: {where}}}
+loads:
+  T: {{torque: 10, link: sun}}
+  M: {{torque: unknown, link: {moved}}}
+"""
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_teeth_on_the_wrong_side_are_noted_with_what_would_make_a_wheel_of_one_size(seed: int) -> None:
+    """A planet has one size where it meets the sun and where it meets the next wheel, an annulus about the
+    sun or an outer wheel beyond the planet; with the other sign two. What is told to write mends it."""
+    dice = random.Random(seed)
+    sun, planet, apart = dice.randint(15, 40), dice.randint(15, 40), dice.uniform(0.1, 50)
+    module, annulus = 2.0 * apart / (sun + planet), bool(seed % 2)
+    teeth = -(sun + 2 * planet) if annulus else dice.randint(41, 80)
+    end = apart + module * (planet + abs(teeth)) / 2.0
+    links = {"arm": "arm", "last": 1, "moved": "arm", "where": "O"}
+    if not annulus:
+        links = {"arm": 1, "last": "wheel", "moved": "wheel", "where": "Q"}
+    text = TRAIN.format(apart=apart, end=end, sun=sun, planet=planet, **links)
+    right = icsolve.solve(icsolve.load(text % teeth))
+    assert not any("pitch radius" in note for note in right.notes)
+    wrong = icsolve.solve(icsolve.load(text % -teeth))
+    told = next(note for note in wrong.notes if "pitch radius" in note)
+    assert f"write teeth: [{planet}, {teeth}]" in told
+    assert right.answers["M"].value != pytest.approx(wrong.answers["M"].value)
+
+
+STAGES = """\
+icsolve: 1
+points: {O: [0, 0], P: [60, 0], Q: [0, 60]}
+joints:
+  - {pin: [1, s, c, d], at: O}
+  - {pin: [c, p], at: P}
+  - {pin: [d, q], at: Q}
+  - {gears: [s, p], teeth: [20, 30]}
+  - {gears: [1, p], teeth: [-80, 30]}
+  - {gears: [c, q], teeth: [24, 28]}
+  - {gears: [q, 1], teeth: [28, -80]}
+loads:
+  T: {torque: 10, link: s}
+  M: {torque: unknown, link: d}
+"""
+
+
+@pytest.mark.parametrize("slips", [["-80, 30"], ["28, -80"], ["-80, 30", "28, -80"]])
+def test_of_several_meshes_only_those_on_the_wrong_side_are_told(slips: list[str]) -> None:
+    """A wheel that meets both a right mesh and a wrong one is no reason to turn the right one."""
+    text = STAGES
+    for slip in slips:
+        text = text.replace(slip, slip.replace("-", ""))
+    told = [note for note in icsolve.solve(icsolve.load(text)).notes if "pitch radius" in note]
+    assert [note.partition("write teeth: ")[2] for note in told] == [f"[{slip}]." for slip in slips]
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["compound_epicyclic", "ferguson_paradox", "ravigneaux_low", "differential_train", "sun_and_planet"],
+)
+def test_wheels_of_several_sizes_on_one_link_are_not_noted(name: str) -> None:
+    """A stepped planet has two wheels, and those with a tooth more or less keep their distance."""
+    answer = icsolve.solve(icsolve.load(CASES / f"{name}.yaml"))
+    assert not any("pitch radius" in note for note in answer.notes)

@@ -477,3 +477,39 @@ def test_an_option_that_would_do_nothing_is_refused(
         assert refused.code == 2 and f"--{option} needs --write KIND=FILE" in refused.err
     refused = shell("sweep", "ladder.yaml", "--drive", "2=0:10:1", "--find", "hold")
     assert refused.code == 2 and "vary what poses link 2" in refused.err
+
+
+def test_a_table_of_published_values_has_a_row_of_a_case_without_an_answer(
+    icsolve: Shell, tmp_path: Path
+) -> None:
+    """A row a case, whatever came of it, also where its values could not be compared."""
+    one = template("four-bar") + "expect: {T12: 1, w4/w2: 0.3}\n"
+    (tmp_path / "one.yaml").write_text(one.replace("  - {pin: [4, 1], at: D}\n", ""))
+    (tmp_path / "two.yaml").write_text(template("four-bar"))
+    ran = icsolve("check", "--table", "one.yaml", "two.yaml")
+    assert [line.split(" | ")[0] for line in ran.out.splitlines()[2:]] == ["| one", "| two"]
+    assert "| no answer (mobility) | 0 of 2 |" in ran.out
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("manual", "frction"), "did you mean friction?"),
+        (("manual", "tolerence"), "did you mean tolerance?"),
+        (("new", "toggle"), "did you mean four-bar"),
+        (("new", "clamp"), "four-bar"),
+        (("new", "excavator"), "did you mean cylinder?"),
+    ],
+)
+def test_a_word_that_is_nearly_one_of_the_manual_or_of_a_kind_is_answered(
+    icsolve: Shell, words: tuple[str, str], said: str
+) -> None:
+    """Who looks for a thing by its name in a catalogue finds the kind that it is."""
+    ran = icsolve(*words)
+    assert ran.code == 2 and said in ran.err
+
+
+def test_nothing_is_summed_up_of_files_that_cannot_be_read(icsolve: Shell) -> None:
+    ran = icsolve("check", "broken.yaml")
+    assert ran.code == 2 and "broken.yaml:3:" in ran.err and "cases" not in ran.err
+    assert "1 case: " in icsolve("check", "broken.yaml", "lever.yaml").err

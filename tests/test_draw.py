@@ -636,3 +636,29 @@ def test_a_handle_reaches_the_point_at_which_it_takes_the_opposite(seed: int) ->
         shape = body_of(scene, link).shape
         assert shape is not None
         assert all(shapely.contains(shape, shapely.Point(scene.at[name])) for name in names), link
+
+
+@pytest.mark.parametrize("bodies", [False, True])
+def test_no_inertia_is_drawn_of_what_does_not_accelerate(bodies: bool) -> None:
+    """A crank whose mass is at its pivot, at a steady speed, has none; a piston beside it has."""
+    text = """\
+icsolve: 1
+points: {A: [0, 0], C: [unknown, 0]}
+lengths: {AB: 1, BC: 3}
+angles: {AB: 50}
+near: {C: [3, 0]}
+links: {2: {mass: 2 kg, centre: A, inertia: 1 kg*m^2}, 4: {mass: 3 kg, centre: C}}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0}
+loads: {T: {torque: unknown, link: 2}}
+motion: {link: 2, speed: 5%s}
+dynamic: yes
+"""
+    labels = [label.text for label in drawn(icsolve.load(text % ""), bodies=bodies).labels]
+    assert any(label.startswith("Fi4 = ") for label in labels)
+    assert not any(label.startswith(("Fi2", "Ti2")) for label in labels)
+    faster = drawn(icsolve.load(text % ", acceleration: 2"), bodies=bodies)
+    assert any(label.text.startswith("Ti2 = ") for label in faster.labels)

@@ -980,3 +980,29 @@ def test_no_equation_says_a_number_twice(turns: str, known: str) -> None:
     )
     sign = "-" if turns == known else ""
     assert f"    T = {sign}50 N*m\n" in text
+
+
+@pytest.mark.parametrize("friction", ["", ", mu: 0.1"])
+def test_what_a_worked_solution_begins_it_says_to_the_end(friction: str) -> None:
+    """A wheel at a steady speed has no inertia force, and no formula behind a colon; the work of friction is
+    in the equation, that of the other forces in the joints is none."""
+    text = f"""icsolve: 1
+points: {{A: [0, 0], C: [unknown, 0]}}
+lengths: {{AB: 1, BC: 3}}
+angles: {{AB: 50}}
+near: {{C: [3, 0]}}
+links: {{2: {{mass: 2 kg, centre: A}}, 4: {{mass: 3 kg, centre: C}}}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{slide: [4, 1], at: C, along: 0{friction}}}
+loads: {{T: {{torque: unknown, link: 2}}}}
+motion: {{link: 2, speed: 5}}
+dynamic: yes
+"""
+    told = explain(icsolve.load(text))
+    assert "moves A with a_A = (0, 0) m/s^2, so its inertia force is zero.\n" in told
+    assert not re.search(r"m/s\^2:\n(?!    )", told)
+    idle = "do no work but by friction" if friction else "do no work"
+    assert f"The forces in the joints: they {idle}, and the equation of power is" in told

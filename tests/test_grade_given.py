@@ -14,6 +14,7 @@ from icsolve.case import Coordinates
 from icsolve.explain.document import AsText, Document
 from icsolve.explain.given import asked_section, given_section
 from icsolve.explain.worked import Worked
+from icsolve.grade.one import Task
 from icsolve.report.derivation.known import Known
 from icsolve.sweep.varied_numbers import numbers_of
 from icsolve.wording.statement import Statement
@@ -121,3 +122,37 @@ def test_a_speed_is_told_in_the_unit_in_which_it_is_given(speed: str, told: str)
     text = (CASES / "dynamics" / "slider_crank_piston.yaml").read_text()
     case = icsolve.load(re.sub(r"speed: [^,}\n]+", f"speed: {speed}", text))
     assert told in " ".join(value for _, value in Statement(case).rows())
+
+
+HELD = """\
+icsolve: 1
+points: {O: [0, 0], P: [1.8, -0.3]}
+lengths: {OQ: 2.6}
+angles: {OQ: 25}
+joints:
+  - {pin: [1, body], at: O}
+  - {pin: [body, 3], at: Q}
+loads:
+  W: {weight: 100, link: body, at: Q}
+  P: {force: unknown, link: body, at: Q, %s}
+  K: {torque: unknown, link: 3}
+
+"""
+
+
+@pytest.mark.parametrize(
+    ("what", "heading", "asked"),
+    [
+        ("P", "away: P", "Find P in N (positive away from P)."),
+        ("P", "toward: P", "Find P in N (positive toward P)."),
+        ("P", "angle: 30", "Find P in N (positive at 30 deg from +x)."),
+        ("F1-body", "away: P", "Find the size of F1-body in N."),
+        ("v Q on body", "away: P", "Find the size of v Q on body in m/s."),
+    ],
+)
+def test_a_question_tells_no_direction_that_is_to_be_found(
+    what: str, heading: str, asked: str, tmp_path: Path
+) -> None:
+    """That of a line through two points, of a reaction, or of a velocity is half of the task."""
+    (tmp_path / "held.yaml").write_text(HELD % heading)
+    assert Task(tmp_path / "held.yaml").asked(what) == asked

@@ -631,3 +631,21 @@ def test_what_is_given_reads_as_sentences_in_gift(a_class: Class, folder: str) -
     given = re.findall(r"Given\\: (.*?)\. (?:Find|In which|Over)", out.read_text())
     parts = [part for text in given for part in text.split("; ")]
     assert parts and not [part for part in parts if re.search(r"\\= *$|^\S+ \S[^:]* \\= ", part)]
+
+
+@pytest.mark.parametrize("kind", ["moodle-xml", "gift", "qti", "prairielearn"])
+def test_what_the_course_asks_by_name_is_exported_beside_the_unknowns(a_class: Class, kind: str) -> None:
+    """Each student owes an answer to it, in a quiz too; that a centre has none is told."""
+    a_class.case("press", PRESS)
+    a_class.course('cases: {press: {}, "press:w4/w2": {points: 2}, "press:I24": {}, "press:F12": {}}\n')
+    ending = {"moodle-xml": ".xml", "gift": ".gift", "qti": ".zip", "prairielearn": ""}[kind]
+    out = a_class.path(f"quiz{ending}")
+    ran = a_class.run("export", kind, str(a_class.path("cases/press.yaml")), "-o", str(out), "--count", "1")
+    assert "I24 is a place, for which no such question can ask" in ran.err
+    assert ran.err.endswith(": 3 questions\n") and ran.code == 1
+    if kind == "prairielearn":
+        assert sorted(folder.name for folder in out.iterdir()) == ["press", "press-F12", "press-w4-w2"]
+        server = (out / "press-w4-w2" / "server.py").read_text()
+        assert "QUESTION = 'w4/w2'" in server
+    if kind == "moodle-xml":
+        assert "Find the size of F12 in lbf." in out.read_text() and "Find w4/w2." in out.read_text()

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from icsolve.grade.written.answer import Reader
 from icsolve.grade.written.two_numbers import read_place, read_range
+from icsolve.grade.written.words import direction
 from sizes import FULL, few, sampled
 
 CORPUS = Path(__file__).parent / "data" / "answers.tsv"
@@ -250,3 +251,19 @@ def test_an_in_between_number_and_direction_may_be_inches(way: str, mark: str) -
     for text in (f"64.5 {unit} in {way}", "64.5 N in tension", "64.5 in tension"):
         read = Reader("point").read(text)
         assert not read.flag and read.direction is not None
+
+
+@pytest.mark.parametrize(
+    ("written", "degrees"),
+    [
+        ("opwaarts", 90.0),
+        ("neerwaarts", 270.0),
+        ("vertical upwards", 90.0),
+        ("downwards vertically", 270.0),
+        ("to the right side", 0.0),
+        ("to the left side", 180.0),
+    ],
+)
+def test_words_of_direction_in_their_other_forms(written: str, degrees: float) -> None:
+    found = direction(written)
+    assert found is not None and (found.kind, found.value) == ("line", degrees)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+import icsolve
 from grade_shell import LEVER, PRESS, Class, Ran
 from sizes import sampled
 
@@ -136,6 +137,21 @@ def test_a_wrong_seed_is_recognised(a_class: Class) -> None:
     ran = a_class.grade(answers(a_class), "--seed", "2026")
     assert verdicts(ran).count("wrong") > len(STUDENTS) / 2
     assert "most answers to press are right by the seed '0', and wrong by '2026'" in ran.err
+
+
+@pytest.mark.parametrize("is_wide", [False, True])
+def test_that_all_were_given_the_numbers_of_the_shown_case_is_recognised(
+    a_class: Class, is_wide: bool
+) -> None:
+    """Who hands out one sheet of a case with variables has given everyone its first values; so it is told of
+    a table with a row an answer, and of one with a column a case."""
+    handed_out(a_class)
+    right = icsolve.solve(icsolve.load(a_class.path("cases/press.yaml"))).answers["T12"]
+    case, head = ("", "press") if is_wide else ("press,", "case,answer")
+    rows = "".join(f"{student},{case}{right.value} {right.unit}\n" for student in STUDENTS)
+    ran = a_class.grade(f"student_id,{head}\n{rows}")
+    assert "most answers to press are right for P = 100, a = 1, with which it is shown" in ran.err
+    assert "with which it is shown" not in a_class.grade(answers(a_class)).err
 
 
 def test_a_wrong_seed_beside_the_record_is_told_and_changes_nothing(a_class: Class) -> None:

@@ -501,3 +501,39 @@ def test_the_name_of_a_load_is_no_direction(name: str, tmp_path: Path) -> None:
     assert task.grade("", f"{name} = 24 N")["verdict"] == "right"
     assert task.grade("", f"{name} = 24 N up")["verdict"] == "wrong"
     assert task.grade("", f"{name} = 12 N")["verdict"] == "wrong"
+
+
+CRATE = """\
+icsolve: 1
+points: {A: [0, 0]}
+joints: [{slide: [2, 1], at: A, along: 30, mu: 0.3}]
+loads:
+  W: {weight: 100, link: 2, at: A}
+  P: {force: unknown, link: 2, at: A, angle: 30}
+"""
+
+
+@pytest.mark.parametrize(
+    ("case", "question", "form"),
+    [
+        ("linkages/four_bar", "T12", "a number, a unit and a direction"),
+        ("linkages/four_bar", "I24", "two coordinates"),
+        ("linkages/four_bar", "w4/w2", "a number"),
+        ("linkages/four_bar", "I24-A", "a number and a unit"),
+        ("equilibrium/lamp_arm", "", "a number and a unit"),
+        ("equilibrium/boom_by_its_cylinder", "", "a number and a unit"),
+        ("springs/balanced_arm", "", "a number and a unit"),
+        ("", "", "both ends"),
+    ],
+)
+def test_what_cannot_be_read_is_told_how_to_write_in_a_form_that_is_read(
+    case: str, question: str, form: str, tmp_path: Path
+) -> None:
+    """A centre has two coordinates, a position no sense: the example has the parts of the question asked."""
+    (tmp_path / "crate.yaml").write_text(CRATE)
+    task = Task(CASES / f"{case}.yaml" if case else tmp_path / "crate.yaml")
+    told = task.grade(question, "18 something")
+    assert told["code"] == "unread"
+    advice = re.search(r"Write ([^']*), such as '([^']*)'\.", told["feedback"])
+    assert advice is not None and advice[1] == form
+    assert task.grade(question, advice[2])["verdict"] in ("right", "wrong")

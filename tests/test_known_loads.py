@@ -7,6 +7,7 @@ Values are a thousandth of the range (of the load) away from its ends, so that n
 from __future__ import annotations
 
 import math
+import re
 from random import Random
 
 import mpmath
@@ -206,3 +207,27 @@ loads:
         exact = mpmath.tan(mpmath.radians(mpmath.mpf(str(slope))))
         assert abs(mpmath.mpf(found.value) - exact) <= found.error <= 1e-13
     assert (found.before, found.after) == ("slips", "holds")
+
+
+BEAM = """\
+icsolve: 1
+points: {A: [0, 0], B: [4, 0], G: [1, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {slot: [2, 1], at: B, along: %s}
+loads:
+  W: {weight: 100, link: 2, at: G}
+"""
+
+
+def test_a_roller_whose_line_was_given_square_to_it_is_told_with_the_line_that_holds() -> None:
+    """The reaction of a roller is square to the line on which it rolls: what is told to write makes the beam
+    stand, and no other note stays."""
+    answer = icsolve.solve(icsolve.load(BEAM % 90))
+    (told,) = [note for note in answer.notes if "roller" in note]
+    along = re.search(r"`along: (\d+)`", told)
+    assert along is not None
+    held = icsolve.solve(icsolve.load(BEAM % along[1]), reactions=True)
+    assert not any("roller" in note for note in held.notes)
+    assert held.reactions is not None
+    assert held.reactions["F1-2@B"].y == pytest.approx(25.0)

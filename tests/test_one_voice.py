@@ -646,3 +646,20 @@ def test_a_given_speed_is_one_by_the_frame_whatever_else_is_asked(
     right = 100.0 * (rates[links[0]] - rates[links[1]])
     assert [term.power for term in plain.terms] == pytest.approx([right, -right], rel=1e-12)
     assert plain.terms == moving.terms
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_links_are_told_in_their_order_whichever_way_the_joints_name_them(seed: int) -> None:
+    """Numbers ascend, as in the names of centres: a figure is read link by link."""
+    text = template("six-bar")
+    joints = re.findall(r"(?m)^  - \{.*\n", text)
+    Random(seed).shuffle(joints)
+    rest = re.sub(r"(?m)^  - \{.*\n", "", text)
+    case = icsolve.load(rest.replace("joints:\n", "joints:\n" + "".join(joints), 1))
+    answer = icsolve.solve(case, rates=True, reactions=True)
+    assert answer.rates is not None and answer.velocities is not None
+    numbers = sorted(map(int, case.links))
+    assert [int(link) for link in answer.rates] == numbers
+    assert [*dict.fromkeys(int(link) for _, link in answer.velocities)] == numbers
+    bodies = re.findall(r"Equilibrium of link (\d)", explain(case, bodies=True))
+    assert [int(link) for link in bodies] == numbers[1:]

@@ -701,3 +701,14 @@ def test_each_number_that_a_file_gives_has_its_place_in_the_text_that_is_copied(
                 assert number.path == "gravity" or number.digits == "unknown", (name, number.path)
             else:
                 assert data["text"][slice(*place)].startswith(number.digits), (name, number.path)
+
+
+@pytest.mark.parametrize("name", ["slider_crank_piston", "atwood_machine", "unbalanced_rotor"])
+def test_the_fields_and_the_text_of_a_dynamic_case_are_those_of_its_file(name: str) -> None:
+    """Inertia forces follow from its masses and its motion: no field sets them, and no text has them."""
+    case = icsolve.load(FILES[f"dynamics/{name}.yaml"])
+    page = page_html(case)
+    paths = set(re.findall(r'id="number-([^"]+)"', page))
+    assert paths and paths <= numbers_of(case).keys()
+    assert not any(path.startswith("inertia") for path in paths)
+    assert '"text":"icsolve: 1' in page

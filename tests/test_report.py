@@ -8,12 +8,14 @@ sqrt((l +- r)^2 - e^2). The ranges are also held against brute force: the loop a
 from __future__ import annotations
 
 import math
+import re
 
 import pytest
 
 import icsolve
 from icsolve.answer import Answer
 from icsolve.case import Guide, Pin, Slide, Weld
+from icsolve.report import answer_text
 from icsolve.report.mechanism import (
     Crank,
     Report,
@@ -252,3 +254,15 @@ def test_text_and_object_say_the_same() -> None:
     assert "link 2 as input: transmission angle at C" in text
     (loop,) = made.to_dict()["loops"]
     assert loop["inputs"][0]["transmission"]["now"] == made.loops[0].inputs[0].transmission.now
+
+
+def test_a_rate_and_a_velocity_that_are_open_are_told_alike() -> None:
+    """As in the JSON: undetermined, and why."""
+    case = icsolve.load(
+        "icsolve: 1\npoints: {A: [0, 0], B: [1, 0], C: [2, 0]}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}]\nlinks: {3: [C]}\n"
+        "loads: {P: {force: unknown, link: 2, at: B, angle: 90}, T: {torque: unknown, link: 3}}\n"
+    )
+    told = answer_text(icsolve.solve(case, rates=True))
+    assert "  w3  undetermined: the speed of link 3" in told
+    assert re.search(r"  C on 3 +undetermined: the velocity of C on link 3", told)

@@ -104,6 +104,17 @@ REFUSED = {
     "decimal comma": ("BC: 3.5", "BC: 3,5", 5, 22, "write a decimal point, 3.5"),
     "decimal comma and unit": ("BC: 3.5", "BC: 3,5 in", 5, 22, "write a decimal point, 3.5 in"),
     "decimal commas of a place": ("[3.5, 2.4]", "[3,5, 2,4]", 7, 11, "with decimal points, [3.5, 2.4]"),
+    "a decimal comma in one coordinate": ("[4, 0]", "[4,5, 0]", 4, 24, "with a decimal point, [4.5, 0]"),
+    "a decimal comma beside the unknown": (
+        "[4, 0]",
+        "[unknown, 0,5]",
+        4,
+        24,
+        "with a decimal point, [unknown, 0.5]",
+    ),
+    "a decimal comma and a semicolon": ("[4, 0]", "[4,5; 0]", 4, 24, "a comma between, [4.5, 0]"),
+    "a decimal comma in near": ("[3.5, 2.4]", "[3,5, 2]", 7, 11, "with a decimal point, [3.5, 2]"),
+    "three numbers": ("[4, 0]", "[4, 5, 0]", 4, 24, "two coordinates, as in [3, 0.5]"),
     "round brackets": ("[4, 0]", "(4, 0)", 4, 24, "write square brackets, [4, 0]"),
     "no space after a colon": ("AB: 60", "AB:60", 6, 10, "write a space after the colon"),
     "nothing after a colon": ("force: 100,", "force:,", 14, 12, "no value between the colon and the comma"),
@@ -116,6 +127,13 @@ REFUSED = {
         6,
         26,
         "a comment starts with '#', not with '//'",
+    ),
+    "a range without braces": (
+        "AB: 60,",
+        "AB: unknown: [0, 90],",
+        6,
+        14,
+        "stands in braces, AB: {unknown: [0, 90]}",
     ),
     "an equals sign in brackets": ("AB: 1,", "AB = 1,", 5, 11, "write a colon in place of '=', AB: 1"),
     "nothing before a comma": ("[4, 0]", "[, 0]", 4, 25, "a value is missing before this comma"),
@@ -336,6 +354,15 @@ REFUSED = {
     ),
     "the word centroid": ("at: E", "at: centroid", 14, 32, "'G: {centroid: [A, B]}' under 'points'"),
     "moment": ("torque:", "moment:", 15, 9, "did you mean 'torque'?"),
+    "the letter M": ("torque:", "M:", 15, 9, "did you mean 'torque'?"),
+    "a name of two words": ("P: {", "Piston force: {", 14, 3, "has no spaces: write Piston_force"),
+    "a link of two words": (
+        "pin: [3, 4]",
+        "pin: [3, rocker arm]",
+        11,
+        15,
+        "write rocker_arm; where rocker and arm are two names, a comma between",
+    ),
     "direction": ("angle:", "direction:", 14, 35, "load P has no key 'direction'; did you mean 'angle'?"),
     "body": ("link: 4", "body: 4", 14, 19, "did you mean 'link'?"),
     "links of a load": ("link: 4", "links: 4", 14, 19, "did you mean 'link'?"),
@@ -688,6 +715,48 @@ REFUSED = {
     "links without brackets": ("pin: [1, 2]", "pin: 1, 2", 9, 11, "in square brackets, [1, 2]"),
     "a link by its word": ("[1, 2]", "[1, link 2]", 9, 15, "write the name alone, 2"),
     "no space after a dash": ("- {pin: [1", "-{pin: [1", 9, 3, "write a space after the dash"),
+    "a joint below another section": (
+        "loads:",
+        "ground: 1\n  - {weld: [1, 5]}\nloads:",
+        14,
+        3,
+        "this item of a list stands under 'ground', which has a value: put it with its list",
+    ),
+    "round brackets about three": (
+        "{pin: [2, 3], at: B}",
+        "{pin: (2, 3, 5), at: B}",
+        10,
+        11,
+        "write square brackets, [2, 3, 5]",
+    ),
+    "a semicolon between links": ("[2, 3]", "[2; 3]", 10, 12, "with commas between, 2, 3"),
+    "joints indented under links": ("joints:", "links:\n  4: [E]\n  joints:", 10, 3, "'links' ends above it"),
+    "the first line indented": ("icsolve: 1", "  icsolve: 1", 1, 1, "take the spaces before it away"),
+    "the last dash lost": ("  - {pin: [4, 1]", "  {pin: [4, 1]", 12, 3, "starts with a dash"),
+    "no colon, and one in the comment": (
+        "title: Four-bar press",
+        "title Press # in: a book",
+        2,
+        1,
+        "no colon",
+    ),
+    "no colon in an entry": ("at: E", "at E", 14, 28, "write a colon after 'at', at: E"),
+    "no value behind a key of two words": (
+        "loads:",
+        "expect: {v C:, w4/w2: 0.34}\nloads:",
+        13,
+        13,
+        "no value between the colon and the comma",
+    ),
+    "no colon before a number": ("AB: 1", "AB 1", 5, 11, "write a colon after 'AB', AB: 1"),
+    "a heading twice": ("joints:", "joints:\njoints:", 9, 1, "given twice, the first time in line 8"),
+    "a section indented": (
+        "points: {A: [0, 0], D: [4, 0]}\nlengths",
+        "points:\n  A: [0, 0]\n  D: [4, 0]\n  lengths",
+        7,
+        3,
+        "take the spaces before 'lengths' away: 'points' ends above it",
+    ),
     "stars for dashes": ("- {pin: [1", "* {pin: [1", 9, 3, "starts with a dash, not with '*'"),
     "a star for the unknown": ("unknown", "*", 15, 17, "a value cannot start with '*'"),
     "a bracket too many": ("CDE: 0}", "CDE: 0}}", 6, 25, "this bracket closes none"),
@@ -700,6 +769,20 @@ REFUSED = {
     # numbers and units, again
     "a unit of the unknown": ("unknown", "unknown lbf*in", 15, 17, "write 'unknown' alone"),
     "a letter for degrees": ("AB: 60", "AB: 60d", 6, 14, "did you mean 'deg'?"),
+    "quotation marks of print": (
+        "force: 100",
+        "force: “2 kN”",
+        14,
+        14,
+        "write 2 kN without these quotation marks",
+    ),
+    "a point for a normal": (
+        "{pin: [4, 1], at: D}",
+        "{contact: [4, 1], at: D, normal: O}",
+        12,
+        38,
+        "the normal is a direction in degrees",
+    ),
     "a dash for a minus": ("force: 100", "force: \u2013100", 14, 14, "write -100"),
     "a power of ten": ("force: 100", "force: 1x10^2", 14, 14, "with an e, 1e3 for 1*10^3"),
     "a space in a number": ("force: 100", "force: 1 000", 14, 14, "without separators"),
@@ -721,6 +804,11 @@ REFUSED = {
     "like alone": ("force: 100,", "like: T12,", 14, 7, "in place of its number, as in {force: {like: P}}"),
     "gravity downward": ("title:", "gravity: -9.81\ntitle:", 2, 10, "given by its size"),
 }
+
+
+def test_a_text_in_round_brackets_takes_no_heading_below_it_in() -> None:
+    case = icsolve.load(changed(("title: Four-bar press", "title: (draft\nsource:")))
+    assert (case.title, case.source) == ("(draft", "")
 
 
 @pytest.mark.parametrize("slip", REFUSED)
@@ -901,12 +989,25 @@ SCENES = {
     ),
     "the unknown torque on the frame": ([("link: 2}", "link: 1}")], "no-value", "Put it on a moving link"),
     "a length left out": ([("CD: 2.5, ", "")], "underdetermined", "one more length, angle or coordinate"),
+    "near of another point": (
+        [
+            ("DE: 1.5}", "DE: 1.5, BG: 3, CG: 3}"),
+            ("  P: ", "  Q: {force: 1, link: 3, at: G, angle: 0}\n  P: "),
+        ],
+        "ambiguous",
+        "add near: {G: [0.939149, 3.83371]} for the one that is meant, beside what stands under near",
+    ),
     "near left out": ([("near: {C: [3.5, 2.4]}\n", "")], "ambiguous", "add near: {C: [3.61106, 2.46956]}"),
     "a length of ten times": ([("BC: 3.5", "BC: 35")], "cannot-assemble", "BC = 35 and CD = 2.5 cannot meet"),
     "a letter in an angle": (
         [("CDE: 0", "CDF: 0")],
         "underdetermined",
         "nothing but angles.CDF names point F",
+    ),
+    "a letter in a length": (
+        [("AB: 1,", "AF: 1,")],
+        "underdetermined",
+        "Noticed: nothing but lengths.AF names point F",
     ),
     "a length in small letters": ([("AB: 1", "ab: 1")], "underdetermined", "did you mean A-B?"),
     "a point in small letters": (

@@ -174,3 +174,17 @@ loads: {P: {force: $P/3, link: 2, at: B, angle: 90}, T: {torque: unknown, link: 
 def test_arithmetic_that_underflows_is_refused_and_no_zero(force: str) -> None:
     with pytest.raises(icsolve.CaseError, match="too small"):
         icsolve.load(CASE_WITH_A_THIRD.replace("$P/3,", f"{force},"))
+
+
+def test_a_variable_that_a_sweep_should_vary_is_told_where_to_look() -> None:
+    """It is put in before the case is read: what is varied is the number in which it stands."""
+    text = (
+        "icsolve: 1\nvariables: {W: {choices: [3, 4]}}\npoints: {A: [0, 0], B: [1, 0]}\n"
+        "joints: [{pin: [1, 2], at: A}]\n"
+        "loads: {P: {weight: $W, link: 2, at: B}, T: {torque: unknown, link: 2}}\n"
+    )
+    case = icsolve.load(text)
+    with pytest.raises(icsolve.CaseError, match=r"vary a number in which \$W stands, as loads\.P"):
+        icsolve.sweep(case, vary={"variables.W": [3.0, 4.0]})
+    swept = icsolve.sweep(case, vary={"loads.P": [3.0, 4.0]})
+    assert swept.answers["T"].tolist() == [3.0, 4.0]

@@ -265,7 +265,8 @@ def _hint(workspace: Workspace, rivals: list[Mode], point: str) -> str:
             f"near: for {refusals.plain(point)} is about as far from the one as from the other; "
             "move it nearer to the one that is meant"
         )
-    return f"add near: {{{refusals.plain(point)}: [{example}]}} for the one that is meant"
+    beside = ", beside what stands under near" if workspace.case.near else ""
+    return f"add near: {{{refusals.plain(point)}: [{example}]}} for the one that is meant{beside}"
 
 
 def _pair(at: tuple[float, float]) -> str:

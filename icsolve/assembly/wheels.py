@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
+from itertools import combinations
 
 from icsolve.case import Case, Number
 from icsolve.case.joints import Mesh, Rolling
@@ -12,9 +13,19 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers import FLOATS, Arithmetic, Scalar
 from icsolve.screws.joints import Points, circle_margin, held_centres, line_margins, rolling_centres
 from icsolve.structure import Bond, topology
+from icsolve.tuples import NamedTuple
 
 MISFIT = 2e-3
 """Pivots may miss the distance of the pitch radii by this fraction of it."""
+
+UNLIKE = 1.1
+"""Sizes of a wheel in two meshes are two from this ratio on: wheels with a tooth more or less keep within."""
+
+SAME_SIZE = 1.02
+"""They are one up to this ratio."""
+
+MOST_FORGOTTEN, FEW = 3, 12
+"""So many signs at most are taken as forgotten, of so many meshes; of more than these one."""
 
 
 def _pitched(case: Case, points: Points) -> Iterator[tuple[Bond, Mesh, float]]:
@@ -83,6 +94,13 @@ def _refuse_radii(
     )
 
 
+def noticed_of_wheels(case: Case, points: Points, scale: float) -> Iterator[str]:
+    """What is said of wheels that fit badly and are solved all the same."""
+    yield from misfitting_belts(case, points, scale)
+    yield from unmoved_rollings(case, points, scale)
+    yield from wheels_of_two_sizes(case, points, scale)
+
+
 def unmoved_rollings(case: Case, points: Points, scale: float) -> Iterator[str]:
     """What is said of radii that do not tell how a contact rolls on."""
     for joint in case.rollings:
@@ -115,6 +133,77 @@ def misfitting_belts(case: Case, points: Points, scale: float) -> Iterator[str]:
                 f"and radii of {first:.6g} and {second:.6g} {unit} need more than {least:.6g} {unit}. "
                 "Correct the radii or the pivots."
             )
+
+
+def wheels_of_two_sizes(case: Case, points: Points, scale: float) -> Iterator[str]:
+    """What is said of a wheel that has one size in one mesh and another in the next, and one in both if the
+    teeth of a mesh were on the other side: a sign that was forgotten. The ratios are those of the teeth all
+    the same, for a link may have two wheels of as many teeth."""
+    meshes = [
+        _Placed(bond.joint, bond.pivots, math.dist(*(points[p] for p in bond.pivots)) / scale)
+        for bond in topology(case).bonds
+        if isinstance(bond.joint, Mesh) and not bond.joint.pulls and {*bond.pivots} <= points.keys()
+    ]
+    own: dict[tuple[str, str, float], list[_Placed]] = {}
+    for mesh in meshes:
+        for link in mesh.mesh.links:
+            own.setdefault((link, *mesh.wheel(link)), []).append(mesh)
+    wheels = [(*two, wheel[0]) for wheel, all_of in own.items() for two in combinations(all_of, 2)]
+    odd = [wheel for wheel in wheels if _is_unlike(*wheel, ())]
+    turnable = [mesh for mesh in meshes if any(mesh in wheel for wheel in odd)]
+    most = MOST_FORGOTTEN if len(turnable) <= FEW else 1
+    best = min(
+        (some for count in range(most + 1) for some in combinations(turnable, count)),
+        key=lambda turned: sum(_is_unlike(*wheel, turned) for wheel in wheels),
+    )
+    for placed in best:
+        one, other, link = next(wheel for wheel in odd if placed in wheel)
+        (a, b), unit, teeth = placed.mesh.links, case.units.length, abs(one.wheel(link)[1])
+        sizes = [f"{each.size(link):.6g} {unit} where it meets {each.mate(link)}" for each in (one, other)]
+        apart = placed.mesh.turns_alike
+        sides = f"gears {a} and {b} are external" if apart else f"one of gears {a} and {b} is internal"
+        yield (
+            f"the wheel of {teeth:g} teeth on link {link} has a pitch radius of {sizes[0]} and of {sizes[1]}"
+            f"; it is one wheel if {sides}: write teeth: {_turned(placed.mesh)}."
+        )
+
+
+class _Placed(NamedTuple):
+    """A mesh, its pivots and how far apart they are [case length]."""
+
+    mesh: Mesh
+    pivots: tuple[str, ...]
+    apart: float
+
+    def wheel(self, link: str) -> tuple[str, float]:
+        """Where the wheel of a link turns, and how many teeth it has."""
+        own = self.mesh.links.index(link)
+        return self.pivots[own], abs(self.mesh.sizes[own].value)
+
+    def mate(self, link: str) -> str:
+        """The link of the other wheel."""
+        return self.mesh.links[1 - self.mesh.links.index(link)]
+
+    def size(self, link: str, turned: bool = False) -> float:
+        """Pitch radius of the wheel of a link; with ``turned``, if the mesh were on the other side."""
+        first, second = (abs(n.value) for n in self.mesh.sizes)
+        both = abs(first - second) if self.mesh.turns_alike != turned else first + second
+        return self.wheel(link)[1] * self.apart / both if both else math.inf
+
+
+def _is_unlike(one: _Placed, other: _Placed, link: str, turned: tuple[_Placed, ...]) -> bool:
+    """Whether a wheel has two sizes in its meshes, some of which are turned to the other side."""
+    sizes = [mesh.size(link, mesh in turned) for mesh in (one, other)]
+    return max(sizes) > min(sizes) * (SAME_SIZE if one in turned or other in turned else UNLIKE)
+
+
+def _turned(mesh: Mesh) -> str:
+    """The teeth of a mesh as they are written if it is on the other side: those of the larger are inside."""
+    texts = [n.digits.lstrip("-") for n in mesh.sizes]
+    larger = int(abs(mesh.sizes[1].value) > abs(mesh.sizes[0].value))
+    if not mesh.turns_alike:
+        texts[larger] = f"-{texts[larger]}"
+    return f"[{', '.join(texts)}]"
 
 
 def wheel_margins(

@@ -230,6 +230,11 @@ def link_order(case: Case, link: str) -> tuple[int, int]:
     return (1, case.links.index(link) if link in case.links else len(case.links))
 
 
+def told_links(case: Case) -> list[str]:
+    """The links in the order in which they are told; ``case.links`` are as the joints mention them."""
+    return sorted(case.links, key=lambda link: link_order(case, link))
+
+
 def ordered_pair(case: Case, a: str, b: str) -> Pair:
     """Two links in the order in which their centre is named."""
     return (a, b) if link_order(case, a) <= link_order(case, b) else (b, a)

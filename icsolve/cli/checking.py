@@ -19,6 +19,7 @@ from icsolve.report.check import (
     NOT_EXAMINED,
     Row,
     compare,
+    row_without_answer,
     table_row,
     wanted,
 )
@@ -68,10 +69,13 @@ def check_command(
 
     def refuse(case: Case, path: str, error: SceneError) -> None:
         tally.update((CASE_SEEN, UNANSWERED))
+        if shown is _table_row:
+            click.echo(row_without_answer(case, error.status))
         tell(case, path, error)
 
     code = for_each(cases, work, refuse, settings, show=show, jobs=jobs)
-    complain(_summary(tally))
+    if tally:  # nothing is summed up of files that can't be read
+        complain(_summary(tally))
     return code
 
 

@@ -7,7 +7,7 @@ import click
 from icsolve.cli.commands import Verb
 from icsolve.cli.run import DONE, OUTPUT, UNREADABLE, complain, unwritten
 from icsolve.files import KeptError, whole_file
-from icsolve.manual import TOPICS, kinds, kinds_like, nearest, template, told_of
+from icsolve.manual import TOPICS, kinds, kinds_like, nearest, template, told_of, words_told
 
 
 @click.command("new", cls=Verb)
@@ -56,7 +56,7 @@ def manual_command(topic: str | None) -> int:
         return DONE
     text = told_of(topic)
     if text is None:
-        hint = nearest(topic, list(TOPICS))
+        hint = nearest(topic, list(TOPICS)) or nearest(topic, words_told(), 0.8)
         if starts := kinds_like(topic):
             hint = f"`icsolve new {starts[0]}` starts a case of such a thing; "
         complain(f"icsolve manual: nothing is told of {topic!r}; {hint}`icsolve manual` lists the pages")

@@ -9,10 +9,10 @@ from collections.abc import Iterable, Sequence
 import shapely
 
 from icsolve.answer.bodies import Reaction
-from icsolve.case import is_link
+from icsolve.case import is_link, told_links
 from icsolve.draw.frame import point_parts, rims
 from icsolve.draw.links import bars, body_of, link_part, wheel_parts
-from icsolve.draw.loads import ARC, axle, heads, hidden, kind_of, ways
+from icsolve.draw.loads import ARC, axle, heads, hidden, is_no_inertia, kind_of, ways
 from icsolve.draw.marks import (
     Disc,
     Mark,
@@ -72,7 +72,9 @@ def body_panels(scene: Scene, left: float, top: float, width: float) -> list[Mar
         return []
     view = scene.view._replace(scale=SMALLER * scene.view.scale)
     scene = scene._replace(view=view, at={name: view.at(p) for name, p in scene.known.points.items()})
-    pushes = {link: list(pushes_on(scene, link)) for link in scene.case.links if link != scene.case.ground}
+    pushes = {
+        link: list(pushes_on(scene, link)) for link in told_links(scene.case) if link != scene.case.ground
+    }
     largest = max((math.hypot(*push.force) for some in pushes.values() for push in some), default=0.0)
     panels = [_panel(scene, link, some, largest) for link, some in pushes.items()]
     return titled(panels, left, top, width)
@@ -118,7 +120,7 @@ def pushes_on(scene: Scene, link: str) -> Iterable[DrawnPush]:
         yield _reaction(scene, name, reaction)
     yield from _pulls(scene, link)
     for acting in acting_loads(scene.known):
-        if not is_link(acting.link):
+        if not is_link(acting.link) or is_no_inertia(acting):
             continue
         if link in (acting.link, acting.against):
             yield _load(scene, acting, 1.0 if link == acting.link else -1.0)

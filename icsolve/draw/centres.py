@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 import shapely
 
 from icsolve.answer import Centre
-from icsolve.case import Joint, Pair, link_order, pair_name
+from icsolve.case import Joint, Pair, pair_name, told_links
 from icsolve.case.joints import Guided, Sliding
 from icsolve.draw.links import guide_in_picture
 from icsolve.draw.marks import (
@@ -227,7 +227,7 @@ def circle_marks(
     """The diagram with its upper left corner at a point; ``lit`` is the step whose triangles are filled, with
     ``each`` they are there for every step, in groups."""
     steps = [*_inspected(known, steps), *steps]
-    links = sorted(known.case.links, key=lambda link: link_order(known.case, link))
+    links = told_links(known.case)
     reach = max(text_width(link, SIZE) / 2.0 + 5.0 for link in links)
     node = max(11.0, reach)
     radius = max(28.0 + 14.0 * len(links), node * 2.6 * len(links) / (2.0 * math.pi))

@@ -10,6 +10,7 @@ import shapely
 
 from icsolve.case import Area as Face
 from icsolve.case import Force, Load, Number, Screw, Spring, Stretch, TorsionSpring, Weight, is_link
+from icsolve.case.loads import name_of_inertia
 from icsolve.draw.links import guide_in_picture
 from icsolve.draw.marks import (
     AreaMark,
@@ -63,8 +64,9 @@ def load_parts(scene: Scene, links: shapely.Geometry, *, whole: bool = False) ->
 
 
 def _whole(scene: Scene) -> list[Acting]:
-    """The loads, with a force in place of its two components."""
-    loads = {acting.load.name: acting for acting in acting_loads(scene.known)}
+    """The loads, with a force in place of its two components, and no inertia of what does not accelerate."""
+    acting_here = acting_loads(scene.known)
+    loads = {acting.load.name: acting for acting in acting_here if not is_no_inertia(acting)}
     for name in scene.case.directed:
         x, y = (loads.get(f"{name}.{axis}") for axis in "xy")
         size = math.hypot(x.value or 0.0, y.value or 0.0) if x is not None and y is not None else 0.0
@@ -75,6 +77,11 @@ def _whole(scene: Scene) -> list[Acting]:
         loads[x.load.name] = x._replace(load=load, direction=way, value=size)
         del loads[y.load.name]
     return list(loads.values())
+
+
+def is_no_inertia(acting: Acting) -> bool:
+    """Whether an inertia force or couple is zero, as of a wheel at a steady speed: no load of the figure."""
+    return acting.value == 0.0 and name_of_inertia(acting.load.name)
 
 
 def kind_of(acting: Acting) -> str:

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer.bodies import Reaction, Rubbing, SpatialReaction
-from icsolve.case import Joint, is_link, is_named
+from icsolve.case import Joint, is_link, is_named, told_links
 from icsolve.case.joints import Friction
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Of, Sum, product
@@ -60,7 +60,7 @@ def bodies_sections(work: Worked) -> Iterable[Section]:
     open_ones = sorted({r.why for r in reactions.values() if None in (r.x, r.y, r.moment) and r.why})
     more = (Items(tuple((f"? : {why}",) for why in open_ones)),) if open_ones else ()
     yield told._replace(blocks=(*told.blocks, *more, *_bars(work)))
-    for link in work.case.links:
+    for link in told_links(work.case):
         if link != work.case.ground:
             forces = list(_acting_on(work.known, link))
             yield link_section(work, link, forces, _about(work.known, link), work.known.size, "xy")
@@ -232,7 +232,7 @@ def sections_in_space(work: Worked) -> Iterable[Section]:
         yield _power(work)
     yield _reactions(work)
     scene = in_space(work.known)
-    for link in work.case.links:
+    for link in told_links(work.case):
         if link != work.case.ground:
             yield _link(work, scene, link)
 

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.answer import Centre
-from icsolve.case import Pair, is_named, pair_name
+from icsolve.case import Pair, is_named, pair_name, told_links
 from icsolve.explain.document import Block, Inline, Items, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Of, Quotient, Spanned, Sum, minus, product
 from icsolve.explain.ropes import rope_ratio, screw_ratio
@@ -236,7 +236,7 @@ def worked_speeds(work: Worked) -> Iterable[Section]:
     given = next((motion.link for motion in case.motion if motion.speed is not None), None)
     if whole is None or whole.rates is None or whole.mobility != 1 or given is None:
         return
-    moving = [link for link in case.links if link != case.ground and not work.known.rests(link)]
+    moving = [link for link in told_links(case) if link != case.ground and not work.known.rests(link)]
     ratios = ratios_of(work.known, sorted(moving, key=lambda link: link != given))
     if ratios is None:
         return
@@ -280,7 +280,7 @@ def _speed(work: Worked, link: str, value: float) -> Expr:
 def _of_points(work: Worked) -> Iterable[Block]:
     """The speed of every point of a link that turns: its rate times the distance from its centre."""
     said: set[str] = set()
-    for link in work.case.links:
+    for link in told_links(work.case):
         pair = work.own_centre(link)
         centre = work.known.centre(*pair) if link in work.known.twists and work.known.turns(link) else None
         if centre is None or centre.kind != "at":

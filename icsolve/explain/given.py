@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Sequence
 from typing import TypeGuard
 
-from icsolve.case import Centroid, Coordinates, is_named
+from icsolve.case import Centroid, Coordinates, is_named, told_links
 from icsolve.draw import tikz
 from icsolve.draw.figure import ASKED, drawn
 from icsolve.draw.marks import Mark, kinds_of
@@ -30,7 +30,7 @@ def given_section(work: Worked) -> Section:
     if work.case.space is not None:
         return _given_in_space(work)
     case, told = work.case, work.statement()
-    others = [link for link in case.links if link != case.ground]
+    others = [link for link in told_links(case) if link != case.ground]
     s, verb = ("", "s") if len(others) == 1 else ("s", "")
     verb = f" {'is' if verb else 'are'} held" if work.known.structure else f" move{verb}"
     blocks: list[Block] = [words(f"The frame is link {case.ground}; link{s} {listed(others)}{verb}.")]
@@ -130,7 +130,7 @@ def _is_given(data: Coordinates | Centroid, asked: Container[str]) -> TypeGuard[
 
 def _given_in_space(work: Worked) -> Section:
     scene, case = in_space(work.known), work.case
-    others = [link for link in case.links if link != case.ground]
+    others = [link for link in told_links(case) if link != case.ground]
     said = words(f"The frame is link {case.ground}; the links that it holds: {listed(others)}.")
     blocks: list[Block] = [said, Items(tuple((_joint(tie),) for tie in scene.ties))]
     named = [(name, place) for name, place in scene.places.items() if is_named(name)]

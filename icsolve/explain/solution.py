@@ -185,7 +185,7 @@ def _skipped(work: Worked, steps: Sequence[Step], *, bodies: bool) -> Iterable[t
         what, them = ("The centre ", "it") if len(others) == 1 else ("The centres ", "them")
         yield (what, *names, f": the loaded links are related without {them}.")
     if answer.answers and not bodies:
-        idle = "do no work" if answer.friction is None else "do work by friction alone"
+        idle = "do no work" if answer.friction is None else "do no work but by friction"
         yield (f"The forces in the joints: they {idle}, and the equation of power is without them.",)
     if answer.skipped:
         yield (f"Not examined, as the answer does not need it: {'; '.join(answer.skipped)}.",)
@@ -343,9 +343,10 @@ def _inertia(work: Worked, load: Load) -> Iterable[Block]:
             return
         mass, scale = Name("m", load.link), units.force_per_newton / units.length_per_metre
         x, y = (work.quantity(size, "").number for size in place)
+        so = ":" if load.x.value or load.y.value else ", so its inertia force is zero."
         yield words(
             f"Link {load.link}, ", mass, " = ", work.quantity(given.mass.value, "kg"),
-            f", moves {load.at} with ", Name("a", load.at), " = (", x, ", ", y, f") {units.length}/s^2:",
+            f", moves {load.at} with ", Name("a", load.at), " = (", x, ", ", y, f") {units.length}/s^2{so}",
         )  # fmt: skip
         for axis, size, force in zip("xy", place, (load.x.value, load.y.value), strict=True):
             if force:

@@ -206,10 +206,11 @@ class CaseStore:
         except NoKeyError:
             return ""
 
-    def ready(self, students: Iterable[str]) -> None:
-        """Solve the tasks of many students together, of the cases with variables that were met."""
+    def ready(self, students: Iterable[str], questions: Iterable[str]) -> None:
+        """Solve the tasks of many students together, of the cases with variables among those asked."""
         every = list(students)
-        for found in self._solved.values():
+        for name in dict.fromkeys(question.partition(":")[0] for question in questions):
+            found = self._found(name) if name in self.paths else None
             if isinstance(found, Varied):
                 found.ready(every)
 

@@ -36,6 +36,7 @@ from icsolve.grade.written.two_numbers import WrittenPlace, WrittenRange, read_p
 from icsolve.grade.written.words import CASE, ENERGY, WrittenDirection, unit_word
 from icsolve.grade.written.words import direction as direction_of
 from icsolve.tuples import NamedTuple
+from icsolve.wording import listed
 
 RIGHT, WRONG, INVALID, IN_REVIEW = "right", "wrong", "invalid", "review"
 OPEN = (IN_REVIEW, INVALID)
@@ -387,15 +388,29 @@ def feedback(key: AnyKey, judged: Judgement, reveal: bool = False, by_person: bo
         return f"Not right.{band}"
     why, advice = UNJUDGED.get(judged.code, ("This can't be read as an answer", ""))
     looked_at = "; a person will look at it" if judged.verdict == IN_REVIEW and by_person else ""
+    if judged.code == UNREAD:
+        advice = f"Write {form_of(key)}."
     return f"{why}{looked_at}. {advice}".rstrip()
+
+
+def form_of(key: AnyKey) -> str:
+    """How an answer to a question is written, with an example of other numbers."""
+    if isinstance(key, PlaceKey):
+        return "two coordinates, such as '(0.9, 1.2)'"
+    end = numbers_of(key)[0]
+    _, unit, direction = _asked_parts(end)
+    direction = direction and end.kind != "position"  # an angle is counterclockwise by itself
+    sense = "ccw" if end.expected.turn else "pull" if end.expected.axial else "at 30 deg"
+    parts = ["a number", *["a unit"] * unit, *["a direction"] * direction]
+    number = " ".join(["41.2", *[end.unit_name] * unit])
+    if isinstance(key.keys[0] if isinstance(key, ChoiceKey) else key, RangeKey):
+        return f"both ends, such as '{number.replace('41.2', '11.3')} to {number}'"
+    return f"{listed(parts)}, such as '{' '.join([number, *[sense] * direction])}'"
 
 
 UNJUDGED = {
     MISSING: ("No answer was given", ""),
-    UNREAD: (
-        "This can't be read surely",
-        "Write a number, a unit and a direction, such as '41.2 N*m ccw'.",
-    ),
+    UNREAD: ("This can't be read surely", ""),
     "no-number": ("There is no number in this", ""),
     "too-long": ("This is too long to be read as an answer", ""),
     "ambiguous-number": ("This number can be read in two ways", "Write no commas."),

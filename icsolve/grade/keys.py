@@ -89,6 +89,8 @@ class ExpectedDirection(NamedTuple):
     """Whether only an angle tells it: words on a reaction may mean either link's force."""
     asked: bool = False
     """Whether the direction is itself asked for, and has to be right to a degree."""
+    given: str = ""
+    """The positive sense as the case gives it by a point, whose direction may be a part of the task."""
 
     @property
     def any(self) -> bool:
@@ -181,12 +183,15 @@ def _of_load(load: Load, answer: Answer) -> ExpectedDirection:
         turns = words.kind == "turn"
         return ExpectedDirection(turn=-words.value) if turns else ExpectedDirection(axial=-words.value)
     assert isinstance(load, Force | ForceVector | Weight)
-    axial, heading = 0.0, heading_of(load, answer)
+    axial, heading, given = 0.0, heading_of(load, answer), ""
     if isinstance(load, Force) and isinstance(load.heading, Toward):
-        axial = -1.0 if load.heading.away else 1.0
+        away, point = load.heading.away, load.heading.point
+        axial, given = -1.0 if away else 1.0, f"{'away from' if away else 'toward'} {point}"
     elif isinstance(load, Force) and isinstance(load.heading, AlongRope):
         axial, heading = 1.0, heading_in(answer, load.name)
-    return ExpectedDirection(0.0, heading, axial, lambda: (place_of(load.at, answer), answer.points))
+    return ExpectedDirection(
+        0.0, heading, axial, lambda: (place_of(load.at, answer), answer.points), given=given
+    )
 
 
 def _nothing_else(name: str) -> bool:

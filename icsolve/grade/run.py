@@ -14,7 +14,14 @@ from icsolve.grade.marking import Counts, Marker
 from icsolve.grade.results import HEADER, Override, Overrides, json_line, line, read_overrides
 from icsolve.grade.solved import final_questions
 from icsolve.grade.tolerance import NoKeyError
-from icsolve.grade.variants.record import GivenValue, Neighbours, changes, other_seed, read_records
+from icsolve.grade.variants.record import (
+    GivenValue,
+    Neighbours,
+    changes,
+    other_seed,
+    read_records,
+    to_first_values,
+)
 from icsolve.tuples import NamedTuple
 
 _STEP = 5000
@@ -124,7 +131,8 @@ def grade(
         if csv is not None:
             csv.write(HEADER + "\n")
         groups = _groups(paths, job.group, imported)
-        case_store.ready(sorted({*students, *(member for some in groups.values() for member in some)}))
+        members = {member for some in groups.values() for member in some}
+        case_store.ready(sorted({*students, *members}), (*imported.questions, *questions))
         neighbours = Neighbours(case_store, students) if case_store.varied else None
         marker = Marker(case_store, _shown(paths), issues, questions, neighbours, overrides, groups)
         for n, result in enumerate(marker.results(store.sorted(), students), 1):
@@ -138,7 +146,7 @@ def grade(
         store.close()
     _note_unmet(overrides, marker, job, issues)
     if neighbours is not None:
-        _note_other_seeds(job, case_store, marker.given, issues)
+        _note_other_numbers(job, case_store, marker.given, issues)
     people = roster.people if roster is not None else {}
     return _graded(marker, issues, case_store, imported.count, len(students), people)
 
@@ -166,13 +174,22 @@ def _note_unmet(overrides: Overrides, marker: Marker, job: Job, issues: Issues) 
             issues.note(job.overrides[-1], override.line, why, serious=True)
 
 
-def _note_other_seeds(job: Job, case_store: CaseStore, given: list[GivenValue], issues: Issues) -> None:
-    """Say of a case most of whose answers are to the numbers of another seed which one that is."""
+def _note_other_numbers(job: Job, case_store: CaseStore, given: list[GivenValue], issues: Issues) -> None:
+    """Say of a case most of whose answers are to the numbers of another seed which one that is, and of one
+    whose students were all given the numbers with which it is shown that they were."""
     for name in dict.fromkeys(one.question.partition(":")[0] for one in given):
         varied = case_store.variation(name)
         if varied is None or varied.record is not None:
             continue
         own = [one for one in given if one.question.partition(":")[0] == name]
+        if to_first_values(varied, own):
+            shown = ", ".join(f"{variable} = {value}" for variable, value in varied.first.items())
+            issues.note(
+                _shown([(path, "") for path in job.submissions]), 0,
+                f"most answers to {name} are right for {shown}, with which it is shown, and wrong for the "
+                "numbers of each student: if all were given these, write them in place of the variables",
+            )  # fmt: skip
+            continue
         seed = other_seed(varied, own, job.seeds)
         if seed is not None:
             issues.note(

@@ -71,7 +71,8 @@ def asked_of(case: Case, what: str) -> Target:
         names = unknowns(case)
         if not names:
             raise NoKeyError(
-                f"the case {case.name} has no unknown load; say what is asked, as in {case.name}:w4/w2"
+                f"the case {case.name} has no unknown load; say what is asked, as in {case.name}:w4/w2 or "
+                f"{case.name}:F12"
             )
         if len(names) > 1:
             asked = " or ".join(f"{case.name}:{name}" for name in names)

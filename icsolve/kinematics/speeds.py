@@ -12,7 +12,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from icsolve.assembly.workspace import PlacedCase
-from icsolve.case import Case, is_named
+from icsolve.case import Case, is_named, told_links
 from icsolve.case import Motion as Given
 from icsolve.errors import SceneError, Status
 from icsolve.numbers import (
@@ -326,7 +326,7 @@ def link_rates(case: Case, twists: Twists, speed: Speed) -> dict[str, Scalar | s
     """Angular velocity of every link [rad/s, ccw positive]; a sentence where it is undetermined."""
     rates: dict[str, Scalar | str] = {}
     largest = fastest(twists)
-    for link in case.links:
+    for link in told_links(case):
         value = speed.of([t[2] for t in twists[link]], largest) if link in twists else None
         rates[link] = f"the speed of link {link} is left open: {OPEN}" if value is None else value + 0.0
     return rates
@@ -341,7 +341,7 @@ def point_velocities(
     case, frame, points, _ = place
     result: dict[tuple[str, str], tuple[Scalar, Scalar] | str] = {}
     largest = fastest(twists)
-    for link in case.links:
+    for link in told_links(case):
         for name in moving_points(case, link):
             if not is_named(name) or name not in points:
                 continue

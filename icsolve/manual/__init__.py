@@ -52,6 +52,14 @@ def told_of(word: str) -> str | None:
     return "\n".join(part.replace("\0", "#").strip() + "\n" for part in found) or None
 
 
+def words_told() -> list[str]:
+    """The words of the manual, those of its headings first."""
+    texts = [page(topic) for topic in TOPICS]
+    headings = re.findall(r"(?m)^#+ (.*)", "\n".join(texts))
+    found = (word.lower() for text in (*headings, *texts) for word in re.findall(r"[A-Za-z]{4,}", text))
+    return list(dict.fromkeys(found))
+
+
 def _hidden(block: re.Match[str]) -> str:
     """A block with its comments' signs put aside, which are no headings."""
     return block.group().replace("#", "\0")
@@ -82,7 +90,7 @@ def template(kind: str) -> str:
     return (_HERE / "templates" / f"{kind}.yaml").read_text(encoding="utf-8")
 
 
-def nearest(word: str, options: list[str]) -> str:
+def nearest(word: str, options: list[str], least: float = 0.65) -> str:
     """``did you mean ...? `` for the option that is most like a word, else nothing."""
-    near = get_close_matches(word.lower().replace("_", "-"), options, n=1, cutoff=0.65)
+    near = get_close_matches(word.lower().replace("_", "-"), options, n=1, cutoff=least)
     return f"did you mean {near[0]}? " if near else ""

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from icsolve.case import is_link, is_named
+from icsolve.case import is_link, is_named, told_links
 from icsolve.draw.words import (
     answer_sentences,
     datum_name,
@@ -302,7 +302,7 @@ def _stage(parts: PageParts) -> str:
 def _see(parts: PageParts) -> str:
     """What can be shown in the figure besides, each by a box to tick."""
     case, live = parts.known.case, parts.live is not None
-    links = [link for link in case.links if link != case.ground and is_link(link)]
+    links = [link for link in told_links(case) if link != case.ground and is_link(link)]
     links = links if live else list(parts.model.get("forces", {}).get("links", ()))
     seen = bool(links) and not parts.known.structure
     moving = [name for name in parts.model.get("motion", {"points": ()})["points"] if is_named(name)]

@@ -8,7 +8,7 @@ from collections.abc import Mapping as Named
 from icsolve.case import Case
 from icsolve.errors import CaseError, NotACase, refuse_other
 from icsolve.read.build import NO_CASE, build, check_version, is_in_space
-from icsolve.read.document import Mapping, Node, checked, parse, take_in, text_of
+from icsolve.read.document import Mapping, Node, checked, parse, take_in, take_out, text_of
 from icsolve.read.keys import SECTIONS
 from icsolve.read.names import Problems, Stop
 from icsolve.read.reading import read_units
@@ -109,6 +109,7 @@ def _built(root: Mapping, problems: Problems, name: str) -> Case:
     """The case of a tree, planar or in space; whether it may be used, the problems tell."""
     check_version(root, problems)
     take_in(root, root.items.keys() - SECTIONS.keys(), problems)
+    take_out(root, SECTIONS, problems)
     units = read_units(root.items.get("units"), problems)
     if not is_in_space(root):
         return build(root, problems, name, units)

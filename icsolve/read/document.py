@@ -313,9 +313,9 @@ class _Tree:
         before = next(reversed(mapping.items.values()), None)
         if type(before) is not Scalar or not before.plain:
             return False
-        if before.text[:1] == "(" and name[-1:] == ")":
-            said = f"write square brackets, [{before.text[1:]}, {name[:-1]}]"
-        elif name[:1].isdigit() and (mark[0], mark[1] - 1) == (
+        if before.text[:1] == "(" and ")" not in before.text and mark[0] == before.mark[0]:
+            return self._in_round_brackets(mapping, before, name, mark)
+        if name[:1].isdigit() and (mark[0], mark[1] - 1) == (
             before.mark[0],
             before.mark[1] + len(before.text),
         ):
@@ -328,6 +328,18 @@ class _Tree:
             return False
         self.problems.refuse(before.mark, said)
         self.problems.cut.add(before.mark)
+        return True
+
+    def _in_round_brackets(self, mapping: Mapping, before: Scalar, name: str, mark: Mark) -> bool:
+        """Take a key without a value into the list that round brackets began, up to the one that ends it."""
+        last, text = next(reversed(mapping.items)), f"{before.text}, {name}"
+        if name[-1:] != ")":
+            mapping.items[last] = before._replace(text=text)
+            return True
+        self.problems.refuse(before.mark, f"write square brackets, [{text[1:-1]}]")
+        self.problems.cut.add(before.mark)
+        parts: list[Node] = [Scalar(part, True, before.mark) for part in text[1:-1].split(", ")]
+        mapping.items[last] = Sequence(parts, before.mark)
         return True
 
     def _enter(self, mapping: Mapping, key: tuple[str, Mark], node: Node) -> None:
@@ -343,6 +355,8 @@ class _Tree:
         if first is not None:
             place = f"line {first[0]}, column {first[1]}"
             self.problems.refuse(mark, f"'{name}' is given twice, the first time in {place}")
+            if is_null(mapping.items[name]):
+                mapping.items[name] = node  # a heading twice, with its entries under the second
             return
         if type(node) is Scalar and node.text == "" and node.plain:
             if ":" in name and _runs_on(name):
@@ -352,6 +366,9 @@ class _Tree:
             elif given := re.fullmatch(r"([\w' -]*[\w']) ?:?(=|：)[=>]* ?(.+)", name):
                 name, sign, value = given.groups()
                 self.problems.refuse(mark, f"write a colon in place of '{sign}', {name}: {value[:60]}")
+            elif node.mark == (mark[0], mark[1] + len(name)) and (given := _UNDIVIDED.fullmatch(name)):
+                name, value = given.groups()
+                self.problems.refuse(mark, f"write a colon after '{name}', {name}: {value}")
             else:
                 value = ""
             if value:
@@ -360,6 +377,10 @@ class _Tree:
                 return
         mapping.keys[name] = mark
         mapping.items[name] = node
+
+
+_UNDIVIDED = re.compile(r"([\w']+) +([-+.]?\d[\w.]*|[A-Z]['\d]?|unknown|c?cw)")
+"""A key and its value with no colon between; in a key of two (``pressure angle``) the second is longer."""
 
 
 def take_in(section: Mapping, strays: Container[str], problems: Problems) -> None:
@@ -376,6 +397,28 @@ def take_in(section: Mapping, strays: Container[str], problems: Problems) -> Non
             )
             inner = section.items[over] = Mapping({}, {}, section.keys[key])
         inner.items[key], inner.keys[key] = section.items.pop(key), section.keys.pop(key)
+
+
+def take_out(root: Mapping, sections: Container[str], problems: Problems) -> None:
+    """Put sections that are indented into the one above beside it; told once a section."""
+    for name in ("units", "points", "lengths", "angles", "near", "links"):
+        over = root.items.get(name)
+        if type(over) is not Mapping:
+            continue
+        for key, node in list(over.items.items()):
+            if key in sections and key not in root.items and _is_section(node, name == "links"):
+                problems.refuse(
+                    over.keys[key], f"take the spaces before '{key}' away: '{name}' ends above it"
+                )
+                root.items[key], root.keys[key] = over.items.pop(key), over.keys.pop(key)
+
+
+def _is_section(node: Node, of_links: bool) -> bool:
+    """Whether a value is entries of its own, or a list of some, and no place, number or mass of a name."""
+    if type(node) is Mapping:
+        inner = [type(value) is Mapping for value in node.items.values()]
+        return all(inner) if of_links else not node.items.keys() & {"centroid", "unknown"}
+    return type(node) is Sequence and any(type(item) is Mapping for item in node.items)
 
 
 def _uncut(before: str, after: str) -> str:

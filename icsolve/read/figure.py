@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from icsolve.case import (
@@ -56,7 +57,7 @@ def read_points(reading: Reading, section: Mapping) -> dict[str, Any]:
 def _coordinates(reading: Reading, name: str, node: Node) -> Coordinates | SpatialPoint | None:
     """A point by its coordinates, in the plane one of them unknown or none."""
     axes = reading.axes
-    if type(node) is not Sequence or len(node.items) != len(axes):
+    if type(node) is not Sequence or len(node.items) != len(axes) or has_semicolon(node):
         form = decimals(node) or "as in [3, 0.5] or [unknown, 0.5]"
         said = f"point {name} should have two coordinates, {form}"
         if len(axes) == 3:
@@ -77,19 +78,35 @@ def _coordinates(reading: Reading, name: str, node: Node) -> Coordinates | Spati
     return None if missing else reading.coordinates(*values)  # type: ignore[arg-type]
 
 
+def has_semicolon(node: Sequence) -> bool:
+    """Whether two coordinates have a semicolon between them, as people put it beside decimal commas."""
+    return any(type(item) is Scalar and ";" in item.text for item in node.items)
+
+
 def decimals(node: Node) -> str:
-    """How four numbers in place of two, two in one text, or numbers in round brackets, are to be written."""
+    """How numbers that commas cut, two in one text, or numbers in round brackets, are to be written."""
     if type(node) is Scalar and node.text[:1] == "(":
         return "in square brackets, as in [3, 0.5]"
     if type(node) is not Sequence or not all(type(item) is Scalar for item in node.items):
         return ""
-    texts = [item.text for item in node.items if type(item) is Scalar]
+    items = [item for item in node.items if type(item) is Scalar]
+    texts = [item.text for item in items]
+    cut = [n for n, (before, item) in enumerate(pairwise(items)) if _is_cut(before, item)]
+    if len(texts) == 3 and len(cut) == 1:
+        texts[cut[0] : cut[0] + 2] = [f"{texts[cut[0]]}.{texts[cut[0] + 1]}"]
+        return f"with a decimal point, [{texts[0]}, {texts[1]}]"
     two = re.split(r"\s*;\s*" if ";" in "".join(texts) else r"\s+", ",".join(texts))
     if len(two) == 2:
         return f"with a comma between, [{two[0].replace(',', '.')}, {two[1].replace(',', '.')}]"
     if len(texts) != 4 or not texts[1].isdigit() or not texts[3].isdigit():
         return ""
     return f"with decimal points, [{texts[0]}.{texts[1]}, {texts[2]}.{texts[3]}]"
+
+
+def _is_cut(before: Scalar, item: Scalar) -> bool:
+    """Whether two numbers are one that its comma cuts: digits on both sides, and no space."""
+    (line, column), whole = before.mark, before.text.lstrip("+-−")
+    return whole.isdigit() and item.text.isdigit() and item.mark == (line, column + len(before.text) + 1)
 
 
 def _centroid(reading: Reading, name: str, node: Mapping) -> Centroid | None:
@@ -321,14 +338,14 @@ def check_given(reading: Reading) -> None:
 
 
 def stray_points(reading: Reading, figure: FigureData) -> list[str]:
-    """Sentences on points that an angle, or both that a length, alone names: it places nothing."""
+    """Sentences on points that one length or angle alone names: it places nothing."""
     names = Counter(name for datum in (*figure.lengths, *figure.angles) for name in datum[:-1])
     shaped = {name for names in figure.further.values() for name in names}
     known = {*figure.points, *shaped, *reading.used, *reading.on_guides}
     said = []
     for datum in (*figure.angles, *figure.lengths):
         alone = [name for name in dict.fromkeys(datum[:-1]) if names[name] == 1 and name not in known]
-        if alone and (len(alone) > 1 or not isinstance(datum, Length)):
+        if alone:
             cased = [name.swapcase() if name.swapcase() in names else name for name in datum[:-1]]
             meant = f"; did you mean {'-'.join(cased)}?" if not {*cased} & {*alone} else "."
             points = f"point{'s' * (len(alone) > 1)} {listed(alone)}"

@@ -83,7 +83,7 @@ def _kind_of(node: Node, forms: Forms[T]) -> str:
 def _load(reading: Reading, name: str, node: Node, mark: Mark, forms: Forms[T]) -> T | list[T] | None:
     """The load of an entry, None where it can't be read; of an unknown direction, its two components."""
     if not is_name(name):
-        reading.refuse(mark, f"{shown(name)} is not a name of a load: {why_no_name(name)}")
+        reading.refuse(mark, f"{shown(name)} is not a name of a load: {why_no_name(name, is_key=True)}")
         return None
     mapping = reading.mapping(node, f"load {name}", forms.example)
     if mapping is None:

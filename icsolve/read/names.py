@@ -68,7 +68,7 @@ def joint_names(links: Iterable[str], at: str | None) -> list[str]:
 
 
 _OTHER_WORDS = {
-    "torque": "moment couple twist momentum drehmoment t",
+    "torque": "moment couple twist momentum drehmoment t M",
     "force": "load pull push thrust tension f kraft cable rope wire strut cylinder actuator",
     "weight": "gravity_force w",
     "angle": "direction dir orientation theta bearing heading degrees inclination",
@@ -152,7 +152,8 @@ def meant_by(name: str, options: Iterable[str]) -> str:
     word = name.lower().strip()
     alone = re.sub(r"^(?:link|point|body|bar|gear)[ _]?(?=.)", "", word)
     lower = [option for option in known if option.lower() in (word, alone)]
-    other = [option for option in known if word.replace(" ", "_") in _OTHER_WORDS.get(option, "").split()]
+    spellings = (name, word.replace(" ", "_"))  # M is a torque, and m a mass
+    other = [o for spelt in spellings for o in known if spelt in _OTHER_WORDS.get(o, "").split()]
     latin = name.translate(_LATIN)
     near = (
         lower
@@ -175,16 +176,25 @@ def is_name(text: str) -> bool:
     )
 
 
-def why_no_name(text: str) -> str:
-    """What a name is, for a text that is none."""
+def why_no_name(text: str, is_key: bool = False) -> str:
+    """What a name is, for a text that is none; before a colon (``is_key``) it cannot be two."""
     before, sign, after = (part.strip() for part in text.partition("="))
     if sign:
         return f"write a colon in place of '=', {before}: {after.lstrip('> ')}"
+    if ";" in text:
+        return f"with commas between, {', '.join(text.replace(';', ' ').split())}, these are names"
     words = text.replace(",", " ").split()
     if len(words) == 2 and words[0].lower() in ("link", "point", "joint", "body", "gear", "load"):
         return f"write the name alone, {words[1]}"
     if "(" in text:
         return f"write the name alone, {text.partition('(')[0].strip()}"
+    if len(words) > 1 and "," not in text and any(len(word) > 1 and word[0].isalpha() for word in words):
+        apart = (
+            f"; where {' and '.join(words)} are two names, a comma between"
+            if len(words) == 2 and not is_key
+            else ""
+        )
+        return f"a name has no spaces: write {'_'.join(words)}{apart}"
     if len(words) > 1:
         return f"with a comma between, {', '.join(words)}, these are two names"
     if "’" in text or "′" in text:

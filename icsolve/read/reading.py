@@ -426,20 +426,12 @@ def _is_of_load(path: str, dimension: str) -> bool:
 
 def _meant(text: str, dimension: str, path: str) -> str:
     """What a text that is no number may mean, and how it is written."""
-    import unicodedata
-
-    plain = "".join(str(unicodedata.digit(c, c)) for c in unicodedata.normalize("NFKC", text))
-    if plain != text and re.fullmatch(r"[-−+]?[\d.,]+", plain):
-        return f"; write {plain.replace('−', '-')}"
-    if text[1:2].isdigit() and text[0] in "–—‐‑~≈=":
-        return f"; write {'' if text[0] in '~≈=' else '-'}{text[1:]}"
     if text.startswith("$"):
         return f"; {text} stands for a number under 'variables', which this case has not"
-    digits = text.translate(str.maketrans("OoIl", "0011"))
-    if digits != text and re.fullmatch(r"-?[\d.]+", digits):
-        return f"; write digits, {digits}"
-    if re.fullmatch(r"[a-z]+\(.*\)", text):
-        return "; write the number that it comes to"
+    if path.endswith(".normal") and is_name(text):
+        return "; the normal is a direction in degrees"
+    if odd := _oddly_written(text):
+        return odd
     if text.startswith("like ") and path.startswith("loads."):
         return f"; write {{like: {text[5:].strip()}}}"
     if path.startswith("loads.") and path.endswith(".angle") and not text.strip("?"):
@@ -457,6 +449,26 @@ def _meant(text: str, dimension: str, path: str) -> str:
     if path.startswith("loads.") and path.endswith(".angle") and is_name(text):
         return f"; in the direction of a point is 'toward: {text}' in place of 'angle'"
     return ""
+
+
+def _oddly_written(text: str) -> str:
+    """How a number in other signs than digits, or behind one, is written."""
+    import unicodedata
+
+    plain = "".join(str(unicodedata.digit(c, c)) for c in unicodedata.normalize("NFKC", text))
+    if plain != text and re.fullmatch(r"[-−+]?[\d.,]+", plain):
+        return f"; write {plain.replace('−', '-')}"
+    if text[1:2].isdigit() and text[0] in "–—‐‑~≈=":
+        return f"; write {'' if text[0] in '~≈=' else '-'}{text[1:]}"
+    if text[:1] in _QUOTES and (bare := text.strip(_QUOTES + " ")):
+        return f"; write {bare} without these quotation marks"
+    digits = text.translate(str.maketrans("OoIl", "0011"))
+    if digits != text and re.fullmatch(r"-?[\d.]+", digits):
+        return f"; write digits, {digits}"
+    return "; write the number that it comes to" if re.fullmatch(r"[a-z]+\(.*\)", text) else ""
+
+
+_QUOTES = "“”„«»‘’"
 
 
 def read_units(node: Node | None, problems: Problems) -> Units:

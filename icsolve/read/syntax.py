@@ -112,9 +112,16 @@ def _of_colons(
     if "mapping values" in problem and above and ":" not in above[0]:
         written = f"{above[1]}: {above[2].strip()[:60]}"
         return (place[0] - 1, above.end(1) + 1), f"write a colon after the key, {written}"
+    item, over = (
+        re.match(r"\s*- ", line),
+        re.match(r"(\w+): +\S", lines[place[0] - 2] if place[0] > 1 else ""),
+    )
+    if "mapping values" in problem and item and over:
+        said = f"this item of a list stands under '{over[1]}', which has a value: put it with its list"
+        return (place[0], item.end() - 1), said
     if "mapping values" in problem and re.match(r"\s+[\w-]+:", line):
         return (place[0], len(line) - len(line.lstrip()) + 1), _ASKEW
-    if "could not find expected ':'" in problem and at and ":" not in lines[at.line]:
+    if "could not find expected ':'" in problem and at and ":" not in lines[at.line].partition(" #")[0]:
         said = "an entry is a key, a colon and its value, and a text of two lines stands in quotes"
         return (at.line + 1, at.column + 1), f"this line has no colon: {said}"
     return None
@@ -141,6 +148,10 @@ def _of_brackets(error: yaml.MarkedYAMLError, place: Mark, before: str, rest: st
             return place, "a unit stands behind its number without brackets"
         if ";" in before.rpartition(",")[2]:
             return (place[0], before.rindex(";") + 1), "write a comma between entries, not a semicolon"
+    if is_open and rest[:1] == ":" and (inner := re.search(r"(\w+): +(unknown)$", before)):
+        value = re.match(r":\s*(\[[^\]]*\])?", rest)
+        written = f"{inner[1]}: {{{inner[2]}: {(value and value[1]) or '[0, 90]'}}}"
+        return (place[0], inner.start(2) + 1), f"an unknown with its range stands in braces, {written}"
     if is_open:
         return place, f"a bracket{_opened(error)} is not closed, or a comma is missing before this"
     if "quoted scalar" in (error.context or "") and "end of stream" in problem:
@@ -153,9 +164,16 @@ def _of_starts(problem: str, place: Mark, lines: list[str], line: str) -> tuple[
     if not any(sign in problem for sign in (*_OF_A_START, *_OF_A_COLON)):
         return None
     before = lines[place[0] - 2] if place[0] > 1 else ""
-    if before.lstrip().startswith("{") and line.lstrip().startswith("-"):
-        at = (place[0] - 1, before.index("{") + 1)
-        return at, "an item of a list starts with a dash, as in - {...}"
+    for number in range(place[0] - 1, max(place[0] - _LOOKBACK, 1), -1):
+        above, item = lines[number - 2].lstrip(), lines[number - 1]
+        if item.lstrip().startswith("{") and (above.startswith("- ") or line.lstrip().startswith("-")):
+            return (number, item.index("{") + 1), "an item of a list starts with a dash, as in - {...}"
+    first = next((n for n, text in enumerate(lines, 1) if text.strip() and text.lstrip()[0] != "#"), 0)
+    if "<document start>" in problem and lines[first - 1][:1] == " ":
+        return (
+            first,
+            1,
+        ), "this first line is indented, and the others are not: take the spaces before it away"
     for number, text in ((place[0] - 1, before), (place[0], line)):
         if "\xa0" in text[: len(text) - len(text.lstrip())]:
             return (number, text.index("\xa0") + 1), "this line starts with a no-break space"

@@ -186,7 +186,8 @@ def read_variables(root: Mapping, problems: Problems) -> tuple[Variable, ...]:
 def _variable(name: str, node: Node, mark: tuple[int, int], problems: Problems) -> Variable | None:
     if not is_name(name) or not name[0].isalpha():
         problems.refuse(
-            mark, f"{shown(name)} is not a name of a variable, a letter first: {why_no_name(name)}"
+            mark,
+            f"{shown(name)} is not a name of a variable, a letter first: {why_no_name(name, is_key=True)}",
         )
         return None
     try:

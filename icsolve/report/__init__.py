@@ -309,7 +309,8 @@ def _vectors(
 ) -> Iterable[tuple[tuple[str, str], tuple[str, str]]]:
     """Rows of vectors at points of links; of one that is open why."""
     for (point, link), v in vectors.items():
-        yield (point, link), (f"{point} on {link}", v if isinstance(v, str) else _vector(v, show))
+        told = f"undetermined: {v}" if isinstance(v, str) else _vector(v, show)
+        yield (point, link), (f"{point} on {link}", told)
 
 
 def _vector(parts: Iterable[float | None], show: Format) -> str:

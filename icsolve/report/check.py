@@ -397,9 +397,17 @@ def table_row(case: Case, rows: list[Row]) -> str:
     values = "; ".join(f"{row.key} {row.published}, {row.found}" for row in asked)
     agree = sum(row.verdict == AGREES for row in rows)
     errata = "; ".join(f"{row.key}: {row.text}" for row in rows if row.verdict == ERRATUM)
+    return _table_row(case, values, f"{agree} of {len(rows)}", errata)
+
+
+def row_without_answer(case: Case, status: str) -> str:
+    """The row of a case that has no answer."""
+    return _table_row(case, f"no answer ({status})", f"0 of {len(case.expect)}", "")
+
+
+def _table_row(case: Case, *cells: str) -> str:
     label = " (reconstructed)" if case.reconstructed else ""
-    cells = (f"{case.name}{label}", values, f"{agree} of {len(rows)}", errata)
-    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in (f"{case.name}{label}", *cells)) + " |"
 
 
 # --- of free bodies: reactions, arms, tensions, friction radii -----------------------------------------

@@ -13,7 +13,7 @@ from functools import partial
 
 from icsolve.answer import Answer, Deferred, Later
 from icsolve.assembly.workspace import PlacedCase
-from icsolve.case import Case, ForceVector, Load, Torque, is_named
+from icsolve.case import Case, ForceVector, Load, Torque, is_named, told_links
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.accelerations import Moving, moving
 from icsolve.kinematics.speeds import OPEN, moving_points
@@ -134,7 +134,7 @@ def _shown(place: PlacedCase, moves: Moving, arithmetic: Showing) -> Acceleratio
     (case, (_, _, scale), points, _), size = place, moves.size
     links: dict[str, float | str] = {}
     places: dict[tuple[str, str], tuple[float, float] | str] = {}
-    for link in case.links:
+    for link in told_links(case):
         if link in moves.open:
             links[link] = f"the acceleration of link {link} is left open: {OPEN}"
         else:

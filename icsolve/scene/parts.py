@@ -29,7 +29,7 @@ from icsolve.scene.program import (
     slopes,
     unknown_values,
 )
-from icsolve.screws import Triple
+from icsolve.screws import Triple, velocity
 from icsolve.statics import load_wrenches, power
 from icsolve.statics.load_wrenches import Wrench
 from icsolve.statics.power import Bounded, Outcome, Value, known_value, load_value
@@ -564,6 +564,23 @@ def _redundancy(found: Evaluation) -> Iterable[str]:
         lost = (stress.moving, motions.mobility) if stress.moving else None
         told = found.program.want.bodies, wedges, lost, stress.links
         yield sentences.redundant(stress.ways, onward, *told)
+    if onward is False and place.case.loads and not any(map(power.is_unknown, place.case.loads)):
+        yield from _turned_rollers(found)
+
+
+def _turned_rollers(found: Evaluation) -> Iterable[str]:
+    """What is said of rollers on the frame whose pins move, of links that yield for an instant under known
+    loads: a support whose line was given square to what was meant."""
+    place, motions = found.outcome.place, found.outcome.motions
+    fastest = largest_of([x for ts in motions.twists.values() for t in ts for x in t])
+    for joint in place.case.joints:
+        along = joint.guide.angle if joint.guide is not None and joint.freedom == 2 else None
+        if along is not None and joint.at is not None and joint.links[1] == place.case.ground:
+            (twist,) = motions.twists[joint.links[0]]
+            if not all(
+                found.arithmetic.vanishes(v, fastest) for v in velocity(twist, place.points[joint.at])
+            ):
+                yield sentences.turned_roller(joint.at, along.value)
 
 
 def _skipped(program: Program, outcome: Outcome) -> tuple[str, ...]:

@@ -88,12 +88,11 @@ def prepare(case: Case, want: Want) -> Program:
     figure = _figure(case, top, bonds, want)
     refusals.refuse_no_hanging(case, figure.points, figure.frame.scale)
     if case.rollings or any(bond.pivots for bond in top.bonds):
-        from icsolve.assembly.wheels import misfitting_belts, refuse_misfit, unmoved_rollings
+        from icsolve.assembly.wheels import noticed_of_wheels, refuse_misfit
 
         placed = case, figure.points, figure.frame.scale
         refuse_misfit(*placed)
-        notes = (*figure.notes, *misfitting_belts(*placed), *unmoved_rollings(*placed))
-        figure = figure._replace(notes=notes)
+        figure = figure._replace(notes=(*figure.notes, *noticed_of_wheels(*placed)))
     return Program(case, want, top, plan, figure, refusals.directions(case))
 
 

@@ -12,6 +12,7 @@ from typing import Any
 
 from icsolve.answer import Answer, Found
 from icsolve.case import Case, Coordinates, Corner, Direction, Number
+from icsolve.case.loads import name_of_inertia
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.units import numbers_in
 from icsolve.tuples import NamedTuple
@@ -172,7 +173,10 @@ def parts_of(case: Case) -> Mapping[str, Mapping[str, Number]]:
 @lru_cache(maxsize=64 * len(NUMBERED))
 def _held_by(case: Case, part: str) -> Mapping[str, Number]:
     own = {f"loads.{name}.{axis}.angle" for name in case.directed for axis in "xy"}  # no file has these
-    return {number.path: number for number in numbers_in(getattr(case, part)) if number.path not in own}
+    held = getattr(case, part)
+    if part == "loads":  # nor those of inertia forces
+        held = tuple(load for load in held if not name_of_inertia(load.name))
+    return {number.path: number for number in numbers_in(held) if number.path not in own}
 
 
 def _lengths(case: Case) -> set[str]:

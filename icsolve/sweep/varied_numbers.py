@@ -117,6 +117,8 @@ def points_of(path: str) -> tuple[str, ...]:
 
 def _missing(case: Case, known: Mapping[str, Number], path: str, section: str, rest: str) -> str:
     """Why there is no number at a path."""
+    if any(section == "variables" and variable.name == rest for variable in case.variables):
+        return f"it is put in before the case is read; vary a number in which ${rest} stands, as loads.P"
     if section not in _SECTIONS:
         return like(path, known)
     if section == "angles":

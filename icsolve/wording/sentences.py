@@ -293,6 +293,15 @@ def redundant(
     return f"{cause}: it moves only because the figure is exact{onward}{end}"
 
 
+def turned_roller(at: str, along: float) -> str:
+    """A roller on whose line a link that should stand still yields."""
+    square = (along + 90.0) % 180.0
+    return (
+        f"{at} can run along its line at {along:g} deg, and what holds it there is square to that; "
+        f"for a roller that carries force along {along:g} deg the line is `along: {square:g}`."
+    )
+
+
 def change_point(mobility: int, count: int) -> str:
     """Momentarily more freedoms than the joints leave elsewhere."""
     return (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shlex
 import uuid
 from collections.abc import Callable, Iterator
@@ -13,7 +14,7 @@ from icsolve.case import Case
 from icsolve.files import reading_text, write_whole
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course, read_roster
-from icsolve.grade.keys import ChoiceKey, RangeKey, numbers_of
+from icsolve.grade.keys import ChoiceKey, PlaceKey, RangeKey, numbers_of
 from icsolve.grade.platforms.questions import (
     SMALLEST,
     Question,
@@ -155,19 +156,61 @@ class ExportOrder(NamedTuple):
 
 
 def questions(order: ExportOrder, complain: Complain) -> Iterator[Question]:
-    """A question for every unknown load of every case; what can't be one is told."""
+    """A question for every unknown load of every case, and for what else the course asks of it, with each of
+    its variants; what can't be one is told."""
+
+    def told(name: str, error: NoKeyError) -> None:
+        complain(f"{order.case_store.paths.get(name, name)}: {error}")
+
     for name in sorted(order.case_store.paths):
         try:
-            varied = order.case_store.variation(name)
-            if varied is None:
-                solved = order.case_store.solved(name)
-                yield from _of_case(solved, solved.case, name, order, solved.case.title)
-                continue
-            for n, draw in enumerate(_different(varied, order.variants), 1):
-                case = varied.read(draw.values)
-                yield from _of_case(varied.task(draw), case, f"{name} v{n}", order, varied.title)
+            asks = _asked_for(order, name)
+            for one in _variants(order, name) if asks else ():
+                picture = figure(one.case) if order.figures else ""
+                for own, what in list(asks.items()):
+                    try:
+                        yield _question(order, one, own, what, picture)
+                    except NoKeyError as error:
+                        told(name, error)
+                        del asks[own]
         except NoKeyError as error:
-            complain(f"{order.case_store.paths.get(name, name)}: {error}")
+            told(name, error)
+
+
+class _Variant(NamedTuple):
+    """A case with one choice of its numbers, how a platform lists it, and its title without them."""
+
+    label: str
+    solved: SolvedCase
+    case: Case
+    title: str
+
+
+def _variants(order: ExportOrder, name: str) -> Iterator[_Variant]:
+    varied = order.case_store.variation(name)
+    if varied is None:
+        solved = order.case_store.solved(name)
+        yield _Variant(name, solved, solved.case, solved.case.title)
+        return
+    for n, draw in enumerate(_different(varied, order.variants), 1):
+        yield _Variant(f"{name} v{n}", varied.task(draw), varied.read(draw.values), varied.title)
+
+
+def _asked_for(order: ExportOrder, name: str) -> dict[str, str]:
+    """What is asked of a case, by the names of the questions. Raises NoKeyError where that is nothing."""
+    store = order.case_store
+    varied = store.variation(name)
+    case = store.solved(name).case if varied is None else varied.case
+    more = (question.partition(":") for question in store.course.own)
+    found = final_questions(case, case.name)
+    found |= {f"{of}:{what}": what for of, _, what in more if of == name and what}
+    if not found:
+        kind = "a case in space" if case.space is not None else NOTHING
+        raise NoKeyError(f"{kind}, so no question")
+    return found
+
+
+NOTHING = "no unknown load, and nothing that the course asks of it by name"
 
 
 _TRIED = 20
@@ -185,27 +228,24 @@ def _different(varied: Varied, most: int) -> list[Draw]:
     return list(found.values())
 
 
-def _of_case(solved: SolvedCase, case: Case, name: str, order: ExportOrder, title: str) -> Iterator[Question]:
-    asked_for = final_questions(case, case.name)
-    if not asked_for:
-        kind = "a case in space" if case.space is not None else "no unknown load"
-        raise NoKeyError(f"{kind}, so no question")
-    picture = figure(case) if order.figures else ""
-    for own, what in asked_for.items():
-        key = solved.key(own)
-        first, *others = numbers_of(key)
-        choices = key.keys if isinstance(key, ChoiceKey) else (key,)
-        if not order.words and any(isinstance(one, RangeKey) for one in choices):
-            raise NoKeyError(f"{what} holds over a range, for which no such question can ask")
-        if not order.words and first.expected.asked:
-            raise NoKeyError(f"{what} asks for a direction too, for which no such question can ask")
-        least = min(abs(one.value) for one in (first, *others))
-        if 0.0 < least < order.smallest:
-            raise NoKeyError(f"{what} is {least:.3g} {key.unit_name}, and Canvas keeps four decimals")
-        text = asked(key, solved.target(own))
-        shown = name if len(asked_for) == 1 else f"{name}:{what}"
-        given, accepted = tuple(Statement(case).rows()), key.accepted
-        yield Question(shown, given, text, first, accepted, picture, title, tuple(others))
+def _question(order: ExportOrder, one: _Variant, own: str, what: str, picture: str) -> Question:
+    """The question ``own`` of a variant. Raises NoKeyError where the platform cannot ask it."""
+    key = one.solved.key(own)
+    if isinstance(key, PlaceKey):
+        raise NoKeyError(f"{what} is a place, for which no such question can ask")
+    first, *others = numbers_of(key)
+    choices = key.keys if isinstance(key, ChoiceKey) else (key,)
+    if not order.words and any(isinstance(each, RangeKey) for each in choices):
+        raise NoKeyError(f"{what} holds over a range, for which no such question can ask")
+    if not order.words and first.expected.asked:
+        raise NoKeyError(f"{what} asks for a direction too, for which no such question can ask")
+    least = min(abs(each.value) for each in (first, *others))
+    if 0.0 < least < order.smallest:
+        raise NoKeyError(f"{what} is {least:.3g} {key.unit_name}, and Canvas keeps four decimals")
+    text, given = asked(key, one.solved.target(own)), tuple(Statement(one.case).rows())
+    _, colon, rest = own.partition(":")
+    label = f"{one.label}{colon}{rest}"
+    return Question(label, given, text, first, key.accepted, picture, one.title, tuple(others))
 
 
 def export(kind: str, order: ExportOrder, complain: Complain) -> int:
@@ -238,7 +278,7 @@ def _elements(order: ExportOrder, complain: Complain) -> int:
     course = _text(order.course) if order.course else ""
     for question in found:
         case = question.key.question.partition(":")[0]
-        folder = os.path.join(order.path, question.key.question.replace(":", "-"))
+        folder = os.path.join(order.path, re.sub("[:/ ]", "-", question.key.question))
         varied = order.case_store.variation(case) is not None
         for name, text in element(question, order.case_store.text(case), course, varied).items():
             write_whole(os.path.join(folder, name), text, order.force)

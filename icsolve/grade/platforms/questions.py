@@ -18,7 +18,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 
 from icsolve.case import Case
-from icsolve.case.expected import LoadIs, PositionIs, Target
+from icsolve.case.expected import LoadIs, PositionIs, ReactionIs, SpeedIs, Target
 from icsolve.grade.keys import AnyKey, ChoiceKey, NumberKey, PlaceKey, RangeKey, numbers_of
 from icsolve.grade.mistakes.lookup import ORDER, Wrong, message
 from icsolve.grade.written.words import factors_between
@@ -58,6 +58,10 @@ def asked(key: AnyKey, target: Target) -> str:
         sign = f" ({'counterclockwise' if key.expected.turn > 0 else 'clockwise'} positive)"
     elif key.expected.asked:
         sign = ", and its direction in degrees counterclockwise from +x"
+    elif isinstance(target, SpeedIs) or (isinstance(target, ReactionIs) and not target.part):
+        name = f"the size of {name}"
+    elif key.expected.given:
+        sign = f" (positive {key.expected.given})"
     elif key.expected.heading is not None:
         sign = f" (positive at {direction_words(key.expected.heading)} from +x)"
     return f"Find {name}{unit}{sign}."

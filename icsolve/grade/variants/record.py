@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from html import escape
 
 from icsolve.files import is_plain
@@ -18,7 +18,7 @@ from icsolve.grade.course import Person, Roster, student_named
 from icsolve.grade.keys import NumberKey, numbers_of
 from icsolve.grade.platforms.questions import asked
 from icsolve.grade.results import csv_text, safe
-from icsolve.grade.solved import final_questions
+from icsolve.grade.solved import SolvedCase, final_questions
 from icsolve.grade.tables.columns import TableColumns, read_whole_table, without_apostrophe
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import Draw, VariantRecord, Varied
@@ -259,20 +259,33 @@ class Neighbours:
 
 def other_seed(varied: Varied, given: list[GivenValue], seeds: Iterable[str]) -> str | None:
     """The seed by which most answers are right, where by the present one most are wrong; None for none."""
-    if len(given) < _ANSWERS or 2 * sum(one.right for one in given) >= len(given):
-        return None
-    for seed in seeds:
+    for seed in seeds if _most_are_wrong(given) else ():
         if seed == varied.course.seed:
             continue
         other = Varied(varied.name, varied.text, varied.path, varied.course._replace(seed=seed))
-        if 2 * sum(_is_right(other, one) for one in given) > len(given):
+        if _most_are_right(given, other.solved):
             return seed
     return None
 
 
-def _is_right(varied: Varied, one: GivenValue) -> bool:
+def to_first_values(varied: Varied, given: list[GivenValue]) -> bool:
+    """Whether most answers are right for the numbers with which the case is shown, where for those of each
+    student most are wrong."""
+    first = Draw("", varied.first)
+    return _most_are_wrong(given) and _most_are_right(given, lambda _: varied.task(first))
+
+
+def _most_are_wrong(given: list[GivenValue]) -> bool:
+    return len(given) >= _ANSWERS and 2 * sum(one.right for one in given) < len(given)
+
+
+def _most_are_right(given: list[GivenValue], solved: Callable[[str], SolvedCase]) -> bool:
+    return 2 * sum(_is_right(one, solved) for one in given) > len(given)
+
+
+def _is_right(one: GivenValue, solved: Callable[[str], SolvedCase]) -> bool:
     try:
-        key = varied.solved(one.student).key(one.question)
+        key = solved(one.student).key(one.question)
     except NoKeyError:
         return False
     return isinstance(key, NumberKey) and abs(one.value - key.value) <= key.half

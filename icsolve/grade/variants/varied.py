@@ -160,7 +160,7 @@ class Varied:
         self.case = self.read({})
         self.numbers = VariedNumbers(text, self.case)
         self.record: VariantRecord | None = None
-        self._first = first_values(self.case.variables)
+        self.first = first_values(self.case.variables)
         self._solved: Latest[tuple[str, ...], SolvedCase | None] = Latest(_KEPT)
         self._tasks: Latest[tuple[str, ...], SolvedCase] = Latest(_KEPT)
         self._draws: Latest[str, Draw] = Latest(_KNOWN)
@@ -277,7 +277,7 @@ class Varied:
 
     def _figure(self, values: Texts) -> Texts:
         """These values, and the first ones of variables that only scale loads."""
-        return {n: self._first[n] if n in self.numbers.of_loads else v for n, v in values.items()}
+        return {n: self.first[n] if n in self.numbers.of_loads else v for n, v in values.items()}
 
     def _exactly(self, values: Texts, full: bool = False) -> SolvedCase | None:
         """The case with these values; None where it has no answer."""

@@ -86,11 +86,15 @@ push | compressione, druk, compressão
 right | right, rightward, rightwards, horizontally right, horizontal right, rechts, droite, derecha, destra
 right | +x, positive x, plus x, direita
 up | up, upward, upwards, vertically up, vertically upward, vertically upwards, vertical up, vertical upward
-up | oben, aufwärts, haut, arriba, alto, l'alto, omhoog, boven, cima, +y, positive y, plus y
+up | oben, aufwärts, haut, arriba, alto, l'alto, omhoog, boven, cima, +y, positive y, plus y, opwaarts
 left | left, leftward, leftwards, horizontally left, horizontal left, links, gauche, izquierda, sinistra
 left | -x, negative x, minus x, esquerda
 down | down, downward, downwards, vertically down, vertically downward, vertically downwards, vertical down
 down | vertical downward, unten, abwärts, bas, abajo, basso, -y, negative y, minus y, omlaag, beneden, baixo
+down | neerwaarts, vertical downwards, downward vertically, downwards vertically
+up | vertical upwards, upward vertically, upwards vertically
+right | right side
+left | left side
 """
 _NAMED = {"ccw": CCW, "cw": CW, "pull": PULL, "push": PUSH} | {
     name: _line(degrees) for name, degrees in (("right", 0.0), ("up", 90.0), ("left", 180.0), ("down", 270.0))

@@ -22,6 +22,7 @@ from icsolve.case import (
     Torque,
     is_angle,
     ordered_pair,
+    told_links,
 )
 from icsolve.case.figure import Unknown
 from icsolve.errors import SceneError
@@ -458,15 +459,22 @@ ROUNDED = 1e-14
 
 def bars_of(answer: Answer) -> dict[str, float]:
     """The force along each link that is loaded at two points alone and by no couple, as its end without a
-    load has it: positive where the bar is pulled [case force]. None is told of what equilibrium leaves open.
+    load has it: positive where the bar is pulled [case force]. None is told of what equilibrium leaves open,
+    nor of the barrel of a cylinder that its joints would have without force.
     """
     case, found = answer.case, dict[str, float]()
     tied = {link for rope in case.ropes for link in rope.links}
     tied.update(link for screw in case.screws for link in screw.links)
+    strained = {
+        link
+        for load in case.loads
+        if (other := getattr(load, "against", None))
+        for link in (load.link, other)
+    }
     moved = answer.accelerations is not None  # inertia forces act all along
     if answer.reactions is None or moved:
         return {}
-    for link in case.links:
+    for link in told_links(case):
         held = [] if link == case.ground else [r for _, r in answer.reactions.of_link(link)]
         ends = [*dict.fromkeys(r.at for r in held)]
         if len(ends) != 2 or link in tied or any(None in (r.x, r.y) or r.moment != 0.0 for r in held):
@@ -480,7 +488,8 @@ def bars_of(answer: Answer) -> dict[str, float]:
         u, v = ((a - b) / span for a, b in zip(own, other, strict=True))
         size = sum(r.magnitude or 0.0 for r in held if r.at == free[0])
         if math.hypot(x, y) <= ROUNDED * size:
-            found[link] = 0.0
+            if link not in strained:
+                found[link] = 0.0
         elif abs(x * v - y * u) <= ALONG * math.hypot(x, y):
             found[link] = x * u + y * v
     return found
