@@ -349,7 +349,7 @@ def shown(case: Case) -> Iterator[Shown]:
     arithmetic = AsWritten()
     with arithmetic.mp.workdps(EVERY_DIGIT):
         answer = solve(case, all_centres=True, rates=True)
-        program, exact = evaluate(prepare(case, Want(True, True)), arithmetic)
+        program, exact = evaluate(prepare(answer.case, Want(True, True)), arithmetic)
         for w in exact.balance.wrenches:
             if w.root in exact.solution.values:
                 found, true = answer.answers[w.load.name], w.ratio * exact.solution.values[w.root]
