@@ -1,0 +1,74 @@
+"""Points at which a link has a load, a mass or a given speed, and which a motion takes elsewhere: a pin of
+another link in a slot of it, a block on its guide, a contact that rolls on. What stands there goes on with
+its own link, from where the figure is written."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from icsolve.case import Case, Load, TorsionSpring
+from icsolve.structure import Topology
+from icsolve.tuples import NamedTuple
+
+
+class TornPoint(NamedTuple):
+    """A point, the link on which something stands there, the link that takes the point along (empty: none,
+    as a rolling contact, which goes on along both), and the load that stands there (None: a mass, a given
+    speed)."""
+
+    point: str
+    link: str
+    owner: str
+    load: str | None = None
+
+
+def owners_of_points(case: Case) -> dict[str, str]:
+    """The link that takes each point along: of a pin any, of a block or a pin in a slot its own."""
+    found: dict[str, list[str]] = {}
+    for joint in case.joints:
+        at = getattr(joint, "at", None)
+        if at is not None:
+            found.setdefault(at, []).extend(joint.links if joint.pivot else joint.links[:1])
+    for link, names in case.carries.items():
+        for name in names:
+            found.setdefault(name, [link])
+    return {name: case.ground if case.ground in links else links[0] for name, links in found.items()}
+
+
+def torn_points(case: Case, top: Topology) -> Iterator[TornPoint]:
+    """All of them, in the order of masses, given speeds and loads."""
+    owners, body_of = owners_of_points(case), top.body_of
+    rolled = {joint.at for joint in case.joints if joint.at is not None and not joint.carried}
+    pinned: dict[str, set[int]] = {}
+    for joint in case.joints:
+        if joint.pivot is not None:
+            pinned.setdefault(joint.pivot, set()).update(body_of[link] for link in joint.links)
+    held = [TornPoint(mass.centre, link, "") for link, mass in case.inertia.items() if mass.centre]
+    held += [TornPoint(given.point, given.link, "") for given in case.motion if given.point]
+    held += [TornPoint(p, link, "", load.name) for load in case.loads for p, link in _stands_at(case, load)]
+    for each in held:
+        if each.point not in owners or each.link not in body_of:
+            continue
+        owner = owners[each.point]
+        bodies = {body_of[each.link], body_of[owner]}
+        if each.point in rolled:
+            yield each
+        elif len(bodies) > 1 and not bodies <= pinned.get(each.point, set()):
+            yield each._replace(owner=owner)
+
+
+def _stands_at(case: Case, load: Load) -> Iterator[tuple[str, str]]:
+    """The points of a load, each with the link on which it stands."""
+    against = getattr(load, "against", None) or case.ground
+    if isinstance(load, TorsionSpring):
+        *arm, at, end = load.corner
+        yield from ((at, load.link), (end, load.link))
+        yield from ((p, against) for p in (*arm, at) if arm)
+        return
+    over = getattr(load, "over", None)
+    for p in (getattr(load, "at", None), getattr(over, "a", None), getattr(over, "b", None)):
+        if p is not None:
+            yield p, load.link
+    to = getattr(load, "to", None)
+    if to is not None:
+        yield to, against
