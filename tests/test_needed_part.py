@@ -17,6 +17,7 @@ import pytest
 import icsolve as library
 from icsolve.errors import SceneError
 from icsolve.scene.needed_part import needed_part
+from icsolve.solve.stability import with_stability
 from shell import Shell
 from sizes import few
 
@@ -211,6 +212,39 @@ def test_rows_in_which_spare_links_do_not_reach_have_the_answer_of_their_scene(s
     for row in rows.tolist():
         scene = library.solve(found.case_of(row), rates=True)
         assert math.isclose(scene.answers["T"].value, found.answers["T"][row], rel_tol=1e-12)
+
+
+@pytest.mark.parametrize("kind", REACHING)
+@pytest.mark.parametrize("seed", range(few(6)))
+def test_a_link_with_which_a_load_turns_is_needed_in_a_motion(seed: int, kind: str) -> None:
+    """Rows in which it reaches have the load in the direction that it has turned to, the others no answer."""
+    bare = dict.fromkeys(("lengths", "angles", "near", "joints"), "")
+    reaching = {**REACHING[kind]}
+    reaching["lengths"] = reaching["lengths"].format(ef=26.0, fg=24.0)
+    text = MECHANISM.format(**drawn(seed), **{**bare, **reaching})
+    turning = text.replace("link: 4, at: E,", "link: 4, at: E, turns_with: 5,")
+    turns = np.arange(0.0, 360.0, 24.0)
+    rows = library.sweep(library.load(turning), drive={"2": turns}, want=("answers", "points"))
+    e, f = rows.points["E"], rows.points["F"]
+    assert np.array_equal(rows.status == "ok", np.isfinite(f[:, 0]))
+    assert rows.status[0] == "ok"
+    way = np.degrees(np.arctan2(*(f - e).T[::-1]))
+    for row in np.flatnonzero(rows.status == "ok").tolist():
+        angle = drawn(seed)["angle"] + way[row] - way[0]
+        scene = library.load(text, {"loads.P.angle": float(angle)})
+        one = library.sweep(scene, drive={"2": turns[row : row + 1]}).answers["T"][0]
+        assert math.isclose(one, rows.answers["T"][row], rel_tol=1e-9, abs_tol=1e-9)
+
+
+def test_what_turns_with_a_link_without_a_place_is_refused_in_a_motion_alone() -> None:
+    """As written it acts as it is written."""
+    text, _ = texts(0, "too short")
+    case = library.load(text.replace("link: 4, at: E,", "link: 4, at: E, turns_with: 5,"))
+    assert library.solve(case).answers["T"].value == library.solve(library.load(text)).answers["T"].value
+    with pytest.raises(SceneError, match="cannot meet at F"):
+        library.sweep(case, drive={"2": [1.0, 2.0]})
+    with pytest.raises(SceneError, match="cannot meet at F"):
+        with_stability(case, library.solve(case), "2")
 
 
 def test_a_position_of_rest_is_found_beside_spare_links() -> None:
