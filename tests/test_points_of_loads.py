@@ -10,6 +10,9 @@ import numpy as np
 import pytest
 
 import icsolve
+from icsolve.page.model import gain_rows, heading_rows
+from icsolve.page.motion import motion_of
+from icsolve.report.derivation.known import acting_loads, known_of
 from icsolve.solve.positions import find_along
 from icsolve.solve.stability import with_stability
 from sizes import sampled
@@ -42,6 +45,8 @@ ROLLER = """\
 """
 JOINTS = {"slot": SLOT, "guide": BLOCK, "rack": RACK, "wheel": WHEEL, "roller": ROLLER}
 """Mechanisms in which link 3 has a load at P, which another link or the contact takes elsewhere."""
+DRIVEN = {"wheel": "3", "roller": "3"}
+"""The link that turns, where it is not 2."""
 LOADS = {
     "force": "{force: 30, link: 3, at: {P}, angle: {angle}}",
     "turning": "{force: 30, link: 3, at: {P}, angle: {angle}, turns_with: 2}",
@@ -74,9 +79,9 @@ joints:
 {JOINTS[joints].replace("{along}", f"{rng.uniform(0, 180):.1f}")}
 loads:
   W: {{weight: 20, link: 3, at: L}}
-  T: {{torque: unknown, link: {"3" if joints == "wheel" else "2"}}}
+  T: {{torque: unknown, link: {DRIVEN.get(joints, 2)}}}
 {f"  S: {told}" if told else ""}
-motion: {{link: {"3" if joints in ("wheel", "roller") else "2"}, speed: 4}}
+motion: {{link: {DRIVEN.get(joints, 2)}, speed: 4}}
 """
 
 
@@ -86,10 +91,8 @@ motion: {{link: {"3" if joints in ("wheel", "roller") else "2"}, speed: 4}}
 @pytest.mark.parametrize("joints", JOINTS)
 def test_a_load_goes_on_with_its_own_link(joints: str, load: str, seed: int) -> None:
     """Rows and the stability as written."""
-    if joints == "roller":
-        pytest.skip("its torque is that of a link that slides")
     one, other = (icsolve.load(scene(joints, load, name, seed)) for name in "PQ")
-    driven = "3" if joints == "wheel" else "2"
+    driven = DRIVEN.get(joints, "2")
     dynamic = load == "mass"
     turned = {driven: [-11.0, -4.0, 0.0, 3.0, 8.0]}
     rows = [icsolve.sweep(case, drive=turned, dynamic=dynamic) for case in (one, other)]
@@ -99,6 +102,28 @@ def test_a_load_goes_on_with_its_own_link(joints: str, load: str, seed: int) -> 
     if not dynamic:
         told = [with_stability(case, icsolve.solve(case), driven).stiffness for case in (one, other)]
         assert told[0].value == pytest.approx(told[1].value, rel=1e-9, abs=1e-9)
+
+
+@sampled(3, "joints", "load")
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("load", ["toward", "spring", "end of a spring", "winding", "winding between"])
+@pytest.mark.parametrize("joints", ["slot", "guide", "rack"])
+def test_a_page_draws_and_reckons_it_on_its_own_link(joints: str, load: str, seed: int) -> None:
+    """How it acts and what a unit of it does, in every position: its powers are those of rows."""
+    told = []
+    for name in "PQ":
+        known = known_of(icsolve.load(scene(joints, load, name, seed)))
+        motion = motion_of(known, ())
+        (acting,) = (one for one in acting_loads(known) if one.load.name == "S")
+        told.append([rows(known, motion, acting) for rows in (gain_rows, heading_rows)])
+        if load.startswith("winding"):  # the sum of powers of a row, by the terms of a unit of each load
+            powers = motion.found.terms
+            held = 20.0 * gain_rows(known, motion, acting) * (motion.found.rates["3"])
+            if load == "winding between":
+                held -= 20.0 * gain_rows(known, motion, acting) * motion.found.rates["2"]
+            assert np.allclose(20.0 * powers["S"], held, rtol=1e-7, atol=1e-7, equal_nan=True)
+    for one, other in zip(*told, strict=True):
+        assert np.allclose(one, other, rtol=1e-9, atol=1e-9, equal_nan=True)
 
 
 ARM = """\

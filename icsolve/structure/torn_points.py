@@ -35,25 +35,35 @@ def owners_of_points(case: Case) -> dict[str, str]:
     return {name: case.ground if case.ground in links else links[0] for name, links in found.items()}
 
 
+class CarriedPoints:
+    """Which points go with which link in a motion."""
+
+    def __init__(self, case: Case, top: Topology) -> None:
+        self.owners, self.body_of = owners_of_points(case), top.body_of
+        self.rolled = {joint.at for joint in case.joints if joint.at is not None and not joint.carried}
+        self.pinned: dict[str, set[int]] = {}
+        for joint in case.joints:
+            if joint.pivot is not None:
+                bodies = {top.body_of[link] for link in joint.links}
+                self.pinned.setdefault(joint.pivot, set()).update(bodies)
+
+    def go_with(self, link: str, point: str) -> bool:
+        """Whether a point that stands on a link goes on with it, and not with another or along both."""
+        if point in self.rolled:
+            return False
+        bodies = {self.body_of[link], self.body_of[self.owners.get(point, link)]}
+        return len(bodies) == 1 or bodies <= self.pinned.get(point, set())
+
+
 def torn_points(case: Case, top: Topology) -> Iterator[TornPoint]:
     """All of them, in the order of masses, given speeds and loads."""
-    owners, body_of = owners_of_points(case), top.body_of
-    rolled = {joint.at for joint in case.joints if joint.at is not None and not joint.carried}
-    pinned: dict[str, set[int]] = {}
-    for joint in case.joints:
-        if joint.pivot is not None:
-            pinned.setdefault(joint.pivot, set()).update(body_of[link] for link in joint.links)
+    carried = CarriedPoints(case, top)
     held = [TornPoint(mass.centre, link, "") for link, mass in case.inertia.items() if mass.centre]
     held += [TornPoint(given.point, given.link, "") for given in case.motion if given.point]
     held += [TornPoint(p, link, "", load.name) for load in case.loads for p, link in _stands_at(case, load)]
     for each in held:
-        if each.point not in owners or each.link not in body_of:
-            continue
-        owner = owners[each.point]
-        bodies = {body_of[each.link], body_of[owner]}
-        if each.point in rolled:
-            yield each
-        elif len(bodies) > 1 and not bodies <= pinned.get(each.point, set()):
+        if each.link in top.body_of and not carried.go_with(each.link, each.point):
+            owner = "" if each.point in carried.rolled else carried.owners[each.point]
             yield each._replace(owner=owner)
 
 
