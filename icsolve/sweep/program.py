@@ -157,7 +157,7 @@ class CompiledSweep(NamedTuple):
     taut: bool = False
     """whether the rows tell that every rope pulls"""
     loaded: tuple[int, ...] = ()
-    """where the links are that loads act on, of a mechanism that moves: they have to be somewhere"""
+    """where the links are that loads act on, where a link is turned: they have to be somewhere"""
     untold: bool = False
     """whether they are asked for, and only a scene of its own tells them, or what is asked beside"""
 
@@ -376,22 +376,19 @@ def _compiled(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -
         fits,
         senses,
         rests=bool(asked.contacts),
-        loaded=_loaded(case, motion) if motion is not None and asked.answers else (),
+        loaded=_loaded(case, motion) if motion is not None and setting.links and asked.answers else (),
     )
     return compiled if found is None else _with_statics(compiled, asked, found)
 
 
 def _loaded(case: Case, motion: DrivenMotion) -> tuple[int, ...]:
-    """The nodes that tell where the links are that loads act on."""
-    bodies = {motion.mechanism.top.body_of.get(link) for link in moving_links(case)}
-    moved = motion.moved
-    places = [
-        v
-        for body, base in moved.bases.items()
-        if body in bodies
-        for v in (*moved.place(base), *moved.vector(body, (1.0, 0.0)))
-    ]
-    return tuple(v.index for v in places if isinstance(v, Traced) and v.row)
+    """The nodes that tell where the links are that loads act on: their turning, and what places them."""
+    held, moved = motion.mechanism, motion.moved
+    bodies = {held.top.body_of[link] for link in moving_links(case) if link in held.top.body_of}
+    turned = [moved.rotations[body].z for body in bodies if body in moved.rotations]
+    spots = (held.shape.one(spot) for body in bodies for spot in held.spots[body])
+    placed = [moved.located[spot] for spot in spots if spot in moved.located]
+    return tuple(v.index for at in (*turned, *placed) for v in at if isinstance(v, Traced) and v.row)
 
 
 def _with_statics(compiled: CompiledSweep, asked: RowRequest, found: RecordedStatics) -> CompiledSweep:
