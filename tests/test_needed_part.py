@@ -17,6 +17,7 @@ import pytest
 import icsolve as library
 from icsolve.errors import SceneError
 from icsolve.scene.needed_part import needed_part
+from icsolve.solve.stability import with_stability
 from shell import Shell
 from sizes import few, sampled
 
@@ -212,6 +213,68 @@ def test_rows_in_which_spare_links_do_not_reach_have_the_answer_of_their_scene(s
     for row in rows.tolist():
         scene = library.solve(found.case_of(row), rates=True)
         assert math.isclose(scene.answers["T"].value, found.answers["T"][row], rel_tol=1e-12)
+
+
+@pytest.mark.parametrize("kind", REACHING)
+@pytest.mark.parametrize("seed", range(few(6)))
+def test_a_link_with_which_a_load_turns_is_needed_in_a_motion(seed: int, kind: str) -> None:
+    """Rows in which it reaches have the load in the direction that it has turned to, the others no answer."""
+    bare = dict.fromkeys(("lengths", "angles", "near", "joints"), "")
+    reaching = {**REACHING[kind]}
+    reaching["lengths"] = reaching["lengths"].format(ef=26.0, fg=24.0)
+    text = MECHANISM.format(**drawn(seed), **{**bare, **reaching})
+    turning = text.replace("link: 4, at: E,", "link: 4, at: E, turns_with: 5,")
+    turns = np.arange(0.0, 360.0, 24.0)
+    rows = library.sweep(library.load(turning), drive={"2": turns}, want=("answers", "points"))
+    e, f = rows.points["E"], rows.points["F"]
+    assert np.array_equal(rows.status == "ok", np.isfinite(f[:, 0]))
+    assert rows.status[0] == "ok"
+    way = np.degrees(np.arctan2(*(f - e).T[::-1]))
+    for row in np.flatnonzero(rows.status == "ok").tolist():
+        angle = drawn(seed)["angle"] + way[row] - way[0]
+        scene = library.load(text, {"loads.P.angle": float(angle)})
+        one = library.sweep(scene, drive={"2": turns[row : row + 1]}).answers["T"][0]
+        assert math.isclose(one, rows.answers["T"][row], rel_tol=1e-9, abs_tol=1e-9)
+
+
+def test_what_turns_with_a_link_without_a_place_is_refused_in_a_motion_alone() -> None:
+    """As written it acts as it is written."""
+    text, _ = texts(0, "too short")
+    case = library.load(text.replace("link: 4, at: E,", "link: 4, at: E, turns_with: 5,"))
+    assert library.solve(case).answers["T"].value == library.solve(library.load(text)).answers["T"].value
+    with pytest.raises(SceneError, match="cannot meet at F"):
+        library.sweep(case, drive={"2": [1.0, 2.0]})
+    with pytest.raises(SceneError, match="cannot meet at F"):
+        with_stability(case, library.solve(case), "2")
+
+
+STEADY = {
+    "torques": "P: {torque: 100, link: 4}",
+    "a force through its pivot": "P: {force: 100, link: 4, at: D, angle: 30}",
+    "a force that turns with it": "P: {force: 100, link: 4, at: E, angle: 30, turns_with: 4}",
+}
+
+
+@pytest.mark.parametrize("load", STEADY.values(), ids=STEADY)
+@pytest.mark.parametrize("seed", range(few(4)))
+def test_a_row_in_which_a_loaded_link_has_no_place_has_no_answer(seed: int, load: str) -> None:
+    """Though the answer is the same wherever that is: the link that is turned has to reach it."""
+    bare = dict.fromkeys(("lengths", "angles", "near", "joints"), "")
+    text = MECHANISM.format(
+        **{**drawn(seed), "a": 24.0}, **{**bare, "lengths": ", EF: 1", "near": ", F: [70, 5]"}
+    )
+    text = text.replace(text[text.index("  P: {") : text.index("  T: ")], f"  {load}\n")
+    case = library.load(text.replace("unknown, link: 2", "unknown, link: 4"))
+    turns = np.arange(0.0, 360.0, 24.0)
+    turned = {"2": turns}
+    placed = library.sweep(case, drive=turned, want=("answers", "points"))
+    there = np.isfinite(placed.points["C"][:, 0])
+    assert there[0] and not there.all()
+    for want in (("answers", "status"), ("answers", "status", "error"), ("answers", "rates", "status")):
+        rows = library.sweep(case, drive=turned, want=want)
+        assert np.array_equal(rows.status == "ok", there)
+        assert {*rows.status[~there]} == {"cannot-assemble"}
+        assert np.array_equal(np.isfinite(rows.answers["T"]), there)
 
 
 def test_a_position_of_rest_is_found_beside_spare_links() -> None:

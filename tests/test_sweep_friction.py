@@ -60,6 +60,7 @@ joints:
 loads: {P: {force: 7, link: 4, at: C, angle: 190}, T2: {torque: unknown, link: 2}}
 """
 CW = "motion: {link: 2, turns: cw}\n"
+BACK = "motion: {link: 2, speed: -3}\n"
 MOVED = {"drive": {"2": np.linspace(-170.0, 180.0, 36)}}
 LOADED = {"vary": {"loads.T4": np.linspace(-5.0, 8.0, 8), "angles.AB": np.linspace(20.0, 300.0, 8)}}
 ROUGHER = {"vary": {"joints.B.mu": np.linspace(0.05, 0.5, 8)}}
@@ -72,7 +73,7 @@ SAME = 1e-11
     ("of", "more"),
     crossed(
         [(FOUR_BAR, MOVED), (FOUR_BAR, LOADED), (FOUR_BAR, ROUGHER), (BLOCK, MOVED)],
-        ["", CW, "motion: {link: 4, turns: ccw}\n"],
+        ["", CW, "motion: {link: 4, turns: ccw}\n", BACK, "motion: {link: 4, turns: cw, speed: -2 rpm}\n"],
     ),
 )
 def test_a_row_is_the_scene_of_its_points(of: tuple[str, dict[str, Any]], more: str) -> None:
@@ -82,6 +83,17 @@ def test_a_row_is_the_scene_of_its_points(of: tuple[str, dict[str, Any]], more: 
     found = icsolve.sweep(icsolve.load(text + more), **moved)
     for row in range(0, len(found), 1 if FULL else 2):
         _is_scene(found, row)
+
+
+def test_the_sign_of_a_speed_says_which_way_it_goes() -> None:
+    """Also where the speed is what varies, with and without bounds."""
+    speeds = {"motion.speed": [-2.0, -1e-9, 0.0, 0.5, 3.0]}
+    for text in (FOUR_BAR + BACK, BLOCK + "motion: {link: 2, turns: cw, speed: 1}\n"):
+        for want in (("answers", "status"), ("answers", "status", "error")):
+            found = icsolve.sweep(icsolve.load(text), speeds, want)
+            assert found.answers["T2"][0] != pytest.approx(found.answers["T2"][-1], rel=1e-3)
+            for row in range(len(found)):
+                _is_scene(found, row)
 
 
 @pytest.mark.parametrize(

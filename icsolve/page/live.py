@@ -54,6 +54,7 @@ from icsolve.screws.ropes import TOUCHING, RopePart, rope_parts
 from icsolve.statics import load_wrenches, power
 from icsolve.statics.load_wrenches import COUPLE, FORCE, inertia_forces, is_loaded
 from icsolve.structure import Bond, topology
+from icsolve.structure.torn_points import owners_of_points, torn_points
 from icsolve.sweep.program import wanted_points
 from icsolve.sweep.varied_numbers import numbers_of
 from icsolve.tuples import NamedTuple
@@ -419,7 +420,7 @@ class _ProgramWriter:
             "kinds": [type(bond.joint).__name__ for bond in top.bonds],
             "pivots": [list(bond.pivots) if bond.pivots else None for bond in top.bonds],
             "turning": self._turning(),
-            "owner": self._owners(),
+            "owner": owners_of_points(case),
             "measures": self._measures(place),
             "at": [bond.joint.at for bond in top.bonds],
             "units": [unit_word(unit) for unit in (case.units.force, case.units.torque)],
@@ -485,19 +486,6 @@ class _ProgramWriter:
             if pairs:
                 yield [place[joint.at], numbers, [[p and place[p] for p in pair] for pair in pairs]]
 
-    def _owners(self) -> dict[str, str]:
-        """The link that takes each point along: of a pin any, of a block or a pin in a slot its own."""
-        case = self.case
-        found: dict[str, list[str]] = {}
-        for joint in case.joints:
-            at = getattr(joint, "at", None)
-            if at is not None:
-                found.setdefault(at, []).extend(joint.links if joint.pivot else joint.links[:1])
-        for link, names in case.carries.items():
-            for name in names:
-                found.setdefault(name, [link])
-        return {name: case.ground if case.ground in links else links[0] for name, links in found.items()}
-
     def _turning(self) -> list[str]:
         """The links that are pinned to the frame."""
         pins = [joint for joint in self.case.joints if joint.pivot is not None]
@@ -508,7 +496,7 @@ class _ProgramWriter:
         """How each number that a motion changes is measured: kind, number, points or the link it turns with;
         None where one can't be."""
         case, found = self.case, list[list[Any]]()
-        if case.ropes or case.screws or self._is_torn():
+        if case.ropes or case.screws or any(torn_points(case, self.top)):
             return None
         number = {path: n for n, path in enumerate(self.paths)}
         for name, at in case.points.items():
@@ -533,24 +521,6 @@ class _ProgramWriter:
             if turner:
                 found.append(["link", number[load.heading.path], turner])  # type: ignore[union-attr]
         return found
-
-    def _is_torn(self) -> bool:
-        """Whether a motion takes a point of a load, a mass or a given speed to several places: one that links
-        carry which do not turn about it."""
-        case, body_of, owners = self.case, self.top.body_of, self._owners()
-        pinned: dict[str, set[int]] = {}
-        for joint in case.joints:
-            if joint.pivot is not None:
-                pinned.setdefault(joint.pivot, set()).update(body_of[link] for link in joint.links)
-        held = [(mass.centre, link) for link, mass in case.inertia.items()]
-        held += [(given.point, given.link) for given in case.motion]
-        for load in case.loads:
-            over = getattr(load, "over", None)
-            ends = (getattr(load, "at", None), getattr(over, "a", None), getattr(over, "b", None))
-            held += [(p, load.link) for p in ends]
-            held.append((getattr(load, "to", None), getattr(load, "against", None) or case.ground))
-        pairs = [(p, {body_of[link], body_of[owners[p]]}) for p, link in held if p in owners]
-        return any(len(bodies) > 1 and not bodies <= pinned.get(p, set()) for p, bodies in pairs)
 
     def _wound(self) -> list[list[int]]:
         """The bodies between which torsion springs turn, in the order in which their angles are counted."""

@@ -60,12 +60,10 @@ def heading_rows(known: Known, motion: PageMotion, acting: Acting) -> Array:
     level = np.full(len(motion.degrees), written)
     if acting.at is None:
         return level
-    target = load.to if isinstance(load, Spring) else None
-    if isinstance(load, Force) and isinstance(load.heading, Toward):
-        target = load.heading.point
-    if target is not None and target in known.points:
+    target = _target(known, motion, acting)
+    if target is not None:
         x, y = place_rows(known, motion, acting.link, acting.at)
-        a, b = _target(known, motion, acting, target)
+        a, b = target
         now = np.degrees(np.arctan2(b - y, a - x))
         return np.asarray(written + now - now[motion.zero])
     inertia = inertia_rows(known, motion, load)
@@ -91,10 +89,17 @@ def inertia_rows(known: Known, motion: PageMotion, load: Load) -> Array | None:
     return -per * units.torque_per_force_length * motion.found.angular_accelerations[load.link]
 
 
-def _target(known: Known, motion: PageMotion, acting: Acting, name: str) -> tuple[Array, Array]:
-    if name in motion.found.points:
-        return motion.found.points[name][:, 0], motion.found.points[name][:, 1]
-    return place_rows(known, motion, acting.against, known.points[name])
+def _target(known: Known, motion: PageMotion, acting: Acting) -> tuple[Array, Array] | None:
+    """Where that is in every row toward which a load acts: a point, or a spring's end on its other link."""
+    load = acting.load
+    if isinstance(load, Spring):
+        return place_rows(known, motion, acting.against, known.points[load.to])
+    heading = getattr(load, "heading", None)
+    if not isinstance(heading, Toward) or heading.point not in known.points:
+        return None
+    if heading.point in motion.found.points:
+        return motion.found.points[heading.point][:, 0], motion.found.points[heading.point][:, 1]
+    return place_rows(known, motion, acting.against, known.points[heading.point])
 
 
 def senses(known: Known, motion: PageMotion, acting: Acting, values: Array) -> list[str]:
@@ -113,7 +118,7 @@ def gain_rows(known: Known, motion: PageMotion, acting: Acting) -> Array:
     load = acting.load
     if isinstance(load, Spring) and acting.at is not None:
         x, y = place_rows(known, motion, acting.link, acting.at)
-        a, b = _target(known, motion, acting, load.to)
+        a, b = place_rows(known, motion, acting.against, known.points[load.to])
         return np.asarray(np.hypot(a - x, b - y) - load.free.value)
     if isinstance(load, TorsionSpring):
         return _slack_rows(known, motion, acting, load)
@@ -128,6 +133,7 @@ def _slack_rows(known: Known, motion: PageMotion, acting: Acting, load: TorsionS
     u, v = place_rows(known, motion, acting.link, known.points[end])
     angle = np.unwrap(np.arctan2(v - y, u - x))
     if arm:
+        x, y = place_rows(known, motion, acting.against, known.points[at])
         u, v = place_rows(known, motion, acting.against, known.points[arm[0]])
         angle = angle - np.unwrap(np.arctan2(v - y, u - x))
     written = acting.gain * known.case.units.torque_per_force_length

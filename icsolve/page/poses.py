@@ -17,6 +17,8 @@ from icsolve.numbers import FLOATS
 from icsolve.report.derivation.known import Known
 from icsolve.screws import Point
 from icsolve.screws.ropes import rope_length, rope_parts
+from icsolve.structure import topology
+from icsolve.structure.torn_points import CarriedPoints
 from icsolve.sweep import Sweep
 from icsolve.tuples import NamedTuple
 
@@ -85,8 +87,8 @@ class PagePose(NamedTuple):
 
 
 class PageRows(NamedTuple):
-    """What a link's pose is found from: the input, its degrees, the row as written, the sweep, and the poses
-    so far."""
+    """What a link's pose is found from: the input, its degrees, the row as written, the sweep, the poses so
+    far, and which points go with which link."""
 
     known: Known
     driver: str
@@ -94,16 +96,18 @@ class PageRows(NamedTuple):
     zero: int
     found: Sweep
     poses: dict[str, PagePose]
+    points: CarriedPoints
 
     def carried(self, link: str) -> list[str]:
-        """The points of a link that the sweep has."""
-        return [p for p in self.known.case.carries.get(link, ()) if p in self.found.points]
+        """The points of a link that the sweep has and that go with it."""
+        names = self.known.case.carries.get(link, ())
+        return [p for p in names if p in self.found.points and self.points.go_with(link, p)]
 
 
 def poses_of(known: Known, driver: str, degrees: Array, zero: int, found: Sweep) -> dict[str, PagePose]:
     """The pose of every link that carries a point, and of the free ends of ropes."""
     case = known.case
-    rows = PageRows(known, driver, degrees, zero, found, {})
+    rows = PageRows(known, driver, degrees, zero, found, {}, CarriedPoints(case, topology(case)))
     waiting = [link for link in case.links if link != case.ground and rows.carried(link)]
     for attempt in (_by_points, _by_guide, _by_rate):
         for link in list(waiting):

@@ -40,6 +40,8 @@ def needed_part(case: Case, beside: Collection[str] = ()) -> Case | None:
         return None
     top = topology(replace(case, unknowns=()) if case.unknowns else case)
     beside = {*beside}.union(*(_posed_by(case, unknown.path) for unknown in case.unknowns))
+    if beside:  # in a motion the links with which loads turn say how these act
+        beside |= {turner for load in case.loads if (turner := getattr(load, "turns_with", None))}
     wanted = {*load_wrenches.moving_links(case), *beside, *(case.inertia if case.dynamic else ())}
     kept = _planned(top, {top.body_of[link] for link in wanted})
     if kept is None or len(kept) == len(top.members):

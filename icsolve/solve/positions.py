@@ -48,6 +48,8 @@ from icsolve.solve.refinement import (
     within_a_turn,
 )
 from icsolve.solve.rest_position import RestPosition, taut
+from icsolve.structure import topology
+from icsolve.structure.torn_points import torn_points
 from icsolve.sweep.varied_numbers import find_number, points_of
 from icsolve.tuples import NamedTuple, replace
 
@@ -403,6 +405,15 @@ def _history(case: Case) -> Iterator[tuple[str, str]]:
             yield f"the guide of links {pair} by degrees", joint.links[1]
         elif not joint.stays_known:
             yield from ((f"the normal of links {pair}", link) for link in joint.links)
+    yield from _history_of_loads(case)
+    for name in placed_by_coordinates(case):
+        carriers = [link for link, names in case.carries.items() if name in names]
+        if case.ground not in carriers:
+            yield from ((f"point {name} by coordinates", link) for link in carriers)
+
+
+def _history_of_loads(case: Case) -> Iterator[tuple[str, str]]:
+    """Of loads what counts from there, with the link on which it does."""
     for load in case.loads:
         if getattr(load, "turns_with", None):
             yield f"load {load.name}, which turns with a link,", str(getattr(load, "turns_with", ""))
@@ -410,10 +421,10 @@ def _history(case: Case) -> Iterator[tuple[str, str]]:
         for at, link in ((getattr(load, "at", ""), load.link), (getattr(load, "to", ""), other)):
             if not is_named(at) and getattr(load, "over", None) is None:
                 yield f"load {load.name} at coordinates", link
-    for name in placed_by_coordinates(case):
-        carriers = [link for link, names in case.carries.items() if name in names]
-        if case.ground not in carriers:
-            yield from ((f"point {name} by coordinates", link) for link in carriers)
+    for torn in torn_points(case, topology(case)):
+        goes = f"goes with link {torn.owner}" if torn.owner else "rolls on"
+        if torn.load is not None:
+            yield f"load {torn.load} at {torn.point}, which {goes},", torn.link
 
 
 def search_modes(

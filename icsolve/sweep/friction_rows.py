@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from icsolve.case import Motion
 from icsolve.kinematics.motion import Motions
 from icsolve.kinematics.speeds import fastest
 from icsolve.numbers import Scalar
@@ -171,7 +172,9 @@ def rubbing(scene: RecordedScene, motions: Motions, balance: Balance) -> Frictio
     rates = tuple(rates_of(position, ties, rubs, 0))
     drive = None
     if turned is not None:
-        rate = motions.twists[turned.link][0][2]
+        if turned.speed is not None and not turned.speed.value:
+            return None
+        rate = motions.twists[turned.link][0][2] * _sense(scene, turned)
         drive = -rate if turned.turns == "cw" else rate
     largest = fastest(motions.twists)
     turning = () if drive is None else (drive,)
@@ -180,6 +183,16 @@ def rubbing(scene: RecordedScene, motions: Motions, balance: Balance) -> Frictio
     load, forces = _reduced(statics, pressing)
     ratios = {w.load.name: w.ratio for w in balance.wrenches if w.root in statics.roots}
     return FrictionRows(forces, load, rates, drive, ratios)
+
+
+def _sense(scene: RecordedScene, given: Motion) -> Scalar:
+    """1 or -1, the sign of a given speed; in a row whose speed is zero none is told."""
+    if given.speed is None:
+        return 1.0
+    speed = scene.record.given(given.speed)
+    if not varies(speed):
+        return math.copysign(1.0, given.speed.value)
+    return speed / scene.record.sqrt(speed * speed)
 
 
 def _reduced(

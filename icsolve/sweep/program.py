@@ -29,7 +29,7 @@ from icsolve.scene import refusals
 from icsolve.scene.needed_part import by_needed_part
 from icsolve.screws import Point
 from icsolve.screws.ropes import part_rooms
-from icsolve.statics.load_wrenches import counted_about, points_of, spring_angle
+from icsolve.statics.load_wrenches import counted_about, moving_links, points_of, spring_angle
 from icsolve.statics.power import has_friction
 from icsolve.structure import Topology, topology
 from icsolve.sweep.drivers import (
@@ -156,6 +156,8 @@ class CompiledSweep(NamedTuple):
     """whether inertia forces are among the loads"""
     taut: bool = False
     """whether the rows tell that every rope pulls"""
+    loaded: tuple[int, ...] = ()
+    """where the links are that loads act on, where a link is turned: they have to be somewhere"""
     untold: bool = False
     """whether they are asked for, and only a scene of its own tells them, or what is asked beside"""
 
@@ -167,6 +169,7 @@ def live_roots(compiled: CompiledSweep) -> list[Root]:
         v.index for values in compiled.outputs.values() for v in values if isinstance(v, Traced) and v.row
     ]
     stack += compiled.rubbing.nodes if compiled.rubbing is not None else ()
+    stack += compiled.loaded
     key = ("live roots", tuple(stack))
     if key not in record.kept:
         record.kept[key] = roots_of(record, stack)
@@ -373,8 +376,19 @@ def _compiled(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -
         fits,
         senses,
         rests=bool(asked.contacts),
+        loaded=_loaded(case, motion) if motion is not None and setting.links and asked.answers else (),
     )
     return compiled if found is None else _with_statics(compiled, asked, found)
+
+
+def _loaded(case: Case, motion: DrivenMotion) -> tuple[int, ...]:
+    """The nodes that tell where the links are that loads act on: their turning, and what places them."""
+    held, moved = motion.mechanism, motion.moved
+    bodies = {held.top.body_of[link] for link in moving_links(case) if link in held.top.body_of}
+    turned = [moved.rotations[body].z for body in bodies if body in moved.rotations]
+    spots = (held.shape.one(spot) for body in bodies for spot in held.spots[body])
+    placed = [moved.located[spot] for spot in spots if spot in moved.located]
+    return tuple(v.index for at in (*turned, *placed) for v in at if isinstance(v, Traced) and v.row)
 
 
 def _with_statics(compiled: CompiledSweep, asked: RowRequest, found: RecordedStatics) -> CompiledSweep:

@@ -79,13 +79,14 @@ class Runner:
         behind = live(record.nodes, [*wanted, *self.rubs])
         alive = [k for k in behind if nodes[k].op != Op.INPUT]
         answers = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
-        self.roots = [record.roots[k] for k in alive if k in record.roots]
+        standing = live(nodes, [*wanted, *self.rubs, *compiled.loaded])
+        self.roots = [record.roots[k] for k in standing if k in record.roots]
         shallow, divisor = (STEEP * STEEP, STEEP) if compiled.dynamic else (SHALLOW, SMALL)
         self.watched = [
             *(Watched(root.radicand, shallow * _size_of(record, root)) for root in self.roots),
             *(Watched(k, divisor * terms_of(nodes, k), sized=True) for k in _divisors(nodes, alive)),
             *(Watched(k, CLOSE) for k in (*compiled.margins, *compiled.fits)),
-            *(Watched(k, -math.inf, AGREED, True) for k in _living(compiled, behind)),
+            *(Watched(k, -math.inf, AGREED, True) for k in _living(compiled, standing)),
         ]
         small = LEANING if compiled.rests else SMALL
         for k in (wanted[n] for n in answers):

@@ -29,6 +29,8 @@ from icsolve.case import (
     Rope,
     Slope,
     Spring,
+    Stretch,
+    TorsionSpring,
     Toward,
     Weight,
     is_named,
@@ -154,9 +156,9 @@ class _Writer:
                 self.points.setdefault(name, _mean([self.points[p] for p in place.of]))
 
     def on(self, spot: Spot) -> str:
-        """A name for the point as this body carries it."""
+        """A name for the point as this body carries it; a rolling contact goes on along both of its links."""
         one, owner = self.mechanism.shape.one, self.mechanism.owners.get(spot[1])
-        if owner is not None and one(owner) == one(spot):
+        if owner is not None and one(owner) == one(spot) and spot[1] not in self.mechanism.contacts:
             return spot[1]
         key = f"@{spot[1]} on {self.mechanism.top.members[spot[0]][0]}"
         self.points[key] = self.moved.place(spot)
@@ -192,6 +194,8 @@ class _Writer:
     def load(self, load: Load) -> Load:
         """A load at points that its links carry, in a direction that holds or turns with a link."""
         ground = self.mechanism.case.ground
+        if isinstance(load, TorsionSpring):
+            return load._replace(corner=self._corner(load, load.against or ground))
         if not isinstance(load, Force | ForceVector | Weight | Spring):
             return load
         if load.link not in self.body_of:
@@ -204,7 +208,24 @@ class _Writer:
             return load
         if isinstance(load, Spring):
             return load._replace(to=self.on((self.body_of[load.against or ground], load.to)))
+        if isinstance(load, Force) and isinstance(load.over, Stretch):
+            a, b = (self.on((spot[0], end)) for end in (load.over.a, load.over.b))
+            load = load._replace(over=load.over._replace(a=a, b=b))
         return self._turned(load, spot) if load.turns_with else load
+
+    def _corner(self, load: TorsionSpring, against: str) -> tuple[str, ...]:
+        """The corner that a torsion spring follows: its last arm is of the spring's link, the first of the
+        link against it, which may have its own point there."""
+        *arm, at, end = load.corner
+        body, other = self.body_of[load.link], self.body_of[against]
+        own = (self.on((body, at)), self.on((body, end)))
+        if not arm:
+            return own
+        if self.on((other, at)) == own[0]:
+            return (self.on((other, arm[0])), *own)
+        line = self.mechanism.shape.between((other, at), (other, arm[0]))
+        self.points[f"@{load.name} against"] = plus(self.points[own[0]], self.moved.vector(other, line))
+        return (f"@{load.name} against", *own)
 
     def _turned(self, load: Force | ForceVector, spot: Spot) -> Load:
         """A load whose direction turns with a link: one toward a point as it did where it is written."""
