@@ -119,6 +119,16 @@ EQUIVALENT: dict[str, str] = {
     "icsolve/numbers/balls.py _context #1: 0 -> 1": "no exponent is near the limits",
     "icsolve/scene/program.py _arithmetics #25: dear > MOST -> dear >= MOST": "as many digits either way",
     "icsolve/numbers/__init__.py Floats.rounded #1: value + 0.0 -> value - 0.0": "the sign of a zero",
+    "icsolve/statics/friction/pushing.py ReducedLimits.toward #7: ROUNDED * self.sizes[k] -> ROUNDED / "
+    "self.sizes[k]": "what presses with nothing is far below, all else far above",
+    "icsolve/statics/friction/in_motion.py is_beyond #0: 0.0 -> 1.0": "known loads have the size 1 there",
+    "icsolve/statics/friction/lifting.py module #4: 1.0 -> 2.0": "the size of a load of zero",
+    "icsolve/statics/friction/lifting.py jammed #9: 1.0 -> 2.0": "the size of a load of zero",
+    "icsolve/statics/friction/equations.py contracted #5: -1e-12 * scale_at(equations, found) -> -1e-12 / "
+    "scale_at(equations, found)": "further rounds lead to the same",
+    "icsolve/assembly/newton.py _least_residual #5: 1000000.0 -> 1500000.0": "where damping is given up",
+    "icsolve/statics/friction/pushing.py value_where #11: 0.0 -> 1.0": "the size beside which a ball is zero",
+    "icsolve/statics/friction/standing.py _part #15: depth - ROUNDED -> depth + ROUNDED": "one more cut",
 }
 """Mutants, as they are listed, that change no answer, with the reason."""
 

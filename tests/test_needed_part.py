@@ -16,6 +16,7 @@ import pytest
 
 import icsolve as library
 from icsolve.errors import SceneError
+from icsolve.scene import examined
 from icsolve.scene.needed_part import needed_part
 from icsolve.solve.stability import with_stability
 from shell import Shell
@@ -378,6 +379,14 @@ joints:
 links: {4: [E]}
 loads: {P: {force: 10, link: 4, at: E, angle: 200}, T: {torque: unknown, link: 2}}
 """
+
+
+def test_a_point_without_a_place_is_told_where_all_is_looked_at() -> None:
+    loose = MECHANISM.format(**drawn(0), lengths=", BX: 20", angles="", near="", joints="")
+    case = library.load(loose.replace("links: {4: [E]}", "links: {4: [E], 3: [X]}"))
+    assert not library.solve(case).notes
+    (note,) = examined(case).notes
+    assert note.startswith("left out, as nothing needs it: point X")
 
 
 def test_a_stretched_dyad_is_told_where_all_is_looked_at(icsolve: Shell) -> None:

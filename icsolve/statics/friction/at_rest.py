@@ -367,7 +367,7 @@ def notes_at_rest(root: str, found: StaticRange) -> Sequence[str]:
             where = f"beyond {root} = {end:.6g}, where it is about to move too,"
         notes.append(f"{where} it may hold again.")
     for end, more in zip((found.least, found.most), found.possible, strict=True):
-        if end != more and abs(end - more) > SAME * abs(end):
+        if end != more:
             far = f"to {more:.6g}" if math.isfinite(more) else "up" if more > 0.0 else "down"
             notes.append(
                 f"from {end:.6g} {far} it may still hold, if friction was left the other way round "
