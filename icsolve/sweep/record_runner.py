@@ -79,7 +79,7 @@ class Runner:
         behind = live(record.nodes, [*wanted, *self.rubs])
         alive = [k for k in behind if nodes[k].op != Op.INPUT]
         answers = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
-        standing = live(nodes, [*wanted, *self.rubs, *compiled.loaded])
+        standing = live(nodes, [*wanted, *self.rubs, *compiled.loaded]) if compiled.loaded else behind
         self.roots = [record.roots[k] for k in standing if k in record.roots]
         shallow, divisor = (STEEP * STEEP, STEEP) if compiled.dynamic else (SHALLOW, SMALL)
         self.watched = [
