@@ -684,6 +684,7 @@ loads:
 """
 
 
+@pytest.mark.parametrize("turned", [0, 180])
 @pytest.mark.parametrize(
     "rod",
     [
@@ -697,10 +698,13 @@ loads:
          "known": "8.66, 19.18", "more": "", "at": "G", "angle": 165},
     ],
 )  # fmt: skip
-def test_a_load_on_a_rod_in_two_slots_holds_unknown_as_it_does_known(rod: dict[str, Any]) -> None:
+def test_a_load_on_a_rod_in_two_slots_holds_unknown_as_it_does_known(
+    rod: dict[str, Any], turned: int
+) -> None:
     """One that does no work holds what friction left the other way round holds too, and that is told; ranges
     that meet in a singular load are one. Between all ends and beside them: in the ranges it holds, up to
     where it may it is open, beyond it slips, as the cone of what the joints can do says."""
+    rod = {**rod, "angle": rod["angle"] + turned}
     answer = icsolve.solve(icsolve.load(SLOTTED.format(load="unknown", **rod)))
     holds = (answer.answers["L"].holds, *answer.friction.grown)
     possible = (answer.friction.possible, *answer.friction.again)
