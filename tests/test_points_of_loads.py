@@ -126,6 +126,17 @@ def test_a_page_draws_and_reckons_it_on_its_own_link(joints: str, load: str, see
         assert np.allclose(one, other, rtol=1e-9, atol=1e-9, equal_nan=True)
 
 
+@pytest.mark.parametrize("joints", ["slot", "guide"])
+def test_a_page_has_the_couple_of_a_torsion_spring_wherever_its_links_meet(joints: str) -> None:
+    """Also where the first of its rows, or some between, are beyond the limits of the motion."""
+    known = known_of(icsolve.load(scene(joints, "winding", "Q", 0)))
+    motion = motion_of(known, ())
+    (acting,) = (one for one in acting_loads(known) if one.load.name == "S")
+    met = motion.found.status == "ok"
+    assert 0 < np.count_nonzero(~met) < len(met) // 2
+    assert (np.isfinite(gain_rows(known, motion, acting)) == met).all()
+
+
 ARM = """\
 icsolve: 1
 points: {{A: [0, 0], D: [3, -1], X: [0, 4]}}

@@ -37,7 +37,7 @@ from icsolve.errors import Status
 from icsolve.page.live import Live
 from icsolve.page.motion import PageMotion
 from icsolve.page.pictures import PageFigure
-from icsolve.page.poses import FINE, Array, compact, exact, moved, moves
+from icsolve.page.poses import FINE, Array, compact, exact, followed, moved, moves
 from icsolve.report.derivation.known import Acting, Known, acting_loads, resting
 from icsolve.report.derivation.ratios import Step
 from icsolve.wording import holding, sense_of, spelt, unit_of
@@ -131,11 +131,11 @@ def _slack_rows(known: Known, motion: PageMotion, acting: Acting, load: TorsionS
     *arm, at, end = load.corner
     x, y = place_rows(known, motion, acting.link, known.points[at])
     u, v = place_rows(known, motion, acting.link, known.points[end])
-    angle = np.unwrap(np.arctan2(v - y, u - x))
+    angle = followed(np.arctan2(v - y, u - x))
     if arm:
         x, y = place_rows(known, motion, acting.against, known.points[at])
         u, v = place_rows(known, motion, acting.against, known.points[arm[0]])
-        angle = angle - np.unwrap(np.arctan2(v - y, u - x))
+        angle = angle - followed(np.arctan2(v - y, u - x))
     written = acting.gain * known.case.units.torque_per_force_length
     return np.asarray(written - (angle - angle[motion.zero]))
 
@@ -298,7 +298,7 @@ def _links(known: Known, view: View, motion: PageMotion) -> dict[str, Any]:
         if still and not moves(angle, FINE["deg"]):
             continue
         start = view.at(known.points[pose.point])
-        turned = np.degrees(np.unwrap(np.radians(angle)))
+        turned = np.degrees(followed(np.radians(angle)))
         own = {"from": [round(start[0], 1), round(start[1], 1)], "a": compact(turned, FINE["deg"])}
         found[link] = {**own, **_place(view, x, y)}
     return found

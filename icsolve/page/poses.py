@@ -177,12 +177,19 @@ def _free_end(rows: PageRows, rope: Rope) -> PagePose:
                 turns[n] = math.atan2(y, x)
                 lengths[n] = float(rope_length(rope, here, 1.0, FLOATS))
     drum = rows.poses.get(rope.links[0])
-    turned = np.zeros(count) if drum is None else np.unwrap(np.radians(drum.angle))
-    lengths -= float(parts[0].offset) * (turned - np.unwrap(turns))
+    turned = np.zeros(count) if drum is None else followed(np.radians(drum.angle))
+    lengths -= float(parts[0].offset) * (turned - followed(turns))
     gone = lengths[rows.zero] - lengths
     gone[gone <= -float(parts[-1].length)] = np.nan  # the end would run through its pulley
     x, y = (carried + np.outer(gone, parts[-1].along)).T
     return PagePose(end, x, y, np.zeros(count))
+
+
+def followed(angles: Array) -> Array:
+    """Angles [rad] without the jumps of a turn from row to row; of rows that have none those beside them."""
+    found, there = np.array(angles), np.isfinite(angles)
+    found[there] = np.unwrap(angles[there])
+    return found
 
 
 def moved(pose: PagePose, start: tuple[float, float], p: tuple[float, float]) -> tuple[Array, Array]:
