@@ -462,7 +462,7 @@ def _questions(name: str) -> list[str]:
     forces = {own: one for own, one in (found.reactions or {}).items() if own not in loads}
     kinds = [
         list(found.answers),
-        [f"I{a}-{b}" for a, b in found.centres],
+        [f"I{a}-{b}" for (a, b), centre in found.centres.items() if centre.kind in ("at", "toward")],
         [f"w{link}" for link, rate in (found.rates or {}).items() if isinstance(rate, float) and rate],
         [f"v {p} on {link}" for (p, link), v in (found.velocities or {}).items() if not isinstance(v, str)],
         [own for own, one in forces.items() if one.magnitude is not None and own not in loads],
