@@ -8,6 +8,7 @@ A group of links that adds no freedom takes none either: what moves beside it mo
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable
+from functools import lru_cache
 
 from icsolve.assembly import LEFT_OUT
 from icsolve.assembly.workspace import CORNER, LENGTH, RAY, datum_at
@@ -77,6 +78,12 @@ def moving_part(
 ) -> Case | None:
     """As `needed_part`, with the links that are turned and those that varied data pose, and those of inertia
     where their forces count."""
+    return _moving_part(case, tuple(paths), tuple(links), dynamic)
+
+
+@lru_cache(maxsize=64)
+def _moving_part(case: Case, paths: tuple[str, ...], links: tuple[str, ...], dynamic: bool) -> Case | None:
+    """The same, once a case."""
     beside = {*links, *(case.inertia if dynamic else ())}
     if needed_part(case, beside) is None:
         return None

@@ -10,6 +10,7 @@ A case is solved as written and becomes a mechanism of links that keep their sha
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from functools import lru_cache, partial
 
 import numpy as np
@@ -38,7 +39,7 @@ from icsolve.sweep.request import (
 from icsolve.sweep.rows_by_scenes import by_scenes, families
 from icsolve.sweep.rows_on_record import SweepRun
 from icsolve.sweep.starting_position import Start, start_of
-from icsolve.sweep.table import CODE, Sweep, Table
+from icsolve.sweep.table import CODE, Sweep, Table, among
 from icsolve.sweep.varied_numbers import refuse_space
 from icsolve.tuples import replace
 from icsolve.wording import plural
@@ -47,7 +48,7 @@ __all__ = ["Sweep", "sweep"]
 
 CaseOf = Callable[[int], Case]
 """The case of a row, by its index."""
-SOLVED = (CODE["ok"], CODE["holds"])
+SOLVED = (Status.OK, "holds")
 BY_SCENES = "each row is solved as a scene of its own."
 
 
@@ -156,22 +157,24 @@ def _without_spare_links(
 ) -> tuple[tuple[str, ...], CaseOf]:
     """Fill in the rows that have no answer as they are, but have one without links that it does not need; a
     note on these, and the case of a row."""
-    if not table.codes.any():
+    case = start.setting.case
+    part = None
+    if table.codes.any():
+        with suppress(SceneError):
+            part = moving_part(case, start.paths, start.links, wanted.asked.dynamic)
+    if part is None:
         return (), case_of
-    case, found_none = start.setting.case, ~np.isin(table.codes, SOLVED)
+    found_none = ~among(table.codes, SOLVED)
     if needed(start.case, Want()).bodies:
-        found_none &= np.isin(table.codes, [CODE[status] for status in UNPLACED])
+        found_none &= among(table.codes, UNPLACED)
     refused = np.flatnonzero(found_none)
     if not refused.size:
         return (), case_of
     try:
-        part = moving_part(case, start.paths, start.links, wanted.asked.dynamic)
-        if part is None:
-            return (), case_of
         found = _of_rows(part, columns, refused, wanted)
     except SceneError:
         return (), case_of
-    solved = np.flatnonzero(np.isin(found.codes, SOLVED))
+    solved = np.flatnonzero(among(found.codes, SOLVED))
     rows = refused[solved]
     if not rows.size:
         return (), case_of

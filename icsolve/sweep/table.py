@@ -6,7 +6,7 @@ import csv
 import io
 import json
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -48,6 +48,13 @@ WORDS = (
 CODE = {word: n for n, word in enumerate(WORDS)}
 
 Codes = npt.NDArray[np.int8]
+
+
+def among(codes: Codes, statuses: Iterable[str]) -> npt.NDArray[np.bool_]:
+    """Which codes, (rows,), are those of some statuses."""
+    wanted = np.zeros(len(WORDS), dtype=bool)
+    wanted[[CODE[status] for status in statuses]] = True
+    return np.asarray(wanted[codes])
 
 
 Value = float | tuple[float, ...]
