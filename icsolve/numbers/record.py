@@ -369,7 +369,11 @@ class Record:
         row = a.row or b.row
         if value == 0.0 and not row and self._exact(a.index) and self._exact(b.index):
             return 0.0
-        return self._of_two(op, a.index, b.index, value, row)
+        known, of = self._known[op], (a.index, b.index)  # as `_of_two`, which half of all numbers call
+        found = known.get(of)
+        if found is None:
+            found = known[of] = Traced(self, op, a.index, b.index, value, row, 0.0, of)
+        return found
 
     def multiply(self, a: Scalar, b: Scalar) -> Scalar:
         """a b"""
@@ -387,7 +391,12 @@ class Record:
             return self._outside(self.multiply, a, b)
         if a.index > b.index:
             a, b = b, a
-        return self._of_two(MUL, a.index, b.index, a.value * b.value, a.row or b.row)
+        known, of = self._known[MUL], (a.index, b.index)
+        found = known.get(of)
+        if found is None:
+            value, row = a.value * b.value, a.row or b.row
+            found = known[of] = Traced(self, MUL, a.index, b.index, value, row, 0.0, of)
+        return found
 
     def divide(self, a: Scalar, b: Scalar) -> Scalar:
         """a / b"""
