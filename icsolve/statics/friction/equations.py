@@ -216,15 +216,11 @@ class Reduced(NamedTuple):
     smooth: tuple[Form, ...] = ()
 
     def scaled(self, share: float) -> Reduced:
-        """The same with friction reduced to a share of it."""
-
-        def less(forms: Sequence[Form]) -> tuple[Form, ...]:
-            return tuple((form[0], *(share * a for a in form[1:])) for form in forms)
-
-        equations = self.equations.scaled(share)
-        if not self.equations.is_fixed_point:
-            return self._replace(equations=equations)
-        return self._replace(equations=equations, loads=less(self.loads), smooth=less(self.smooth))
+        """The same with friction reduced to a share of it, but for the loads."""
+        smooth = self.smooth
+        if self.equations.is_fixed_point:
+            smooth = tuple((form[0], *(share * a for a in form[1:])) for form in smooth)
+        return self._replace(equations=self.equations.scaled(share), smooth=smooth)
 
     def least_push(self, y: Sequence[float]) -> float:
         """The normal force of the contact that pushes least, over its terms; 1.0 where there is none, 0.0 of
