@@ -146,7 +146,7 @@ def _almost(place: PlacedCase, bases: Bases, rigid: LoopMotions) -> tuple[LoopMo
     if inexact and last < AGREE:
         motions = loops.all_motions(top, bases, AGREE / len(pivots))
         if len(motions.found.basis) == 1:
-            miss = f"{motions.found.dropped:.1g} of the figure's size"
+            miss = f"{float(motions.found.dropped):.1g} of the figure's size"
             return motions, (f"the given centres and rolling contacts agree with each other to {miss}.",)
     if any(joint.stands_in for joint in inexact):
         raise SceneError(Status.CONTRADICTORY, contradiction(place, bases))
