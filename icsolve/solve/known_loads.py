@@ -128,11 +128,10 @@ def moving_loads(case: Case, path: str = "") -> Held:
 def held_along(case: Case, path: str) -> tuple[Range, ...]:
     """The ranges of a load's own number in which a mechanism under known loads holds still; none of another
     number, on which they hang, and where no load says."""
+    own = next((load.name for load, number in _known(case) if number.path == path), None)
     with suppress(SceneError):
-        found = asked_of(case, path)
-        if found is not None and any(
-            n.path == path for one, n in _known(case) if one.name == found.load.name
-        ):
+        found = None if own is None else asked_of(case, path)
+        if found is not None and found.load.name == own:
             return (found.held[:2], *found.held.again)
     return ()
 

@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from icsolve.case import Motion
 from icsolve.kinematics.motion import Motions
 from icsolve.kinematics.speeds import fastest
 from icsolve.numbers import Scalar
@@ -23,7 +22,7 @@ from icsolve.statics.friction import rates_of, rubs_of
 from icsolve.statics.friction.equations import forces_of
 from icsolve.statics.power import Balance
 from icsolve.statics.reaction_basis import Position, meshes, ties_of
-from icsolve.sweep.recorded_scene import RecordedScene
+from icsolve.sweep.recorded_scene import RecordedScene, sign_of_speed
 from icsolve.tuples import NamedTuple
 
 SENSE = 1e-7
@@ -174,7 +173,9 @@ def rubbing(scene: RecordedScene, motions: Motions, balance: Balance) -> Frictio
     if turned is not None:
         if turned.speed is not None and not turned.speed.value:
             return None
-        rate = motions.twists[turned.link][0][2] * _sense(scene, turned)
+        rate = motions.twists[turned.link][0][2]
+        if turned.speed is not None:
+            rate = rate * sign_of_speed(scene.record, turned.speed)
         drive = -rate if turned.turns == "cw" else rate
     largest = fastest(motions.twists)
     turning = () if drive is None else (drive,)
@@ -183,16 +184,6 @@ def rubbing(scene: RecordedScene, motions: Motions, balance: Balance) -> Frictio
     load, forces = _reduced(statics, pressing)
     ratios = {w.load.name: w.ratio for w in balance.wrenches if w.root in statics.roots}
     return FrictionRows(forces, load, rates, drive, ratios)
-
-
-def _sense(scene: RecordedScene, given: Motion) -> Scalar:
-    """1 or -1, the sign of a given speed; in a row whose speed is zero none is told."""
-    if given.speed is None:
-        return 1.0
-    speed = scene.record.given(given.speed)
-    if not varies(speed):
-        return math.copysign(1.0, given.speed.value)
-    return speed / scene.record.sqrt(speed * speed)
 
 
 def _reduced(

@@ -456,14 +456,19 @@ def moving(scene: RecordedScene, found: motion.Motions) -> Moving | None:
     return None if moves is None or moves.open & scene.case.inertia.keys() else moves
 
 
+def sign_of_speed(record: Record, given: Number) -> Scalar:
+    """1 or -1, the sign of a given speed in each row; not a number in a row whose speed is zero."""
+    speed = record.given(given)
+    return speed / record.sqrt(speed * speed) if varies(speed) else math.copysign(1.0, given.value)
+
+
 def _driven(scene: RecordedScene, twists: Mapping[str, Triple], more: Scalar) -> accelerations.Drive:
     """What the one given motion accelerates, the way it goes in each row."""
     (given,), record = scene.case.motion, scene.record
     assert given.speed is not None
     if given.point is None:
-        speed = record.given(given.speed)
-        sense = speed / record.sqrt(speed * speed) if varies(speed) else math.copysign(1.0, given.speed.value)
-        return given, None, -(sense * more) if given.turns == "cw" else sense * more
+        sign = sign_of_speed(record, given.speed)
+        return given, None, -(sign * more) if given.turns == "cw" else sign * more
     x, y = velocity(twists[given.link], scene.points[given.point])
     size = record.sqrt(x * x + y * y)
     return given, (x / size, y / size), more * scene.frame.scale

@@ -38,6 +38,7 @@ from icsolve.statics.friction.static_range import (
     SAME,
     End,
     StaticRange,
+    at_vertex,
     end_of,
     impending,
     pressed,
@@ -184,7 +185,7 @@ def _of_several_freedoms(scene: FrictionScene) -> AtRest:
         raise SceneError(Status.NO_VALUE, NEVER_HELD.format(statics.roots[0]))
     own, again = within.nearest(0.0)
     both = zip((own.low, own.high), own.vertices, strict=True)
-    ends = [End(value, (), pushes=not vertex.parts, vertex=vertex) for value, vertex in both]
+    ends = [at_vertex(value, vertex) for value, vertex in both]
     presses = not any(row.get(statics.root(0)) for row in statics.general.left)
     found = range_of(ends)._replace(how=within.how, again=again, presses=presses, shared=shared)
     finite = (end for end in ends if math.isfinite(end.value))
@@ -222,10 +223,7 @@ def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[Static
         raise SceneError(Status.NO_VALUE, NEVER_TAUT.format(bare.roots[0]))
     own, _ = within.nearest(smooth or 0.0)
     both = zip((own.low, own.high), own.vertices, strict=True)
-    ends = [
-        _same(value, moving) or End(value, senses, pushes=not vertex.parts, vertex=vertex)
-        for value, vertex in both
-    ]
+    ends = [_same(value, moving) or at_vertex(value, vertex, senses) for value, vertex in both]
     possible = (ends[0].value, ends[1].value)
     if len(moving) == 2:
         ends = [one.end for one in moving]

@@ -9,8 +9,9 @@ lies in ranges that hold.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from functools import partial
 
 from icsolve.errors import SceneError
 from icsolve.numbers import Showing, largest_of
@@ -107,22 +108,11 @@ def held(scene: RestingScene, at: float | None = None) -> HeldRanges:
         complete &= search.is_complete(None if at is None else at * limits.scale)
         unit = 1.0 / limits.scale
         found += [one._replace(low=one.low * unit, high=one.high * unit) for one in search.found]
-    return HeldRanges(tuple(_met(scene, joined(found))), complete)
-
-
-def _met(scene: RestingScene, ranges: Sequence[HeldRange]) -> list[HeldRange]:
-    """The ranges, as one where two that doubles leave apart meet in all digits."""
-    met = list(ranges[:1])
-    for one in ranges[1:]:
-        last = met[-1]
-        if _meet(scene, last, one):
-            met[-1] = last._replace(high=one.high, vertices=(last.vertices[0], one.vertices[1]))
-        else:
-            met.append(one)
-    return met
+    return HeldRanges(tuple(joined(joined(found), partial(_meet, scene))), complete)
 
 
 def _meet(scene: RestingScene, lower: HeldRange, upper: HeldRange) -> bool:
+    """Whether two ranges that doubles leave apart meet in all digits."""
     ends = (lower.vertices[1], upper.vertices[0])
     one, other = (end.at.load for end in ends)
     if other - one > SAME * max(abs(one), abs(other), ends[0].search.unit):
@@ -304,18 +294,25 @@ def _is_near(form: Form, point: Sequence[float]) -> bool:
     return abs(sum(terms)) <= NEAR * largest_of(terms) + 8.0 * ROUNDED
 
 
-def joined(found: Sequence[HeldRange]) -> list[HeldRange]:
-    """The ranges that meet as one."""
+def joined(
+    found: Sequence[HeldRange], meet: Callable[[HeldRange, HeldRange], bool] | None = None
+) -> list[HeldRange]:
+    """The ranges that ``meet`` as one; without it those that do but for rounding."""
+    meet = meet or _overlap
     joined: list[HeldRange] = []
     for one in sorted(found, key=lambda one: (one.low, one.high)):
-        room = 2.0**-48 * largest_of([end for end in (one.low, one.high) if math.isfinite(end)])
-        if joined and one.low <= joined[-1].high + room:
+        if joined and meet(joined[-1], one):
             last = joined[-1]
             if one.high > last.high:
                 joined[-1] = last._replace(high=one.high, vertices=(last.vertices[0], one.vertices[1]))
         else:
             joined.append(one)
     return joined
+
+
+def _overlap(lower: HeldRange, upper: HeldRange) -> bool:
+    room = 2.0**-48 * largest_of([end for end in upper[:2] if math.isfinite(end)])
+    return upper.low <= lower.high + room
 
 
 def exactly(scene: RestingScene, vertex: Vertex) -> Value | None:

@@ -148,8 +148,7 @@ def static_range(
     own, others = found.nearest(smooth_load(statics) or 0.0)
     told = range_of([_kept(own, end, senses) for end in ends])
     possible = _same_ends((own.low, own.high), (told.least, told.most))
-    told = told._replace(possible=possible, how=found.how, again=others)
-    return told._replace(grown=_grown(statics, senses, told))
+    return _with_grown(statics, senses, told._replace(possible=possible, how=found.how, again=others))
 
 
 def _kept(own: HeldRange, end: End, senses: Sequence[float]) -> End:
@@ -160,10 +159,15 @@ def _kept(own: HeldRange, end: End, senses: Sequence[float]) -> End:
     return end
 
 
+def at_vertex(value: float, vertex: Vertex, senses: Sequence[float] = ()) -> End:
+    """An end that the limits of friction set, with whether a contact parts there."""
+    return End(value, tuple(senses), pushes=not vertex.parts, vertex=vertex)
+
+
 def _same_ends(values: tuple[float, float], ends: tuple[float, float]) -> tuple[float, float]:
     """Two ends, each as it is told already where that is the same."""
     low, high = (
-        told if value == told or abs(value - told) <= SAME * abs(told) else value
+        told if value == told or _is_same(told, value) else value
         for value, told in zip(values, ends, strict=True)
     )
     return low, high
@@ -205,8 +209,7 @@ def of_limits(
     for value, vertex in zip((own.low, own.high), own.vertices, strict=True):
         room = SAME * abs(value) if math.isfinite(value) else -1.0
         same = (end for end in moving if abs(end.value - value) <= room)
-        parts = End(value, tuple(senses), pushes=not vertex.parts, vertex=vertex)
-        told.append(next(same, parts))
+        told.append(next(same, None) or at_vertex(value, vertex, senses))
     return range_of(told)._replace(how=within.how, again=others)
 
 
@@ -375,8 +378,7 @@ def pressed(statics: Statics, senses: Sequence[float], driven: bool, within: Wit
         return least._replace(presses=True, self_locking=False)
     own, others = found.nearest(_value_inside(told.least, told.most))
     possible = _same_ends((own.low, own.high), (told.least, told.most))
-    told = told._replace(possible=possible, how=found.how, again=others)
-    return told._replace(grown=_grown(statics, senses, told))
+    return _with_grown(statics, senses, told._replace(possible=possible, how=found.how, again=others))
 
 
 def _as_it_grows(statics: Statics) -> StaticRange | None:
@@ -399,14 +401,14 @@ def _as_it_grows(statics: Statics) -> StaticRange | None:
     return StaticRange(*both, both, IMPENDING, ends=about_to_move, presses=True)
 
 
-def _grown(statics: Statics, senses: Sequence[float], told: StaticRange) -> tuple[tuple[float, float], ...]:
-    """The parts beside a range that hold however friction was left [case units], of what friction within its
+def _with_grown(statics: Statics, senses: Sequence[float], told: StaticRange) -> StaticRange:
+    """A range with the parts beside it that hold however friction was left, of what friction within its
     limits can hold: they begin and end where it is about to move. Beside the range that is told, and beside
     an end of another at which it is not about to move, friction has to have been left the other way round."""
     sides = [(told.most, told.possible[1], False), (told.least, told.possible[0], False)]
     sides = [side for side in sides if side[0] != side[1]]
     if not (sides or told.again):
-        return ()
+        return told._replace(grown=())
     moving, found = [end.value for end in _about_to_move(statics, senses)], list[tuple[float, float]]()
     for low, high in told.again:
         start, end = (low, high) if math.isfinite(low) else (high, low)
@@ -416,7 +418,7 @@ def _grown(statics: Statics, senses: Sequence[float], told: StaticRange) -> tupl
         marks.sort(reverse=end < start)
         parts = enumerate(pairwise([start, *marks, end]))
         found += [(min(part), max(part)) for n, part in parts if (n % 2 == 0) is holds]
-    return tuple(sorted(found))
+    return told._replace(grown=tuple(sorted(found)))
 
 
 def _is_same(end: float, other: float) -> bool:
