@@ -427,3 +427,45 @@ def test_the_right_answers_of_an_exported_question_are_right(a_class: Class, kin
             judged, _ = judge_answer(key, Reader(), f"{right:.12g} {own.unit_name}")
             assert judged.verdict == "right"
     assert bool(told) == (kind in _TEXTS)
+
+
+FORMS = (
+    "({x}, {y}) {u}",
+    "({x} {u}, {y} {u})",
+    "[{x}; {y}] {u}",
+    "{x}i {y:+}j {u}",
+    "{x} i {y:+} j",
+    "{x} {u} i {y:+} {u} j",
+    "{x}\u00ee {y:+}\u0135 {u}",
+    r"${x}\mathbf{{i}} {y:+}\mathbf{{j}}$ {u}",
+    "x = {x} {u}, y = {y} {u}",
+    "{n}x = {x} {u} and {n}y = {y} {u}",
+    "{n}y = {y} {u}; {n}x = {x} {u}",
+    "Fx: {x} {u}, Fy: {y} {u}",
+    "{n} = ({x}, {y}) {u}",
+)
+"""How people write the two components of a vector."""
+
+
+@pytest.mark.parametrize("turned", [17.0, 118.0, 200.0, 304.0])
+def test_a_vector_is_right_by_its_two_components_and_they_are_never_taken_for_size_and_angle(
+    a_class: Class, turned: float
+) -> None:
+    """The load whose direction is unknown is the other one reversed, which A as well as B bears; the force of
+    the frame on the pin holds both blocks."""
+    a_class.case("arm", ARM.replace("angle: 180", f"angle: {turned}"))
+    answer = icsolve.solve(icsolve.load(a_class.folder / "cases" / "arm.yaml"), reactions=True)
+    found, pin = answer.answers["P"], answer.reactions["F12"]
+    assert found.components is not None
+    for question, name, (x, y) in (("arm", "P", found.components), ("arm:F12", "F12", (pin.x, pin.y))):
+        size, direction = math.hypot(x, y), math.degrees(math.atan2(y, x)) % 360.0
+        wanted = [
+            (form.format(x=float(f"{a:.5g}"), y=float(f"{b:.5g}"), u="N", n=name), verdict)
+            for form, (verdict, (a, b)) in product(
+                FORMS, (("right", (x, y)), ("wrong", (-x, -y)), ("wrong", (y, x)), ("wrong", (x, -y)))
+            )
+        ]
+        others = (f"({size:.5g}, {direction:.5g})", f"({x:.5g}, {y:.5g}, 0) N", f"Qx = {x:.5g}, Qy = {y:.5g}")
+        wanted += [(text, "review") for text in others]
+        texts = [text for text, _ in wanted]
+        assert list(zip(texts, a_class.verdicts(*texts, case=question), strict=True)) == wanted

@@ -32,10 +32,17 @@ from icsolve.grade.written.answer import (
     names_in,
 )
 from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, figures, plain
-from icsolve.grade.written.two_numbers import WrittenPlace, WrittenRange, read_place, read_range
-from icsolve.grade.written.words import CASE, ENERGY, WrittenDirection, unit_word
+from icsolve.grade.written.two_numbers import (
+    WrittenPlace,
+    WrittenRange,
+    read_components,
+    read_place,
+    read_range,
+    without_axes,
+)
+from icsolve.grade.written.words import CASE, ENERGY, WrittenDirection, at_angle, unit_word
 from icsolve.grade.written.words import direction as direction_of
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 from icsolve.wording import listed
 
 RIGHT, WRONG, INVALID, IN_REVIEW = "right", "wrong", "invalid", "review"
@@ -100,6 +107,8 @@ def judge_answer(
         The verdict, and how the answer was read. Nothing that a student writes raises.
     """
     answer = _behind_own_name(key.name, answer)
+    if key.name and isinstance(key, NumberKey) and key.expected.vector:
+        answer = without_axes(answer, key.name)
     found = _judged(key, reader, answer, unit, direction)
     if may_name(answer) and found[0].verdict in (RIGHT, WRONG) and any(map(key.another, names_in(answer))):
         return _unjudged(OTHER_NAME), flagged(OTHER_NAME)
@@ -137,11 +146,28 @@ def _judged(key: AnyKey, reader: Reader, answer: str, unit: str, direction: str)
         return _unjudged(TWO_VALUES), flagged(TWO_VALUES)  # an angle has no angle as its direction
     if key.period and written.flag == UNREAD:
         written = _as_heading(answer) or written
+    if written.flag and key.expected.vector:
+        parts = read_components(f"{answer} {unit}".strip())
+        if not parts.flag:
+            return _by_components(key, parts, written.flag)
     judged = judge(key, written)
     if judged.verdict == WRONG and reader.decimal == "either" and _GROUPED.match(written.digits):
         other = judge(key, written._replace(number=written.number * 1000.0))
         if other.verdict == RIGHT:
             return _unjudged(AMBIGUOUS), flagged(AMBIGUOUS)
+    return judged, written
+
+
+def _by_components(key: NumberKey, parts: WrittenPlace, flag: str) -> tuple[Judgement, Read]:
+    """A vector by its two components: its size, and its direction to a degree. What is right in no way that
+    it may be read is wrong where it can be nothing else; else it keeps its flag."""
+    way = at_angle(math.degrees(math.atan2(parts.y, parts.x)))
+    written = WrittenAnswer(math.hypot(parts.x, parts.y), parts.unit, way)
+    strict = replace(key, expected=key.expected._replace(asked=True))
+    judged = judge(strict, written)
+    by_angle = WrittenAnswer(parts.x, parts.unit, at_angle(parts.y))  # if (100, 30) is 100 N at 30 deg
+    if judged.verdict == WRONG and (parts.doubtful or judge(strict, by_angle).verdict == RIGHT):
+        return _unjudged(flag), flagged(flag)
     return judged, written
 
 
@@ -413,7 +439,10 @@ UNJUDGED = {
     UNREAD: ("This can't be read surely", ""),
     "no-number": ("There is no number in this", ""),
     "too-long": ("This is too long to be read as an answer", ""),
-    "ambiguous-number": ("This number can be read in two ways", "Write no commas."),
+    "ambiguous-number": (
+        "This number can be read in two ways",
+        "Write a point before decimals, and nothing between thousands.",
+    ),
     "ambiguous-direction": ("Sign and words, or words alone, say two directions", ""),
     "ambiguous-unit": ("This unit has several meanings", ""),
     "two-values": ("There are two values in this", ""),

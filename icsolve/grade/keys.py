@@ -89,6 +89,8 @@ class ExpectedDirection(NamedTuple):
     """Whether only an angle tells it: words on a reaction may mean either link's force."""
     asked: bool = False
     """Whether the direction is itself asked for, and has to be right to a degree."""
+    vector: bool = False
+    """Whether the answer is a vector, which its two components tell as well."""
     given: str = ""
     """The positive sense as the case gives it by a point, whose direction may be a part of the task."""
 
@@ -140,7 +142,9 @@ def expected_of(target: Target, answer: Answer) -> ExpectedDirection:
     """What a positive value of a target means in words."""
     match target:
         case LoadIs(name) if name in answer.case.directed:
-            return ExpectedDirection(heading=_heading(answer.answers[name].components), asked=True)
+            return ExpectedDirection(
+                heading=_heading(answer.answers[name].components), asked=True, vector=True
+            )
         case LoadIs(name):
             return _of_load(next(load for load in answer.case.loads if load.name == name), answer)
         case PositionIs(path):
@@ -156,11 +160,11 @@ def expected_of(target: Target, answer: Answer) -> ExpectedDirection:
                 force = [value_of(answer, target._replace(part=part))[0] for part in ("x", "y")]
             except LookupError:
                 force = []
-            return ExpectedDirection(heading=_heading(force), by_angle=True)
+            return ExpectedDirection(heading=_heading(force), by_angle=True, vector=True)
         case SpeedIs(point, link):
             velocity = (answer.velocities or {}).get((point, link))
             heading = None if isinstance(velocity, str) else _heading(velocity)
-            return ExpectedDirection(heading=heading, by_angle=not answer.case.motion)
+            return ExpectedDirection(heading=heading, by_angle=not answer.case.motion, vector=True)
     return ExpectedDirection()
 
 
@@ -190,7 +194,7 @@ def _of_load(load: Load, answer: Answer) -> ExpectedDirection:
     elif isinstance(load, Force) and isinstance(load.heading, AlongRope):
         axial, heading = 1.0, heading_in(answer, load.name)
     return ExpectedDirection(
-        0.0, heading, axial, lambda: (place_of(load.at, answer), answer.points), given=given
+        0.0, heading, axial, lambda: (place_of(load.at, answer), answer.points), vector=True, given=given
     )
 
 

@@ -199,8 +199,13 @@ _SUPERSCRIPT = re.compile("[⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+")
 _TAG = re.compile(r"</?[a-zA-Z][a-zA-Z0-9]*(?:\s[^<>]*)?/?>")
 _RAISED_TAG = re.compile(r"<\s*sup\s*>\s*([-+−]?\d+)\s*<\s*/\s*sup\s*>")
 _LATEX = (
+    (
+        re.compile(
+            r"\\(?:hat|vec|boldsymbol|bm|mathbf|textbf)\s*\{?\s*\\?([ijk])(?:math)?(?![A-Za-z])\s*\}?"
+        ),
+        r" \1-hat ",
+    ),
     (re.compile(r"\\(?:boxed|fbox|mathbf|textbf|underline)\s*\{(.*)\}"), r"\1"),
-    (re.compile(r"\\(?:hat|vec|boldsymbol|bm)\s*\{?\s*\\?([ijk])(?:math)?(?![A-Za-z])\s*\}?"), r" \1-hat "),
     (re.compile(r"~(?=\\)"), " "),
     (re.compile(r"\\(?:SI|qty)\s*\{([^{}]*)\}\s*\{([^{}]*)\}"), r"\1 \2"),
     (re.compile(r"\\num\s*\{([^{}]*)\}"), r"\1"),

@@ -1,4 +1,5 @@
-"""Answers of two numbers: a place (or a direction in which it lies at infinity), and a range of values."""
+"""Answers of two numbers: a place (or a direction in which it lies at infinity), the two components of a
+vector, and a range of values."""
 
 from __future__ import annotations
 
@@ -19,14 +20,16 @@ _PLACE_WORDS = re.compile(
     re.IGNORECASE,
 )
 _BETWEEN = (
-    r" ?(?P<unit>[A-Za-z]{{0,12}}?) ?[\])}}]? ?"
+    r" ?(?P<unit>[A-Za-z]{{0,12}}?(?:/[A-Za-z]{{1,9}})?) ?[\])}}]? ?"
     r"(?:(?:{separators}) ?(?:and )?(?:y ?[:=~] ?)?|y ?[:=~] ?| )[\[({{]?"
 )
 _AFTER_POINT, _AFTER_EITHER = (
     re.compile(_BETWEEN.format(separators=separators), re.IGNORECASE)
     for separators in (r",+|;|\||and|&|und|et|y|e", r";|\||and|&|und|et|y|e")
 )
-_END = re.compile(r" ?(?P<own>[A-Za-z]{0,12}) ?[\])}]? ?(?P<after>[A-Za-z]{0,12})\.?")
+_END = re.compile(
+    r" ?(?P<own>[A-Za-z]{0,12}(?:/[A-Za-z]{1,9})?) ?[\])}]? ?(?P<after>[A-Za-z]{0,12}(?:/[A-Za-z]{1,9})?)\.?"
+)
 _FAR = re.compile(
     r"(?:is )?(?:at |to )?(?:inf|infinity|infinite|∞|oo|unendlich)(?:ly far)?(?![a-z])\.?[ ,]*(.*)$",
     re.IGNORECASE,
@@ -50,7 +53,8 @@ class WrittenPlace(NamedTuple):
     toward: float | None = None
     flag: str = ""
     doubtful: bool = False
-    """Whether commas before three digits are taken for decimal marks, which may divide thousands."""
+    """Whether commas before three digits are taken for decimal marks, which may divide thousands, or two
+    numbers for components that may be two answers, or one with a comma."""
 
 
 def read_place(text: str) -> WrittenPlace:
@@ -97,6 +101,52 @@ def _value(text: str, decimal: str) -> WrittenNumber | None:
     """A number with its sign."""
     found = numeral(text.lstrip("-+ "), 0, decimal)
     return found._replace(value=-found.value) if found is not None and text.startswith("-") else found
+
+
+# --- components of vectors --------------------------------------------------------------------------
+
+_AXES = re.compile(
+    r"(?<![^\W\d_])(?P<of>[^\W\d_][\w'-]{0,12}?)?[ _]?\(?(?P<axis>[xy])\)? ?[=:] ?(?=[-+]? ?[\d.,])",
+    re.IGNORECASE,
+)
+"""The names of two components: ``Fx = 3 N, Fy = 4 N``."""
+_COMPONENT = (
+    r"(?P<{0}>{1} ?[\d.,]+(?:[eE][-+]?\d+)?) ?(?P<{0}_unit>[A-Za-z/]*?) ?[*]? ?{0}(?:-hat)?(?![A-Za-z])"
+)
+_SUM = re.compile(
+    _COMPONENT.format("i", "[-+]?") + " ?(?P<i_after>[A-Za-z/]*) ?" + _COMPONENT.format("j", "[-+]")
+)
+"""A sum of multiples of unit vectors: ``3i + 4j N``."""
+_PAIR = re.compile(r"[(\[][^()\[\]]+(?:, |;)[^()\[\]]+[)\]]")
+_ANY_VECTOR = ("", "F", "R", "v", "V")
+
+
+def without_axes(text: str, *names: str) -> str:
+    """An answer less what names its two components, where each has the name of one of these vectors: as
+    ``(3 N, 4 N)`` for ``Fx = 3 N, Fy = 4 N``. Other answers are as they were."""
+    axes = list(_AXES.finditer(text))
+    named = [one["of"] or "" for one in axes]
+    if sorted(one["axis"].lower() for one in axes) != ["x", "y"] or not {*named} <= {*names}:
+        return text
+    (before, x), y = (text[: axes[0].start()], text[axes[0].end() : axes[1].start()]), text[axes[1].end() :]
+    x = x.strip().removesuffix("and").rstrip(" ,;&")
+    x, y = (x, y) if axes[0]["axis"] in "xX" else (y, x)
+    return f"{before} ({x}; {y})"
+
+
+def read_components(text: str) -> WrittenPlace:
+    """The two components of an answer to a question that is a vector, as those of a place: ``(3, 4) N``,
+    ``3i + 4j N``, ``Fx = 3 N, Fy = 4 N``."""
+    words, flag = words_of(text)
+    if flag:
+        return WrittenPlace(flag=flag)
+    named = without_axes(words, *_ANY_VECTOR)
+    named = _SUM.sub(
+        lambda m: f"{m['i']} {m['i_unit'] or m['i_after']}; {m['j']} {m['j_unit'] or m['i_after']}", named, 1
+    )
+    found = _near(named.strip(" .")) or WrittenPlace(flag=UNREAD)
+    sure = named != words or _PAIR.search(words) is not None
+    return found if sure else found._replace(doubtful=True)
 
 
 # --- ranges -----------------------------------------------------------------------------------------

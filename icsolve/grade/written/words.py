@@ -60,6 +60,11 @@ def _line(degrees: float) -> WrittenDirection:
     return WrittenDirection("line", degrees, named or f"at {degrees:.10g} deg")
 
 
+def at_angle(degrees: float) -> WrittenDirection:
+    """The direction at an angle ccw from +x [degrees]."""
+    return _line(degrees)._replace(measured=True)
+
+
 CCW = WrittenDirection("turn", 1.0, "ccw")
 CW = WrittenDirection("turn", -1.0, "cw")
 PULL = WrittenDirection("axial", 1.0, "pull")
