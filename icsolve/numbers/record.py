@@ -173,6 +173,11 @@ class Implicit(NamedTuple):
         """Residuals and derivatives, row by row."""
         return [*self.residuals, *(value for row in self.derivatives for value in row)]
 
+    @property
+    def is_square(self) -> bool:
+        """Whether there are as many equations as unknowns."""
+        return len(self.residuals) == len(self.solved)
+
 
 def varies(value: Scalar) -> bool:
     """Whether a value differs from row to row."""

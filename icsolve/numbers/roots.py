@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from decimal import Decimal, localcontext
 from functools import cache
@@ -69,15 +70,54 @@ def below_zero(f: Function, a: float, b: float) -> float | None:
 
 
 def last_that_holds(
-    holds: Callable[[float], bool], inside: float, outside: float, least: float = 0.0
+    holds: Callable[[float], bool],
+    inside: float,
+    outside: float,
+    least: float = 0.0,
+    vanishing: Callable[[float], float | None] | None = None,
 ) -> tuple[float, float]:
     """The last double at which something holds, from ``inside`` where it does, and the next toward
     ``outside``, where it does not, or one no farther than ``least`` from it: by halving. Of several such
     places it finds one.
+
+    Where a value ``vanishing`` (None: not known there) runs to that place like a straight line, both sides
+    of where it would be zero are tried besides: some 20 places in all, for the 50 of halving alone.
     """
+    line = _StraightLine(vanishing) if vanishing is not None else None
     while abs(outside - inside) > least and (middle := 0.5 * (inside + outside)) not in (inside, outside):
         inside, outside = (middle, outside) if holds(middle) else (inside, middle)
+        for place in line.beside_zero(inside, outside) if line is not None else ():
+            if min(inside, outside) < place < max(inside, outside):
+                inside, outside = (place, outside) if holds(place) else (inside, place)
     return inside, outside
+
+
+class _StraightLine:
+    """A value that runs to zero like a straight line, by the last two places at which it is known."""
+
+    def __init__(self, value: Callable[[float], float | None]) -> None:
+        self.value = value
+        self.known: list[tuple[float, float]] = []
+        self.zero: float | None = None
+
+    def beside_zero(self, inside: float, outside: float) -> tuple[float, ...]:
+        """Both sides of the zero; it moved by more than it is still off when the last place came to it."""
+        if self.known and self.known[-1][0] == inside:
+            return ()
+        value = self.value(inside)
+        self.known = [*self.known[-1:], *([] if value is None else [(inside, value)])]
+        if len(self.known) < 2:
+            return ()
+        (a, at_a), (b, at_b) = self.known
+        before = self.zero if self.zero is not None else inside
+        self.zero = b + at_b * ((b - a) / (at_a - at_b)) if at_a != at_b else b
+        off = max(abs(self.zero - before) / CLOSER, 2.0 * math.ulp(self.zero))
+        off = math.copysign(off, outside - inside)
+        return self.zero - off, self.zero + off
+
+
+CLOSER = 8.0
+"""A zero by a straight line is so many times nearer than it moved."""
 
 
 Three = tuple[float, float, float]

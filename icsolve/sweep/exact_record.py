@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from decimal import Context, Decimal, localcontext
+from itertools import chain
 
 from icsolve.assembly.steps import PointGroup, place
 from icsolve.case import Case, Centroid, Coordinates, Number
@@ -25,7 +26,7 @@ from icsolve.numbers.decimals import (
     decimal_ratio,
     pi,
 )
-from icsolve.numbers.linear import solve_square
+from icsolve.numbers.linear import determinant, solve_square
 from icsolve.numbers.record import Implicit, Op, Root, Traced, live, terms_of
 from icsolve.numbers.replay import BINARY
 from icsolve.numbers.roots import STEP
@@ -176,6 +177,12 @@ class ExactRecord:
         """Unknowns of the groups, solved. Raises Unreached where they have no solution."""
         solved = self.solved(given)
         return [solved[k] for k in nodes]
+
+    def determinant(self, group: Implicit, given: Mapping[int, Decimal]) -> Decimal:
+        """That of the derivatives of a group's equations, of which there are as many as unknowns."""
+        found = iter(self.values_at(chain.from_iterable(group.derivatives), given))
+        with localcontext(CONTEXT):
+            return Decimal(determinant([[next(found) for _ in row] for row in group.derivatives]))
 
     # --- straight on ------------------------------------------------------------------------------
 

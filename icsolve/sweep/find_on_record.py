@@ -10,6 +10,7 @@ and a note says so.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from decimal import Decimal, localcontext
@@ -283,10 +284,7 @@ class RangeSearch:
     def _value(self, value: Scalar, s: Decimal) -> Decimal:
         """A value at a position, in decimals; not a number where the links do not assemble."""
         if s not in self.places:
-            try:
-                self.places[s] = self.exact.solved(self.along.at(self.name, s))
-            except Unreached:
-                self.places[s] = None
+            self.places[s] = self._solved(s)
         solved = self.places[s]
         return Decimal("NaN") if solved is None else self.exact.values_at([value], solved)[0]
 
@@ -515,7 +513,7 @@ class RangeSearch:
         if not self._reaches(inside) or self._reaches(outside):
             return inside, outside
         while True:
-            last, beyond = last_that_holds(self._reaches, inside, outside)
+            last, beyond = last_that_holds(self._reaches, inside, outside, vanishing=self._determinants)
             between = np.linspace(inside, last, BETWEEN)[1:-1].tolist()
             gap = next((s for s in between if not self._reaches(s)), None)
             if gap is None:
@@ -524,10 +522,23 @@ class RangeSearch:
 
     def _reaches(self, s: float | Decimal) -> bool:
         """Whether the links of groups reach one another at a value."""
+        return self._solved(as_written(s) if isinstance(s, float) else s) is not None
+
+    def _determinants(self, s: float) -> float | None:
+        """The product of the squares of the groups' determinants: at a fold one vanishes like the root of the
+        distance. None where a group has equations to spare."""
+        solved = self._solved(as_written(s))
+        groups = self.record.implicit
+        if solved is None or not all(group.is_square for group in groups):
+            return None
+        guesses = {guess: solved[k] for g in groups for guess, k in zip(g.guesses, g.solved, strict=True)}
+        return float(math.prod(self.exact.determinant(g, {**solved, **guesses}) for g in groups) ** 2)
+
+    def _solved(self, s: Decimal) -> Values | None:
+        """The inputs with the groups' unknowns at a value; None where links do not reach one another."""
         with suppress(Unreached):
-            self.exact.solved(self.along.at(self.name, as_written(s) if isinstance(s, float) else s))
-            return True
-        return False
+            return self.exact.solved(self.along.at(self.name, s))
+        return None
 
 
 LARGE = Decimal("1e12")

@@ -11,16 +11,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from decimal import Decimal, localcontext
-from itertools import chain
 
 import numpy as np
 import numpy.typing as npt
 
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
-from icsolve.numbers import Scalar
 from icsolve.numbers.decimals import CONTEXT, as_written
-from icsolve.numbers.linear import determinant
+from icsolve.numbers.record import Implicit
 from icsolve.numbers.replay import Array
 from icsolve.numbers.roots import closed_in
 from icsolve.sweep.continuation import PathSegment
@@ -34,9 +32,6 @@ PASSED = Decimal(2) ** -14
 """Within this part of the longest step doubles tell where a group goes through a singular position."""
 BESIDE = 2.0**-20
 """A state is a guess for another that is this part of the longest step away."""
-
-
-Matrix = tuple[tuple[Scalar, ...], ...]
 
 
 class Recheck:
@@ -238,15 +233,12 @@ class Recheck:
                 return None
             guesses = [k for group in groups for k in group.guesses]
             for group in groups:
-                rows = group.derivatives
-                square = len(rows) == len(rows[0])
 
-                def size(s: Decimal, rows: Matrix = rows, along: Along = along) -> Decimal:
+                def size(s: Decimal, group: Implicit = group, along: Along = along) -> Decimal:
                     known = tracker.exactly(s) | dict(zip(guesses, along(s), strict=True))
-                    found = iter(exact.values_at(chain.from_iterable(rows), known))
-                    return Decimal(determinant([[next(found) for _ in row] for row in rows]))
+                    return exact.determinant(group, known)
 
-                for place in closed_in(size, low, high) if square else ():
+                for place in closed_in(size, low, high) if group.is_square else ():
                     return place
         return None
 
