@@ -461,3 +461,28 @@ def test_with_inertia_forces_too(kind: str) -> None:
         found.append((answer.answers["T"].value, answer.angular_accelerations["3"], rows.answers["T"][1]))
     assert found[0] == pytest.approx(found[1], rel=1e-12)
     assert found[0][0] != library.solve(library.load(texts(0, kind)[1])).answers["T"].value
+
+
+@pytest.mark.parametrize("loaded", "23")
+@pytest.mark.parametrize("pin", ["[4, 5]", "[5, 4]"])
+def test_a_pin_of_spare_links_goes_on_with_its_own_link_whatever_stands_there(pin: str, loaded: str) -> None:
+    """A load of another link stands at the pin of a dyad that does not reach in some of the rows: there the
+    point is where the link takes it that carries the dyad, as in the same mechanism without it, and nowhere
+    where that link is left out too."""
+    four = "{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}"
+    dyad = f"{{pin: {pin}, at: Q}}, {{pin: [5, 6], at: F}}, {{pin: [6, 1], at: G}}"
+    head = "icsolve: 1\npoints: {A: [0, 0], B: [1, 2], C: [4, 3], D: [5, 0], Q: [6, 4]"
+    loads = f"P: {{force: 10, link: {loaded}, at: Q, angle: 20}}, T: {{torque: unknown, link: 2}}"
+    case = library.load(
+        f"{head}, F: [7.5, 3.6], G: [8.5, 3]}}\njoints: [{four}, {dyad}]\nloads: {{{loads}}}\n"
+    )
+    turned = {"2": np.linspace(-25.0, 25.0, 21)}
+    found = library.sweep(case, drive=turned, want=("answers", "status", "points"))
+    assert [*map(str, found.status)] == ["ok"] * 21
+    assert np.isfinite(found.answers["T"]).all()
+    c, q, f = (found.points[name] @ (1.0, 1j) for name in "CQF")
+    assert 5 < np.isnan(f).sum() < 15
+    assert (np.isnan(c) == (np.isnan(f) if loaded == "2" else False)).all()
+    lost = np.isnan(c)
+    assert np.isnan(q[lost]).all()
+    assert np.allclose(q[~lost], 5 + (1 + 4j) / (-1 + 3j) * (c[~lost] - 5), rtol=1e-13)

@@ -173,6 +173,9 @@ class Case:
     noticed: tuple[str, ...] = ()
     """sentences of the reader on what may be a slip, for the notes of an answer"""
     marks: dict[str, Mark] = field(default_factory=dict)
+    taken_along: dict[str, str] = field(default_factory=dict)
+    """of a part of a case, by point of a joint that it is without, the link that takes it along; empty where
+    that is left out as well"""
 
     @cached_property
     def screws(self) -> tuple[Screw, ...]:

@@ -18,6 +18,7 @@ from icsolve.statics import load_wrenches
 from icsolve.statics.power import has_friction, has_number, is_unknown
 from icsolve.structure import Topology, topology
 from icsolve.structure.plan import make_plan
+from icsolve.structure.torn_points import CarriedPoints
 from icsolve.tuples import TypeVar, replace
 from icsolve.wording import links_named
 
@@ -53,6 +54,7 @@ def needed_part(case: Case, beside: Collection[str] = ()) -> Case | None:
         links=links,
         joints=tuple(left for joint in case.joints if (left := joint.among(links)) is not None),
         inertia={link: mass for link, mass in case.inertia.items() if link in links},
+        taken_along=_taken_along(case, top, links),
     )
     guides = (joint.guide for joint in part.joints if joint.guide is not None)
     used = {p for guide in guides for p in (*(guide.ends or ()), guide.through)}
@@ -71,6 +73,16 @@ def _planned(top: Topology, wanted: set[int]) -> frozenset[int] | None:
         if not carriers:
             return plan.bodies
         wanted |= carriers
+
+
+def _taken_along(case: Case, top: Topology, links: Collection[str]) -> dict[str, str]:
+    """The links of a part that take the points of those joints along which it is without."""
+    carried = CarriedPoints(case, top)
+    points = {joint.at for joint in case.joints if joint.at is not None and not {*joint.links} <= {*links}}
+    takers = (
+        (p, [i for i in links if p in case.carries.get(i, ()) and carried.go_with(i, p)]) for p in points
+    )
+    return {p: own[0] if own else "" for p, own in takers}
 
 
 def moving_part(

@@ -23,16 +23,18 @@ class TornPoint(NamedTuple):
 
 
 def owners_of_points(case: Case) -> dict[str, str]:
-    """The link that takes each point along: of a pin any, of a block or a pin in a slot its own."""
+    """The link that takes each point along: of a pin any, of a block or a pin in a slot its own; empty where
+    that is left out of the case."""
     found: dict[str, list[str]] = {}
-    for joint in case.joints:
+    for joint in sorted(case.joints, key=lambda joint: joint.pivot is None):
         at = getattr(joint, "at", None)
         if at is not None:
             found.setdefault(at, []).extend(joint.links if joint.pivot else joint.links[:1])
     for link, names in case.carries.items():
         for name in names:
             found.setdefault(name, [link])
-    return {name: case.ground if case.ground in links else links[0] for name, links in found.items()}
+    owners = {name: case.ground if case.ground in links else links[0] for name, links in found.items()}
+    return {**owners, **case.taken_along}
 
 
 class CarriedPoints:
@@ -51,7 +53,10 @@ class CarriedPoints:
         """Whether a point that stands on a link goes on with it, and not with another or along both."""
         if point in self.rolled:
             return False
-        bodies = {self.body_of[link], self.body_of[self.owners.get(point, link)]}
+        owner = self.owners.get(point, link)
+        if not owner:
+            return False
+        bodies = {self.body_of[link], self.body_of[owner]}
         return len(bodies) == 1 or bodies <= self.pinned.get(point, set())
 
 

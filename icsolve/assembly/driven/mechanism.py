@@ -32,6 +32,7 @@ from icsolve.screws import Point
 from icsolve.screws.joints import guide_direction, joint_freedoms, rolling_centres, transmitted
 from icsolve.screws.ropes import offsets_of, rope_parts
 from icsolve.structure import Bond, Topology, topology
+from icsolve.structure.torn_points import owners_of_points
 from icsolve.tuples import NamedTuple
 from icsolve.wording.joints import why_not_moved
 
@@ -390,11 +391,12 @@ def _owners(
 ) -> dict[str, Spot]:
     """The spot that a name stands for: a pin's, the first link's of a slide or slot, a carrier's."""
     owners: dict[str, Spot] = {}
-    for joint in sorted(case.joints, key=lambda joint: joint.pivot is None):
-        for link, point in joint.carried[:1]:
-            owners.setdefault(point, (top.body_of[link], point))
+    for name, link in owners_of_points(case).items():
+        spot = (top.body_of.get(link, top.ground), name)
+        if name not in contacts and spot in spots[spot[0]]:
+            owners[name] = spot
     for carried in spots.values():
         for spot in carried:
-            if spot[1] not in contacts:
+            if spot[1] not in contacts and case.taken_along.get(spot[1], spot):
                 owners.setdefault(spot[1], spot)
     return owners
