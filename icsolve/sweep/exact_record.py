@@ -178,7 +178,7 @@ class ExactRecord:
         solved = self.solved(given)
         return [solved[k] for k in nodes]
 
-    def determinant(self, group: Implicit, given: Mapping[int, Decimal]) -> Decimal:
+    def determinant(self, group: Implicit, given: Values) -> Decimal:
         """That of the derivatives of a group's equations, of which there are as many as unknowns."""
         found = iter(self.values_at(chain.from_iterable(group.derivatives), given))
         with localcontext(CONTEXT):

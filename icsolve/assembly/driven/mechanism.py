@@ -397,6 +397,6 @@ def _owners(
             owners[name] = spot
     for carried in spots.values():
         for spot in carried:
-            if spot[1] not in contacts and case.taken_along.get(spot[1], spot):
+            if spot[1] not in contacts and case.taken_along.get(spot[1]) != "":
                 owners.setdefault(spot[1], spot)
     return owners
