@@ -785,6 +785,9 @@ REFUSED = {
     ),
     "a dash for a minus": ("force: 100", "force: \u2013100", 14, 14, "write -100"),
     "a power of ten": ("force: 100", "force: 1x10^2", 14, 14, "with an e, 1e3 for 1*10^3"),
+    "letters for zeros": ("force: 100", "force: 1OO", 14, 14, "not the letters O, l and I"),
+    "a letter for a one": ("force: 100", "force: 1l0 N", 14, 14, "not the letters O, l and I"),
+    "letters for zeros before a unit": ("BC: 3.5", "BC: 3OO mm", 5, 22, "not the letters O, l and I"),
     "a space in a number": ("force: 100", "force: 1 000", 14, 14, "without separators"),
     "a value": ("force: 100", "value: 100", 14, 7, "as in {force: 100} or {torque: 5}"),
     "components by name": ("force: 100", "Fx: 100", 14, 7, "{force: [30, -40]}"),
@@ -1148,7 +1151,10 @@ def test_a_published_speed_on_a_link_without_its_point_is_told(point: str, link:
 def test_what_is_wrong_behind_a_wrong_kind_is_told_in_the_same_run(slip: str) -> None:
     told = told_of(changed(("{force: 100, link: 4", f"{{{slip}: 1OO, lnk: 4")))
     assert len(told) == 3 and told[0].endswith("did you mean 'force'?"), told
-    assert told[1:] == ["'1OO': there is no unit 'OO'", "load P has no key 'lnk'; did you mean 'link'?"]
+    assert told[1:] == [
+        "'1OO': write digits, 0 and 1, not the letters O, l and I",
+        "load P has no key 'lnk'; did you mean 'link'?",
+    ]
 
 
 ROPE = """\
@@ -1173,7 +1179,7 @@ expect: {T D-P-B: 5}
         (", on: [2, 1]", "", "needs 'on'"),
         ("P1: {force: unknown", "P1: {froce: unknown", "did you mean 'force'?"),
         ("P1: {force: unknown", "P1: {foo: 1", "load P1 has none of force"),
-        ("P1: {force: unknown", "P1: {force: 1OO", "there is no unit 'OO'"),
+        ("P1: {force: unknown", "P1: {force: 1OO", "not the letters O, l and I"),
     ],
 )
 def test_of_a_rope_and_the_load_at_its_free_end_each_slip_is_told_alone(

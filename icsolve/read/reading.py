@@ -304,6 +304,7 @@ def _is_of_radians(value: float, numeral: Numeral) -> bool:
 _NO_UNITS = {
     r"(?:±|\+/?-)": "write the value alone; under `expect` its room stands beside it, {value: 70, within: 1}",
     r",\d": "write a decimal point, not a comma",
+    r"[OolI][OolI\d.]*(?: |$)": "write digits, 0 and 1, not the letters O, l and I",
     r"[- ]?\d+/\d": "write the fraction as decimals, 3.5 for 3 1/2",
     r"['’]\s*\d+(?:\.\d+)?\s*[\"”]$": "write feet and inches as one number with one unit, 14 in for 1'2\"",
     r"\d(?!/[a-z])|[_'’]\d": "write the digits of a number without separators",
