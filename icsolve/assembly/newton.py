@@ -15,7 +15,6 @@ from itertools import islice, product
 from typing import TYPE_CHECKING
 
 from icsolve.assembly.clusters import LooseFigure
-from icsolve.assembly.order import grow
 from icsolve.assembly.refusals import datum_words, measure, plain
 from icsolve.assembly.steps import Given, Meet, Miss, PointGroup, Step, needs, newton_step
 from icsolve.assembly.workspace import CORNER, LENGTH, LINE, ROPE, Frame, Key, Workspace, data_in, facts_of
@@ -507,11 +506,9 @@ def _constructed(
 ) -> Iterator[Start]:
     """Starts by closed forms, with points held where `near` puts them, one of them also about there."""
     drawing = LooseFigure(facts_of(workspace.case, data_in(group)), frozenset())
-    ground, goal = drawing.ground, set(group.targets)
+    ground = drawing.ground
     ground.begin([p for p in needs(group) if isinstance(p, str)] + held)
-    ground.run(goal)
-    while not goal <= ground.placed.keys() and grow(drawing):
-        ground.run(goal)
+    ground.run(set(group.targets))
     forks = [i for i, step in enumerate(drawing.steps) if isinstance(step, Meet) and step.sign]
     point, places = held[0], {p: near[p] for p in held}
     (x, y), r = near[point], 0.1 * reach
