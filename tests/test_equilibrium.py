@@ -12,8 +12,11 @@ import csv
 import json
 import math
 import random
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from decimal import Decimal
+from fractions import Fraction
 from functools import partial
 from itertools import pairwise
 from pathlib import Path
@@ -42,7 +45,7 @@ from icsolve.solve.stability import holding_values, neutral_values, with_stabili
 from icsolve.sweep.varied_numbers import numbers_of
 from library import FILES, sample
 from shell import Shell, exit_status
-from sizes import FULL, crossed, sampled
+from sizes import FULL, crossed, few, sampled
 
 pytestmark = pytest.mark.usefixtures("wide_ranges")
 
@@ -2500,3 +2503,45 @@ loads:
     told = with_stability(case, answer, "points.A.y").stiffness
     held = 9.0 * math.sqrt(10.0)  # V = F a - Q b, where a goes by -(sqrt(1 + (3 - b)^2)), twice derived
     assert told is not None and told.value == pytest.approx(10.0 / held, rel=1e-9)
+
+
+RATIONAL = """icsolve: 1
+points: {{A: [0, 0], E: [0, {h}]}}
+lengths: {{AB: 2, BC: 3}}
+angles: {{AB: {{unknown: [1, 179]}}, BC: {bc}}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}]
+loads:
+  S: {{spring: {k}, free: 0, link: 2, at: B, to: E}}
+  W: {{weight: {w}, link: 2, at: B}}
+  V: {{weight: {v}, link: 3, at: C}}
+  M: {{torque: {m}, link: 2}}
+  N: {{torque: {n}, link: 3}}
+"""
+
+
+@pytest.mark.parametrize("seed", range(few(24)))
+def test_all_that_is_told_of_a_position_is_that_of_the_exact_one_rounded_once(seed: int) -> None:
+    """Zero free length: the spring turns a bar as a weight less does, and x of its end is a couple over a
+    weight: M / (W + V - k h); of the second bar, N / V more. The angles have no end, and so have neither
+    points nor forces that are worked out from rounded ones."""
+    rng = random.Random(seed)
+    k, h, v, m, n = (
+        Fraction(rng.randrange(*ends), 100)
+        for ends in ((50, 300), (100, 300), (200, 400), (100, 500), (20, 500))
+    )
+    w = k * h + Fraction(rng.randrange(300, 900), 100)
+    own, other = m / (w + v - k * h), n / v
+    assert own < Fraction(19, 10) and other < 3
+    numbers = {"k": k, "h": h, "w": w, "v": v, "m": m, "n": n}
+    decimals = {name: str(Decimal(f.numerator) / f.denominator) for name, f in numbers.items()}
+    text = RATIONAL.format(**decimals, bc="{unknown: [1, 179]}")
+    (both,) = [one.answer for one in icsolve.solve(icsolve.load(text), reactions=True).positions]
+    assert [both.points[p][0] for p in "BC"] == [float(own), float(own + other)]
+    assert abs(both.reactions["F12"].x) == float(k * own)
+    spare = r"  [VN]:.*\n|, BC: 3|, BC: \{unknown: \[1, 179\]\}|, \{pin: \[2, 3\], at: B\}"
+    one = re.sub(spare, "", text)
+    (alone,) = [p.answer for p in icsolve.solve(icsolve.load(one), reactions=True).positions]
+    own = m / (w - k * h)
+    assert own < 2
+    assert alone.points["B"][0] == float(own)
+    assert abs(alone.reactions["F12"].x) == float(k * own)

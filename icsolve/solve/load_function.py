@@ -211,13 +211,13 @@ def nearest(case: Case, off: Sequence[float], rough: float = 0.0) -> int:
     return order[0]
 
 
-def given_at(case: Case, path: str, value: float) -> Case:
+def given_at(case: Case, path: str, value: float | Number) -> Case:
     """The case with its free datum at a value, as if written so."""
     section, name, *part = path.split(".")
     at = case.points.get(name)
     if section != "points" or not isinstance(at, Coordinates):
         return with_numbers(case, {path: value})
-    number = Number(value, 0.0, path, repr(value))
+    number = value if isinstance(value, Number) else Number(value, 0.0, path, repr(value))
     placed = at._replace(x=number) if part == ["x"] else at._replace(y=number)
     return replace(case, points={**case.points, name: placed})
 

@@ -20,6 +20,7 @@ from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import terms_of
 from icsolve.numbers.replay import Array, Code
 from icsolve.numbers.roots import MOST_ORDER, last_that_holds, zeros_between
+from icsolve.numbers.units import found_number
 from icsolve.scene import solve_by_power, solve_scene
 from icsolve.solve.driven_search import rate_of
 from icsolve.solve.load_function import LoadFunction, given_at
@@ -187,17 +188,17 @@ def _met(value: float) -> tuple[float, float]:
     return value, 0.0 if Decimal(value) == as_written(value) else math.ulp(value)
 
 
-def scene_at(function: LoadFunction, value: float) -> Case:
+def scene_at(function: LoadFunction, value: float | Decimal) -> Case:
     """The case with the free datum at a value, in the mode of the function; of a mechanism that moves, the
     row of its sweep."""
-    given = function.given(np.array(value))
+    given = function.given(np.array(float(value)))
     return scene_in(function.compiled, given, {function.path: value}, function.places, function.springs)
 
 
 def scene_in(
     compiled: CompiledSweep,
     given: Mapping[int, Array],
-    values: Mapping[str, float],
+    values: Mapping[str, float | Decimal],
     places: Mapping[str, tuple[int, int]],
     springs: Mapping[str, int],
 ) -> Case:
@@ -206,12 +207,13 @@ def scene_in(
     Parameters
     ----------
     given : all inputs of the record by node, single numbers
-    values : the free data by path, or the turning of a link [case units, degrees]
+    values : the free data by path, or the turning of a link [case units, degrees]; decimals to all digits
     places, springs : nodes of the points that are named, and of the angles that torsion springs follow
     """
     case = compiled.setting.case
     if compiled.setting.moves:
         exact = {k: Decimal(float(v)) for k, v in given.items()}
+        exact |= {compiled.inputs[path]: at for path, at in values.items() if isinstance(at, Decimal)}
         own = {path: exact[compiled.inputs[path]] for path in values if path not in case.links}
         return replace(RowScenes(compiled).case(exact, own), near={}, motion=(), expect=())
     ox, oy, scale = compiled.scene.frame
@@ -223,7 +225,7 @@ def scene_in(
     free = {name: at for name, at in near.items() if name not in placed_by_coordinates(case)}
     case = counted_about(case, dict(zip(springs, flat[len(nodes) :], strict=True)))
     for path, value in values.items():
-        case = given_at(case, path, value)
+        case = given_at(case, path, found_number(value, path) if isinstance(value, Decimal) else value)
     return replace(case, near=free, motion=(), expect=())
 
 
@@ -248,7 +250,7 @@ def described(function: LoadFunction, value: float, error: float) -> RestPositio
     exact = _zero(function, at, at - beside, at + beside) if error else at
     stiffness = None if exact is None else _stiffness(function, exact)
     if stiffness is not None:
-        return told(function, value, error, _kind(stiffness), stiffness, "")
+        return told(function, value, error, _kind(stiffness), stiffness, "", exact if error else None)
     return _enclosed(function, value, error)
 
 
@@ -316,9 +318,9 @@ def told(
     stability: str,
     stiffness: Stiffness | None,
     why: str,
-    at: float | None = None,
+    at: float | Decimal | None = None,
 ) -> RestPosition:
-    """A position with its scene; ``at`` is a value beside it that assembles."""
+    """A position with its scene; ``at`` is the value in all digits, or one beside it that assembles."""
     case = scene_at(function, value if at is None else at)
     size = function.case.units.torque_per_force_length / (
         function.force_scale * function.compiled.scene.frame.scale

@@ -561,7 +561,8 @@ def _described(
         return None
     x, y = (min(max(v, a), b) for v, (a, b) in zip((x, y), limits, strict=True))
     slopes = _values(surface, zero.beside, surface.slopes)
-    scene = solve_scene(_scene(surface, paths, (x, y)))
+    exact = (v if e and float(v) == own else own for v, e, own in zip(zero.at, off, (x, y), strict=True))
+    scene = solve_scene(_scene(surface, paths, [*exact]))
     if slack := why_slack(scene.case, surface.links, 2):
         there = " and ".join(f"{p} = {v:.6g}" for p, v in zip(paths, (x, y), strict=True))
         return left_out(there, slack)
@@ -606,8 +607,8 @@ def _stability(slopes: Sequence[Decimal]) -> str:
         return "stable" if det > least else "neutral"
 
 
-def _scene(surface: Surface, paths: Sequence[str], values: Sequence[float]) -> Case:
-    given = surface.given(*(np.array(v) for v in values))
+def _scene(surface: Surface, paths: Sequence[str], values: Sequence[float | Decimal]) -> Case:
+    given = surface.given(*(np.array(float(v)) for v in values))
     at = dict(zip(paths, values, strict=True))
     return scene_in(surface.compiled, given, at, surface.places, surface.springs)
 
