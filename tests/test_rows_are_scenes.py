@@ -526,6 +526,42 @@ def test_radii_that_do_not_fit_the_figure_are_refused_in_scenes_and_rows(
             assert refusal.value.status == wanted
 
 
+@sampled(6)
+@pytest.mark.parametrize("dynamic", [False, True])
+@pytest.mark.parametrize("kind", ROLLING)
+@pytest.mark.parametrize("seed", range(40 if FULL else 4))
+def test_rolling_links_of_few_decimals_move_as_written(kind: str, dynamic: bool, seed: int) -> None:
+    """Places of three decimals, which just miss radii, line of centres and guide: where nothing has moved the
+    row is the scene in all digits, and everywhere it is as near to the row of the exact figure as the
+    decimals are; inertia forces among the loads too."""
+    draw = random.Random(f"few {kind} {seed}")
+    turn = cmath.rect(1.0, draw.uniform(-math.pi, math.pi))
+    r, s = (round(size, 3) for size in (draw.uniform(0.5, 3), draw.choice([1, -1]) * draw.uniform(3.5, 6)))
+    places = {"O": -r * turn, "Q": s * turn, "P": 0 * turn, "R": (0.5 + 2j) * turn, "B": 2 - 1j}
+    joints, one, two = ROLLING[kind]
+    along = repr(math.degrees(cmath.phase(turn)) + 90)
+    radii = [r, 0.0 if kind in ("rack", "on the flat") else s]
+
+    def rolling(digits: int) -> Case:
+        points = ", ".join(
+            f"{p}: [{round(z.real, digits)}, {round(z.imag, digits)}]" for p, z in places.items()
+        )
+        return icsolve.load(
+            f"icsolve: 1\npoints: {{{points}}}\n"
+            f"joints: [{joints.replace('@', along)}, {{roll: [{one}, {two}], at: P, radii: {radii}}}]\n"
+            "links: {2: {points: [O], mass: 2 kg, centre: O, inertia: 3 kg*m^2}, "
+            "3: {points: [B], mass: 1 kg, centre: B, inertia: 2 kg*m^2}}\n"
+            "loads: {T: {torque: unknown, link: 2}, F: {force: 5, link: 3, at: B, slope: [2, 3]}}\n"
+            f"motion: {{link: 2, speed: 2, acceleration: 3}}\ndynamic: {'yes' if dynamic else 'no'}\n"
+        )
+
+    rows = [icsolve.sweep(rolling(digits), {}, drive={"2": [0.0, 5.0, 10.0]}) for digits in (3, 17)]
+    assert [found.status.tolist() for found in rows] == [["ok", "ok", "ok"]] * 2
+    few, exact = (found.answers["T"] for found in rows)
+    assert few[0] == pytest.approx(icsolve.solve(rolling(3)).answers["T"].value, rel=1e-12)
+    assert few == pytest.approx(exact, abs=2e-2 * max(abs(exact)))
+
+
 @pytest.mark.parametrize("seed", range(40 if FULL else 4))
 def test_a_wheel_of_which_no_point_is_the_centre_is_noted_and_not_moved(seed: int) -> None:
     """A wheel that nothing carries by its centre has any radius as it stands; where no point lies at one, or
