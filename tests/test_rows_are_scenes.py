@@ -526,6 +526,37 @@ def test_radii_that_do_not_fit_the_figure_are_refused_in_scenes_and_rows(
             assert refusal.value.status == wanted
 
 
+@pytest.mark.parametrize("asked", ["2", "8"])
+@pytest.mark.parametrize("seed", range(20 if FULL else 4))
+def test_a_link_that_repeats_what_others_hold_keeps_its_length_in_every_row(seed: int, asked: str) -> None:
+    """A third crank of a parallelogram, its places as programs write them: what goes over to a crossed figure
+    at a change point would stretch it, and no row that has an answer does so."""
+    draw = random.Random(f"third crank {seed}")
+    r, start, lean = draw.uniform(0.5, 1.5), draw.uniform(0, 360), draw.uniform(0, 360)
+    crank = cmath.rect(r, math.radians(start))
+    base, at = cmath.rect(draw.uniform(1.6, 3), math.radians(lean)), complex(draw.uniform(-1, 1), 0.3)
+    places = {"A": at, "F": at + base, "J": at + 2 * base, "H": at + base + crank, "K": at + 2 * base + crank}
+    points = ", ".join(f"{p}: [{z.real!r}, {z.imag!r}]" for p, z in places.items())
+    case = icsolve.load(
+        f"icsolve: 1\npoints: {{{points}}}\nlengths: {{AB: {r!r}}}\nangles: {{AB: {start!r}}}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [1, 7], at: F}, {pin: [1, 8], at: J}, {pin: [2, 6], at: B}, "
+        "{pin: [7, 6], at: H}, {pin: [8, 6], at: K}]\n"
+        f"loads: {{W: {{force: 10, link: 6, at: H, angle: 30}}, T: {{torque: unknown, link: {asked}}}}}\n"
+    )
+    rows = icsolve.sweep(
+        case, {"angles.AB": np.linspace(start, start + 360, 37)}, ("status", "points", "answers")
+    )
+    good = rows.status == "ok"
+    assert good[0]
+    pairs = {"FH": r, "JK": r, "HK": abs(base), "BH": abs(base)}
+    for (a, b), apart in pairs.items():
+        found = np.hypot(*(rows.points[a] - rows.points[b])[good].T)
+        assert found == pytest.approx(apart, rel=1e-9)
+    arm = 1j * r * np.exp(1j * np.radians(np.linspace(start, start + 360, 37)))
+    work = (arm * cmath.rect(10, -math.radians(30))).real
+    assert rows.answers["T"][good] == pytest.approx(-work[good], abs=1e-6)
+
+
 @sampled(6)
 @pytest.mark.parametrize("dynamic", [False, True])
 @pytest.mark.parametrize("kind", ROLLING)
