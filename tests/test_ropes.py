@@ -156,6 +156,36 @@ loads:
     assert abs(hoist.answers["T"].value) == exactly(100 * (0.3 - 0.25) / 2)
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_a_rack_of_few_decimals_beside_a_rope_is_no_structure(seed: int) -> None:
+    """Where the pinion touches its guided rack is written to few decimals, which just miss the foot of its
+    centre on the rack: that leaves it movable with a rope as without one."""
+    dice = Random(seed)
+    lean, r, digits = math.radians(dice.uniform(10, 80)), dice.uniform(0.3, 0.9), dice.choice([3, 4, 16])
+    along, out = (math.cos(lean), math.sin(lean)), (math.sin(lean), -math.cos(lean))
+    e = [round(r * n, digits) for n in out]
+    rack = [round(1.2 * r * n + t, digits) for n, t in zip(out, along, strict=True)]
+    b = [round(dice.uniform(-1, 1), 2), round(dice.uniform(0.2, 1), 2)]
+    pull = (2.0 - b[0], 3.0 - b[1])
+    text = f"""
+points: {{A: [0, 0], B: {b}, E: {e}, F: {rack}, P: [2, 3], D: [2, -1]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{slide: [4, 1], at: F, along: {math.degrees(lean)!r}}}
+  - {{roll: [2, 4], at: E}}
+  - {{slide: [3, 1], at: D, along: 90}}
+  - {{rope: [B, P, D], on: [2, 1, 3]}}
+loads:
+  W: {{weight: 16, link: 3, at: D}}
+  F: {{force: 7, link: 4, at: F, angle: {math.degrees(lean)!r}}}
+  T: {{torque: unknown, link: 2}}
+"""
+    arm = (b[0] * pull[1] - b[1] * pull[0]) / math.hypot(*pull)
+    answer = solved(text)
+    assert answer.answers["T"].value == pytest.approx(-16 * arm - 7 * r, rel=max(10.0 ** (2 - digits), 1e-12))
+    assert tension(answer, "B-P-D") == exactly(16)
+
+
 def test_rope_from_a_crank_by_its_arms() -> None:
     answer = solved("""
 points: {A: [0, 0], B: [0.3, 0.4], P: [1, 2], C: [1, 0.5]}

@@ -10,17 +10,18 @@ Mach. Theory 31, 1996.)
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 
 from icsolve.assembly.workspace import PlacedCase
-from icsolve.case import Joint, Motion, Rope
+from icsolve.case import Joint, Motion, Number, Rope
 from icsolve.case.joints import CentreAt, JointCentre, JointKind, Mesh, Radius, RadiusOfRow, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import LOOSE, NO_SPEED, fastest, meant, path_of, speed_of
 from icsolve.numbers import Scalar, all_vanish, decider, largest_of
 from icsolve.numbers.linear import SPENT, General, Row, eliminate
 from icsolve.numbers.tape import UNIT
-from icsolve.screws import Point, Triple, add, cross, pairing, subtract, unit_between, velocity
+from icsolve.screws import Point, Triple, add, blend, cross, pairing, subtract, velocity
 from icsolve.screws.joints import centre_twist, freedoms, mesh_weights, rolling_centres, transmitted
 from icsolve.screws.ropes import part_changes, rope_parts
 from icsolve.structure import Bond, Topology
@@ -134,7 +135,8 @@ def rate_rows(place: PlacedCase, twists: Twists, drives: Sequence[Drive]) -> tup
     for bond in top.bonds:
         relative = subtract(twists[bond.links[1]], twists[bond.links[0]])
         basis, change = freedoms(bond, place.points, place.arithmetic), _changes(place, twists, bond)
-        for w, dw in zip(transmitted(basis), _transmitted_changes(basis, change), strict=True):
+        told = zip(transmitted(basis), _transmitted_changes(basis, change), strict=True)
+        for w, dw in _by_normal(place, bond.joint, tuple(told)) if isinstance(bond.joint, Rolling) else told:
             rows.append(_rate_condition(top, bond, w, pairing(dw, relative), known))
             sizes.append(sum(abs(a * b) for a, b in zip(dw, relative, strict=True)))
     for rope in top.ropes:
@@ -254,11 +256,7 @@ def _changes(place: PlacedCase, twists: Twists, bond: Bond) -> tuple[Triple, ...
         (ax, ay), (bx, by_) = velocity(twists[by], a), velocity(twists[on], b)
         return (p * ax + q * bx, p * ay + q * by_, 0.0), (ay - by_, bx - ax, 0.0)
     if isinstance(joint, Rolling):
-        normal, given = _normal(place, joint), joint.radii or ()
-        if sum(radius.value for radius in given) == 0.0:
-            raise _unknown(joint, "one fills the other, and touches it everywhere. Correct the `radii`")
-        radii = tuple(radius if radius.value else None for radius in given)
-        return _contact(place, twists, joint, radii, normal)[:1]
+        return (_rolled(place, twists, joint),)
     if joint.curvature is not None and joint.direction is not None:
         return _contact(place, twists, joint, joint.curvature, place.arithmetic.turn(joint.direction))
     return tuple(_change(place, twists, joint, centre) for centre in joint.centres)
@@ -322,14 +320,59 @@ def _fraction(place: PlacedCase, radius: Radius) -> tuple[Scalar, Scalar]:
     return given(radius) * scale, 1.0
 
 
-def _normal(place: PlacedCase, joint: Rolling) -> Point:
-    """Unit normal at a rolling contact, out of the first link: along the line to a round link's centre."""
+def _rolled(place: PlacedCase, twists: Twists, joint: Rolling) -> Triple:
+    """How the contact of links that roll on each other moves: it keeps its place on the normal, beside the
+    centre of a round link.
+
+    The normal turns with the line of both centres, with a straight link, or by the radii where only one
+    centre is a point of the figure. So what the links leave redundant stays so, however near the written
+    radii are to the distances of the figure.
+    """
+    radii = joint.radii or ()
+    if sum(radius.value for radius in radii) == 0.0:
+        raise _unknown(joint, "one fills the other, and touches it everywhere. Correct the `radii`")
+    (centre, twist), *other = ((place.points[p], twists[link]) for p, link in _wheels(place, joint))
+    x, y = velocity(twist, centre)
+    turning = _between(centre, (x, y), *other[0]) if other else _by_radii(place, twists, joint.links, radii)
+    px, py = place.points[joint.at]
+    return _moved((x - turning * (py - centre[1]), y + turning * (px - centre[0])))
+
+
+def _wheels(place: PlacedCase, joint: Rolling) -> list[tuple[str, str]]:
+    """The centres of the round links that are points of the figure, each with its link."""
     try:
         found = rolling_centres(joint, place.case, place.points, place.frame.scale)
     except LookupError as why:
         raise _unknown(joint, why.args[0]) from None
-    sides = zip(found, joint.radii or (), (-1.0, 1.0), strict=True)
-    centre, radius, side = next((p, radius, side) for p, radius, side in sides if p is not None)
-    (x, y), _ = unit_between(place.points[joint.at], place.points[centre], place.arithmetic)
-    sign = side if radius.value > 0.0 else -side
-    return sign * x, sign * y
+    return [(p, link) for p, link in zip(found, joint.links, strict=True) if p is not None]
+
+
+def _by_normal(
+    place: PlacedCase, joint: Rolling, wrenches: tuple[tuple[Triple, Triple], ...]
+) -> Iterator[tuple[Triple, Triple]]:
+    """The forces along x and y at a rolling contact, and their changes, as those along the normal and square
+    to it: the first may only repeat what pins and guides say, and to few digits; the other alone tells how
+    the links turn one another."""
+    centre, _ = _wheels(place, joint)[0]
+    (x, y), (u, v) = place.points[centre], place.points[joint.at]
+    nx, ny = float(u) - float(x), float(v) - float(y)
+    size = math.hypot(nx, ny)
+    (first, one), (second, two) = wrenches
+    for c, s in ((nx / size, ny / size), (ny / size, -nx / size)):
+        yield blend(c, first, s, second), blend(c, one, s, two)
+
+
+def _between(centre: Point, v: Point, other: Point, twist: Triple) -> Scalar:
+    """The rate at which the line from one centre to another turns."""
+    (x, y), (u, w) = (other[0] - centre[0], other[1] - centre[1]), velocity(twist, other)
+    return (x * (w - v[1]) - y * (u - v[0])) / (x * x + y * y)
+
+
+def _by_radii(place: PlacedCase, twists: Twists, links: tuple[str, ...], radii: tuple[Number, ...]) -> Scalar:
+    """The rate at which the normal turns where two links roll: ``(s o + r w) / (r + s)``, that of a straight
+    link where one is."""
+    (w, o), (r, s) = (twists[link][2] for link in links), radii
+    if not r.value or not s.value:
+        return o if not s.value else w
+    a, b = place.arithmetic.given(r), place.arithmetic.given(s)
+    return (b * o + a * w) / (a + b)

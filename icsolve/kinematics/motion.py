@@ -5,7 +5,7 @@ equations of the whole scene. What is singular, redundant or rigid is said here.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
 from icsolve.assembly.workspace import PlacedCase
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from icsolve.kinematics import loops
     from icsolve.kinematics.loops import LoopMotions
     from icsolve.screws import ropes as rope_screws
+    from icsolve.screws.ropes import RopePart
     from icsolve.wording import sentences
 else:
     loops = LateModule("icsolve.kinematics.loops")
@@ -92,10 +93,8 @@ def by_loops(place: PlacedCase) -> Motions:
     motions = loops.all_motions(top, bases, ropes=ropes, vanishes=decider(arithmetic))
     notes: tuple[str, ...] = ()
     exact = bool(motions.found.basis)
-    if not exact and ropes:
-        raise _rigid(top, motions)
     if not exact:
-        motions, notes = _almost(place, bases, motions)
+        motions, notes = _almost(place, bases, ropes, motions)
     mobility = len(motions.found.basis)
     redundant = max(mobility - top.freedoms_by_count, 0)
     twists = {link: motions.twists[body] for body, links in enumerate(top.members) for link in links}
@@ -137,14 +136,16 @@ DOUBT = 1e-6
 """A structure whose last pivot is below this may move as far as its data can tell."""
 
 
-def _almost(place: PlacedCase, bases: Bases, rigid: LoopMotions) -> tuple[LoopMotions, tuple[str, ...]]:
+def _almost(
+    place: PlacedCase, bases: Bases, ropes: Sequence[Sequence[RopePart]], rigid: LoopMotions
+) -> tuple[LoopMotions, tuple[str, ...]]:
     """The motion that data of few digits just miss; refuses a structure and what is in doubt."""
     top = place.top
     pivots = rigid.found.pivots
     last = pivots[-1] if pivots else 1.0
     inexact = [joint for joint in place.case.joints if joint.has_written_centre]
     if inexact and last < AGREE:
-        motions = loops.all_motions(top, bases, AGREE / len(pivots))
+        motions = loops.all_motions(top, bases, AGREE / len(pivots), ropes)
         if len(motions.found.basis) == 1:
             miss = f"{float(motions.found.dropped):.1g} of the figure's size"
             return motions, (f"the given centres and rolling contacts agree with each other to {miss}.",)

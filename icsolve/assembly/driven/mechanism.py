@@ -29,7 +29,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers import FLOATS, Scalar
 from icsolve.numbers.record import Record
 from icsolve.screws import Point
-from icsolve.screws.joints import guide_direction, joint_freedoms, rolling_centres, transmitted
+from icsolve.screws.joints import OFF_RADIUS, guide_direction, joint_freedoms, rolling_centres, transmitted
 from icsolve.screws.ropes import offsets_of, rope_parts
 from icsolve.structure import Bond, Topology, topology
 from icsolve.structure.torn_points import owners_of_points
@@ -41,26 +41,27 @@ ROUNDED = 1e-14
 
 Sizes = tuple[float, float]
 
+Guides = Mapping[tuple[int, Spot], Point]
+
 
 class RollingContact(NamedTuple):
-    """Where two links touch: from the centre of the round one, along a flank's normal or toward the
-    other centre."""
+    """Where two links touch: from the centre of the round one so far along a flank, or the way to the other
+    centre, and so far to its left [of a flank: frame; else: shares of the way]."""
 
     centre: Spot
-    radius: Scalar
     flank: BodyLine | None
     other: Spot | None
-    whole: Scalar = 1.0
+    beside: Point
 
     def place(self, places: Places) -> Point:
         """The point of contact."""
-        centre = places.place(self.centre)
+        centre, (ahead, left) = places.place(self.centre), self.beside
         if self.flank is not None:
-            along = places.vector(self.flank.body, self.flank.along)
-            return minus(centre, scaled(self.radius, square(along)))
-        assert self.other is not None
-        share = self.radius / self.whole
-        return plus(centre, scaled(share, minus(places.place(self.other), centre)))
+            way = places.vector(self.flank.body, self.flank.along)
+        else:
+            assert self.other is not None
+            way = minus(places.place(self.other), centre)
+        return plus(plus(centre, scaled(ahead, way)), scaled(left, square(way)))
 
 
 class Rolled(NamedTuple):
@@ -83,8 +84,16 @@ class RollingSide(NamedTuple):
     side: float
 
 
-def rolling(joint: Rolling, sides: tuple[RollingSide, RollingSide], ref: WrittenPlaces) -> Rolled:
-    """The conditions of a rolling joint (``ref``: places as written)."""
+def rolling(
+    joint: Rolling, sides: tuple[RollingSide, RollingSide], ref: WrittenPlaces, guides: Guides
+) -> Rolled:
+    """The conditions of a rolling joint.
+
+    Parameters
+    ----------
+    ref : places as written
+    guides : where a body slides beside the pin of another, by both, the direction of its guide
+    """
     contact, normal = ref[joint.at], _normal(joint, sides, ref)
     names = [side.centre or f"@centre of {side.link} on {joint.at}" for side in sides]
     centres = {
@@ -96,21 +105,47 @@ def rolling(joint: Rolling, sides: tuple[RollingSide, RollingSide], ref: Written
     flat = next((n for n, side in enumerate(sides) if float(side.radius) == 0.0), None)
     if flat is None:
         radii = (sides[0].radius, sides[1].radius)
-        whole = radii[0] + radii[1]
-        distance = whole if float(whole) > 0.0 else -whole
+        distance, beside = _apart(radii, contact, *(centres.get(name) or ref[name] for name in names))
         conditions = (SpotDistance(one, two, distance), RolledRound(one, two, radii))
-        return Rolled(conditions, RollingContact(one, radii[0], None, two, whole), centres)
+        return Rolled(conditions, RollingContact(one, None, two, beside), centres)
     side, centre = sides[1 - flat], (one, two)[1 - flat]
     # the centre is on the left of the flank: minus the outward normal is along turned by 90 degrees
-    line = BodyLine(sides[flat].body, contact, square(scaled(-side.side, normal)))
-    radius = side.radius if float(side.radius) > 0.0 else -side.radius
     at = centres[centre[1]] if centre[1] in centres else ref[centre[1]]
-    offset = dot(square(line.along), minus(at, contact))
+    guide = guides.get((sides[flat].body, centre))
+    along = _as_guided(square(scaled(-side.side, normal)), guide, minus(contact, at))
+    line = BodyLine(sides[flat].body, contact, along)
+    radius = side.radius if float(side.radius) > 0.0 else -side.radius
+    ahead, offset = dot(along, minus(contact, at)), dot(square(along), minus(at, contact))
     if abs(float(offset) - float(radius)) <= ROUNDED:
         offset = radius
+    if abs(float(ahead)) <= ROUNDED:
+        ahead = 0.0
     kept = {name: place for name, place in centres.items() if name == centre[1]}
     rolls = (OnLine(centre, line, offset), RolledStraight(centre, line, radius))
-    return Rolled(rolls, RollingContact(centre, offset, line, None), kept)
+    return Rolled(rolls, RollingContact(centre, line, None, (ahead, -offset)), kept)
+
+
+def _apart(radii: tuple[Scalar, Scalar], contact: Point, centre: Point, other: Point) -> tuple[Scalar, Point]:
+    """How far apart the centres of two round links are, and where beside the way from one to the other they
+    touch: by their radii, or as written where these fit to few digits only."""
+    whole = radii[0] + radii[1]
+    if not float(whole):
+        return whole, (0.0, 0.0)
+    distance, ahead = whole if float(whole) > 0.0 else -whole, radii[0] / whole
+    (x, y), (u, v) = ((float(a), float(b)) for a, b in (minus(other, centre), minus(contact, centre)))
+    apart, square_of = math.hypot(x, y), x * x + y * y
+    written, left = (u * x + v * y) / square_of, (v * x - u * y) / square_of
+    if max(abs(apart - float(distance)), abs(written - float(ahead)), abs(left)) <= ROUNDED:
+        return distance, (ahead, 0.0)
+    return apart, (written, left)
+
+
+def _as_guided(along: Point, guide: Point | None, contact: Point) -> Point:
+    """The direction of a flank: that of the guide on which it slides past the wheel, where the contact (seen
+    from the centre) misses it by no more than contacts as written may."""
+    if guide is None or abs(float(dot(guide, contact))) > OFF_RADIUS:
+        return along
+    return guide if float(dot(along, guide)) > 0.0 else scaled(-1.0, guide)
 
 
 def _normal(joint: Rolling, sides: Iterable[RollingSide], ref: Mapping[str, Point]) -> Point:
@@ -194,12 +229,15 @@ def mechanism(
         for i, joint in enumerate(case.joints)
         if isinstance(joint, Guided)
     }
+    guides = _guides_beside(case, top, lines)
     constraints: list[Constraint] = []
     contacts: dict[str, RollingContact] = {}
     for i, joint in enumerate(case.joints):
         if isinstance(joint, Rolling):
             try:
-                found = rolling(joint, _sides(joint, PlacedCase(case, frame, places.still, record)), places)
+                found = rolling(
+                    joint, _sides(joint, PlacedCase(case, frame, places.still, record)), places, guides
+                )
             except SceneError as unknown:
                 constraints += _immovable(joint, top, places.still, unknown)
                 continue
@@ -218,6 +256,20 @@ def mechanism(
     _base(spots, lines.values(), places)
     owners = _owners(case, top, spots, contacts)
     return Mechanism(case, top, frame, shape, spots, owners, constraints, lines, contacts)
+
+
+def _guides_beside(case: Case, top: Topology, lines: Mapping[int, BodyLine]) -> dict[tuple[int, Spot], Point]:
+    """Where a body slides on one that bears the pin of a third: its guide's direction, by it and that pin."""
+    found: dict[tuple[int, Spot], Point] = {}
+    for i, line in lines.items():
+        joint = case.joints[i]
+        one, two = (top.body_of[link] for link in joint.links)
+        for slider, bearer in ((one, two), (two, one)) if joint.keeps_direction else ():
+            for pin in case.joints:
+                bodies = {top.body_of[link] for link in pin.links} if pin.pivot is not None else set()
+                if pin.pivot is not None and bearer in bodies:
+                    found |= {(slider, (body, pin.pivot)): line.along for body in bodies - {slider}}
+    return found
 
 
 def _roped(rope: Rope, top: Topology, frame: Frame, record: Record, ref: Mapping[str, Point]) -> Roped:

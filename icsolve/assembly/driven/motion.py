@@ -29,6 +29,7 @@ from icsolve.assembly.driven.order import (
     PlaceByTwoPoints,
     RotateToLine,
     RotateWith,
+    Through,
     ThroughTurned,
     locus,
     reference,
@@ -155,6 +156,8 @@ class _Placing:
         self.written: dict[str, float] = {}
         self.groups: list[NewtonGroup] = []
         self.spare: list[Scalar] = []
+        self.spanned: set[frozenset[Spot]] = set()
+        """pairs of a body's spots of which one was placed at its distance from the other"""
         self.left: list[Scalar] = []
         ground = self.shape.ground
         self._locate((ground, name) for _, name in mechanism.spots[ground])
@@ -174,6 +177,8 @@ class _Placing:
             case PlaceByTwoPoints(body, (p, q)):
                 z = minus(self.moved.place(q), self.moved.place(p))
                 self.moved.rotations[body] = Rotation(z, Arm(p, q))
+                if frozenset((p, q)) not in self.spanned:
+                    self.spare.append(dot(z, z) - self.shape.span(p, q) * self.shape.span(p, q))
                 self._placed(body, p, (p, q))
             case PlaceAtIntersection():
                 self._meet(step)
@@ -220,6 +225,7 @@ class _Placing:
 
     def _meet(self, step: PlaceAtIntersection) -> None:
         one, two = (locus(self.shape, self.moved, by) for by in step.loci)
+        self.spanned.update(frozenset((by.spot, by.pivot)) for by in step.loci if isinstance(by, Through))
         for by, there in zip(step.loci, (one, two), strict=True):
             if isinstance(by, ThroughTurned) and isinstance(by.by, Roped):
                 assert isinstance(there, PlacedCircle)
