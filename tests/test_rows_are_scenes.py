@@ -833,6 +833,33 @@ def test_rows_of_loads_that_all_but_cancel_are_scenes(kind: str, seed: int) -> N
         assert abs(evaluated.answers["U"][n] - scene.value) <= 1e-9 * abs(scene.value)
 
 
+@sampled(3)
+@pytest.mark.parametrize("seed", range(100 if FULL else 4))
+@pytest.mark.parametrize("kind", SHORT)
+def test_rows_beside_a_large_load_that_does_no_work_are_scenes(kind: str, seed: int) -> None:
+    """It stands at a point that stands still, though its link turns; or a spring of its free length there."""
+    draw = random.Random(f"{kind} {seed}")
+    link, at, far = (2, "A", "Q") if kind == "slider-crank" else (4, "D", "A")
+    large, angle = 10.0 ** draw.randrange(4, 19), draw.randrange(5, 85)
+    idle = [
+        f"{{force: {large}, link: {link}, at: {at}, angle: {angle}}}",
+        f"{{force: [{0.7 * large}, {-0.3 * large}], link: {link}, at: {at}}}",
+        f"{{spring: {large}, free: {draw.choice([0.1, 4.1])}, link: {link}, at: {at}, to: {far}}}",
+    ]
+    text = "icsolve: 1\nangles: {AB: 40}\n" + SHORT[kind].format(r=1.25)
+    text = text.replace("K:", f"L: {idle[seed % 3]}, K:")
+    path = draw.choice(["angles.AB", "loads.K"])
+    values = [round(draw.uniform(10.0, 80.0), 2) for _ in range(2)]
+    rows = icsolve.sweep(icsolve.load(text), {path: values}, want=("answers", "error"))
+    evaluated = icsolve.evaluator(icsolve.load(text), inputs=(path,), want=("answers",))(np.array(values))
+    for n, value in enumerate(values):
+        scene = icsolve.solve(icsolve.load(text, {path: str(value)})).answers["U"]
+        assert rows.status[n] == evaluated.status[n] == "ok"
+        off = abs(rows.answers["U"][n] - scene.value)
+        assert off <= rows.errors["answers"]["U"][n] + 2e-16 * abs(scene.value)
+        assert max(off, abs(evaluated.answers["U"][n] - scene.value)) <= 1e-9 * abs(scene.value)
+
+
 @pytest.mark.parametrize("name", sample(FILES, 12, "torques against each other"))
 def test_two_torques_against_each_other_change_no_row(name: str) -> None:
     """However large they are, on the first link that moves of any case of the library."""

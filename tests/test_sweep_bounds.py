@@ -6,6 +6,7 @@ the last digit. Pessimism: at most 100 in the median, as for one scene.
 
 from __future__ import annotations
 
+from decimal import Decimal
 from random import Random
 
 import numpy as np
@@ -17,12 +18,16 @@ import mechanisms
 import transcribe
 from figures import from_lengths
 from growth import random_mechanism
+from icsolve.sweep.exact_record import exact_record
+from icsolve.sweep.program import RowRequest, compile_sweep, setting_of
 from loading import drawn
 from recorded import truths
 from sizes import FULL, MORE, few, sampled
 from test_sweep import STILL, plain
 
 ALL = ("answers", "error", "points", "centres", "rates")
+LAST = Decimal("1e-100")
+"""Of numbers of size 1 in all digits."""
 
 
 def pessimism(sweep: icsolve.Sweep, rows: range) -> list[float]:
@@ -51,6 +56,32 @@ def bounded(case: icsolve.Case, degrees: np.ndarray, **vary: object) -> icsolve.
         except icsolve.SceneError:
             continue
     return None
+
+
+@sampled(2)
+@pytest.mark.parametrize("seed", range(12))
+def test_in_all_digits_a_record_has_the_numbers_of_the_file(seed: int) -> None:
+    """Every number of a figure and of its loads, a 1 too: no double beside it rounds it unseen."""
+    rng = Random(seed)
+    spots = {
+        name: [rng.choice(["0", "1", "-1", "2", f"{rng.uniform(-3, 3):.2f}"]) for _ in "xy"]
+        for name in ("A", "B", "C", "D", "E")
+    }
+    push = [rng.choice(["1", "-1", f"{rng.uniform(1, 3):.1f}"]) for _ in "xy"]
+    case = icsolve.load(
+        f"icsolve: 1\npoints: {str(spots).replace(chr(39), '')}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}]\n"
+        f"loads: {{P: {{force: [{', '.join(push)}], link: 2, at: E}}, U: {{torque: unknown, link: 2}}}}\n"
+    )
+    compiled = compile_sweep(setting_of(case, [], ["2"]), RowRequest(points=tuple(spots)))
+    exact, given = exact_record(compiled), {compiled.inputs["2"]: Decimal(0)}
+    for name, xy in spots.items():
+        found = exact.values(compiled.outputs.get(("points", name), ()), given)  # none of a dyad left out
+        assert all(abs(a - Decimal(b)) < LAST for a, b in zip(found, xy, strict=False)), name
+    ax, ay, ex, ey = map(Decimal, (*spots["A"], *spots["E"]))
+    px, py = map(Decimal, push)
+    (answer,) = exact.values(compiled.outputs["answers", "U"], given)
+    assert abs(answer + (ex - ax) * py - (ey - ay) * px) < LAST
 
 
 @sampled(3)

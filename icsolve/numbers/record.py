@@ -219,7 +219,7 @@ class Record:
         if held is not None:
             return held
         noise = decimal_noise(number)
-        if not noise and number.value in (0.0, 1.0, -1.0):
+        if not noise and not number.value:  # a 1 that is no node would be rounded unseen in sums of doubles
             return number.value
         return self._constant(number.value, noise, number.path)
 

@@ -308,6 +308,20 @@ def known_sizes(b: PowerFactors[L], motion: int) -> tuple[float, float]:
     return sum(powers), sum(map(abs, powers))
 
 
+def known_terms(
+    b: PowerFactors[L], twists: Mapping[str, Sequence[tuple[Scalar, ...]]], motion: int
+) -> tuple[float, float]:
+    """As `known_sizes`, each component of a load apart: where its point stands still they cancel one another,
+    and so do the terms of a spring's stretch."""
+    left = size = 0.0
+    for w, factor in zip(b.wrenches, b.factors[motion], strict=True):
+        relative = map(sub, twists[w.load.link][motion], twists[w.against][motion])
+        terms = sum(abs(float(u) * float(v)) for u, v in zip(w.unit, relative, strict=True))
+        left += power_of(w, float(factor))
+        size += abs(power_of(w, w.reach * terms))
+    return left, size
+
+
 def known_power(b: Balance, m: int, arithmetic: Arithmetic) -> Scalar:
     """The power of the known loads in motion m [force units times frame length, a unit of the motion], times
     `force_scale`.

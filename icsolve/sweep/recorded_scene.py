@@ -120,10 +120,10 @@ class RecordedStatics(NamedTuple):
 
     @property
     def cancels(self) -> bool:
-        """Whether the powers of the known loads all but cancel."""
-        if sum(bool(w.number) for w in self.balance.wrenches) < 2:
-            return False
-        sizes = [power.known_sizes(self.balance, m) for m in range(len(self.balance.factors))]
+        """Whether the powers of the known loads all but cancel, or those of what a load is made of."""
+        sizes = [
+            power.known_terms(self.balance, self.motions.twists, m) for m in range(len(self.balance.factors))
+        ]
         return any(0.0 < abs(left) < power.CANCELLED * size for left, size in sizes)
 
     @property
