@@ -120,7 +120,7 @@ def progression(first: Fraction, step: Fraction, count: int) -> Values:
 
 Ranges = tuple[tuple[str, "Values"], ...]
 WRITTEN = (".csv", ".jsonl", ".npz")
-MORE = ("error", "points", "centres", "rates", "velocities", "accelerations")
+MORE = ("error", "points", "centres", "rates", "velocities", "accelerations", "reactions")
 
 
 class SweepOptions(NamedTuple):
@@ -165,6 +165,7 @@ class SweepOptions(NamedTuple):
 @click.option("--rates", is_flag=True, help="The angular velocities of the links too.")
 @click.option("--velocities", is_flag=True, help="The velocities of the points too.")
 @click.option("--accelerations", is_flag=True, help="With --dynamic: those of the links and points too.")
+@click.option("--reactions", is_flag=True, help="The forces in the joints too; each row is a scene then.")
 @click.option("--dynamic", is_flag=True, help="With the inertia forces of the motion.")
 @click.option("--plot", metavar="SVG", help="The answers over the range, as a picture, into this file.")
 @click.option(

@@ -72,7 +72,8 @@ def sweep(
     vary : by path (``angles.AB``, ``loads.P``), values, (n,) or one number for all rows; zipped; case
         units, degrees
     want : ``answers``, ``status``, ``error``, ``points``, ``centres``, ``rates``, ``velocities``,
-        ``accelerations`` (with inertia forces), ``terms``; or single ones, ``points.C``, ``centres.2-4``
+        ``accelerations`` (with inertia forces), ``terms``, ``reactions`` (each row is then solved as a scene,
+        milliseconds a row); or single ones, ``points.C``, ``centres.2-4``
     drive : by link, degrees by which it is turned from the position as written, (n,) or one number
     dynamic : with the inertia forces of the given motion, as in `icsolve.solve`
     progress : called with the number of rows that were done, time and again
@@ -109,7 +110,7 @@ def sweep(
     start = start_of(case, columns, told(case, wanted.asked))
     if start.one_by_one:
         return _family(start, columns, wanted, progress)
-    alone = start.hides or (case.ropes and not start.compiled().taut)
+    alone = wanted.asked.reactions or start.hides or (case.ropes and not start.compiled().taut)
     if alone or (_rubs(case) and not _rubs_at_once(start, wanted)):
         return _by_scenes(start, columns, wanted, progress)
     return _together(start, columns, wanted, progress)

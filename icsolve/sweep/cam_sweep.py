@@ -150,7 +150,7 @@ def _together(table: Table, part: CamRows, error: bool) -> Mask:
     if run is None:
         return done
     teeth = any(isinstance(joint, Mesh) and joint.pressure_angle is not None for joint in case.joints)
-    if not (teeth or error):
+    if not (teeth or error or table.asked.reactions):
         values, done = run.together(table.asked)
         if values and part.alike and table.asked.answers:
             _dwell(run, values, done, table.asked)

@@ -41,7 +41,7 @@ from icsolve.sweep.request import (
     told,
 )
 from icsolve.sweep.starting_position import is_hard, is_open, shapes_figure
-from icsolve.sweep.table import CODE, KINDS, WORDS, Table, by_kind
+from icsolve.sweep.table import CODE, RECORDED, WORDS, Table, by_kind
 from icsolve.sweep.varied_numbers import find_number, numbers_of, with_numbers
 from icsolve.tuples import NamedTuple, dataclass, field, replace
 
@@ -143,6 +143,8 @@ def evaluator(
     if len(set(own)) < len(own):
         raise RequestError("an input is named twice")
     wanted = request_of(case, names_in(want, "want=('answers', 'points.C')"), case.dynamic)
+    if wanted.asked.reactions:
+        raise RequestError("an evaluator tells no reactions: `icsolve.sweep` has them, each row as a scene")
     if case.space is not None:
         raise SceneError(Status.UNSUPPORTED, "an evaluator is for the plane, and this case is in space.")
     return Evaluator(case, dict(zip(paths, own, strict=True)), wanted, gradient)
@@ -216,7 +218,7 @@ class Evaluator:
             self._as_scene(given, row, table)
         for array in (array for by in slopes.values() for array in by.values()):
             array[again] = np.nan
-        kinds = by_kind(table.values)
+        kinds = by_kind(table.values, RECORDED)
         status = np.array(WORDS if table.codes.any() else WORDS[:1], FINE.dtype)[table.codes]
         return Evaluated(status, gradients=slopes, **kinds)
 
@@ -363,7 +365,7 @@ class _Compiled:
             return None
         if found is None:
             return None
-        kinds: dict[str, dict[str, Array]] = {kind: {} for kind in KINDS}
+        kinds: dict[str, dict[str, Array]] = {kind: {} for kind in RECORDED}
         start = 0
         for (kind, name), count in self.parts.items():
             part = found[start : start + count]

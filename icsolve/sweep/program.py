@@ -81,6 +81,8 @@ class RowRequest(NamedTuple):
     contacts: tuple[RestingContact, ...] = ()
     terms: bool = False
     """the power of a unit of every load, where the mechanism has one freedom or the case one unknown"""
+    reactions: bool = False
+    """forces in joints and pulls of ropes, which each row's scene tells"""
 
     @property
     def in_motion(self) -> bool:

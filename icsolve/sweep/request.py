@@ -23,7 +23,7 @@ from icsolve.wording import listed
 
 WORDS = (
     *("answers", "status", "error", "points", "centres", "rates", "velocities", "accelerations"),
-    "terms",
+    *("terms", "reactions"),
 )
 
 
@@ -218,7 +218,10 @@ def request_of(case: Case, want: tuple[str, ...], dynamic: bool = False) -> Swee
         )
     answers = bool(kinds & {"answers", "error", "status", "terms"})
     moving = ("rates" in kinds, "velocities" in kinds, "accelerations" in kinds, dynamic)
-    asked = RowRequest(answers, tuple(points), tuple(centres), *moving, terms="terms" in kinds)
+    forces = "reactions" in kinds
+    asked = RowRequest(
+        answers or forces, tuple(points), tuple(centres), *moving, terms="terms" in kinds, reactions=forces
+    )
     return SweepRequest(asked, "error" in kinds, want)
 
 

@@ -72,6 +72,7 @@ def _one(table: Table, row: int, case_of: Callable[[int], Case], missing: bool) 
                 rates=asked.rates or asked.velocities,
                 all_centres=bool(asked.centres),
                 dynamic=asked.dynamic,
+                reactions=asked.reactions,
                 alone=True,
             )
         table.fill(row, answer, missing)

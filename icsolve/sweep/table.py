@@ -87,6 +87,9 @@ class Sweep:
     angular_accelerations : of links, (n,) [rad/s^2], with inertia forces
     terms : by load, the power of a unit of it, (n,), where there is one freedom or one unknown; the speed is
         another in each row, so that ratios tell something
+    reactions : where wanted, by joint as in one scene (``F34``), x and y of the force and its couple about
+        the joint, (n, 3); of ropes (``T A-P-B``) the pull, (n,) [case units]; what equilibrium leaves open is
+        not a number
     holds : with friction and no motion, the ranges in which unknown loads hold, (n, 2)
     notes : sentences about the sweep
     """
@@ -104,6 +107,7 @@ class Sweep:
     accelerations: dict[str, Array] = field(default_factory=dict)
     angular_accelerations: dict[str, Array] = field(default_factory=dict)
     terms: dict[str, Array] = field(default_factory=dict)
+    reactions: dict[str, Array] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     codes: Codes = field(default_factory=lambda: np.empty(0, np.int8))
     _case_of: Callable[[int], Case] | None = None
@@ -158,14 +162,20 @@ class Sweep:
 
 
 VECTORS = ("velocities", "accelerations")
-KINDS = ("answers", "points", "centres", "rates", *VECTORS, "angular_accelerations", "terms")
+RECORDED = ("answers", "points", "centres", "rates", *VECTORS, "angular_accelerations", "terms")
+"""What a record tells, of many rows at once."""
+KINDS = (*RECORDED, "reactions")
+UNBOUNDED = RECORDED[4:]
+"""Of these no bounds are told."""
 LETTERS = {"rates": "w", "angular_accelerations": "a", "terms": "power "}
 
 
-def by_kind(arrays: Mapping[tuple[str, str], Array]) -> dict[str, dict[str, Array]]:
-    """Arrays by (kind, name) as arrays by kind and then by name; every kind that a sweep shows is there, and
-    no other."""
-    kinds: dict[str, dict[str, Array]] = {kind: {} for kind in KINDS}
+def by_kind(
+    arrays: Mapping[tuple[str, str], Array], shown: Iterable[str] = KINDS
+) -> dict[str, dict[str, Array]]:
+    """Arrays by (kind, name) as arrays by kind and then by name; every kind that is shown is there, and no
+    other."""
+    kinds: dict[str, dict[str, Array]] = {kind: {} for kind in shown}
     for (kind, name), array in arrays.items():
         if kind in kinds:
             kinds[kind][name] = array
@@ -273,6 +283,7 @@ class Table:
                 error = (abs(x) * UNIT, abs(y) * UNIT) if given else None
                 self.put("points", name, row, (x, y), error)
         self._fill_motion(row, answer)
+        self._fill_forces(row, answer)
         loads = {load.name for load in case.loads}  # the power of friction is none of a unit of a load
         for term in answer.terms if asked.terms else ():
             if term.load in loads:
@@ -304,6 +315,17 @@ class Table:
                     self.leave_open(kind, f"{point} on {on}", row)
                 elif is_named(point):
                     self.put(kind, f"{point} on {on}", row, vector)
+
+    def _fill_forces(self, row: int, answer: Answer) -> None:
+        """Forces in joints and pulls of ropes, where they are asked; of those that are open none."""
+        for name, force in (answer.reactions or {}).items() if self.asked.reactions else ():
+            parts = tuple(np.nan if part is None else part for part in (force.x, force.y, force.moment))
+            bounds = tuple(force.errors.get(part) or 0.0 for part in ("x", "y", "moment"))
+            self.put("reactions", name, row, parts, bounds if force.errors else None)
+        for pull in answer.tensions if self.asked.reactions else ():
+            self.put(
+                "reactions", pull.name, row, np.nan if pull.tension is None else pull.tension, pull.error
+            )
 
     def lacks(self, row: int, *kinds: str) -> bool:
         """Whether a row lacks a number of what moves in it (or of some kinds of these), as where what scales
@@ -381,7 +403,7 @@ def columns(sweep: Sweep) -> dict[str, Array]:
         bounds = sweep.errors.get(kind, {})
         for name, array in arrays.items():
             table |= _parted(kind, name, array)
-            if name in bounds and kind not in KINDS[4:]:  # of accelerations no bounds are told
+            if name in bounds and kind not in UNBOUNDED:
                 table |= {f"error {n}": bound for n, bound in _parted(kind, name, bounds[name]).items()}
     for name, array in sweep.holds.items():
         table |= {f"{name} from": array[:, 0], f"{name} to": array[:, 1]}
@@ -392,6 +414,8 @@ def _parted(kind: str, name: str, array: Array) -> dict[str, Array]:
     """The columns of one array."""
     if kind == "points":
         return {f"{name}.x": array[:, 0], f"{name}.y": array[:, 1]}
+    if kind == "reactions" and array.ndim > 1:
+        return {f"{name}.{part}": array[:, k] for k, part in enumerate(("x", "y", "moment"))}
     if kind in VECTORS:
         return {f"{kind[0]} {name}.{axis}": array[:, k] for k, axis in enumerate("xy")}
     if kind == "centres":
