@@ -25,6 +25,7 @@ from icsolve.case import Case, Number, Torque
 from icsolve.case.joints import Guided
 from icsolve.numbers.units import BOUNDS
 from icsolve.scene import solve_scene
+from icsolve.solve.positions import find_along
 from icsolve.sweep.evaluator import Evaluated
 from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.program import setting_of
@@ -555,6 +556,38 @@ def test_a_link_that_repeats_what_others_hold_keeps_its_length_in_every_row(seed
     arm = 1j * r * np.exp(1j * np.radians(np.linspace(start, start + 360, 37)))
     work = (arm * cmath.rect(10, -math.radians(30))).real
     assert rows.answers["T"][good] == pytest.approx(-work[good], abs=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(40 if FULL else 4))
+def test_places_as_programs_write_them_go_straight_on_through_a_change_point(seed: int) -> None:
+    """A parallelogram whose places are doubles, so that as its decimals stand it just misses the change
+    point: in rows, by the value of its torque, and by its rests it stays a parallelogram all round (within
+    1e-5 degrees of the change point it is what its decimals make it)."""
+    draw = random.Random(f"doubles {seed}")
+    r, start, lean = draw.uniform(0.5, 1.5), draw.uniform(0, 360), draw.uniform(0, 360)
+    crank, base, at = (
+        cmath.rect(r, math.radians(start)),
+        cmath.rect(2.5, math.radians(lean)),
+        complex(0.1, 0.3),
+    )
+    places = {"A": at, "F": at + base, "H": at + base + crank}
+    points = ", ".join(f"{p}: [{z.real!r}, {z.imag!r}]" for p, z in places.items())
+    text = (
+        f"icsolve: 1\npoints: {{{points}}}\nlengths: {{AB: {r!r}}}\nangles: {{AB: {start!r}}}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [1, 7], at: F}, {pin: [2, 6], at: B}, {pin: [7, 6], at: H}]\n"
+        "loads: {W: {force: 10, link: 6, at: H, angle: 30}"
+    )
+    turn = np.linspace(start, start + 360, 37)
+    rows = icsolve.sweep(icsolve.load(text + ", T: {torque: unknown, link: 2}}\n"), {"angles.AB": turn})
+    assert set(rows.status) == {"ok"}
+    assert rows.answers["T"] == pytest.approx(10 * r * np.sin(np.radians(turn - 30)), abs=1e-6)
+    ways = sorted((30 + 180 * n - start) % 360 for n in range(2))
+    asked = icsolve.load(text + ", T: {torque: unknown, link: 2}}\n")
+    found = [one.at for one in find(asked, {"angles.AB": turn}, Query("value", "T", 0.0))]
+    rests, _ = find_along(icsolve.load(text + "}\n"), "angles.AB", start, start + 360)
+    for places in (found, [one.value for one in rests]):
+        clear = [at for at in places if abs(math.remainder(at - lean, 180.0)) > 1e-5]
+        assert sorted((at - start) % 360 for at in clear) == pytest.approx(ways, abs=1e-6)
 
 
 @sampled(6)

@@ -475,6 +475,11 @@ def is_long(number: Number) -> bool:
     return _digits(number) >= LONG
 
 
+def is_double(number: Number) -> bool:
+    """Whether a number is written as programs write doubles: with no more digits than tell one apart."""
+    return LONG <= _digits(number) <= DOUBLE
+
+
 def _digits(number: Number) -> int:
     """How many digits a number is written with, zeros before the first left out."""
     digits = number.digits.lower().partition("e")[0]

@@ -24,7 +24,7 @@ from icsolve.numbers.replay import Array, Code
 from icsolve.solve.load_function import EVEN, LoadFunction, nearest
 from icsolve.solve.refinement import plain_within
 from icsolve.sweep.branches import DOUBT, may_vanish
-from icsolve.sweep.exact_record import ZERO, Unreached, exact_record, lowest
+from icsolve.sweep.exact_record import Unreached, exact_record, lowest, open_by
 from icsolve.tuples import NamedTuple
 
 SAMPLES = 720
@@ -45,6 +45,7 @@ class Branches:
         self.values = np.linspace(low, high, SAMPLES + 1)
         self.names = [name for name in functions[0].places if all(name in f.places for f in functions)]
         self.slack = 1e-9 * (high - low)
+        self.open = open_by(functions[0].compiled.scene.case)
         beside = np.append(self.values[:-1] + self.slack, high - self.slack)  # where loci coincide none meet
         self.places = np.array([self._places(f, beside) for f in functions])  # (mode, sample, 2 points)
         self.whole = self.assemble(self.values)  # (modes, samples)
@@ -68,7 +69,7 @@ class Branches:
                 holds = np.array(np.broadcast_to(margin >= 0.0, len(values)))
                 for k in np.flatnonzero(~holds & np.broadcast_to(margin > -DOUBT, len(values))):
                     least = _exactly(function, node, as_written(values[k]))
-                    holds[k] = not least.is_nan() and least >= -ZERO
+                    holds[k] = not least.is_nan() and least >= -self.open
                 whole[n] &= holds
         return whole
 
@@ -166,7 +167,7 @@ class Branches:
                     found += [(abs(least), least, float(at))] if not least.is_nan() else []
             if found:
                 size, least, place = min(found)
-                yield (0 if not size > ZERO else 1 if least > 0 else -1), place
+                yield (0 if not size > self.open else 1 if least > 0 else -1), place
 
     def _lowest(self, function: LoadFunction, node: int, low: float, high: float) -> float | None:
         """About where a margin is lowest between two values; None where it cannot vanish there."""

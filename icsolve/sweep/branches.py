@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
-from decimal import localcontext
+from decimal import Decimal, localcontext
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from icsolve.numbers.decimals import CONTEXT
 from icsolve.numbers.record import Root, live
 from icsolve.numbers.replay import BLOCK, Array, code_of
 from icsolve.sweep.continuation import ChangePoints, InputLine, State
-from icsolve.sweep.exact_record import ZERO, Unreached, exact_record, lowest, relative
+from icsolve.sweep.exact_record import Unreached, exact_record, lowest, open_by, relative
 from icsolve.sweep.path_tracking import PathTracker
 from icsolve.sweep.program import CompiledSweep, Signs, live_roots
 from icsolve.sweep.request import RequestError
@@ -170,6 +170,10 @@ class Radicands:
             low, high = float(at[max(k - 1, 0)]), float(at[min(k + 1, POINTS - 1)])
         return (low + high) / 2.0
 
+    @cached_property
+    def _open(self) -> Decimal:
+        return open_by(self.compiled.scene.case)
+
     def _margin(self, root: Root, at: float) -> float:
         """The smaller margin over its size where the radicand is lowest; of one that doubles leave open more
         digits say its sign, and that it is 0."""
@@ -184,7 +188,7 @@ class Radicands:
             if found is not None:
                 one, one_size, two, two_size = along(found)[1:]
                 more = min(relative(one, one_size), relative(two, two_size))
-                return float(more) if abs(more) > ZERO else 0.0
+                return float(more) if abs(more) > self._open else 0.0
         return margin if abs(margin) > TOUCH else 0.0
 
 

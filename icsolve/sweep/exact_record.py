@@ -15,7 +15,7 @@ from icsolve.assembly.steps import PointGroup, place
 from icsolve.case import Case, Centroid, Coordinates, Number
 from icsolve.errors import SceneError, Status
 from icsolve.numbers import Scalar
-from icsolve.numbers.balls import Ball, Balls, BelowZero, MoreDigits
+from icsolve.numbers.balls import Ball, Balls, BelowZero, MoreDigits, is_double, is_long
 from icsolve.numbers.decimals import (
     CONTEXT,
     DIGITS,
@@ -57,6 +57,8 @@ what is left (at a double root it is half of that), do not tell where along it t
 guess, which comes from places around it."""
 SHORTER = Decimal("1e-9")
 """A step longer than this and than the last leads to no solution near: beyond a fold there is none."""
+OPEN = Decimal(16 * 2.0**-53)
+"""A margin of squares of such places, as a fraction of its terms."""
 AGREED = Decimal("1e-9")
 """Conditions that were not needed to place the links are met to this (normalised)."""
 FLAT = Decimal(10) ** (60 - DIGITS)
@@ -298,6 +300,14 @@ def exact_record(compiled: CompiledSweep) -> ExactRecord:
     if found is None:
         found = compiled.record.kept[EXACT] = ExactRecord(compiled)
     return found
+
+
+def open_by(case: Case) -> Decimal:
+    """What a lowest margin may be off, as a fraction of its terms, where it is zero: places that programs
+    write, with all digits of doubles, are those of a figure with a change point to half a unit of these."""
+    numbers = numbers_of(case).items()
+    long = [n for path, n in numbers if path.startswith(("points.", "lengths.", "angles.")) and is_long(n)]
+    return OPEN if long and all(map(is_double, long)) else ZERO
 
 
 def lowest(
