@@ -224,6 +224,33 @@ def test_a_peak_in_the_first_or_the_last_interval(
     assert [spot.at for spot in spots] == [peak]
 
 
+ROCKING = """icsolve: 1
+points: {A: [0, 0], D: [4, 0]}
+lengths: {AB: 2, BC: 2.5, CD: 1.5}
+angles: {AB: 40}
+near: {C: [3.5, 1.4]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}]
+loads: {K: {torque: 10, link: 4}, P: {force: 6, link: 3, at: C, angle: 80}, U: {torque: unknown, link: 2}}
+"""
+
+
+@sampled(3)
+@pytest.mark.parametrize("seed", range(30 if FULL else 10))
+def test_what_is_found_does_not_depend_on_how_much_of_the_range_assembles(seed: int) -> None:
+    """Of a crank that rocks 151 degrees, in ranges of up to two turns."""
+    rng, case = Random(seed), icsolve.load(ROCKING)
+    query = rng.choice([Query("max"), Query("value", "U", 5.0)])
+    alone = [spot.at for spot in find(case, {"angles.AB": np.array([-75.0, 75.0])}, query)]
+    assert len(alone) == (2 if query.kind == "max" else 3)
+    for _ in range(4):
+        low = rng.uniform(-75.0, 50.0)
+        span = np.array([round(low, 1), round(low + rng.uniform(30.0, 500.0), 1)])
+        every = sorted(s + 360.0 * turn for s in alone for turn in range(3))
+        expected = [s for s in every if span[0] < s < span[1]]
+        found_there = find(case, {"angles.AB": span}, query)
+        assert [spot.at for spot in found_there] == pytest.approx(expected, abs=1e-12)
+
+
 @pytest.mark.parametrize("rows", [[0.0, 360.0], np.arange(0.0, 361.0, 1.0), [0.0, 100.0, 101.0, 360.0]])
 def test_what_is_found_does_not_depend_on_the_rows_between(rows: list[float]) -> None:
     spots = find(icsolve.load(PRESS), {"angles.AB": rows}, Query("max"))

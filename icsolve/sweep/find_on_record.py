@@ -15,7 +15,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from decimal import Decimal, localcontext
 from functools import cached_property, partial
-from itertools import pairwise, product
+from itertools import islice, pairwise, product
 
 import numpy as np
 import numpy.typing as npt
@@ -134,6 +134,7 @@ class RangeSearch:
         self.places: dict[Decimal, Values | None] = {}
         """the inputs at every place that was looked at, groups solved; None where these have no solution"""
         self.edges: list[Decimal] | None = None
+        self.probes: list[Decimal] | None = None
         low, high = map(as_written, self.ends)
         touching = {s: exact for s, exact in self.along.touching(name) if low <= s <= high}
         self.touches = sorted(touching)
@@ -245,7 +246,8 @@ class RangeSearch:
             return
         top, bottom = fraction(self.record, answer)
         probed = [self._value(answer, s) for s in self._probes()]
-        if self._vanishes(bottom) or max(probed) - min(probed) <= NOTHING * abs(probed[0]):
+        same = len(probed) == PROBES and max(probed) - min(probed) <= NOTHING * abs(probed[0])
+        if self._vanishes(bottom) or same:
             return
 
         rise = slope(partial(self._value, answer))
@@ -300,12 +302,17 @@ class RangeSearch:
 
     def _vanishes(self, value: Scalar) -> bool:
         """Whether a value is zero in the whole range."""
-        return all(self._is_nothing(value, s) for s in self._probes())
+        probes = self._probes()
+        return len(probes) == PROBES and all(self._is_nothing(value, s) for s in probes)
 
     def _probes(self) -> list[Decimal]:
-        """Places that tell whether a value is the same in the whole range."""
-        low, high = map(as_written, self.ends)
-        return [low + Decimal(k) * (high - low) for k in PROBES]
+        """Places that tell whether a value is the same in the whole range: some at which the links assemble;
+        too few where hardly any does."""
+        if self.probes is None:
+            low, high = map(as_written, self.ends)
+            tried = (low + (k * GOLDEN + PROBED) % 1 * (high - low) for k in range(MOST_PROBES))
+            self.probes = list(islice(filter(self._assembles, tried), PROBES))
+        return self.probes
 
     def _pulling(self, s: Decimal, kind: str, load: str) -> Iterator[FoundPosition]:
         """The position at a value; none where the links do not assemble, and none, and a note, where a rope
@@ -547,7 +554,10 @@ BESIDE = 2.0**-4
 """This part of the longest step to both sides of a change point, where no bound is tight, is searched in"""
 RINGS = 24
 """rings, each half as far from it."""
-PROBES = ("0.2137", "0.4311", "0.7919")
+PROBES, MOST_PROBES = 3, 89
+"""Whether a value is the same throughout is asked at so many places, of so many that are tried,"""
+PROBED, GOLDEN = Decimal("0.2137"), Decimal("0.6180339887")
+"""each this part of the range from the last, from the first on: they lie ever closer, and evenly."""
 ROUGH = 1e-12
 """So much farther than the span is searched, of its values: more than doubles round."""
 BETWEEN = 18
