@@ -655,3 +655,27 @@ motion: {{link: 2, turns: ccw}}
     assert refusal.value.status == "jam"
     share = float(refusal.value.message.partition(" bound at ")[2].split()[0])
     assert share * float(radius) == pytest.approx(420.5, rel=3e-3)
+
+
+@sampled(3)
+@pytest.mark.parametrize("seed", range(60 if FULL else 12))
+def test_teeth_push_apart_beside_however_large_loads(seed: int) -> None:
+    """A wheel that a small torque loads has its tooth force from that alone: the flank that carries is that
+    of the same wheel beside no other load, and the pins have their friction from it."""
+    rng = Random(seed)
+    large, small = 10.0 ** rng.randrange(15, 19), rng.choice([-1.3, 0.7])
+    turns = rng.choice(["cw", "ccw"])
+    text = (
+        "icsolve: 1\npoints: {A: [0, 0], B: [0.31, 0.17], C: [-0.4, 0.3]}\n"
+        "joints: [{pin: [1, 2], at: A, mu: 0.2, radius: 0.02}, {pin: [1, 3], at: B, mu: 0.1, radius: 0.03},\n"
+        "  {gears: [2, 3], teeth: [23, 41], pressure angle: 20}]\n"
+        f"loads: {{K: {{torque: {small}, link: 3}}, L: {{force: LARGE, link: 2, at: C, angle: 71}},\n"
+        f"  U: {{torque: unknown, link: 2}}}}\nmotion: {{link: 2, turns: {turns}}}\n"
+    )
+    alone, beside = (
+        icsolve.solve(icsolve.load(text.replace("LARGE", str(load))), reactions=True) for load in (0, large)
+    )
+    for share in ("tangential", "separating"):
+        one, two = (answer.to_dict()["reactions"]["F23"][share] for answer in (alone, beside))
+        assert two == pytest.approx(one, rel=1e-12, abs=0.0), share
+    assert beside.to_dict()["reactions"]["F23"]["separating"] > 0.0

@@ -883,6 +883,22 @@ def test_loads_that_all_but_cancel_hide_no_position(large: int, monkeypatch: pyt
             assert abs(one.at - other.at) <= one.error + other.error
 
 
+@pytest.mark.parametrize("large", [10**9, 10**13])
+@pytest.mark.parametrize(
+    "idle",
+    ["{torque: LARGE, link: 2}, M: {torque: -LARGE, link: 2}", "{force: LARGE, link: 4, at: D, angle: 33}"],
+)
+def test_dead_centres_hang_on_no_known_load(idle: str, large: int) -> None:
+    """Loads that all but cancel, and one at a pivot, leave their places what they are, to the last digit."""
+    case = ROCKING.replace("torque: unknown, link: 2", "torque: unknown, link: 4")
+    case = case.replace("10, link: 4", "10, link: 3").replace("2, BC: 2.5, CD: 1.5", "1, BC: 3.5, CD: 2.5")
+    turns = {"angles.AB": np.array([-170.0, 190.0])}
+    loaded = case.replace("loads: {", f"loads: {{L: {idle.replace('LARGE', str(large))}, ")
+    alone, beside = (list(find(icsolve.load(text), turns, Query("dead"))) for text in (case, loaded))
+    assert len(alone) == 2
+    assert beside == alone
+
+
 def told(text: str, path: str, value: float) -> str:
     """The status of a scene of its own."""
     try:

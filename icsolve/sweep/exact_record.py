@@ -382,12 +382,12 @@ def relative(value: Decimal, size: Decimal) -> Decimal:
 # --- rows as scenes --------------------------------------------------------------------------------
 
 
-def hides(compiled: CompiledSweep) -> bool:
-    """Whether the record does not tell what is asked of the rows, or doubles lose it: known loads all but
-    cancel, or something that was taken as zero in every row is none."""
+def hides(compiled: CompiledSweep, known_loads: bool = True) -> bool:
+    """Whether the record does not tell what is asked of the rows, or doubles lose it: known loads (where it
+    hangs on them) all but cancel, or something that was taken as zero in every row is none."""
     if compiled.untold:
         return True
-    if compiled.cancels and any(map(float, _answers(compiled))):
+    if known_loads and compiled.cancels and any(map(float, _answers(compiled))):
         return True
     if not compiled.spent:
         return False

@@ -36,7 +36,7 @@ from icsolve.scene.program import Want
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import loads_to_find
 from icsolve.sweep.continuation import SAME
-from icsolve.sweep.exact_record import APART, Unreached, Values
+from icsolve.sweep.exact_record import APART, Unreached, Values, hides
 from icsolve.sweep.find_by_scenes import HAS, FoundPosition, FoundPositions, Query, Scenes
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recheck import Recheck
@@ -101,7 +101,8 @@ def find(
     if not by_itself and not wanted(case, Want()).everything:  # as the scene of a place solves no more
         case = moving_part(case, columns.paths, columns.links) or case
     start = None if by_itself else start_of(case, columns, RowRequest(dynamic=case.dynamic))
-    if start is None or start.one_by_one or start.hides:
+    # dead centres and limits hang on no load that is known
+    if start is None or start.one_by_one or hides(start.compiled(), query.kind != "dead"):
         return Scenes(case, columns, along, query).spots()
     spots, refusal = FoundPositions(), start.compiled().refusal
     if refusal is not None and refusal.status == Status.MOBILITY:

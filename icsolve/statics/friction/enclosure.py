@@ -25,7 +25,7 @@ from icsolve.numbers.balls import Balls, MoreDigits
 from icsolve.numbers.krawczyk import enclosed_root
 from icsolve.numbers.linear import Row, eliminate
 from icsolve.statics.equilibrium import Rub, Statics, equations_of, equilibrium
-from icsolve.statics.free_bodies import Solved, carrying_flanks
+from icsolve.statics.free_bodies import Solved, carrying_flanks, on_flanks
 from icsolve.statics.friction import rubbing_rates, rubs_of
 from icsolve.statics.friction.equations import forces_of
 from icsolve.statics.load_wrenches import Wrench
@@ -174,19 +174,26 @@ class SceneOnBalls(NamedTuple):
 def enclosed(scene: SceneOnBalls, solved: Solved, senses: Sequence[float]) -> Solved | None:
     """The solution on balls; the rubs have these senses.
 
-    None where a sense, or the flank of a tooth, is another than the balls say. Raises MoreDigits where they
-    leave that open, and where no solution is shown.
+    None where a sense is another than the balls say, or no flanks of the teeth are those that carry. Raises
+    MoreDigits where they leave that open, and where no solution is shown.
     """
-    a = scene.arithmetic
-    assert isinstance(a, Balls)
     rope_senses = [tie.senses for tie in solved.statics.ropes]
     if not _moves_so(scene, senses, rope_senses):
         return None
     flanks = {}
     if meshes(solved.statics.ties):
         flanks = carrying_flanks(scene.position, ties_of(scene.position), solved)
-    statics = scene.statics(flanks, rope_senses)
-    rubs = statics.rubs
+    # doubles lose a tooth force beside far larger ones, and with it the flank that carries
+    found = on_flanks(
+        flanks, lambda these: _on_flanks(scene, solved, senses, scene.statics(these, rope_senses))
+    )
+    return found if all(found.carrying(t) > 0.0 for t in flanks) else None
+
+
+def _on_flanks(scene: SceneOnBalls, solved: Solved, senses: Sequence[float], statics: Statics) -> Solved:
+    """The solution on balls near one in doubles, of statics with teeth on some flanks."""
+    a, rubs = scene.arithmetic, statics.rubs
+    assert isinstance(a, Balls)
     roots = {statics.root(n): solved.unknowns[q] * statics.scale for n, q in enumerate(statics.roots)}
     largest = max(map(abs, solved.statics.filled(solved.parameters).values()))
     every = {statics.rub(k): f for k, f in enumerate(solved.friction) if senses[k]}
