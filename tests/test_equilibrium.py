@@ -8,6 +8,7 @@ ch. 11).
 
 from __future__ import annotations
 
+import cmath
 import csv
 import json
 import math
@@ -31,7 +32,7 @@ import icsolve
 import mechanisms
 from equilibrium_cases import POTENTIALS
 from icsolve.answer.equilibrium import EquilibriumPosition, position_dict
-from icsolve.errors import CaseError, SceneError
+from icsolve.errors import CaseError, SceneError, Status
 from icsolve.manual import template
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import Record
@@ -2545,3 +2546,38 @@ def test_all_that_is_told_of_a_position_is_that_of_the_exact_one_rounded_once(se
     assert own < 2
     assert alone.points["B"][0] == float(own)
     assert abs(alone.reactions["F12"].x) == float(k * own)
+
+
+@pytest.mark.parametrize("third", [False, True])
+@pytest.mark.parametrize("seed", range(80 if FULL else 4))
+def test_a_figure_written_at_one_place_goes_straight_on_through_its_change_points(
+    seed: int, third: bool
+) -> None:
+    """A parallelogram by coordinates rests where its force points along the cranks' circles, and not where a
+    crossed one would, wherever in the range, or outside of it, it is written. A third crank, which a crossed
+    one would stretch, adds no position."""
+    dice = random.Random(f"written {seed}")
+    r, start, lean = dice.uniform(0.5, 1.5), dice.uniform(0, 360), dice.uniform(0, 360)
+    low = round(start + dice.choice([-300, -200, -100, 20, -400]))
+    high = low + dice.choice([360, 250, 330])
+    crank, base = cmath.rect(r, math.radians(start)), cmath.rect(2.5, math.radians(lean))
+    places = {"A": 0j, "F": base, "H": base + crank, "J": 2 * base, "K": 2 * base + crank}
+    points = ", ".join(f"{p}: [{z.real!r}, {z.imag!r}]" for p, z in places.items())
+    text = (
+        f"icsolve: 1\npoints: {{{points}}}\nlengths: {{AB: {r!r}}}\n"
+        f"angles: {{AB: {{unknown: [{low}, {high}], from: {start!r}}}}}\nlinks: {{6: [K]}}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [1, 7], at: F}, {pin: [2, 6], at: B}, {pin: [7, 6], at: H}"
+        + (", {pin: [1, 8], at: J}, {pin: [8, 6], at: K}" if third else "")
+        + "]\nloads: {W: {force: 10, link: 6, at: H, angle: 30}}\n"
+    )
+    try:
+        at = [one.at["angles.AB"] for one in icsolve.solve(icsolve.load(text)).positions or ()]
+    except SceneError as refusal:
+        at, status = [], refusal.status
+    else:
+        status = Status.OK
+    assert third or status == ("ok" if at else "no-value")
+    clear = [x for x in at if abs(math.remainder(x - lean, 180.0)) > 1e-5]
+    wanted = [x for x in (30.0 + 180.0 * n for n in range(-6, 7)) if low <= x <= high]
+    assert all(min(abs(x - y) for y in wanted) < 1e-6 for x in clear)
+    assert third or clear == pytest.approx(wanted, abs=1e-6)

@@ -241,8 +241,8 @@ class Branches:
         beside = self.ids[m, max(k - 1, 0) : k + 3].tolist()
         return max(one, two) if max(one, two) >= 0 else next((int(i) for i in beside if i >= 0), -1)
 
-    def nearest(self, case: Case) -> frozenset[int]:
-        """The branch that passes nearest to `near` at any value.
+    def nearest(self, case: Case, among: frozenset[int] | None = None) -> frozenset[int]:
+        """The branch (of some: None: of all) that passes nearest to `near` at any value.
 
         Raises SceneError where two are about equally near.
         """
@@ -254,7 +254,8 @@ class Branches:
             return np.asarray(np.sqrt(np.sum(squares, axis=0)))
 
         sampled = np.where(self.whole, off(self.places), np.inf) if meant else np.zeros(self.whole.shape)
-        ids = [int(i) for i in np.unique(self.ids) if i >= 0]
+        every = [int(i) for i in np.unique(self.ids) if i >= 0]
+        ids = [i for i in every if among is None or i in among]
         best, drawn, rough = [], [], 0.0
         for i in ids:
             best_one = int(np.argmin(np.where(self.ids == i, sampled, np.inf)))

@@ -46,6 +46,7 @@ from icsolve.sweep.program import (
     spring_angles,
     wanted_points,
 )
+from icsolve.sweep.record_runner import AGREED
 from icsolve.sweep.recorded_scene import RecordedScene, motions_of
 from icsolve.sweep.varied_numbers import points_of, with_numbers
 from icsolve.tuples import NamedTuple, replace
@@ -68,6 +69,10 @@ APART = 1e-6
 """A point's path by the free number and by the motion agree to this fraction of its speed."""
 
 
+SAME_PLACE = 1e-7
+"""Two modes whose points are no farther apart (normalised) are one."""
+
+
 class TogetherError(SceneError):
     """Points of a figure can only all together be placed: no function is written of them."""
 
@@ -77,7 +82,8 @@ class LoadFunction(NamedTuple):
 
     Nodes of ``record``: ``power`` (over the power of the first number's largest load, in the record's own
     scale of the motion) and its derivative by the free number, ``rate`` of the free number in that motion,
-    ``margins``, none of which may be negative, and the places of the points that assemble in two places.
+    ``margins``, none of which may be negative, ``checks``, which have to vanish, and the places of the
+    points that assemble in two places.
     """
 
     case: Case
@@ -88,6 +94,7 @@ class LoadFunction(NamedTuple):
     slope: int
     rate: int
     margins: tuple[int, ...]
+    checks: tuple[int, ...]
     places: dict[str, tuple[int, int]]
     links: list[str]
     """those that turn, the fastest first where the record was made"""
@@ -118,6 +125,21 @@ class LoadFunction(NamedTuple):
         """The inputs, by node, over whole cells (n,) of the free datum [case units, degrees]."""
         about = self.given(0.5 * (cells.low + cells.high))
         return {k: Interval(at, at) for k, at in about.items()} | {self.input: cells}
+
+    def meets(self, other: LoadFunction, value: float) -> bool:
+        """Whether another mode has its points in the same places at a value."""
+        names = [name for name in self.places if name in other.places]
+        one, two = (f.told([k for p in names for k in f.places[p]], value) for f in (self, other))
+        return bool(np.allclose(one, two, rtol=0.0, atol=SAME_PLACE))
+
+    def joined(self, value: float) -> bool:
+        """Whether the links that only repeat what others hold reach at a value."""
+        return not self.checks or bool(np.abs(self.told(self.checks, value)).max() <= AGREED)
+
+    def told(self, nodes: Sequence[int], value: float) -> Array:
+        """Nodes (n,) at one value."""
+        found = Code(self.record, list(nodes)).run(self.given(np.array([value])), 1)
+        return np.array([float(np.ravel(v)[0]) for v in found])
 
     @property
     def record(self) -> Record:
@@ -408,6 +430,7 @@ def _on_record(mode: RecordedMode, path: str, span: tuple[float, float] | None) 
         record.lifted(slope).index,
         record.lifted(rate).index,
         tuple(margins),
+        compiled.motion.checks if compiled.motion is not None else (),
         places_on(compiled),
         _turning(motions.twists),
         power.force_scale(balance),

@@ -100,9 +100,7 @@ def _find_in_modes(
     """The positions in all modes of a figure whose points have places one by one; raises TogetherError where
     it is to be ``whole`` and has too many."""
     low, high = span or whole_range(case, path)
-    functions, complete = functions_of(case, path, (low, high), start, span is not None, whole)
-    branches = Branches(functions, low, high)
-    kept = branches.nearest(case) if case.near else None
+    functions, complete, branches, kept = modes_of(case, path, (low, high), start, span is not None, whole)
     notes: list[str] = []
     meant = frozenset(branches.ids[branches.ids >= 0].tolist()) if kept is None else kept
     states = {branch: _balances_everywhere(functions, branches.samples(branch)) for branch in sorted(meant)}
@@ -167,25 +165,42 @@ def _unbounded(path: str, stretches: Sequence[Stretch]) -> list[str]:
     return []
 
 
-def functions_of(
+def modes_of(
     case: Case,
     path: str,
     span: tuple[float, float],
     start: float | None,
     bounded: bool,
     whole: bool = False,
-) -> tuple[list[LoadFunction], bool]:
-    """The modes of the figure, and whether these are all."""
+) -> tuple[list[LoadFunction], bool, Branches, frozenset[int] | None]:
+    """The modes of the figure, whether these are all, the branches that they are on, and which of these are
+    meant (None: all): with ``start`` those on which the figure as written there is."""
     if start is not None:
-        return _moving_from(case, path, start, span)
-    refuse_ropes(case, path)
-    functions, complete = load_functions(case, path, *span, whole)
-    ends = {*points_of(path)}
-    if path.startswith("lengths.") and any(ends <= {*points} for points in case.carries.values()):
-        refuse_unposed(functions[0])  # of one link, which it shapes, wherever that is written
-    refuse_unwritten(case, path, functions[0].links, bounded)
-    refuse_unposed(functions[0])
-    return functions, complete
+        functions, complete, own = _moving_from(case, path, start, span)
+    else:
+        refuse_ropes(case, path)
+        functions, complete = load_functions(case, path, *span, whole)
+        ends = {*points_of(path)}
+        if path.startswith("lengths.") and any(ends <= {*points} for points in case.carries.values()):
+            refuse_unposed(functions[0])  # of one link, which it shapes, wherever that is written
+        refuse_unwritten(case, path, functions[0].links, bounded)
+        refuse_unposed(functions[0])
+    branches = Branches(functions, *span)
+    written = _through(branches, own, start) if start is not None else None
+    return functions, complete, branches, branches.nearest(case, written) if case.near else written
+
+
+def _through(branches: Branches, own: Sequence[int], start: float) -> frozenset[int] | None:
+    """The branches on which some modes are at a value, which may lie outside of the range; None where none
+    leads from there into it."""
+    low, high = branches.low, branches.high
+    if low <= start <= high:
+        return frozenset(branches.on(m, start) for m in own) - {-1} or None
+    wide = Branches(branches.functions, min(low, start), max(high, start))
+    meant = frozenset(wide.on(m, start) for m in own) - {-1}
+    end, at = (0, low) if start < low else (-1, high)
+    there = enumerate(branches.ids[:, end].tolist())
+    return frozenset(i for m, i in there if i >= 0 and wide.on(m, at) in meant) or None
 
 
 def _find_followed(
@@ -247,11 +262,12 @@ def find_along(case: Case, along: str, low: float, high: float) -> tuple[list[Re
     Raises SceneError (``any-value``) where the loads balance in all of them.
     """
     with naming_uncarried(case, () if along in case.links else (along,)):
-        rests = _along(case, along, low, high)
-    return taut(distinct(sorted(rests, key=lambda rest: rest.value)), along)
+        rests, notes = _along(case, along, low, high)
+    found, slack = taut(distinct(sorted(rests, key=lambda rest: rest.value)), along)
+    return found, [*dict.fromkeys(notes), *slack]
 
 
-def _along(case: Case, along: str, low: float, high: float) -> list[RestPosition]:
+def _along(case: Case, along: str, low: float, high: float) -> tuple[list[RestPosition], list[str]]:
     bare = replace(case, motion=(), expect=())
     own, value = _as_written(bare, along)
     wide = (min(low, value), max(high, value))
@@ -261,15 +277,16 @@ def _along(case: Case, along: str, low: float, high: float) -> list[RestPosition
         driven = DrivenMechanism(bare, own, (low, high))
         if driven.balances_everywhere():
             raise any_value(own) from None
-        return driven.rests()
+        return driven.rests(), []
     functions = with_other_ways(function, wide) if function.compiled.setting.moves else [function]
     branches = Branches(functions, *wide)
     branch = branches.on(0, value)
     if _balances_everywhere(functions, branches.samples(branch)) is True:
         raise any_value(own)
     kept = frozenset({branch})
-    found = (rest for _, rest in search_modes(functions, branches, kept, False))
-    return [rest for rest in found if low <= rest.value <= high]
+    notes: list[str] = []
+    found = (rest for _, rest in search_modes(functions, branches, kept, False, notes))
+    return [rest for rest in found if low <= rest.value <= high], notes
 
 
 def any_value(along: str) -> SceneError:
@@ -345,13 +362,18 @@ def moved_by(case: Case, along: str, span: tuple[float, float] | None = None) ->
 
 def _moving_from(
     case: Case, path: str, start: float, span: tuple[float, float]
-) -> tuple[list[LoadFunction], bool]:
-    """The mechanism moved from each way in which it assembles where it is written."""
-    written = given_at(case, path, start)
+) -> tuple[list[LoadFunction], bool, list[int]]:
+    """The mechanism moved from each way in which it assembles where it is written, and the further ways to
+    which that leads; whether these are all, and which modes are the ways as written."""
+    written, wide = given_at(case, path, start), (min(span[0], start), max(span[1], start))
     found = ways_of(written)
-    ways = (replace(written, near=way.near) for way in found.ways)
-    functions = [moving_function(way, path, span=span, posing=True) for way in ways]
-    return functions, found.complete
+    functions, own = list[LoadFunction](), list[int]()
+    for way in found.ways:
+        function = moving_function(replace(written, near=way.near), path, span=span, posing=True)
+        same = next((n for n, one in enumerate(functions) if one.meets(function, start)), None)
+        own.append(len(functions) if same is None else same)
+        functions += with_other_ways(function, wide) if same is None else ()
+    return functions, found.complete, own
 
 
 def refuse_unwritten(case: Case, path: str, links: Sequence[str], bounded: bool) -> None:
@@ -440,6 +462,7 @@ def search_modes(
     low, high = branches.low, branches.high
     path = functions[0].path
     limits = limits_of(functions, branches)
+    doubt = f"{path} was searched from {low:g} to {high:g}, but not proven to have no other position."
     every = frozenset(branches.ids[branches.ids >= 0].tolist())
     left_out = frozenset[int]() if kept is None else every - kept
     modes = [n for n in range(len(functions)) if kept is None or kept & set(branches.ids[n].tolist())]
@@ -447,7 +470,6 @@ def search_modes(
         function = functions[n]
         search = isolate(function, *part)
         if not search.complete and notes is not None:
-            doubt = f"{path} was searched from {low:g} to {high:g}, but not proven to have no other position."
             notes.append(doubt)
         places = [refined(function, bracket, (low, high), whole) for bracket in search.brackets]
         places += [vanishing(function, bracket, (low, high), whole) for bracket in search.changes]
@@ -471,8 +493,12 @@ def search_modes(
                     found += [(n, one) for one in met]
                     if notes is not None:
                         notes += [ESTIMATED.format(path=path, value=one.value) for one in met]
-    found += [(-1, position) for position in at_limits(functions, branches, kept, limits)]
-    return found
+    joined = [(n, position) for n, position in found if functions[n].joined(position.value)]
+    if (
+        len(joined) < len(found) and notes is not None
+    ):  # where links that repeat others do not reach, others do
+        notes.append(doubt)
+    return joined + [(-1, position) for position in at_limits(functions, branches, kept, limits)]
 
 
 def whole_range(case: Case, path: str) -> tuple[float, float]:
