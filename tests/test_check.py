@@ -366,3 +366,20 @@ def test_a_force_that_points_elsewhere_is_not_said_to_be_opposite() -> None:
     for sense in ("at 80 deg", "left"):
         (only,) = compare(solve(load(f"icsolve: 1\npoints: {text}expect: {{P: 50 {sense}}}\n")))
         assert only.found == "50 in another direction", only
+
+
+@pytest.mark.parametrize("written", ["8", "8 MPa", "8000000", "8e6 Pa", "80 bar"])
+def test_a_pressure_that_disagrees_is_told_with_the_unit_that_it_was_read_in(written: str) -> None:
+    """Bare it is a force over a length squared of the case, and its answer in MPa: of 8 and 8 nothing would
+    show why they disagree."""
+    text = f"""icsolve: 1
+points: {{A: [0, 0]}}
+joints: [{{slide: [2, 1], at: A, along: 0}}]
+loads:
+  p: {{pressure: unknown, area: 2000 mm^2, link: 2, at: A, angle: 0}}
+  F: {{force: 16000, link: 2, at: A, angle: 180}}
+expect: {{p: {written}}}
+"""
+    (only,) = compare(solve(load(text)))
+    assert only.verdict == ("disagrees" if written == "8" else "agrees")
+    assert only.verdict == "agrees" or (only.published, only.found) == ("8e-06 MPa", "8 MPa")

@@ -92,7 +92,20 @@ def _row(answer: Answer, expected: Expected) -> Row:
     except LookupError as missing:
         verdict = NOT_EXAMINED if isinstance(missing, _NotAskedError) else DISAGREES
         return Row(expected.key, published, "", verdict, str(missing))
-    return _verdict(expected, published, _shown(values, expected), _agrees(values, expected))
+    unit = _unit(answer, expected)
+    return _verdict(expected, published + unit, _shown(values, expected) + unit, _agrees(values, expected))
+
+
+def _unit(answer: Answer, expected: Expected) -> str:
+    """The unit of a load whose published number is not shown as its file has it: of a pressure that is bare
+    there it is another than the one in which that is read."""
+    found = answer.answers.get(expected.target.load) if isinstance(expected.target, LoadIs) else None
+    told = (
+        found is not None
+        and not expected.sense
+        and any(n.factor != 1.0 and n.dimension == "pressure" for n in expected.value)
+    )
+    return f" {found.unit}" if found is not None and told else ""
 
 
 def _verdict(expected: Expected, published: str, found: str, agrees: bool) -> Row:
