@@ -24,6 +24,7 @@ from icsolve.sweep.branches import (
     signs_of,
 )
 from icsolve.sweep.continuation import InputLine, State, written_state
+from icsolve.sweep.path_tracking import PathTracker
 from icsolve.sweep.program import CompiledSweep, Signs, live_roots
 from icsolve.sweep.record_runner import Rows, Runner
 from icsolve.sweep.request import Columns
@@ -96,24 +97,49 @@ class SweepParts:
         """Every row in some part."""
         runner = self.start.runner()
         compiled, rows = runner.compiled, np.arange(self.columns.rows)
-        bearing = [name for name in runner.bearing if name in self.arrays]
+        bearing = self.bearing
         if not bearing:
             yield SweepPart(runner, rows, ordered=True)
             return
-        moving = (*self.start.links, *self.start.setting.drive.moving)
-        main = next(name for name in (*moving, *bearing) if name in bearing)
-        others = [name for name in bearing if name != main]
+        main, others = self._main(bearing)
         at_once, left = (None, rows) if runner.sequential else self._at_once(runner, rows, main, others)
         if at_once is not None:
             yield at_once
         for alike in self._alike(left, others):
             yield self._followed(compiled, main, others, alike)
 
+    def _main(self, bearing: list[str]) -> tuple[str, list[str]]:
+        """The input that goes to its values last, and the others."""
+        moving = (*self.start.links, *self.start.setting.drive.moving)
+        main = next(name for name in (*moving, *bearing) if name in bearing)
+        return main, [name for name in bearing if name != main]
+
+    @property
+    def bearing(self) -> list[str]:
+        """The varied inputs on which branches, groups and counted turns hang."""
+        return [name for name in self.start.runner().bearing if name in self.arrays]
+
+    def straight(self, row: int) -> SweepPart | None:
+        """A row that is reached with all inputs going to its values at once; None where groups do not lead
+        there so."""
+        compiled = self.start.runner().compiled
+        main, others = self._main(self.bearing)
+        rows = np.array([row])
+        here, state = (
+            {name: float(self.arrays[name][row]) for name in (main, *others)},
+            written_state(compiled),
+        )
+        found = self._all_at_once(compiled, here, state)
+        if not found.unbroken(0.0, 1.0):
+            return None
+        state, place = found.end(1.0), here.pop(main)
+        line = self._way(compiled, main, here)._replace(start=place)
+        return self._on(line, state, rows, np.array([place]))
+
     def whole(self) -> SweepPart:
         """All rows in one part, along their line, where one number varies."""
         runner = self.start.runner()
-        bearing = [name for name in runner.bearing if name in self.arrays]
-        rows = np.arange(self.columns.rows)
+        bearing, rows = self.bearing, np.arange(self.columns.rows)
         if not bearing:
             return SweepPart(runner, rows)
         main = max(bearing, key=lambda name: float(np.ptp(self.arrays[name])))
@@ -226,17 +252,21 @@ class SweepParts:
         """Rows along one line: first the other inputs go to their values, then the main one."""
         state = written_state(compiled)
         here = {name: float(self.arrays[name][rows[0]]) for name in others}
+        if any(value != self._written(name) for name, value in here.items()):
+            state = self._all_at_once(compiled, here, state).end(1.0)
+        return self._on(self._way(compiled, main, here), state, rows, self.arrays[main][rows])
+
+    def _all_at_once(self, compiled: CompiledSweep, here: dict[str, float], state: State) -> PathTracker:
+        """The way on which some inputs go from their values as written (0) to others (1) at once."""
         base = {name: self._written(name) for name in compiled.inputs if name in self.arrays}
-        slope = {name: here[name] - base[name] for name in others}
-        if any(slope.values()):
-            first = follow(
-                self.start.compiled, compiled, InputLine(base, slope, 0.0, 2.0**-6), state, np.array([1.0])
-            )
-            state = first.tracker.end(1.0)
-        places, line = self.arrays[main][rows], self._way(compiled, main, here)
-        followed = follow(
-            self.start.compiled, self.start.compiled(_changed(compiled, state)), line, state, places
-        )
+        slope = {name: value - base[name] for name, value in here.items()}
+        line = InputLine(base, slope, 0.0, 2.0**-6)
+        return follow(self.start.compiled, compiled, line, state, np.array([1.0])).tracker
+
+    def _on(self, line: InputLine, state: State, rows: Rows, places: Array) -> SweepPart:
+        """Rows at places of a line of the main input, from a state."""
+        changed = _changed(self.start.runner().compiled, state)
+        followed = follow(self.start.compiled, self.start.compiled(changed), line, state, places)
         return SweepPart(self.start.runner(signs_of(followed.compiled)), rows, followed, places)
 
     def _way(self, compiled: CompiledSweep, main: str, here: dict[str, float]) -> InputLine:

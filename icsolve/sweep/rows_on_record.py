@@ -68,8 +68,23 @@ class SweepRun:
                 self._settle(part, found.doubtful)
             else:
                 self._run(part)
+        self._straighten()
         self._hold()
         self._silence()
+
+    def _straighten(self) -> None:
+        """Try rows to which groups did not lead with one number changed after the other on the straight way,
+        on which all go to their values at once."""
+        self.running = None  # every row was told of
+        followed = [part for part in self.done if part.followed is not None and part.runner.sequential]
+        for part in followed if len(self.parts.bearing) > 1 else ():
+            for row in part.rows[self.codes[part.rows] == CODE[Status.CANNOT_ASSEMBLE]].tolist():
+                straight = self.parts.straight(row)
+                if straight is None:
+                    continue
+                self.codes[row] = 0
+                self.done.insert(0, straight)
+                self._run(straight)
 
     def _hold(self) -> None:
         """Rows with friction and no motion: the ranges over which they hold."""
