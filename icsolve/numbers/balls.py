@@ -476,8 +476,12 @@ def is_long(number: Number) -> bool:
 
 
 def is_double(number: Number) -> bool:
-    """Whether a number is written as programs write doubles: with no more digits than tell one apart."""
-    return LONG <= _digits(number) <= DOUBLE
+    """Whether a number is written as programs write doubles: in no more digits than tell one apart, and in
+    those that so many of its double are."""
+    digits = _digits(number)
+    if not LONG <= digits <= DOUBLE:
+        return False
+    return Decimal(number.digits) == Decimal(format(float(number.digits), f".{digits}g"))
 
 
 def _digits(number: Number) -> int:

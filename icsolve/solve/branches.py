@@ -45,7 +45,7 @@ class Branches:
         self.values = np.linspace(low, high, SAMPLES + 1)
         self.names = [name for name in functions[0].places if all(name in f.places for f in functions)]
         self.slack = 1e-9 * (high - low)
-        self.open = open_by(functions[0].compiled.scene.case)
+        self.open = open_by(functions[0].compiled.scene.case, functions[0].compiled.scene.frame.scale)
         beside = np.append(self.values[:-1] + self.slack, high - self.slack)  # where loci coincide none meet
         self.places = np.array([self._places(f, beside) for f in functions])  # (mode, sample, 2 points)
         self.whole = self.assemble(self.values)  # (modes, samples)

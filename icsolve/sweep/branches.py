@@ -172,7 +172,7 @@ class Radicands:
 
     @cached_property
     def _open(self) -> Decimal:
-        return open_by(self.compiled.scene.case)
+        return open_by(self.compiled.scene.case, self.compiled.scene.frame.scale)
 
     def _margin(self, root: Root, at: float) -> float:
         """The smaller margin over its size where the radicand is lowest; of one that doubles leave open more

@@ -7,6 +7,7 @@ row itself. The varied numbers are the shortest decimals that name their doubles
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from decimal import Context, Decimal, localcontext
 from itertools import chain
@@ -57,8 +58,9 @@ what is left (at a double root it is half of that), do not tell where along it t
 guess, which comes from places around it."""
 SHORTER = Decimal("1e-9")
 """A step longer than this and than the last leads to no solution near: beyond a fold there is none."""
-OPEN = Decimal(16 * 2.0**-53)
-"""A margin of squares of such places, as a fraction of its terms."""
+ARMS = 4.0
+"""A margin of squares changes, as a fraction of its terms, by less than so many times what places are off
+[frame], where a change point lies as far from other points as the figure is large."""
 AGREED = Decimal("1e-9")
 """Conditions that were not needed to place the links are met to this (normalised)."""
 FLAT = Decimal(10) ** (60 - DIGITS)
@@ -302,12 +304,16 @@ def exact_record(compiled: CompiledSweep) -> ExactRecord:
     return found
 
 
-def open_by(case: Case) -> Decimal:
+def open_by(case: Case, scale: float) -> Decimal:
     """What a lowest margin may be off, as a fraction of its terms, where it is zero: places that programs
-    write, with all digits of doubles, are those of a figure with a change point to half a unit of these."""
-    numbers = numbers_of(case).items()
-    long = [n for path, n in numbers if path.startswith(("points.", "lengths.", "angles.")) and is_long(n)]
-    return OPEN if long and all(map(is_double, long)) else ZERO
+    write, with all digits of doubles, are those of a figure with a change point to half the spacing of these.
+    ``scale`` is that of the frame."""
+    sections = {"points.": scale, "lengths.": scale, "angles.": math.radians(1.0)}
+    measured = ((sections.get(path[: path.find(".") + 1]), n) for path, n in numbers_of(case).items())
+    long = [(per, number) for per, number in measured if per is not None and is_long(number)]
+    if not all(is_double(number) for _, number in long):
+        return ZERO
+    return max(ZERO, Decimal(ARMS * sum(per * math.ulp(number.value) / 2.0 for per, number in long)))
 
 
 def lowest(
