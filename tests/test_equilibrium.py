@@ -2549,7 +2549,7 @@ def test_all_that_is_told_of_a_position_is_that_of_the_exact_one_rounded_once(se
 
 
 @pytest.mark.parametrize("third", [False, True])
-@pytest.mark.parametrize("seed", range(80 if FULL else 4))
+@pytest.mark.parametrize("seed", range(80 if FULL else 2))
 def test_a_figure_written_at_one_place_goes_straight_on_through_its_change_points(
     seed: int, third: bool
 ) -> None:
