@@ -378,7 +378,7 @@ PLACED: dict[str, tuple[str, tuple[str, float, float]]] = {
 }
 
 
-@sampled(3, "name", "share")
+@sampled(6, "name")
 @pytest.mark.parametrize("share", [0.0, 0.125, 0.25, 0.5, 0.75, 1.0])
 @pytest.mark.parametrize("name", PLACED)
 def test_a_value_that_a_place_has_is_found_there(name: str, share: float) -> None:

@@ -124,17 +124,13 @@ class SweepParts:
         there so."""
         compiled = self.start.runner().compiled
         main, others = self._main(self.bearing)
-        rows = np.array([row])
-        here, state = (
-            {name: float(self.arrays[name][row]) for name in (main, *others)},
-            written_state(compiled),
-        )
-        found = self._all_at_once(compiled, here, state)
+        here = {name: float(self.arrays[name][row]) for name in (main, *others)}
+        found = self._all_at_once(compiled, here, written_state(compiled))
         if not found.unbroken(0.0, 1.0):
             return None
-        state, place = found.end(1.0), here.pop(main)
+        place = here.pop(main)
         line = self._way(compiled, main, here)._replace(start=place)
-        return self._on(line, state, rows, np.array([place]))
+        return self._on(line, found.end(1.0), np.array([row]), np.array([place]))
 
     def whole(self) -> SweepPart:
         """All rows in one part, along their line, where one number varies."""
