@@ -92,7 +92,9 @@ def test_at_every_change_point_the_motion_goes_straight_on(seed: int) -> None:
                 found = icsolve.sweep(case, drive={link: rows}, want=("points", "status"))
                 if set(found.status) == {"ok"}:
                     places += 1
-                    before, last, first, after = np.stack(list(found.points.values()), axis=1)
+                    # of links that the answer does not need, and that do not reach, a row has no place
+                    told = [column for column in found.points.values() if np.isfinite(column).all()]
+                    before, last, first, after = np.stack(told, axis=1)
                     step = np.abs(last - before).max()
                     assert first - last == pytest.approx(4.0 * (last - before), abs=0.4 * step), (link, at)
                     assert first - last == pytest.approx(4.0 * (after - first), abs=0.4 * step), (link, at)
