@@ -839,6 +839,19 @@ def test_rows_of_a_crank_that_is_next_to_nothing_are_scenes(kind: str, seed: int
             ), link
 
 
+def check_rows_of_u(text: str, path: str, values: list[float]) -> None:
+    """Rows have the U of their scenes to 1e-9 and within their bounds, those of an evaluator to 1e-9."""
+    rows = icsolve.sweep(icsolve.load(text), {path: values}, want=("answers", "error"))
+    evaluated = icsolve.evaluator(icsolve.load(text), inputs=(path,), want=("answers",))(np.array(values))
+    for n, value in enumerate(values):
+        scene = icsolve.solve(icsolve.load(text, {path: str(value)})).answers["U"]
+        assert rows.status[n] == evaluated.status[n] == "ok"
+        off = abs(rows.answers["U"][n] - scene.value)
+        assert off <= rows.errors["answers"]["U"][n] + 2e-16 * abs(scene.value)
+        assert off <= 1e-9 * abs(scene.value)
+        assert abs(evaluated.answers["U"][n] - scene.value) <= 1e-9 * abs(scene.value)
+
+
 @sampled(3)
 @pytest.mark.parametrize("seed", range(300 if FULL else 4))
 @pytest.mark.parametrize("kind", SHORT)
@@ -855,15 +868,7 @@ def test_rows_of_loads_that_all_but_cancel_are_scenes(kind: str, seed: int) -> N
     text = "icsolve: 1\nangles: {AB: 40}\n" + SHORT[kind].format(r=1.25).replace("K:", pair)
     path = draw.choice(["angles.AB", "loads.K"])
     values = [round(draw.uniform(10.0, 80.0), 2) for _ in range(2)]
-    rows = icsolve.sweep(icsolve.load(text), {path: values}, want=("answers", "error"))
-    evaluated = icsolve.evaluator(icsolve.load(text), inputs=(path,), want=("answers",))(np.array(values))
-    for n, value in enumerate(values):
-        scene = icsolve.solve(icsolve.load(text, {path: str(value)})).answers["U"]
-        assert rows.status[n] == evaluated.status[n] == "ok"
-        off = abs(rows.answers["U"][n] - scene.value)
-        assert off <= rows.errors["answers"]["U"][n] + 2e-16 * abs(scene.value)
-        assert off <= 1e-9 * abs(scene.value)
-        assert abs(evaluated.answers["U"][n] - scene.value) <= 1e-9 * abs(scene.value)
+    check_rows_of_u(text, path, values)
 
 
 @sampled(3)
@@ -883,14 +888,7 @@ def test_rows_beside_a_large_load_that_does_no_work_are_scenes(kind: str, seed: 
     text = text.replace("K:", f"L: {idle[seed % 3]}, K:")
     path = draw.choice(["angles.AB", "loads.K"])
     values = [round(draw.uniform(10.0, 80.0), 2) for _ in range(2)]
-    rows = icsolve.sweep(icsolve.load(text), {path: values}, want=("answers", "error"))
-    evaluated = icsolve.evaluator(icsolve.load(text), inputs=(path,), want=("answers",))(np.array(values))
-    for n, value in enumerate(values):
-        scene = icsolve.solve(icsolve.load(text, {path: str(value)})).answers["U"]
-        assert rows.status[n] == evaluated.status[n] == "ok"
-        off = abs(rows.answers["U"][n] - scene.value)
-        assert off <= rows.errors["answers"]["U"][n] + 2e-16 * abs(scene.value)
-        assert max(off, abs(evaluated.answers["U"][n] - scene.value)) <= 1e-9 * abs(scene.value)
+    check_rows_of_u(text, path, values)
 
 
 @pytest.mark.parametrize("name", sample(FILES, 12, "torques against each other"))

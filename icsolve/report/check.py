@@ -100,12 +100,10 @@ def _unit(answer: Answer, expected: Expected) -> str:
     """The unit of a load whose published number is not shown as its file has it: of a pressure that is bare
     there it is another than the one in which that is read."""
     found = answer.answers.get(expected.target.load) if isinstance(expected.target, LoadIs) else None
-    told = (
-        found is not None
-        and not expected.sense
-        and any(n.factor != 1.0 and n.dimension == "pressure" for n in expected.value)
-    )
-    return f" {found.unit}" if found is not None and told else ""
+    if found is None or expected.sense:
+        return ""
+    converted = (number.dimension == "pressure" and number.factor != 1.0 for number in expected.value)
+    return f" {found.unit}" if any(converted) else ""
 
 
 def _verdict(expected: Expected, published: str, found: str, agrees: bool) -> Row:

@@ -17,7 +17,7 @@ from icsolve.numbers.roots import last_that_holds, zero_between
 from icsolve.solve.driven_search import NOT_ALL, driven_mechanisms
 from icsolve.solve.known_loads import Spare, moving_loads, smooth, spare_friction
 from icsolve.solve.load_function import TogetherError
-from icsolve.solve.positions import modes_of, refuse_unwritten, search_modes, whole_range
+from icsolve.solve.positions import modes_and_branches, refuse_unwritten, search_modes, whole_range
 from icsolve.solve.refinement import scene_at
 from icsolve.tuples import NamedTuple, replace
 
@@ -75,7 +75,7 @@ def _in_modes(
     case: Case, path: str, span: tuple[float, float], start: float | None, even: list[float], whole: bool
 ) -> list[RoughMode]:
     """The modes of a figure whose points have places one by one."""
-    functions, _, branches, kept = modes_of(case, path, span, start, not whole)
+    functions, _, branches, kept = modes_and_branches(case, path, span, start, not whole)
     search = search_modes(functions, branches, kept, whole)
     modes = []
     for n, function in enumerate(functions):

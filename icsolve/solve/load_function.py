@@ -67,8 +67,6 @@ PARTS = (0.498, 0.13, 0.87, 0.31, 0.69, 0.05, 0.95, 0.22, 0.78, 0.41, 0.59, 0.01
 TOGETHER = "points of this figure can only all together be placed: one unknown datum alone is searched there."
 APART = 1e-6
 """A point's path by the free number and by the motion agree to this fraction of its speed."""
-
-
 SAME_PLACE = 1e-7
 """Two modes whose points are no farther apart (normalised) are one."""
 

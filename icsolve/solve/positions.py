@@ -100,7 +100,9 @@ def _find_in_modes(
     """The positions in all modes of a figure whose points have places one by one; raises TogetherError where
     it is to be ``whole`` and has too many."""
     low, high = span or whole_range(case, path)
-    functions, complete, branches, kept = modes_of(case, path, (low, high), start, span is not None, whole)
+    functions, complete, branches, kept = modes_and_branches(
+        case, path, (low, high), start, span is not None, whole
+    )
     notes: list[str] = []
     meant = frozenset(branches.ids[branches.ids >= 0].tolist()) if kept is None else kept
     states = {branch: _balances_everywhere(functions, branches.samples(branch)) for branch in sorted(meant)}
@@ -165,7 +167,7 @@ def _unbounded(path: str, stretches: Sequence[Stretch]) -> list[str]:
     return []
 
 
-def modes_of(
+def modes_and_branches(
     case: Case,
     path: str,
     span: tuple[float, float],
@@ -494,9 +496,7 @@ def search_modes(
                     if notes is not None:
                         notes += [ESTIMATED.format(path=path, value=one.value) for one in met]
     joined = [(n, position) for n, position in found if functions[n].joined(position.value)]
-    if (
-        len(joined) < len(found) and notes is not None
-    ):  # where links that repeat others do not reach, others do
+    if len(joined) < len(found) and notes is not None:  # others may do where links that repeat them do not
         notes.append(doubt)
     return joined + [(-1, position) for position in at_limits(functions, branches, kept, limits)]
 

@@ -75,7 +75,7 @@ class SweepRun:
     def _straighten(self) -> None:
         """Try rows to which groups did not lead with one number changed after the other on the straight way,
         on which all go to their values at once."""
-        self.running = None  # every row was told of
+        self.running = self.bounding = None  # every row was told of
         followed = [part for part in self.done if part.followed is not None and part.runner.sequential]
         for part in followed if len(self.parts.bearing) > 1 else ():
             for row in part.rows[self.codes[part.rows] == CODE[Status.CANNOT_ASSEMBLE]].tolist():

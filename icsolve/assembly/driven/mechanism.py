@@ -443,12 +443,13 @@ def _owners(
 ) -> dict[str, Spot]:
     """The spot that a name stands for: a pin's, the first link's of a slide or slot, a carrier's."""
     owners: dict[str, Spot] = {}
+    lost = {*contacts, *(name for name, link in case.taken_along.items() if not link)}
     for name, link in owners_of_points(case).items():
-        spot = (top.body_of.get(link, top.ground), name)
-        if name not in contacts and spot in spots[spot[0]]:
+        spot = (top.body_of[link], name) if link in top.body_of else None
+        if spot is not None and name not in lost and spot in spots[spot[0]]:
             owners[name] = spot
     for carried in spots.values():
         for spot in carried:
-            if spot[1] not in contacts and case.taken_along.get(spot[1]) != "":
+            if spot[1] not in lost:
                 owners.setdefault(spot[1], spot)
     return owners

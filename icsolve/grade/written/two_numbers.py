@@ -128,10 +128,11 @@ def without_axes(text: str, *names: str) -> str:
     named = [one["of"] or "" for one in axes]
     if sorted(one["axis"].lower() for one in axes) != ["x", "y"] or not {*named} <= {*names}:
         return text
-    (before, x), y = (text[: axes[0].start()], text[axes[0].end() : axes[1].start()]), text[axes[1].end() :]
-    x = x.strip().removesuffix("and").rstrip(" ,;&")
-    x, y = (x, y) if axes[0]["axis"] in "xX" else (y, x)
-    return f"{before} ({x}; {y})"
+    one, two = axes
+    first = text[one.end() : two.start()].strip().removesuffix("and").rstrip(" ,;&")
+    parts = [first, text[two.end() :]]
+    x, y = parts if one["axis"] in "xX" else parts[::-1]
+    return f"{text[: one.start()]} ({x}; {y})"
 
 
 def read_components(text: str) -> WrittenPlace:
