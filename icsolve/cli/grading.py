@@ -13,7 +13,16 @@ import click
 
 from icsolve.cli.commands import FORCE, Verb
 from icsolve.cli.run import DONE, NO_ANSWER, complain, progress, refusing
-from icsolve.files import check_free, files_of, folder_of, note, scratch, whole_file, write_whole
+from icsolve.files import (
+    check_free,
+    files_of,
+    folder_of,
+    note,
+    scratch,
+    together,
+    whole_file,
+    write_whole,
+)
 
 if TYPE_CHECKING:
     from icsolve.grade.course import Course
@@ -181,6 +190,7 @@ def _graded(job: Job, options: dict[str, Any]) -> int:
     changed = ""
     with ExitStack() as stack:
         quiet, force = options["quiet"], options["force"]
+        stack.enter_context(together())
         csv, results = stack.enter_context(_results(options, force))
         jsonl = None
         if options["jsonl"]:
