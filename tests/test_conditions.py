@@ -14,7 +14,7 @@ import icsolve
 from icsolve.assembly import solve_figure
 from icsolve.assembly.conditions import FigureEquation, parts_of, residual
 from icsolve.assembly.exclusion import _narrow_ball
-from icsolve.assembly.loci import PlacedCircle, PlacedLine
+from icsolve.assembly.loci import PlacedCircle, PlacedLine, gaps_of
 from icsolve.assembly.refusals import step_words
 from icsolve.assembly.walk import _middle_of_gap
 from icsolve.assembly.workspace import Workspace, data_of, frame_of, names_of, normalised
@@ -90,6 +90,9 @@ class TwoLoci:
 
     def loci(self, _workspace: Workspace) -> Any:
         return self.both
+
+    def gaps(self, _workspace: Workspace) -> Any:
+        return gaps_of(*self.both, FLOATS)
 
 
 def away(locus: Any, at: Any) -> float:

@@ -107,6 +107,59 @@ loads:
     assert one.answer.points["B"] == pytest.approx((0.107024092621695, 0.280260313991301), abs=1e-14)
 
 
+FLAT = """icsolve: 1
+points: {{A: [0, 0], D: [{ad}, 0]{more}}}
+lengths: {{AB: {ab}, BC: {bc}, CD: {cd}, BF: {bf}{length}}}
+angles: {{AB: unknown{angle}}}
+near: {{C: {near}}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+{joints}loads:
+  W: {{weight: {weight}, link: 3, at: F}}
+  P: {{force: {force}, link: 2, at: B, angle: {toward}}}
+"""
+
+
+@pytest.mark.parametrize("which", ["between", "beyond", "third crank"])
+@pytest.mark.parametrize("seed", range(few(60, 20)))
+def test_a_point_in_line_with_two_pins_rests_the_same_by_its_lengths_as_by_its_angle(
+    which: str, seed: int
+) -> None:
+    """BF + FC = BC, or FC - BF = BC: the two circles about the pins touch wherever the coupler is, which is
+    no change point of the linkage. The third crank is one of a parallelogram."""
+    rng = random.Random(f"in line {which} {seed}")
+
+    def drawn(low: float, high: float) -> Decimal:
+        return Decimal(str(round(rng.uniform(low, high), 2)))
+
+    ab, bc, cd, ad = drawn(1, 2), drawn(3.5, 4.5), drawn(2.5, 3.5), drawn(3.8, 4.4)
+    more = joints = third = ""
+    if which == "third crank":
+        cd, ad = ab, bc
+    bf = drawn(0.5, 2) if which == "beyond" else drawn(0.3, 3)
+    fc = bc + bf if which == "beyond" else bc - bf
+    if which == "third crank":
+        more, third = f", E: [{bf}, 0]", f", EF: {ab}"
+        joints = "  - {pin: [3, 5], at: F}\n  - {pin: [5, 1], at: E}\n"
+    loads = {"weight": drawn(2, 9), "force": drawn(2, 9), "toward": drawn(0, 360)}
+    near = [float(ad), float(ab)] if which == "third crank" else [float(ad) + 1, 2.5]
+    text = partial(FLAT.format, ab=ab, bc=bc, cd=cd, bf=bf, ad=ad, near=near, **loads)
+    by_angle = text(more="", joints="", length="", angle=f", CBF: {180 if which == 'beyond' else 0}")
+    by_length = text(more=more, joints=joints, length=f", FC: {fc}{third}", angle="")
+    expected, found = (icsolve.solve(icsolve.load(one)) for one in (by_angle, by_length))
+    assert expected.positions and found.positions
+    for one, other in zip(expected.positions, found.positions, strict=True):
+        assert (one.at, one.stability) == (other.at, other.stability)
+        assert one.answer.points["F"] == other.answer.points["F"]
+        assert other.error["angles.AB"] <= 2 * math.ulp(360.0)
+        assert one.stiffness is not None and other.stiffness is not None
+        assert one.stiffness.value == pytest.approx(other.stiffness.value, rel=4e-16)
+    assert not any("change point" in note for note in found.notes)
+
+
 def test_a_weight_on_a_crank_with_a_torque_rests_at_two_angles() -> None:
     """10 x 2 cos u = 8: stable below, where V = 20 sin u - 8 u has its least."""
     found = positions(pendulum("T: {torque: 8, link: 2}"))

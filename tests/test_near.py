@@ -20,6 +20,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers import FLOATS
 from icsolve.read import load
 from icsolve.solve import solve
+from icsolve.sweep import sweep
 from sizes import MORE, crossed, few, sampled
 
 
@@ -544,3 +545,62 @@ def test_of_two_places_that_all_but_coincide_near_picks_the_same_however_near_th
             except SceneError as refused:
                 sides.add(None if refused.status == Status.AMBIGUOUS else refused.message)
         assert sides == {None if abs(abs(toward) - 90) < 2 else abs(toward) < 90}, (turned, toward)
+
+
+TRIAD = """icsolve: 1
+points: {{A: [0, 0], D: {d}, E: {e}}}
+lengths: {{AB: {ab}, BP: {bp}, DQ: {dq}, ER: {er}, {plate}}}
+angles: {{AB: {free}{angle}}}
+near: {{P: {p}, Q: {q}, R: {r}}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 6], at: P}}
+  - {{pin: [6, 4], at: Q}}
+  - {{pin: [6, 5], at: R}}
+  - {{pin: [4, 1], at: D}}
+  - {{pin: [5, 1], at: E}}
+loads:
+  T: {{torque: unknown, link: 2}}
+  W: {{weight: 10, link: 6, at: Q}}
+"""
+
+
+@pytest.mark.parametrize("beyond", [False, True])
+@pytest.mark.parametrize("seed", range(few(60, 10)))
+def test_a_straight_ternary_link_of_a_group_may_be_written_by_three_lengths(seed: int, beyond: bool) -> None:
+    """PR + RQ = PQ, or RQ - PR = PQ: a flat triangle, whose lengths are dependent to first order. By two of
+    them and the angle of R it is the same figure: in a scene, in the rows of a motion and of another
+    length, and where rows with other numbers are read anew."""
+    random = Random(f"straight {seed} {beyond}")
+
+    def drawn(low: float, high: float) -> float:
+        return round(random.uniform(low, high), 2)
+
+    at = {"b": (0.5, 3**0.5 / 2), "p": (drawn(0.5, 1.5), drawn(2, 3)), "d": (drawn(4, 5), 0.0)}
+    whole, along, turn = drawn(2.5, 3.5), drawn(0.8, 1.6), math.radians(drawn(-30, 30))
+    for name, distance in (("q", whole), ("r", -along if beyond else along)):
+        at[name] = (at["p"][0] + distance * math.cos(turn), at["p"][1] + distance * math.sin(turn))
+    at["e"] = (drawn(1, 3), drawn(-2, -1))
+    rods = {a + b: round(math.dist(at[a], at[b]), 6) for a, b in ("bp", "dq", "er")}
+    rest = round(whole + along if beyond else whole - along, 2)
+    numbers = {name: [round(x, 6) for x in place] for name, place in at.items() if name != "b"}
+    plates = {
+        f"PQ: {whole}, PR: {along}, RQ: {rest}": "",
+        f"PQ: {whole}, PR: {along}": f", QPR: {180 if beyond else 0}",
+    }
+    by_lengths, by_angle = (
+        load(TRIAD.format(ab=1, free=60, plate=plate, angle=angle, **rods, **numbers))
+        for plate, angle in plates.items()
+    )
+    one, other = (solve(case) for case in (by_lengths, by_angle))
+    assert one.points == other.points
+    assert one.answers["T"].value == pytest.approx(other.answers["T"].value, rel=4e-16)
+    assert one.answers["T"].error is not None
+    for path, values in (
+        ("angles.AB", 60 + np.arange(-2.0, 2.5, 0.5)),
+        ("lengths.ER", rods["er"] + np.linspace(0, 0.01, 4)),
+    ):
+        rows, expected = (sweep(case, {path: values}) for case in (by_lengths, by_angle))
+        assert [*rows.status] == [*expected.status]
+        assert rows.answers["T"] == pytest.approx(expected.answers["T"], rel=1e-11, nan_ok=True)

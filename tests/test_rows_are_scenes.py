@@ -15,6 +15,7 @@ import math
 import random
 import re
 from collections.abc import Iterator
+from importlib import import_module
 from itertools import combinations
 
 import numpy as np
@@ -1131,3 +1132,52 @@ def test_what_only_slides_goes_toward_x_in_every_row(written: float) -> None:
         scene = icsolve.solve(icsolve.load(SLIDING, {"joints.A.along": angle}), rates=True)
         assert scene.velocities is not None
         assert found == pytest.approx(scene.velocities["A", "2"], rel=1e-12, abs=1e-15)
+
+
+IN_LINE = """icsolve: 1
+points: {{A: [0, 0], D: [4, 0]}}
+lengths: {{AB: 1.3, BC: 4.1, CD: 3.2, BF: 1.29, FC: {fc}{more}}}
+angles: {{AB: 70}}
+near: {{C: [5, 3]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+loads:
+  W: {{weight: 7, link: 3, at: {at}}}
+  T: {{torque: unknown, link: 2}}
+"""
+
+
+@pytest.mark.parametrize("path", ["AB", "CD", "BF", "FC", "BC"])
+@pytest.mark.parametrize(
+    ("fc", "more", "at"), [(2.81, "", "F"), (5.39, "", "F"), (2.81, ", FG: 1, GC: 1.81", "G")]
+)
+def test_a_point_in_line_with_two_pins_stays_so_on_the_record(
+    fc: float, more: str, at: str, path: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """BF + FC = BC, or FC - BF = BC; G in line with F and C. Other lengths leave the circles touching, so
+    that no row has to be a scene; where one of these themselves is another, the row is its scene's."""
+    case = icsolve.load(IN_LINE.format(fc=fc, more=more, at=at))
+    written = numbers_of(case)[f"lengths.{path}"].value
+    values = [written + step for step in (-0.2, -1e-9, 0.0, 1e-9, 0.05, 0.2)]
+    expected = [solve_scene_status(case, f"lengths.{path}", value) for value in values]
+    if path in ("AB", "CD"):
+
+        def refuse(*_: object) -> None:
+            raise AssertionError("a row is a scene")
+
+        monkeypatch.setattr(import_module("icsolve.sweep.rows_by_scenes"), "_one", refuse)
+    rows = icsolve.sweep(case, {f"lengths.{path}": np.array(values)})
+    for row, (status, torque) in enumerate(expected):
+        assert rows.status[row] == status
+        assert rows.answers["T"][row] == pytest.approx(torque, rel=1e-14, nan_ok=True)
+
+
+def solve_scene_status(case: Case, path: str, value: float) -> tuple[str, float]:
+    """The status of a scene, and its torque."""
+    try:
+        return "ok", solve_scene(with_numbers(case, {path: value})).answers["T"].value
+    except icsolve.errors.SceneError as refusal:
+        return refusal.status, math.nan

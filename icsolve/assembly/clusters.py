@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import combinations
 
 from icsolve.assembly.loci import ArcLocus, Axis, CircleLocus, LineLocus, Locus, Shifted, Tether, is_round
-from icsolve.assembly.steps import Given, Mean, Meet, Polar, Step, Turned
+from icsolve.assembly.steps import Base, Given, Mean, Meet, Polar, Step, Turned
 from icsolve.assembly.workspace import (
     CORNER,
     GUIDE,
@@ -28,6 +28,7 @@ from icsolve.assembly.workspace import (
     Facts,
     Key,
     LineDirection,
+    Span,
     X,
     Y,
 )
@@ -80,11 +81,13 @@ class Cluster:
     ``placed`` has the cost of each point's step. ``directions`` has the known directions of pairs
     that are arms of corners or have a direction given. ``committed`` has the numbers of the
     clusters that lent a distance: their shapes are part of this one; ``carried`` the lengths of the
-    vectors by which loci were moved; ``lines`` the direction along which a point was put from another.
+    vectors by which loci were moved; ``lines`` the direction along which a point was put from another, and
+    ``spans`` the distance.
     """
 
     __slots__ = (
-        "carried", "committed", "directions", "dirty", "drawing", "heap", "lines", "number", "placed", "turn",
+        "carried", "committed", "directions", "dirty", "drawing", "heap", "lines", "number", "placed",
+        "spans", "turn",
     )  # fmt: skip
 
     def __init__(self, drawing: LooseFigure) -> None:
@@ -95,6 +98,7 @@ class Cluster:
         self.committed: set[int] = set()
         self.carried: set[object] = set()
         self.lines: dict[frozenset[Key], LineDirection] = {}
+        self.spans: dict[frozenset[Key], Span] = {}
         self.dirty: dict[str, None] = {}
         self.heap: list[tuple[Cost, int, str, Step]] = []
         self.turn: dict[str, int] = {}
@@ -206,13 +210,20 @@ class Cluster:
         self.carried.update(carried_by(step))
         if isinstance(step, Turned):
             self.committed.add(step.shape[0][0])  # type: ignore[arg-type]
+            self.spans[frozenset((step.base, step.target))] = Apart(*step.shape[2:])
+        elif isinstance(step, Base):
+            self.spans[frozenset(step.targets)] = step.span
+        elif isinstance(step, Polar):
+            self.spans[frozenset((step.base, step.target))] = step.span
         elif isinstance(step, Meet):
             for locus in (step.first, step.second):
                 if isinstance(locus, LineLocus):
                     self.lines[frozenset((locus.through, step.target))] = locus.direction
-                elif isinstance(locus, CircleLocus) and isinstance(locus.radius, Apart):
-                    key = locus.radius.a
-                    self.committed.add(key[0] if isinstance(key, tuple) else 0)
+                elif isinstance(locus, CircleLocus):
+                    self.spans[frozenset((locus.centre, step.target))] = locus.radius
+                    if isinstance(locus.radius, Apart):
+                        key = locus.radius.a
+                        self.committed.add(key[0] if isinstance(key, tuple) else 0)
 
     def _orient(self, point: str, aimed: set[Key]) -> None:
         """Directions between the point and its neighbours in place.
@@ -478,6 +489,8 @@ def _meet(cluster: Cluster, point: str, one: Locus, two: Locus) -> Step | None:
     elif isinstance(one, CircleLocus) and isinstance(two, CircleLocus):
         if one.centre == two.centre:
             return None
+        span = cluster.spans.get(frozenset((one.centre, two.centre)))
+        return Meet(cluster.key(point), one, two, 1, span)
     elif (
         isinstance(line, LineLocus)
         and isinstance(other, LineLocus)

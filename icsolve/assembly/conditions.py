@@ -168,6 +168,40 @@ class FigureEquation(NamedTuple):
         return JacobianRow(value, by)
 
 
+IN_LINE = "in line"
+
+
+class InLine(NamedTuple):
+    """A coordinate of the point that three lengths put in line with two others, as these put it.
+
+    With the lengths themselves the equations are singular wherever that flat triangle lies. ``along`` leads
+    from ``p`` to the point, ``whole`` from ``p`` to ``q``; ``sense`` is -1 where it lies beyond ``p``, and
+    ``rest`` is the third length.
+    """
+
+    point: str
+    p: str
+    q: str
+    along: Datum
+    whole: Datum
+    rest: Datum
+    sense: float
+    part: int
+
+    @property
+    def datum(self) -> Datum:
+        """The points and the kind."""
+        return Datum(IN_LINE, self.part, (self.p, self.point, self.q))
+
+    def row(self, workspace: Workspace) -> JacobianRow:
+        """Value and derivatives at the points on a workspace."""
+        k, points = self.part, workspace.points
+        whole, along = workspace.length(self.whole), self.sense * workspace.length(self.along)
+        x, p, q = points[self.point][k], points[self.p][k], points[self.q][k]
+        value = whole * (x - p) - along * (q - p)
+        return JacobianRow(value, {(self.point, k): whole, (self.p, k): along - whole, (self.q, k): -along})
+
+
 TOO_CLOSE = 1e-12
 """Points nearer than this (normalised) have no direction to one another that doubles tell."""
 NEAR = 1e-6

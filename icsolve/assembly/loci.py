@@ -62,8 +62,9 @@ class Intersection(NamedTuple):
         return (x + root * cx, y + root * cy)
 
 
-def intersection(one: PlacedLocus, two: PlacedLocus) -> Intersection:
-    """Where two loci meet; of a line and a circle either may come first.
+def intersection(one: PlacedLocus, two: PlacedLocus, apart: Scalar | None = None) -> Intersection:
+    """Where two loci meet; of a line and a circle either may come first. ``apart`` is the distance of the
+    centres of two circles [frame], where a datum gives it.
 
     The first of two places (+) lies to the left of the way from the first circle's centre to the second's, or
     is the farther one along the line. Parallel lines and concentric circles divide by zero: whether they are
@@ -71,10 +72,10 @@ def intersection(one: PlacedLocus, two: PlacedLocus) -> Intersection:
     """
     if isinstance(one, PlacedLine):
         return _of_lines(one, two) if isinstance(two, PlacedLine) else _of_line_and_circle(one, two)
-    return _of_line_and_circle(two, one) if isinstance(two, PlacedLine) else _of_circles(one, two)
+    return _of_line_and_circle(two, one) if isinstance(two, PlacedLine) else _of_circles(one, two, apart)
 
 
-def _of_circles(one: PlacedCircle, two: PlacedCircle) -> Intersection:
+def _of_circles(one: PlacedCircle, two: PlacedCircle, apart: Scalar | None) -> Intersection:
     """Heron's formula on squares: ``((a + b)^2 - d^2)(d^2 - (a - b)^2)`` is (4 area)^2.
 
     In factors it loses nothing where the triangle is nearly flat (Kahan, "Miscalculating area and angles of a
@@ -82,7 +83,7 @@ def _of_circles(one: PlacedCircle, two: PlacedCircle) -> Intersection:
     """
     (px, py), (qx, qy), a, b = one.centre, two.centre, one.radius, two.radius
     ex, ey = qx - px, qy - py
-    d2 = ex * ex + ey * ey
+    d2 = ex * ex + ey * ey if apart is None else apart * apart
     far, near = (a + b) * (a + b), (a - b) * (a - b)
     half = 0.5 / d2
     along = 0.5 + (a - b) * (a + b) * half
@@ -124,12 +125,14 @@ def side(one: PlacedLocus, two: PlacedLocus, at: Point) -> float:
 # --- whether they meet, and how well ---
 
 
-def gaps_of(one: PlacedLocus, two: PlacedLocus, arithmetic: Arithmetic) -> tuple[Scalar, ...]:
+def gaps_of(
+    one: PlacedLocus, two: PlacedLocus, arithmetic: Arithmetic, apart: Scalar | None = None
+) -> tuple[Scalar, ...]:
     """By how much two loci meet [frame]: none is negative where they do. A line comes first if there is one.
 
     Of two lines the sine of the angle between them; of a line and a circle by how much it passes within the
     circle on either side; of two circles the three gaps of a triangle of the radii and the distance of the
-    centres, and that distance: 0 where they are one point.
+    centres, and that distance: 0 where they are one point. ``apart`` as of `intersection`.
     """
     if isinstance(two, PlacedLine):
         assert isinstance(one, PlacedLine)
@@ -141,7 +144,7 @@ def gaps_of(one: PlacedLocus, two: PlacedLocus, arithmetic: Arithmetic) -> tuple
         return (b - off, b + off)
     (px, py), a = one
     dx, dy = qx - px, qy - py
-    d = arithmetic.sqrt(dx * dx + dy * dy)
+    d = arithmetic.sqrt(dx * dx + dy * dy) if apart is None else apart
     return ((a + b) - d, d - (a - b), d + (a - b), d)
 
 

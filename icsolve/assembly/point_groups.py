@@ -6,14 +6,14 @@ Which conditions determine which coordinates is a matching, and so is what it le
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence, Set
-from itertools import pairwise
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence, Set
+from itertools import combinations, pairwise
 from typing import TYPE_CHECKING
 
 from icsolve.assembly.clusters import (
     LooseFigure,
 )
-from icsolve.assembly.conditions import FigureEquation, Unknown, parts_of
+from icsolve.assembly.conditions import FigureEquation, InLine, Unknown, parts_of
 from icsolve.assembly.steps import PointGroup
 from icsolve.assembly.workspace import (
     CORNER,
@@ -202,3 +202,33 @@ def next_group(drawing: LooseFigure, wanted: Iterable[str]) -> PointGroup:
     points = min(closed, key=lambda part: (len(part), part))
     equations = (system.equations[i] for i in sorted(i for n in points for i in held[n]))
     return PointGroup(tuple(goal[n] for n in points), tuple(equations))
+
+
+# --- triangles that three lengths make flat -------------------------------------------------------
+
+
+def with_points_in_line(group: PointGroup, detour: Callable[[Datum, Datum, Datum], int]) -> PointGroup:
+    """The group with each point in line with two others by three lengths put by these two (`InLine`).
+
+    ``detour`` is the sign of two lengths less a third.
+    """
+    sides = {frozenset(e.datum.points): e.datum for e in group.equations if e.datum.kind == LENGTH}
+    beside: dict[str, list[str]] = {}
+    for a, b in sides:
+        beside.setdefault(a, []).append(b)
+        beside.setdefault(b, []).append(a)
+    replaced: dict[Datum, InLine] = {}
+    ends: set[str] = set()
+    for point in group.targets:
+        for p, q in combinations(beside.get(point, ()), 2):
+            whole = sides.get(frozenset((p, q)))
+            along, rest = sides[frozenset((point, p))], sides[frozenset((point, q))]
+            if whole is None or point in ends or along in replaced or rest in replaced:
+                continue
+            beyond = detour(along, whole, rest) == 0
+            if beyond or detour(along, rest, whole) == 0 or detour(rest, whole, along) == 0:
+                sense = -1.0 if beyond else 1.0
+                for part, side in enumerate((along, rest)):
+                    replaced[side] = InLine(point, p, q, along, whole, rest, sense, part)
+                ends |= {p, q}
+    return group._replace(equations=tuple(replaced.get(e.datum, e) for e in group.equations))

@@ -9,8 +9,9 @@ import math
 from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
-from icsolve.assembly.conditions import FigureEquation, Unknown
+from icsolve.assembly.conditions import FigureEquation, InLine, Unknown
 from icsolve.assembly.loci import (
+    Intersection,
     LineLocus,
     Locus,
     PlacedLine,
@@ -117,13 +118,15 @@ class Meet(NamedTuple):
     """A point where two loci meet; a line is the first of them if there is one.
 
     ``sign`` +1 or -1 takes the first or the second of two places; 0 the one place (two lines, or a
-    circle that touches).
+    circle that touches). ``apart`` is the datum, if there is one, by which the centres of two circles lie
+    apart: the triangle then moves as a whole, and is as flat everywhere as in one position.
     """
 
     target: Key
     first: Locus
     second: Locus
     sign: int = 1
+    apart: Span | None = None
 
     @property
     def targets(self) -> tuple[Key, ...]:
@@ -135,9 +138,25 @@ class Meet(NamedTuple):
         """Whether it is the one place where a circle only touches: beside it there are two."""
         return self.sign == 0 and is_round(self.second)
 
+    @property
+    def stays_flat(self) -> bool:
+        """Whether it touches wherever its circles are."""
+        return self.touches and self.apart is not None
+
     def loci(self, workspace: Workspace) -> tuple[PlacedLocus, PlacedLocus]:
         """Both loci where their points are."""
         return self.first.placed(workspace), self.second.placed(workspace)
+
+    def crossing(self, workspace: Workspace) -> Intersection:
+        """Where the loci meet."""
+        return intersection(*self.loci(workspace), self._apart(workspace))
+
+    def gaps(self, workspace: Workspace) -> tuple[Scalar, ...]:
+        """By how much the loci meet, as `gaps_of` has it."""
+        return gaps_of(*self.loci(workspace), workspace.arithmetic, self._apart(workspace))
+
+    def _apart(self, workspace: Workspace) -> Scalar | None:
+        return None if self.apart is None else workspace.length(self.apart)
 
     def ahead(self, workspace: Workspace) -> list[float]:
         """How far ahead on each ray among the loci the point lies."""
@@ -153,7 +172,7 @@ class Meet(NamedTuple):
 
     def place(self, workspace: Workspace) -> None:
         """Put the point that ``sign`` takes."""
-        found = intersection(*self.loci(workspace))
+        found = self.crossing(workspace)
         if found.factors is None or self.sign == 0:
             workspace.points[self.target] = found.middle
         else:
@@ -162,7 +181,7 @@ class Meet(NamedTuple):
 
     def margins(self, workspace: Workspace) -> tuple[Scalar, ...]:
         """What must not be negative for it to assemble [frame]: gaps of circles, distances along rays."""
-        gaps = gaps_of(*self.loci(workspace), workspace.arithmetic)[:3] if is_round(self.second) else ()
+        gaps = self.gaps(workspace)[:3] if is_round(self.second) and not self.stays_flat else ()
         return (*gaps, *self.ahead(workspace))
 
 
@@ -248,7 +267,7 @@ class PointGroup(NamedTuple):
     """
 
     targets: tuple[str, ...]
-    equations: tuple[FigureEquation, ...]
+    equations: tuple[FigureEquation | InLine, ...]
     start: tuple[tuple[float, float], ...] = ()
 
     def place(self, workspace: Workspace) -> None:

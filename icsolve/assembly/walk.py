@@ -16,7 +16,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from icsolve.assembly.conditions import TOO_CLOSE, agrees, is_vague, residual, size_of
-from icsolve.assembly.loci import PlacedCircle, gaps_of, is_ray, is_round, side
+from icsolve.assembly.loci import PlacedCircle, is_ray, is_round, side
 from icsolve.assembly.order import Order
 from icsolve.assembly.steps import CLOSED_FORMS, Meet, Miss, Step, aims, needs
 from icsolve.assembly.workspace import Datum, Key, Workspace, normalised
@@ -124,8 +124,7 @@ def _gap(workspace: Workspace, value: Scalar, size: float) -> Gap:
 
 def gaps_between(step: Meet, workspace: Workspace) -> list[Gap]:
     """What must not be negative for two loci to meet, as `gaps_of` has it."""
-    loci = step.loci(workspace)
-    gaps = gaps_of(*loci, workspace.arithmetic)
+    loci, gaps = step.loci(workspace), step.gaps(workspace)
     size = sum(abs(locus.radius) for locus in loci if isinstance(locus, PlacedCircle)) + 1.0
     size = size + abs(gaps[3]) if len(gaps) > 3 else size
     return [_gap(workspace, gap, size) for gap in gaps]
@@ -387,8 +386,9 @@ class Walk:
             return self._crossings(depth, path, step)
         if isinstance(step, CLOSED_FORMS):
             return [step], False
-        from icsolve.assembly import newton
+        from icsolve.assembly import newton, point_groups
 
+        step = point_groups.with_points_in_line(step, partial(self._detour, step))
         search = newton.every if self.every else partial(newton.solutions, near=self.near)
         found = search(step, self.workspace)
         if found.miss is not None:
@@ -397,6 +397,19 @@ class Walk:
             self.dead_ends.append(DeadEnd(depth, found.miss, longer))
         self.complete &= found.complete
         return found.groups, False
+
+    def _detour(self, step: Step, a: Datum, b: Datum, c: Datum) -> int:
+        """The sign of two lengths less a third, by the decimals as written."""
+
+        def less(workspace: Workspace) -> Gap:
+            sizes = [workspace.length(datum) for datum in (a, b, c)]
+            return _gap(workspace, sizes[0] + sizes[1] - sizes[2], sum(sizes))
+
+        gap = less(self.workspace)
+        if abs(gap.value) > DOUBT * float(self.workspace.length(c)):
+            return gap.sign
+        exact = self.decimals.decided(step, less)
+        return gap.sign if exact is None else exact.sign
 
     def _crossings(self, depth: int, path: Path, step: Meet) -> tuple[list[Step], bool]:
         """The places where two loci meet, the one nearer to `near` first; whether floats may lose them."""
@@ -471,7 +484,7 @@ def _middle_of_gap(step: Meet, workspace: Workspace) -> Point:
         share = (1.0 + b / (math.hypot(x - qx, y - qy) or 1.0)) / 2.0
         return qx + (x - qx) * share, qy + (y - qy) * share
     (px, py), a = one
-    far, over, _, d = gaps_of(one, two, workspace.arithmetic)
+    far, over, _, d = step.gaps(workspace)
     # on the line of centres: between the circles, or where the one inside comes closest to the other
     along = (a + d - b) / 2.0 if far < 0.0 else (a + d + b) / 2.0 if over < 0.0 else -(a + b - d) / 2.0
     return px + along * (qx - px) / (d or 1.0), py + along * (qy - py) / (d or 1.0)

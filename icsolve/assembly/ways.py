@@ -95,7 +95,11 @@ def order_that_assembles(case: Case, goal: Sequence[str]) -> Order:
         if _groups(order):
             return order
         walk = every_mode(case, order, frame)
-        return order if walk.modes else refusal(walk)
+        if not walk.modes:
+            return refusal(walk)
+        flat = {s.target: s for s in walk.modes[0].steps if isinstance(s, Meet) and s.stays_flat}
+        steps = (flat.get(s.target, s) if isinstance(s, Meet) else s for s in order.steps)
+        return replace(order, steps=tuple(steps))
 
     return by_other_data(case, goal, attempt)
 

@@ -12,8 +12,8 @@ from fractions import Fraction
 from itertools import count, pairwise
 from typing import Any
 
-from icsolve.assembly.conditions import CONDITIONS
-from icsolve.assembly.loci import gaps_of, intersection, is_round
+from icsolve.assembly.conditions import CONDITIONS, InLine
+from icsolve.assembly.loci import is_round
 from icsolve.assembly.steps import Given, Mean, Meet, PointGroup, Step, aims, leading_to
 from icsolve.assembly.workspace import (
     CORNER,
@@ -94,17 +94,23 @@ def why_presolved(known: Known) -> str:
     ):
         if held:
             return f"{what} every position is solved beforehand: the numbers are those of the case."
+    groups = (step for step in _program(known).figure.steps if isinstance(step, PointGroup))
+    if any(isinstance(equation, InLine) for group in groups for equation in group.equations):
+        return "Points in line by three lengths are placed with others: the numbers are those of the case."
     return ""
+
+
+def _program(known: Known) -> Program:
+    scene = known.scene
+    return prepare(known.case, Want(bodies=True)) if scene is None else scene.program
 
 
 def live_of(known: Known) -> Live | None:
     """The scene of a case as a program; None where it has to be solved beforehand."""
     if why_presolved(known):
         return None
-    scene = known.scene
-    program = prepare(known.case, Want(bodies=True)) if scene is None else scene.program
-    live = _ProgramWriter(program, scene).live()
-    live.data["still"] = scene is None
+    live = _ProgramWriter(_program(known), known.scene).live()
+    live.data["still"] = known.scene is None
     live.data["posed"] = [_posed(live.data, unknown) for unknown in known.posed]
     motions = () if known.structure else independent_motions(known)
     several = len(motions) > 1 and all(motion.turns for motion in motions)
@@ -243,8 +249,7 @@ class _ProgramWriter:
     def _meet(self, step: Meet, told: dict[str, Any]) -> list[Scalar]:
         """Two loci, with what must not be negative; a branch is -1, 1 or 0, where a circle touches."""
         ws = self.workspace
-        pair = step.loci(ws)
-        found, gaps = intersection(*pair), gaps_of(*pair, ws.arithmetic)[:3]
+        pair, found, gaps = step.loci(ws), step.crossing(ws), step.gaps(ws)[:3]
         ws.points[step.target] = found.middle
         if found.factors is None:
             told["lines"] = True

@@ -252,7 +252,8 @@ def refuse_together(order: Order) -> None:
 
 def _forks(steps: Steps) -> list[int]:
     """The steps at which two loci meet in two places."""
-    return [k for k, step in enumerate(steps) if isinstance(step, Meet) and is_round(step.second)]
+    meets = ((k, step) for k, step in enumerate(steps) if isinstance(step, Meet) and is_round(step.second))
+    return [k for k, step in meets if not step.stays_flat]
 
 
 def modes_of(steps: Steps) -> Iterator[Steps]:

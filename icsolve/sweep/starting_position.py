@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 
 import numpy as np
 
 from icsolve.assembly import place
 from icsolve.assembly.conditions import residual
-from icsolve.assembly.steps import Meet, PointGroup, spare_data
-from icsolve.assembly.workspace import Workspace
+from icsolve.assembly.steps import Meet, PointGroup, Step, spare_data
+from icsolve.assembly.workspace import Workspace, data_in, number_of
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers import FLOATS
@@ -51,10 +51,19 @@ def is_hard(setting: Setting) -> bool:
     shapes = list(filter(shapes_figure, reshaping))
     if not shapes:
         return False
-    by_itself = (
-        isinstance(s, PointGroup) or (isinstance(s, Meet) and s.touches) for s in setting.figure.steps
-    )
-    return any(by_itself) or any(_contradicts(setting, path) for path in shapes)
+    if any(isinstance(s, PointGroup) or _touches_only_here(s, setting, shapes) for s in setting.figure.steps):
+        return True
+    return any(_contradicts(setting, path) for path in shapes)
+
+
+def _touches_only_here(step: Step, setting: Setting, shapes: Sequence[str]) -> bool:
+    """Whether two circles touch, and may not where some numbers are others."""
+    if not (isinstance(step, Meet) and step.touches):
+        return False
+    if not step.stays_flat:
+        return True
+    lengths = [number_of(setting.case, datum).path for datum in data_in(step)]
+    return len(lengths) < 3 or any(path in shapes for path in lengths)
 
 
 def drives(path: str) -> bool:
