@@ -160,6 +160,32 @@ def test_a_point_in_line_with_two_pins_rests_the_same_by_its_lengths_as_by_its_a
     assert not any("change point" in note for note in found.notes)
 
 
+LIFT = """icsolve: 1
+points: {A: [0, 0]}
+lengths: {AM: 0.7, MC: 0.7, AC: 1.4, BM: 0.7, MD: 0.7, BD: 1.4,
+          DN: 0.7, NF: 0.7, DF: 1.4, CN: 0.7, NE: 0.7, CE: 1.4}
+angles: {AC: {unknown: [10, 80]}}
+near: {M: [0.6, 0.3], B: [1.2, 0], D: [0, 0.7], C: [1.2, 0.7], N: [0.6, 1], F: [1.2, 1.4], E: [0, 1.4]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: M}
+  - {pin: [3, 4], at: B}
+  - {slide: [4, 1], at: B, along: 0, through: A}
+  - {pin: [3, 5], at: D}
+  - {pin: [2, 6], at: C}
+  - {pin: [5, 6], at: N}
+loads:
+  W: {weight: 10, link: 6, at: E}
+  P: {force: 20, link: 4, at: B, angle: 180}
+"""
+
+
+def test_a_scissor_lift_of_two_stages_rests_where_its_closed_form_says() -> None:
+    """The bars are written by their halves. The top rises as 2.8 sin u where the foot goes as 1.4 cos u, so
+    that tan u = 2 W / P."""
+    assert places(LIFT) == [pytest.approx(45.0, abs=1e-13)]
+
+
 def test_a_weight_on_a_crank_with_a_torque_rests_at_two_angles() -> None:
     """10 x 2 cos u = 8: stable below, where V = 20 sin u - 8 u has its least."""
     found = positions(pendulum("T: {torque: 8, link: 2}"))

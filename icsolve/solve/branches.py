@@ -273,7 +273,8 @@ class Branches:
                 step /= 8.0
             if meant:
                 there = along(np.array([at - step, at, at + step, plain_within(at, step)]))
-                rough = max(rough, float(np.nanmax(np.abs(there[:3] - least))))  # it may come nearer between
+                between = np.nan_to_num(np.abs(there[:3] - least), nan=0.0)  # a branch may end beside a sample
+                rough = max(rough, float(between.max()))  # it may come nearer between
                 drawn += [i] if there[3] <= DRAWN * np.nanmax(np.abs(self.places)) else []
             best.append(least)
         even = [i for i, d in zip(ids, best, strict=True) if EVEN * max(d, rough) <= max(min(best), rough)]
