@@ -16,7 +16,7 @@ from mpmath import mp
 from icsolve.assembly.driven.order import rotation_to_line
 from icsolve.case import Number
 from icsolve.numbers.adjoint import still_noise
-from icsolve.numbers.intervals import WHOLE, Interval, enclose, enclose_one
+from icsolve.numbers.intervals import LARGEST, MANY, WHOLE, Interval, _out, enclose, enclose_one
 from icsolve.numbers.jets import BallArray, Jet
 from icsolve.numbers.record import Record, Traced
 from icsolve.numbers.tape import Tape
@@ -306,3 +306,11 @@ def test_what_does_nothing_is_not_on_the_tape() -> None:
         *[type(one)] * 4,
     ]
     assert len(tape.nodes) == before
+
+
+@pytest.mark.parametrize("many", [1, MANY])
+def test_ends_are_rounded_outward_however_many_they_are(many: int) -> None:
+    ends = np.array([0.0, -0.0, 5e-324, 1.0, -1.0, 1.0 - 2**-53, 2.0**-1022, -LARGEST, np.inf, -np.inf])
+    with np.errstate(all="ignore"):
+        out = _out(np.tile(ends, (many, 1)))
+    assert (out >= np.nextafter(ends, np.inf)).all()
