@@ -273,7 +273,7 @@ class Branches:
                 step /= 8.0
             if meant:
                 there = along(np.array([at - step, at, at + step, plain_within(at, step)]))
-                between = np.nan_to_num(np.abs(there[:3] - least), nan=0.0)  # a branch may end beside a sample
+                between = np.nan_to_num(np.abs(there[:3] - least), nan=0.0)  # it may end
                 rough = max(rough, float(between.max()))  # it may come nearer between
                 drawn += [i] if there[3] <= DRAWN * np.nanmax(np.abs(self.places)) else []
             best.append(least)
