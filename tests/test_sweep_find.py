@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable
 from decimal import Decimal, localcontext
 from functools import lru_cache
+from itertools import pairwise
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -17,15 +18,17 @@ from mpmath import mp, mpf
 import icsolve
 from icsolve.assembly import newton
 from icsolve.bench.full_turn import FOUR_BAR_CASE
-from icsolve.errors import SceneError
+from icsolve.errors import CaseError, SceneError
 from icsolve.numbers import Scalar
 from icsolve.numbers.decimals import CONTEXT
 from icsolve.numbers.record import Record
 from icsolve.numbers.roots import closed_in
+from icsolve.statics.power import loads_to_find
 from icsolve.sweep import find_by_scenes, rows_by_scenes
 from icsolve.sweep.continuation import PathSegment
 from icsolve.sweep.find_on_record import Query, RangeSearch, find
 from icsolve.sweep.path_tracking import PathTracker
+from icsolve.sweep.varied_numbers import numbers_of
 from library import FILES, sample
 from sizes import FULL, few, sampled
 from test_sweep_status import FOUR_BAR, PARALLELOGRAM, SLIDER_CRANK
@@ -960,3 +963,44 @@ def test_a_change_point_of_several_branches_is_told_once(link: str, sense: float
     (spot,) = find(case, None, Query("dead"), drive={link: sense * np.array([0.0, 36.0])})
     assert spot.kind == "change-point"
     assert abs(spot.at - sense * 28.0) <= spot.error <= (1e-5 if link in "467" else 1e-14)
+
+
+READ_ANEW = ("points", "lengths", "angles")
+
+
+@sampled(5)
+@pytest.mark.parametrize("name", [name for name in FILES if FULL or name.startswith(("ch13/", "linkages/"))])
+def test_where_links_cease_to_reach_a_limit_is_told_along_any_number_of_the_figure(name: str) -> None:
+    """Wherever two rows beside each other are `ok` and `cannot-assemble`, one lies between, of a figure
+    that is read anew as of one that moves; and no limit lies elsewhere."""
+    case = icsolve.load(FILES[name])
+    if case.space is not None or case.touches or not loads_to_find(case):
+        return
+    numbers = numbers_of(case)
+    size = max((abs(n.value) for path, n in numbers.items() if path.startswith(READ_ANEW[:2])), default=1.0)
+    paths = [path for path in numbers if path.startswith(READ_ANEW)]
+    for path in paths if FULL else paths[::3]:
+        value = numbers[path].value
+        values = {
+            "points": value + size * np.linspace(-1.0, 1.0, 121),
+            "lengths": value * np.linspace(0.2, 3.0, 121),
+            "angles": value + np.linspace(-170.0, 170.0, 121),
+        }[path.partition(".")[0]]
+        try:
+            ends = ends_of(case, path, values)
+        except (SceneError, CaseError):
+            continue
+        if not ends:
+            continue
+        found = find(case, {path: values[[0, -1]]}, Query("dead"))
+        for low, high in ends:
+            assert any(low <= one.at <= high for one in found), (path, low, high)
+        for one in found:
+            assert one.kind != "limit" or any(low <= one.at <= high for low, high in ends), (path, one)
+
+
+def ends_of(case: icsolve.Case, path: str, values: Any) -> list[tuple[float, float]]:
+    """The pairs of rows of which one assembles and the other does not; a row between may be at the limit."""
+    rows = zip(values.tolist(), icsolve.sweep(case, {path: values}).status.tolist(), strict=True)
+    clear = [row for row in rows if row[1] in ("ok", "cannot-assemble")]
+    return [(low, high) for (low, one), (high, other) in pairwise(clear) if one != other]

@@ -266,7 +266,10 @@ class RangeSearch:
         if self._follows_groups:  # what lies behind a group may have its own limit before the group's
             yield from (end for end in self._ends if self._assembles(end[0]) or not self._reaches(end[0]))
         seen: list[Decimal] = []
-        for node in dict.fromkeys(node for root in self.roots for node, _ in root.margins):
+        margins = [node for root in self.roots for node, _ in root.margins]
+        for node in dict.fromkeys(
+            [*margins, *self.compiled.margins]
+        ):  # of a motion, and of a figure read anew
             for s in self._zeros(self.record.nodes[node]):
                 here = all(abs(s - other) > NEAR for other in seen)
                 if here and self._assembles(s - NEAR) != self._assembles(s + NEAR):
