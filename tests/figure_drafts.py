@@ -299,3 +299,36 @@ def _with_corners(draft: Draft, bars: set[frozenset[str]], share: float) -> None
                     draft.corner(a, at, b)
     for a, b in sorted(sorted(bar) for bar in bars):
         draft.length(a, b)
+
+
+def straight_plates(seed: int, count: int) -> Draft:
+    """Straight ternary links by three lengths each, in a ring: each on two rods from the ground and one from
+    the next link, so that none has a place without the others."""
+    draft = Draft(seed, 0)
+    rng = draft.rng
+
+    def put(name: str, at: Place) -> str:
+        draft.names.append(name)
+        draft.at[name] = at
+        return name
+
+    plates: list[list[str]] = []
+    for i in range(count):
+        (x, y), turn = (rng.uniform(-3, 3), rng.uniform(-3, 3)), rng.uniform(0.0, 2.0 * math.pi)
+        whole = round(rng.uniform(1, 3), 2)
+        along = round(rng.uniform(0.2, whole - 0.2) if rng.random() < 0.6 else -rng.uniform(0.3, 1.5), 2)
+        steps = (("P", 0.0), ("Q", whole), ("R", along))
+        plates.append([put(f"{n}{i}", (x + d * math.cos(turn), y + d * math.sin(turn))) for n, d in steps])
+        p, q, r = plates[-1]
+        for a, b, size in ((p, q, whole), (p, r, abs(along)), (r, q, round(abs(whole - along), 2))):
+            draft.lengths.append(Length(a, b, draft.number(size, f"lengths.{a}-{b}")))
+    used = [rng.sample(plate, 3) for plate in plates]
+    for i, (one, two, three) in enumerate(used):
+        for end in (one, two):
+            ground = put(f"G{len(draft.names)}", (rng.uniform(-5, 5), rng.uniform(-5, 5)))
+            draft.coordinates(ground)
+            draft.length(ground, end)
+        draft.length(used[(i + 1) % count][i % 2], three)
+    for p in (p for plate in plates for p in plate):
+        draft.approximately(p, 0.001)
+    return draft

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import yaml
 
-from figure_drafts import Draft, Place, framework, sequence
+from figure_drafts import Draft, Place, framework, sequence, straight_plates
 from icsolve.assembly import Figure, case_point, modes, newton, solve_figure
 from icsolve.assembly.conditions import FigureEquation
 from icsolve.assembly.steps import PointGroup
@@ -604,3 +604,10 @@ def test_a_straight_ternary_link_of_a_group_may_be_written_by_three_lengths(seed
         rows, expected = (sweep(case, {path: values}) for case in (by_lengths, by_angle))
         assert [*rows.status] == [*expected.status]
         assert rows.answers["T"] == pytest.approx(expected.answers["T"], rel=1e-11, nan_ok=True)
+
+
+@pytest.mark.parametrize("seed", range(few(40, 10)))
+@pytest.mark.parametrize("links", [2, 3, 5, 8])
+def test_a_ring_of_straight_ternary_links_is_placed_at_near(links: int, seed: int) -> None:
+    draft = straight_plates(seed, links)
+    assert apart(places_of(draft.case()), draft.at) < 1e-9
