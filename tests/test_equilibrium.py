@@ -160,6 +160,50 @@ def test_a_point_in_line_with_two_pins_rests_the_same_by_its_lengths_as_by_its_a
     assert not any("change point" in note for note in found.notes)
 
 
+THIRD = """icsolve: 1
+points: {{A: [0, 0], D: [{bc}, 0], E: [{bf}, 0]}}
+lengths: {{AB: {ab}, BC: {bc}, CD: {ab}, BF: {bf}{ef}}}
+angles: {{AB: {free}, CBF: 0}}
+near: {{C: [{bc}, {ab}]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+{joints}loads:
+  W: {{weight: {weight}, link: 3, at: F}}
+  P: {{force: {force}, link: 2, at: B, angle: {toward}}}
+"""
+
+
+@sampled(4, "free")
+@pytest.mark.parametrize(
+    "free",
+    [
+        "unknown",
+        "{unknown: [0, 360], from: 60}",
+        "{unknown: [20, 340], from: 100}",
+        "{unknown: [-100, 100], from: 20}",
+    ],
+)
+@pytest.mark.parametrize("seed", range(40 if FULL else 4))
+def test_beyond_a_change_point_a_third_crank_rests_where_two_cranks_do(free: str, seed: int) -> None:
+    """A parallelogram, whose crank E-F repeats what the others hold: from where it is written it goes
+    straight on through both change points, beyond which the crossed linkage cannot have that crank."""
+    rng = random.Random(f"third {seed}")
+    ab, bc = round(rng.uniform(0.6, 1.5), 2), round(rng.uniform(2.5, 4), 2)
+    numbers = {"weight": round(rng.uniform(2, 9), 1), "force": round(rng.uniform(2, 9), 1)}
+    numbers |= {"ab": ab, "bc": bc, "bf": round(rng.uniform(0.5, bc - 0.4), 2), "toward": rng.randrange(360)}
+    third = "  - {pin: [3, 5], at: F}\n  - {pin: [5, 1], at: E}\n"
+    two, three = (
+        positions(THIRD.format(free=free, ef=ef, joints=joints, **numbers))
+        for ef, joints in (("", ""), (f", EF: {ab}", third))
+    )
+    assert [one.stability for one in three] == [one.stability for one in two]
+    for one, other in zip(three, two, strict=True):
+        assert one.at["angles.AB"] == pytest.approx(other.at["angles.AB"], abs=1e-12)
+
+
 LIFT = """icsolve: 1
 points: {A: [0, 0]}
 lengths: {AM: 0.7, MC: 0.7, AC: 1.4, BM: 0.7, MD: 0.7, BD: 1.4,

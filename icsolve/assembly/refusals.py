@@ -379,7 +379,7 @@ def compare(
         offs[datum] = abs(off)
         if abs(off) <= ROUNDING * size:
             continue
-        if abs(off) > OF_SIZE * size or abs(off) > _allowance(workspace, steps, datum):
+        if abs(off) > OF_SIZE * size or abs(off) > allowance(workspace, steps, datum):
             return clash(workspace, datum, off, ahead), offs
     return None, offs
 
@@ -404,7 +404,7 @@ def _closely(workspace: Workspace, steps: tuple[Step, ...], datum: Datum) -> Res
     return None
 
 
-def _allowance(workspace: Workspace, steps: tuple[Step, ...], datum: Datum) -> float:
+def allowance(workspace: Workspace, steps: tuple[Step, ...], datum: Datum) -> float:
     """What half a unit of every number involved does to a residual, to first order: the sum of all."""
     from icsolve.numbers.tape import Tape
 

@@ -32,6 +32,8 @@ ZOOMS = 5
 """So many times the place where a margin is lowest is looked for sixteen times more closely."""
 CLOSER = 3
 """So many times the place where a branch comes nearest to `near` is looked for eight times more closely."""
+CONTRARY = -2
+"""In place of a branch that contradicts data which no step needs."""
 DRAWN = 1e-14
 """Of several that pass through `near` one does so at a value of few decimals, as it was drawn: to so much of
 the figure."""
@@ -51,6 +53,17 @@ class Branches:
         self.whole = self.assemble(self.values)  # (modes, samples)
         self.whole[:, [0, -1]] &= self.assemble(np.array([low + self.slack, high - self.slack]))
         self.ids = self._followed()
+        if functions[0].compiled.motion is None:
+            self._leave_out_contrary()
+
+    def _leave_out_contrary(self) -> None:
+        """Mark the branches that contradict data which no step needs, but for places where they pass through
+        agreement."""
+        agree = np.array([function.agrees(self.values) for function in self.functions])
+        own = [self.ids == branch for branch in np.unique(self.ids[self.ids >= 0])]
+        contrary = [some for some in own if 2 * np.mean(agree[some]) < 1]
+        for some in contrary if len(contrary) < len(own) else ():
+            self.ids[some] = CONTRARY
 
     def _places(self, function: LoadFunction, values: Array) -> Array:
         nodes = [k for name in self.names for k in function.places[name]]
@@ -236,7 +249,9 @@ class Branches:
         """The branch of a mode at a value."""
         k = int(np.clip(np.searchsorted(self.values, value, side="right") - 1, 0, SAMPLES - 1))
         one, two = int(self.ids[m, k]), int(self.ids[m, k + 1])
-        if one != two and one >= 0 and two >= 0:
+        if one == two == CONTRARY:
+            return one
+        if one != two and -1 not in (one, two):
             return one if value <= self._change_point(m, k, True) else two
         beside = self.ids[m, max(k - 1, 0) : k + 3].tolist()
         return max(one, two) if max(one, two) >= 0 else next((int(i) for i in beside if i >= 0), -1)

@@ -16,10 +16,10 @@ from functools import partial
 import numpy as np
 
 from icsolve.assembly import Figure, Placement, place, solve_figure
-from icsolve.assembly.conditions import ahead, size_of
+from icsolve.assembly.conditions import CONDITIONS, ahead, parts_of, scale_of, size_of
 from icsolve.assembly.loci import is_round
 from icsolve.assembly.order import Order, order_of
-from icsolve.assembly.refusals import compare
+from icsolve.assembly.refusals import OF_SIZE, allowance, compare
 from icsolve.assembly.steps import Meet, PointGroup, Step
 from icsolve.assembly.ways import order_that_assembles
 from icsolve.assembly.workspace import Workspace, frame_of
@@ -29,7 +29,7 @@ from icsolve.numbers import FLOATS, Arithmetic, Scalar
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.intervals import Interval
 from icsolve.numbers.record import Record, varies
-from icsolve.numbers.replay import Array, Code
+from icsolve.numbers.replay import Array, Code, Mask
 from icsolve.scene import refusals
 from icsolve.screws import velocity
 from icsolve.statics import load_wrenches, power
@@ -37,6 +37,7 @@ from icsolve.structure import topology
 from icsolve.sweep.branches import may_vanish
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.program import (
+    NUDGES,
     CompiledSweep,
     RowRequest,
     Setting,
@@ -48,7 +49,7 @@ from icsolve.sweep.program import (
 )
 from icsolve.sweep.record_runner import AGREED
 from icsolve.sweep.recorded_scene import RecordedScene, motions_of
-from icsolve.sweep.varied_numbers import points_of, with_numbers
+from icsolve.sweep.varied_numbers import number_at, points_of, with_numbers
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording import sentences
 from icsolve.wording.joints import why_not_moved
@@ -61,6 +62,8 @@ MOST_EXCHANGED = 32
 SAMPLES = 181
 COARSE = 10
 """One in so many of them is tried first."""
+ELSEWHERE = 40
+"""Values at which another way is tried that is none where the figure is written."""
 COUNTED = 1441
 PARTS = (0.498, 0.13, 0.87, 0.31, 0.69, 0.05, 0.95, 0.22, 0.78, 0.41, 0.59, 0.01, 0.99)
 """Where in the range an order of construction is looked for."""
@@ -131,8 +134,19 @@ class LoadFunction(NamedTuple):
         return bool(np.allclose(one, two, rtol=0.0, atol=SAME_PLACE))
 
     def joined(self, value: float) -> bool:
-        """Whether the links that only repeat what others hold reach at a value."""
-        return not self.checks or bool(np.abs(self.told(self.checks, value)).max() <= AGREED)
+        """Whether the links that only repeat what others hold reach at a value, and data that do agree."""
+        return bool(self.agrees(np.array([value]))[0])
+
+    def may_be_read(self, between: tuple[float, float]) -> bool:
+        """Whether a figure that is read anew agrees with its data about a value; of one that moves others may
+        reach where these do not."""
+        return self.compiled.motion is not None or self.joined(0.5 * (between[0] + between[1]))
+
+    def agrees(self, values: Array) -> Mask:
+        """The same at values, (n,)."""
+        found = Code(self.record, self.checks).run(self.given(values), len(values)) if self.checks else ()
+        agreed = [np.broadcast_to(np.abs(off) <= AGREED, len(values)) for off in found]
+        return np.logical_and.reduce(agreed) if agreed else np.ones(len(values), dtype=bool)
 
     def told(self, nodes: Sequence[int], value: float) -> Array:
         """Nodes (n,) at one value."""
@@ -319,31 +333,49 @@ def figure_in(case: Case, order: Order, steps: Steps) -> Figure:
 
 
 class RecordedMode(NamedTuple):
-    """One mode of a figure on a record by its free numbers, and the nodes that must not be negative."""
+    """One mode of a figure on a record by its free numbers, the nodes that must not be negative, and those
+    that are small (`AGREED`) where the figure meets the data that no step needed."""
 
     compiled: CompiledSweep
     margins: list[int]
+    checks: tuple[int, ...]
 
 
 def read_anew(case: Case, paths: Sequence[str], figure: Figure, order: Order) -> RecordedMode:
     """A mode of a figure that is read anew at all values of some numbers."""
     setting = Setting(case, topology(case), figure, tuple(paths), (), Drive((), (), ()))
     compiled = compile_sweep(setting, RowRequest(answers=False))
-    margins = placed_with_margins(figure, order, case, compiled.record)[1]
-    return RecordedMode(
-        compiled, [compiled.record.lifted(margin).index for margin in margins if varies(margin)]
-    )
+    placed, margins = placed_with_margins(figure, order, case, compiled.record)
+    nodes = [compiled.record.lifted(margin).index for margin in margins if varies(margin)]
+    return RecordedMode(compiled, nodes, tuple(_spare(figure, order, case, placed, compiled.record)))
 
 
-def moved(setting: Setting, signs: Signs = ()) -> RecordedMode:
-    """A mode in which the mechanism moves from the position as written, with the signs of some branches.
+def _spare(figure: Figure, order: Order, case: Case, placed: Placement, record: Record) -> Iterator[int]:
+    """By how much the data that no step needed are missed, over what their last digits allow."""
+    spare = [d for d in order.facts.data if d not in order.used and placed.points.keys() >= {*d.points}]
+    here, on_record = (Workspace(case, figure.frame, arithmetic) for arithmetic in (FLOATS, record))
+    here.points.update(figure.points)
+    on_record.points.update(placed.points)
+    for datum in (one for one in spare if here.points.keys() >= {*one.points}):
+        size, _ = scale_of(here, datum)
+        room = min(allowance(here, figure.steps, datum), OF_SIZE * size_of(here, order.points))
+        for part in parts_of(datum):
+            off = CONDITIONS[datum.kind](on_record, datum, part).value
+            if varies(off):
+                yield record.lifted(off * (AGREED / (max(room, AGREED) * (size or 1.0)))).index
+
+
+def moved(setting: Setting, signs: Signs = (), nudges: Sequence[float] = NUDGES) -> RecordedMode:
+    """A mode in which the mechanism moves from the position as written, with the signs of some branches;
+    ``nudges`` as of `compile_sweep`.
 
     Raises TogetherError where points only all together have places.
     """
-    compiled = compile_sweep(setting, RowRequest(answers=False), signs)
+    compiled = compile_sweep(setting, RowRequest(answers=False), signs, nudges)
     if compiled.motion is not None and compiled.motion.groups:
         raise TogetherError(Status.UNSUPPORTED, TOGETHER)
-    return RecordedMode(compiled, [n for root in compiled.record.roots.values() for n, _ in root.margins])
+    margins = [n for root in compiled.record.roots.values() for n, _ in root.margins]
+    return RecordedMode(compiled, margins, compiled.motion.checks if compiled.motion is not None else ())
 
 
 def moving_function(
@@ -379,10 +411,22 @@ def with_other_ways(function: LoadFunction, span: tuple[float, float]) -> list[L
             beyond = tuple(sorted(pair for pair in others.items() if pair[1] != motion.written[pair[0]]))
             met = may_vanish(radicand) and beyond not in (known for _, known in found)
             if met and len(found) < MOST_MODES:
-                with suppress(SceneError):  # a load may have no direction in it
-                    again = moved(one.compiled.setting, beyond)
-                    found.append((_on_record(again, function.path, span), beyond))
+                other = _other_way(one, beyond, span)
+                found += [(other, beyond)] if other is not None else []
     return [one for one, _ in found]
+
+
+def _other_way(function: LoadFunction, signs: Signs, span: tuple[float, float]) -> LoadFunction | None:
+    """The function of another way; None where there is none. Links that repeat what others hold may meet in
+    it beyond the change point only: its record is then made there."""
+    compiled = function.compiled
+    values = np.linspace(*span, ELSEWHERE) if not compiled.record.counted else ()
+    size = 180.0 if function.turns_links else 1.0 / compiled.setting.figure.frame.scale
+    written = 0.0 if function.path in function.case.links else number_at(function.case, function.path).value
+    for nudges in (NUDGES, *([(float(value) - written) / size] for value in values)):
+        with suppress(SceneError):  # a load may have no direction in it
+            return _on_record(moved(compiled.setting, signs, nudges), function.path, span)
+    return None
 
 
 def written_function(case: Case, path: str, span: tuple[float, float] | None) -> LoadFunction:
@@ -400,7 +444,7 @@ def _function(
 
 def _on_record(mode: RecordedMode, path: str, span: tuple[float, float] | None) -> LoadFunction:
     """The power of the loads on a record that has the figure, by its one input."""
-    compiled, margins = mode
+    compiled, margins, checks = mode
     record, scene, given = compiled.record, compiled.scene, compiled.inputs[path]
     record.follows = True  # also where each position is read anew: turns count from one of them
     motions = motions_of(scene)
@@ -429,7 +473,7 @@ def _on_record(mode: RecordedMode, path: str, span: tuple[float, float] | None) 
         record.lifted(slope).index,
         record.lifted(rate).index,
         tuple(margins),
-        compiled.motion.checks if compiled.motion is not None else (),
+        checks,
         places_on(compiled),
         _turning(motions.twists),
         power.force_scale(balance),

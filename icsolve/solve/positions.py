@@ -13,7 +13,7 @@ from icsolve.case import Case, Coordinates, TorsionSpring, is_angle, is_named
 from icsolve.case.joints import Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Code
-from icsolve.solve.branches import Branches, isolate
+from icsolve.solve.branches import CONTRARY, Branches, isolate
 from icsolve.solve.driven_search import (
     NOT_ALL,
     DrivenMechanism,
@@ -466,14 +466,15 @@ def search_modes(
     limits = limits_of(functions, branches)
     doubt = f"{path} was searched from {low:g} to {high:g}, but not proven to have no other position."
     every = frozenset(branches.ids[branches.ids >= 0].tolist())
-    left_out = frozenset[int]() if kept is None else every - kept
+    left_out = frozenset({CONTRARY} if kept is None else {CONTRARY, *(every - kept)})
     modes = [n for n in range(len(functions)) if kept is None or kept & set(branches.ids[n].tolist())]
     for n, part in [(mode, part) for mode in modes for part in branches.parts(mode, left_out)]:
         function = functions[n]
         search = isolate(function, *part)
         if not search.complete and notes is not None:
             notes.append(doubt)
-        places = [refined(function, bracket, (low, high), whole) for bracket in search.brackets]
+        brackets = filter(function.may_be_read, search.brackets)
+        places = [refined(function, bracket, (low, high), whole) for bracket in brackets]
         places += [vanishing(function, bracket, (low, high), whole) for bracket in search.changes]
         for position in places:
             if position is not None and (kept is None or branches.on(n, position.value) in kept):

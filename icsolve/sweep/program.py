@@ -312,10 +312,13 @@ YIELDS_HERE = (
 )
 
 
-def compile_sweep(setting: Setting, asked: RowRequest, signs: Signs = ()) -> CompiledSweep:
-    """The record of a sweep; the branches in ``signs`` have theirs as inputs."""
+def compile_sweep(
+    setting: Setting, asked: RowRequest, signs: Signs = (), nudges: Sequence[float] = NUDGES
+) -> CompiledSweep:
+    """The record of a sweep, made at the first of ``nudges`` at which it can be; the branches in ``signs``
+    have theirs as inputs."""
     refusal: SceneError | None = None
-    for nudge in NUDGES:
+    for nudge in nudges:
         try:
             compiled = _compiled(setting, asked, nudge, signs)
         except (SceneError, ZeroDivisionError) as error:
