@@ -267,3 +267,27 @@ def test_an_in_between_number_and_direction_may_be_inches(way: str, mark: str) -
 def test_words_of_direction_in_their_other_forms(written: str, degrees: float) -> None:
     found = direction(written)
     assert found is not None and (found.kind, found.value) == ("line", degrees)
+
+
+@pytest.mark.parametrize("form", ["T12 ({}) = {}", "T12 [{}]: {}", "|T12 ({})| = {}", "Torque ({}): {}"])
+@pytest.mark.parametrize("said", ["N*m", "N m", "lbf·in", "ft-lb", "cw", "counter-clockwise", "N/mm"])
+def test_a_unit_or_a_sense_in_brackets_behind_a_name_counts(form: str, said: str) -> None:
+    """As a heading has it: ``T12 (N m) = 41`` was taken for 41 in the unit of the case."""
+    assert Reader().read(form.format(said, "41.2"))[:4] == Reader().read(f"41.2 {said}")[:4]
+
+
+@pytest.mark.parametrize("unit", ["Nm", "kN", "(N m)", "(lbf*in)"])
+def test_a_name_divided_by_a_unit_has_that_unit(unit: str) -> None:
+    assert Reader().read(f"M/{unit} = -41.2")[:3] == Reader().read(f"-41.2 {unit.strip('()')}")[:3]
+
+
+@pytest.mark.parametrize(
+    "text", ["T12 (N m) = 41 lbf in", "T12 (cw) = 41 ccw", "T12 (cw) = -41", "M/kN = 41 N m"]
+)
+def test_what_a_name_says_against_its_answer_is_for_a_person(text: str) -> None:
+    assert Reader().read(text).flag in ("ambiguous-unit", "ambiguous-direction")
+
+
+@pytest.mark.parametrize("said", ["max", "magnitude", "unknown", "link 2", "2", "about A", ""])
+def test_other_words_in_brackets_behind_a_name_say_nothing(said: str) -> None:
+    assert Reader().read(f"T12 ({said}) = 41.2 N*m cw") == Reader().read("41.2 N*m cw")

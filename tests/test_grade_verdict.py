@@ -270,12 +270,16 @@ BLOCK = (
 def test_a_load_that_holds_over_a_range_asks_for_both_ends(a_class: Class) -> None:
     a_class.case("block", BLOCK)
     named = ("Pmin = -20 N, Pmax = 20 N", "min -20 max 20", "P_max=20 N and P_min=-20 N")
+    named += ("|P| <= 20 N", "|P| < 0.02 kN", "|P|≤20")
     assert set(a_class.verdicts(*named, case="block")) == {"right"}
     answers = ("-20 N to 20 N", "20 to -20", "-20 lbf to 20 lbf", "20 N", "-20 N to 25 N")
     rows = a_class.judge(*answers, case="block")
     assert [(row["verdict"], row["code"]) for row in rows] == [
         ("right", ""), ("right", ""), ("wrong", "unit"), ("wrong", "one-end"), ("wrong", "one-end"),
     ]  # fmt: skip
+    assert set(a_class.verdicts("|P| >= 20 N", "|P| <= -20 N", "|P| <= 20 N left", case="block")) == {
+        "review"
+    }
     told = "its lower end from -20.20 to -19.80 N and its upper end from 19.80 to 20.20 N"
     assert told in rows[0]["feedback"]
 
@@ -371,7 +375,7 @@ def test_an_answer_under_the_name_of_another_quantity_is_for_a_person(a_class: C
     task = Task(a_class.path("cases/press.yaml"))
     right, own = task.right(what), _OWN_NAMES[what]
     others = {name for names in _OWN_NAMES.values() for name in names} | _FURTHER_NAMES
-    others |= _OF_ITS_KIND.get(what, set())
+    others |= _OF_ITS_KIND.get(what, set()) | {f"{what}/2", f"{what}/P", f"w3/{what}"}
     for form in ("{} = {}", "{}: {}", "the answer is {} = {}"):
         for name in own + _NO_QUANTITY:
             judged = task.grade(what, form.format(name, right))

@@ -165,6 +165,7 @@ _LIMITED = re.compile(
     r"(?P<high><=?|=<|at most|max\.?|maximum|no more than|höchstens)? ?",
     re.IGNORECASE,
 )
+_SIZE = re.compile(r"\|[^|]+\| ?[<>]")
 _MORE = re.compile(
     r",? ?(?:or|and) (?:(?P<low>more|above|greater|larger|higher)|less|below|smaller|lower)", re.IGNORECASE
 )
@@ -257,6 +258,9 @@ def _one(words: str, start: int, number: WrittenNumber) -> WrittenRange:
     end = _end_of(after[: more.start()] if more else after)
     sign, before = _sign(words[:start])
     limit = _LIMITED.fullmatch(before)
+    if _SIZE.match(before):  # a size has both ends: |P| <= 3
+        both = limit is not None and limit.group("high") and not sign < 0.0 and not end.direction and not more
+        return end._replace(low=-number.value, high=number.value) if both else WrittenRange(flag=UNREAD)
     if end.flag or (limit is None and not _START.fullmatch(before)):
         return WrittenRange(flag=end.flag or UNREAD)
     value = sign * number.value
