@@ -190,6 +190,25 @@ def test_prairielearn_manual_grading(a_class: Class) -> None:
     assert "answers.csv:4: the submitted answer is not a JSON object" in ran.err
 
 
+def test_a_mapped_column_of_a_question_that_no_table_has_is_told(a_class: Class) -> None:
+    """All would miss the question in silence; of several tables one may have it."""
+    mapped = ("--map", "Q3=lever", "--map", "Q4=pusher")
+    told = "no column is called 'Q4', by which the answers to pusher are to be known"
+    ran = a_class.grade("student_id,Q3\n7,200\n", *mapped)
+    assert ran.code == 0 and told in ran.err and "'Q3'" not in ran.err
+    a_class.course("map: {Q3: lever, Q4: pusher}\n")
+    assert told in a_class.grade("student_id,lever\n7,200\n").err
+    assert a_class.grade("student_id,Q3,Q4\n7,200,3\n", *mapped).err == ""
+
+
+@pytest.mark.parametrize("swapped", [(), ("student_id",), ("Q3",), ("student_id", "Q3")])
+def test_a_map_may_be_written_either_way_round(a_class: Class, swapped: tuple[str, ...]) -> None:
+    maps = [("student_id", "Matr"), ("Q3", "lever")]
+    turned = [f"{b}={a}" if a in swapped else f"{a}={b}" for a, b in maps]
+    ran = a_class.grade("Matr,Name,Q3\n7,A,200\n", *(word for one in turned for word in ("--map", one)))
+    assert [(row["student_id"], row["verdict"]) for row in ran.rows()] == [("7", "right")]
+
+
 def test_unknown_headers_are_mapped_on_the_command_line_or_in_the_course(a_class: Class) -> None:
     table = "Matr,Lösung Q3 (5 Punkte)\n0042,200\n"
     ran = a_class.grade(table)

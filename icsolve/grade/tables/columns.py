@@ -157,11 +157,18 @@ class TableColumns:
         """the case whose name a text is much like; '' for none"""
         self.fields: dict[str, int] = {}
         self.questions: dict[int, str] = {}
+        self.absent: dict[str, str] = {}
+        """questions by the mapped columns that this table has not"""
         for left, right in mapping:
             self._map(left, right)
 
     def _map(self, left: str, right: str) -> None:
-        """``student_id=Email Address`` names a field's column; ``Q3=press`` a question's."""
+        """``student_id=Email Address`` names a field's column; ``Q3=press`` a question's; and the other way
+        round, where that can be meant."""
+        if not self._matching(left) and self.find(left) is not None and self._matching(right):
+            left, right = right, left
+        if right in FIELDS and left not in FIELDS and self._matching(left) and self.find(right) is None:
+            left, right = right, left
         if left in FIELDS and self._matching(right):
             self.fields[left] = self._one(right)
             return
@@ -169,6 +176,7 @@ class TableColumns:
         if not columns:
             if left in FIELDS:
                 raise HeaderError(f"there is no column '{right}' for {left}; the columns are {self.listed()}")
+            self.absent[left] = right
             return
         question = self.find(right)
         if question is None:
