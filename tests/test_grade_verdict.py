@@ -313,6 +313,37 @@ def test_the_direction_of_a_reaction_is_judged_by_its_angle(a_class: Class) -> N
     assert dict(zip(answers, a_class.verdicts(*answers, case="lever:F12"), strict=True)) == answers
 
 
+BLOCK_IN_A_GUIDE = """\
+icsolve: 1
+points: {{A: [0, 0], C: [1, 1]}}
+joints: [{{slide: [2, 1], at: A, along: {along}}}]
+motion: {{point: A, link: 2, speed: 3, angle: {angle}}}
+loads:
+  P: {{force: unknown, link: 2, at: A, angle: {along}}}
+  W: {{force: 20, link: 2, at: A, angle: {load}}}
+"""
+
+
+@pytest.mark.parametrize(("angle", "minus"), [(180, "review"), (-90, "review"), (0, "wrong"), (90, "wrong")])
+def test_a_minus_on_a_size_may_be_that_of_a_component(a_class: Class, angle: int, minus: str) -> None:
+    """A block that moves to the left at 3 has the velocity -3, though its speed is 3; the force of the guide
+    is of the same kind. Moving to the right, or aslant, -3 can be no component that is right."""
+    block = BLOCK_IN_A_GUIDE.format(along=angle % 180, angle=angle, load=angle + 30)
+    a_class.case("block", block)
+    answers = ("3", "-3", "-3 m/s", "-4")
+    expected = ["right", minus, minus, "wrong"]
+    assert a_class.verdicts(*answers, case="block:v A on 2") == expected
+    across = {180: "wrong", -90: "review", 0: "review", 90: "wrong"}
+    assert a_class.verdicts("10 N", "-10 N", case="block:F12") == ["right", across[angle]]
+
+
+def test_a_minus_on_a_size_aslant_is_a_wrong_sense(a_class: Class) -> None:
+    a_class.case("block", BLOCK_IN_A_GUIDE.format(along=30, angle=210, load=0))
+    (row,) = a_class.judge("-3", case="block:v A on 2")
+    assert (row["verdict"], row["code"]) == ("wrong", "sign")
+    assert "Which way does the point move?" in row["feedback"]
+
+
 def test_a_point_before_three_digits_may_divide_thousands(a_class: Class) -> None:
     a_class.case("lever", Path(a_class.path("cases/lever.yaml")).read_text().replace("100", "617"))
     assert a_class.verdicts("1.234", "1.234 kN*m", "1.235", "1.334") == ["review", "right", "review", "wrong"]

@@ -40,7 +40,14 @@ from icsolve.grade.written.two_numbers import (
     read_range,
     without_axes,
 )
-from icsolve.grade.written.words import CASE, ENERGY, WrittenDirection, at_angle, unit_word
+from icsolve.grade.written.words import (
+    AMBIGUOUS_DIRECTION,
+    CASE,
+    ENERGY,
+    WrittenDirection,
+    at_angle,
+    unit_word,
+)
 from icsolve.grade.written.words import direction as direction_of
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording import listed
@@ -280,6 +287,8 @@ def _in_full(key: NumberKey, written: WrittenAnswer) -> Judgement:
     if number and sign is None and key.value:
         why = BY_ANGLE if key.expected.by_angle else SQUARE
         return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, why)
+    if number and _may_be_component(key, written):
+        return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, AMBIGUOUS_DIRECTION)
     direction = _direction_is_right(key, written, value, sign)
     off = relative(abs(abs(value) - size), size)
     if number and unit and direction:
@@ -288,6 +297,12 @@ def _in_full(key: NumberKey, written: WrittenAnswer) -> Judgement:
         return _wrong_size(key, value, unit, direction, written)
     parts = (number, unit, direction)
     return _wrong(key, parts, _seen(key, written, value, parts, sign), value, off)
+
+
+def _may_be_component(key: NumberKey, written: WrittenAnswer) -> bool:
+    """Whether a minus on a size may say that it points along -x or -y, as it does."""
+    bare = written.number < 0.0 and written.direction is None and key.policy.direction != "ignored"
+    return bare and key.expected.is_minus_of_axis
 
 
 def _words_that_count(key: NumberKey, direction: WrittenDirection | None) -> WrittenDirection | None:

@@ -63,7 +63,7 @@ DEGREE = 1.0
 """Degrees within which a direction that is asked for is right."""
 
 _KINDS: dict[type, str] = {
-    LoadIs: "load", RatioIs: "ratio", RateIs: "rate", SpeedIs: "rate", ReactionIs: "reaction",
+    LoadIs: "load", RatioIs: "ratio", RateIs: "rate", SpeedIs: "speed", ReactionIs: "reaction",
     TensionIs: "reaction", CentreIs: "place", PositionIs: "position",
 }  # fmt: skip
 """What is asked for, for messages; a force of unknown direction is a ``vector``, what else a ``length``."""
@@ -93,6 +93,14 @@ class ExpectedDirection(NamedTuple):
     """Whether the answer is a vector, which its two components tell as well."""
     given: str = ""
     """The positive sense as the case gives it by a point, whose direction may be a part of the task."""
+    size: bool = False
+    """Whether the value is a size: a minus on it may be that of a component."""
+
+    @property
+    def is_minus_of_axis(self) -> bool:
+        """Whether a size with a minus may be the component of what points along -x or -y."""
+        against = () if self.heading is None or not self.size else (self.heading - 180.0, self.heading + 90.0)
+        return any(abs(math.remainder(off, 360.0)) <= _ROUNDING for off in against)
 
     @property
     def any(self) -> bool:
@@ -143,7 +151,7 @@ def expected_of(target: Target, answer: Answer) -> ExpectedDirection:
     match target:
         case LoadIs(name) if name in answer.case.directed:
             return ExpectedDirection(
-                heading=_heading(answer.answers[name].components), asked=True, vector=True
+                heading=_heading(answer.answers[name].components), asked=True, vector=True, size=True
             )
         case LoadIs(name):
             return _of_load(next(load for load in answer.case.loads if load.name == name), answer)
@@ -160,11 +168,11 @@ def expected_of(target: Target, answer: Answer) -> ExpectedDirection:
                 force = [value_of(answer, target._replace(part=part))[0] for part in ("x", "y")]
             except LookupError:
                 force = []
-            return ExpectedDirection(heading=_heading(force), by_angle=True, vector=True)
+            return ExpectedDirection(heading=_heading(force), by_angle=True, vector=True, size=True)
         case SpeedIs(point, link):
             velocity = (answer.velocities or {}).get((point, link))
             heading = None if isinstance(velocity, str) else _heading(velocity)
-            return ExpectedDirection(heading=heading, by_angle=not answer.case.motion, vector=True)
+            return ExpectedDirection(heading=heading, by_angle=not answer.case.motion, vector=True, size=True)
     return ExpectedDirection()
 
 
