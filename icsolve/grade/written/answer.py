@@ -221,6 +221,8 @@ def _behind_name(text: str, decimal: str) -> WrittenAnswer:
     if found.flag:
         return flagged(found.flag)
     rest = text[found.end :]
+    if rest[:1] == "-" and not rest[1:].strip(" .;"):
+        return flagged(AMBIGUOUS_DIRECTION)  # books and spreadsheets put the sign behind too: ``412.7-``
     if before.rstrip().endswith(("[", "{")):
         rest = re.sub(r"^ ?[\])}]", "", rest)  # the bracket closes around the number: ``[-64.5] N``
     read = tail(rest.strip(), WrittenAnswer(0.0, None, None))
