@@ -572,3 +572,10 @@ def test_what_cannot_be_read_is_told_how_to_write_in_a_form_that_is_read(
     advice = re.search(r"Write ([^']*), such as '([^']*)'\.", told["feedback"])
     assert advice is not None and advice[1] == form
     assert task.grade(question, advice[2])["verdict"] in ("right", "wrong")
+
+
+@pytest.mark.parametrize(
+    ("given", "verdict"), [(None, "missing"), (200, "right"), (200.0, "right"), (-200, "wrong")]
+)
+def test_a_task_takes_what_a_form_hands_over(a_class: Class, given: float | None, verdict: str) -> None:
+    assert Task(a_class.path("cases/lever.yaml")).grade("", given)["verdict"] == verdict
