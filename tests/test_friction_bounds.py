@@ -523,6 +523,43 @@ def test_pins_that_wedge_a_rod_beside_its_dead_centre_do_it_in_both_senses(gap: 
     assert other == pytest.approx(side * force, rel=near)
 
 
+UPRIGHT = """icsolve: 1
+points: {{A: [0, 0]}}
+lengths: {{AG: 0.6}}
+angles: {{AG: {angle}}}
+joints: [{{pin: [1, 2], at: A, mu: {mu}, radius: 0.1}}]
+loads:
+  W: {{weight: unknown, link: 2, at: G}}
+  T: {{torque: {torque}, link: 2}}
+"""
+
+
+@sampled(3, "angle", "torque", "mu")
+@pytest.mark.parametrize("angle", [f"{side}{near}" for side in ("", "-") for near in (
+    "89.9", "90.001", "89.99999", "90.00000001", "89.9999999999", "90.000000000001", "89.999999999999",
+    "89.9999999999999", "90.0000000000001",
+)])  # fmt: skip
+@pytest.mark.parametrize("torque", [-20, 3])
+@pytest.mark.parametrize("mu", ["0.05", "0.3", "1.5"])
+def test_a_bar_that_all_but_stands_upright_is_held_by_large_loads_alone(
+    angle: str, torque: int, mu: str
+) -> None:
+    """|T - c W| <= r |W|, with the arm c of the weight, less than the friction circle r: under none it falls.
+    Of 1e-12 degrees it was told to hold with every load from -696 to 695.75, none among them, since what
+    grows 1e12 times at each step passed for what shrinks."""
+    with mp.workdps(50):
+        arm = mpf("0.6") * mp.cos(mpf(angle) * mp.pi / 180)
+        circle = mpf("0.1") * mp.sin(mp.atan(mpf(mu)))
+        low, high = sorted(float(torque / (arm + side * circle)) for side in (1, -1))
+    answer = icsolve.solve(icsolve.load(UPRIGHT.format(angle=angle, mu=mu, torque=torque)))
+    found, friction = answer.answers["W"], answer.friction
+    assert found.holds is not None and found.error is not None and friction is not None
+    assert sorted([found.holds, *friction.again]) == [
+        (-math.inf, pytest.approx(low, rel=4e-16)), (pytest.approx(high, rel=4e-16), math.inf)
+    ]  # fmt: skip
+    assert found.error <= 1e-15 * abs(low)
+
+
 def parallelogram(rng: Random, gap: float) -> str:
     """One that all but lies on a line, with pins that rub, moved by its crank."""
     crank, rod = round(rng.uniform(0.5, 1.5), 2), round(rng.uniform(1.6, 3.0), 2)
