@@ -523,6 +523,52 @@ def test_pins_that_wedge_a_rod_beside_its_dead_centre_do_it_in_both_senses(gap: 
     assert other == pytest.approx(side * force, rel=near)
 
 
+COLLAR = """icsolve: 1
+points: {{A: [0, 0]}}
+joints: [{{slide: [2, 1], at: A, along: 0, mu: {mu}}}]
+loads:
+  W: {{force: {weight}, link: 2, at: A, angle: -90}}
+  Q: {{force: {pull}, link: 2, at: A, angle: 0}}
+  P: {{force: unknown, link: 2, at: A, angle: {angle}}}
+"""
+
+
+def collar_ranges(mu: str, weight: int, pull: int, angle: str) -> list[tuple[float, float]]:
+    """Where |Q + P cos a| <= mu |W - P sin a|, in fifty digits; ends far beyond the loads are none."""
+    with mp.workdps(50):
+        along, square = mp.cos(mp.radians(mpf(angle))), mp.sin(mp.radians(mpf(angle)))
+        sides = [k * mpf(mu) for k in (1, -1)]
+        ends = sorted((k * weight - pull) / (along + k * square) for k in sides)
+        inner = (ends[0] + ends[1]) / 2
+        between = abs(pull + inner * along) <= mpf(mu) * abs(weight - inner * square)
+        low, high = (float(end) if abs(end) < 1e13 else math.copysign(math.inf, end) for end in ends)
+        found = [(low, high)] if between else [(-math.inf, low), (high, math.inf)]
+    return [one for one in found if one[0] != one[1]]
+
+
+@sampled(6, "gap", "mu", "loads")
+@pytest.mark.parametrize("gap", [1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14])
+@pytest.mark.parametrize("mu", ["0.3", "1"])
+@pytest.mark.parametrize("loads", [(100, 0), (100, 20), (0, 20), (100, -50)])
+def test_a_push_beside_the_angle_of_friction_holds_in_every_range_to_the_last_digit(
+    gap: float, mu: str, loads: tuple[int, int]
+) -> None:
+    """A collar on a guide, pushed all but at the angle at which no push moves it. Doubles lost the ranges far
+    out: one was told as a point (52.2 to 52.2 for all up to 52.2), and the others lost their digits."""
+    for side, turned in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
+        with mp.workdps(40):
+            angle = mp.nstr(turned * (mp.degrees(mp.atan(1 / mpf(mu))) + side * mpf(gap)), 24)
+        text = COLLAR.format(mu=mu, weight=loads[0], pull=loads[1], angle=angle)
+        answer = icsolve.solve(icsolve.load(text))
+        found, friction = answer.answers["P"].holds, answer.friction
+        assert found is not None and friction is not None
+        told = [tuple(end if abs(end) < 1e13 else math.copysign(math.inf, end) for end in one)
+                for one in sorted([found, *friction.again])]  # fmt: skip
+        told = [one for one in told if one[0] != one[1]]
+        expected = collar_ranges(mu, *loads, angle)
+        assert told == [tuple(pytest.approx(end, rel=1e-14) for end in one) for one in expected], angle
+
+
 UPRIGHT = """icsolve: 1
 points: {{A: [0, 0]}}
 lengths: {{AG: 0.6}}

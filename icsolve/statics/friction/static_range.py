@@ -143,12 +143,20 @@ def static_range(
     if all(_is_proven(end.statics or statics, senses) for end in ends):
         return range_of(ends)._replace(how=PROVEN)
     found = within()
-    if not found.ranges:
+    if not all(_is_held(found, end) for end in ends):  # doubles have lost the range of one about to move
         return range_of(ends)
     own, others = found.nearest(smooth_load(statics) or 0.0)
     told = range_of([_kept(own, end, senses) for end in ends])
     possible = _same_ends((own.low, own.high), (told.least, told.most))
     return _with_grown(statics, senses, told._replace(possible=possible, how=found.how, again=others))
+
+
+def _is_held(found: HeldRanges, end: End) -> bool:
+    """Whether one of the ranges in which friction within its limits holds has an end about to move."""
+    if not math.isfinite(end.value):
+        return bool(found.ranges)
+    room = SAME * abs(end.value)
+    return any(one.low - room <= end.value <= one.high + room for one in found.ranges)
 
 
 def _kept(own: HeldRange, end: End, senses: Sequence[float]) -> End:
