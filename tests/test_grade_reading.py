@@ -291,3 +291,28 @@ def test_what_a_name_says_against_its_answer_is_for_a_person(text: str) -> None:
 @pytest.mark.parametrize("said", ["max", "magnitude", "unknown", "link 2", "2", "about A", ""])
 def test_other_words_in_brackets_behind_a_name_say_nothing(said: str) -> None:
     assert Reader().read(f"T12 ({said}) = 41.2 N*m cw") == Reader().read("41.2 N*m cw")
+
+
+@pytest.mark.parametrize("words", [
+    "at most {}", "below {}", "P is under {}", "P is less than {}", "not more than {}", "up to {}", "P < {}",
+    "{} or less", "-inf to {}", "(-∞, {}]", "from -infinity to {}", "-oo < P < {}",
+])  # fmt: skip
+def test_a_range_with_an_open_end_in_words_below(words: str) -> None:
+    """``below 387 N`` was one value, under the name ``below``."""
+    read = read_range(words.format("387 N"))
+    assert (read.low, read.high, read.flag) == (None, 387.0, "")
+
+
+@pytest.mark.parametrize("words", [
+    "at least {}", "above {}", "P is over {}", "P must be more than {}", "no less than {}", "P > {}",
+    "{} or more", "{} to infinity", "[{}, ∞)", "from {} up to inf",
+])  # fmt: skip
+def test_a_range_with_an_open_end_in_words_above(words: str) -> None:
+    read = read_range(words.format("387 N"))
+    assert (read.low, read.high, read.flag) == (387.0, None, "")
+
+
+@pytest.mark.parametrize("word", ["nearby", "exactly", "beside", "force", "not"])
+def test_a_word_before_a_range_is_no_name(word: str) -> None:
+    assert read_range(f"{word} 387 N").flag == "unread"
+    assert read_range("P 113 to 387 N")[:2] == (113.0, 387.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 import re
 from pathlib import Path
@@ -293,6 +294,26 @@ def test_a_range_with_an_open_end_is_answered_by_the_other(a_class: Class) -> No
         "-63.3 N": "wrong", "-63.3 N to 500 N": "wrong", "P >= 63.3 N": "wrong",
     }  # fmt: skip
     assert dict(zip(answers, a_class.verdicts(*answers, case="block"), strict=True)) == answers
+
+
+UPRIGHT = """\
+icsolve: 1
+points: {A: [0, 0], G: [0.010471, 0.599909]}
+joints: [{pin: [1, 2], at: A, mu: 0.3, radius: 0.1}]
+loads:
+  W: {weight: unknown, link: 2, at: G}
+  T: {torque: -20, link: 2}
+"""
+
+
+def test_another_range_in_which_it_may_hold_is_for_a_person(a_class: Class) -> None:
+    """A bar that all but stands upright holds under a weight of 20 / (r - c) and more, c = 0.010471 and
+    r = 0.1 sin(atan 0.3), as it does when it is pulled up by 20 / (r + c): no weight pulls."""
+    a_class.case("bar", UPRIGHT)
+    circle = 0.1 * math.sin(math.atan(0.3))
+    pulls, presses = -20.0 / (circle + 0.010471), 20.0 / (circle - 0.010471)
+    answers = (f"W <= {pulls:.2f} N", f"W >= {presses:.1f} N", f"{presses:.1f} N or more", "W >= 900 N")
+    assert a_class.verdicts(*answers, case="bar") == ["right", "review", "review", "wrong"]
 
 
 def test_credit_is_given_for_the_parts_that_a_question_has(a_class: Class) -> None:

@@ -58,6 +58,7 @@ OPEN = (IN_REVIEW, INVALID)
 VERDICTS = (RIGHT, WRONG, INVALID, IN_REVIEW, MISSING)
 SQUARE = "square-direction"
 OTHER_NAME = "other-quantity"
+OTHER_RANGE = "other-range"
 BY_ANGLE = "direction-in-words"
 
 
@@ -461,6 +462,7 @@ UNJUDGED = {
     "ambiguous-direction": ("Sign and words, or words alone, say two directions", ""),
     "ambiguous-unit": ("This unit has several meanings", ""),
     "two-values": ("There are two values in this", ""),
+    OTHER_RANGE: ("This is another range than the one that is asked for, in which it may hold too", ""),
     OTHER_NAME: ("This is named as another quantity than the one that is asked for", ""),
     SQUARE: ("These words are square to the answer's direction", ""),
     BY_ANGLE: ("This direction in words is not judged by itself", "Write an angle, as 'at 30 deg'."),
@@ -525,6 +527,8 @@ def judge_range(key: RangeKey, written: WrittenRange) -> Judgement:
     fits = _fits(key, ends)
     if not all(fits) and factor != 1.0 and all(_fits(key, _times(written, sign or 1))):
         fits, unit = (True, True), key.policy.unit == "ignored"
+    if not all(fits) and any(all(_fits(other, ends)) for other in key.others):
+        return _unjudged(OTHER_RANGE)
     parts = (all(fits), unit, sign != NEITHER)
     off = _off_range(key, ends)
     if all(parts):

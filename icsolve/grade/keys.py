@@ -344,6 +344,8 @@ class RangeKey(_Key):
     policy: Policy
     another: Callable[[str], bool] = _nothing_else
     name: str = ""
+    others: tuple[RangeKey, ...] = ()
+    """further ranges in which friction may hold, as the solution says: a person decides"""
 
     @cached_property
     def end(self) -> NumberKey:
@@ -369,7 +371,7 @@ class RangeKey(_Key):
     def scaled(self, factor: float) -> RangeKey:
         """The same where all loads are ``factor`` times as large."""
         low, high = (None if end is None else end.scaled(factor) for end in (self.low, self.high))
-        return replace(self, low=low, high=high)
+        return replace(self, low=low, high=high, others=tuple([one.scaled(factor) for one in self.others]))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -448,13 +450,21 @@ def range_key(question: str, target: LoadIs, answer: Answer, policy: Policy) -> 
         return None
     _not_drawn(policy, "the ends of a range over which friction holds")
     width = own_width(policy.tolerance, target, answer, drawn=False)
-    low, high = (
-        _number(question, end, target, answer, policy, width) if math.isfinite(end) else None
-        for end in found.holds
-    )
-    if low is None and high is None:
+
+    def key(held: tuple[float, float]) -> RangeKey:
+        low, high = (
+            _number(question, end, target, answer, policy, width) if math.isfinite(end) else None
+            for end in held
+        )
+        return RangeKey(question, low, high, found.unit, policy)
+
+    own = key(found.holds)
+    if own.low is None and own.high is None:
         raise NoKeyError(f"{answer.case.name} holds with any value of {target.load}, so nothing can be asked")
-    return RangeKey(question, low, high, found.unit, policy)
+    load = next(load for load in answer.case.loads if load.name == target.load)
+    is_root = not isinstance(load, ForceVector) and load.value is None  # a multiple of one has other ranges
+    again = answer.friction.again if answer.friction is not None and is_root else ()
+    return replace(own, others=tuple(map(key, again)))
 
 
 def position_key(

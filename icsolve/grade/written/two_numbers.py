@@ -153,16 +153,21 @@ def read_components(text: str) -> WrittenPlace:
 # --- ranges -----------------------------------------------------------------------------------------
 
 _NAME = r"(?:\|?[A-Za-z][\w']{0,7}\|?)"
+_BARE = r"(?:\|?[A-Za-z][a-z]?_?\d{0,3}'?\|?)"
+"""A name with nothing between it and a number, which another word is not: ``P 113 to 287``, ``below 113``."""
 _START = re.compile(
-    rf"(?:(?:any )?(?:value|values|force|torque) )?(?:{_NAME} ?(?:=|:|in|is|∈|can be|must be)? ?)??"
+    rf"(?:(?:any )?(?:value|values|force|torque) )?"
+    rf"(?:(?:{_NAME} ?(?:=|:|in|is|∈|can be|must be)|{_BARE}) ?)??"
     r"(?:(?:anything |any value )?(?:from|between|von|zwischen|entre|de|da|dal|tra|fra|desde))? ?"
     r"(?:about|approx\.?|approximately|ca\.?|~)? ?[\[({]? ?",
     re.IGNORECASE,
 )
 _LIMITED = re.compile(
     rf"(?:{_NAME} ?(?=[<>=])|{_NAME} (?=is |must |at |no ))?(?:is |must be )?"
-    r"(?P<low>>=?|=>|at least|min\.?|minimum|no less than|mindestens)? ?"
-    r"(?P<high><=?|=<|at most|max\.?|maximum|no more than|höchstens)? ?",
+    r"(?P<low>>=?|=>|at least|min\.?|minimum|(?:no|not) (?:less|smaller|lower) than|mindestens|above|over"
+    r"|(?:greater|more|larger|bigger|higher) than(?: or equal to)?|exceeding)? ?"
+    r"(?P<high><=?|=<|at most|max\.?|maximum|(?:no|not) (?:more|greater|larger|higher) than|höchstens|below"
+    r"|under|(?:less|smaller|lower) than(?: or equal to)?|up to)? ?",
     re.IGNORECASE,
 )
 _SIZE = re.compile(r"\|[^|]+\| ?[<>]")
@@ -183,6 +188,18 @@ _LABELLED = re.compile(
 _NUMBER = re.compile(r"(?<!\w)(?:\d|[.,]\d)")
 
 
+_ENDLESS = r"(?:∞|inf(?:inity|inite)?|oo|unendlich)(?![a-z])"
+_FROM_ENDLESS = re.compile(
+    rf"^(?:{_NAME} ?(?:=|:|in|is|∈) ?)?(?:from |between )?[\[(\]]? ?- ?{_ENDLESS} ?"
+    rf"(?:to|bis|and|und|,|;|<=? ?{_NAME} ?<=?) ?",
+    re.IGNORECASE,
+)
+_TO_ENDLESS = re.compile(
+    rf" ?(?:up to|to|bis|and|und|,|;) ?\+? ?{_ENDLESS} ?[\])\[]? ?(?P<unit>[A-Za-z/*]*)$", re.IGNORECASE
+)
+"""An open end that is written out: ``(-inf, 113] N``, ``387 N to infinity``."""
+
+
 class WrittenRange(NamedTuple):
     """From ``low`` to ``high`` (None: an open end) in ``unit``, in the order in which they are written; one
     value has both the same."""
@@ -200,6 +217,7 @@ def read_range(text: str, decimal: str = "either") -> WrittenRange:
     if flag:
         return WrittenRange(flag=flag)
     words = re.sub(r" ?\.{2,} ?", " to ", words).strip()
+    words = _TO_ENDLESS.sub(r" \g<unit> or more", _FROM_ENDLESS.sub("at most ", words, 1), 1)
     if len(set(_LABELLED.findall(words))) == 2:
         words = _LABELLED.sub(" to ", words).removeprefix(" to ")
     found = _numbers(words, decimal)
