@@ -569,6 +569,38 @@ def test_a_push_beside_the_angle_of_friction_holds_in_every_range_to_the_last_di
         assert told == [tuple(pytest.approx(end, rel=1e-14) for end in one) for one in expected], angle
 
 
+@sampled(4, "gap", "mu", "loads")
+@pytest.mark.parametrize("gap", [1e-3, 1e-6, 1e-9, 1e-11, 1e-12, 1e-13])
+@pytest.mark.parametrize("mu", ["0.3", "1"])
+@pytest.mark.parametrize("loads", [(100, 0), (100, 20), (0, 20), (100, -50)])
+def test_a_push_that_all_but_jams_is_known_to_the_last_digit(
+    gap: float, mu: str, loads: tuple[int, int]
+) -> None:
+    """Q + P cos a = f mu |W - P sin a| as the collar moves. A push of 1e16 was off by 4 %, of no bound, and
+    named itself as another value: what is left of 1 - C J was taken in doubles, to 2^-51 of 1e15."""
+    weight, pull = loads
+    found = 0
+    for turned, way, side in ((1, 0, 1), (1, 180, -1), (-1, 0, -1), (-1, 180, 1), (1, 180, 1)):
+        with mp.workdps(50):
+            angle = mp.nstr(turned * (mp.degrees(mp.atan(1 / mpf(mu))) + side * mpf(gap)), 24)
+            along, square = mp.cos(mp.radians(mpf(angle))), mp.sin(mp.radians(mpf(angle)))
+            rub = mpf(mu) * (1 if way == 0 else -1)
+            values = [(k * rub * weight - pull) / (along + k * rub * square) for k in (1, -1)]
+            true = [v for k, v in zip((1, -1), values, strict=True) if k * (weight - v * square) >= 0]
+        text = COLLAR.format(mu=mu, weight=weight, pull=pull, angle=angle)
+        with suppress(icsolve.SceneError):
+            answer = icsolve.solve(
+                icsolve.load(f"{text}motion: {{point: A, link: 2, speed: 1, angle: {way}}}\n")
+            )
+            one = answer.answers["P"]
+            assert one.error is not None, angle
+            assert min(abs(one.value - float(v)) for v in true) <= 2.0 * math.ulp(one.value), angle
+            told = [float(other) for note in answer.notes for other in re.findall(r"-?\d\S*\d", note)]
+            assert all(abs(other - one.value) > 0.1 * abs(one.value) for other in told)
+            found += 1
+    assert found >= 2
+
+
 UPRIGHT = """icsolve: 1
 points: {{A: [0, 0]}}
 lengths: {{AG: 0.6}}
