@@ -288,7 +288,7 @@ def test_what_a_name_says_against_its_answer_is_for_a_person(text: str) -> None:
     assert Reader().read(text).flag in ("ambiguous-unit", "ambiguous-direction")
 
 
-@pytest.mark.parametrize("said", ["max", "magnitude", "unknown", "link 2", "2", "about A", ""])
+@pytest.mark.parametrize("said", ["max", "magnitude", "unknown", "link 2", "2", "about A", "t", ""])
 def test_other_words_in_brackets_behind_a_name_say_nothing(said: str) -> None:
     assert Reader().read(f"T12 ({said}) = 41.2 N*m cw") == Reader().read("41.2 N*m cw")
 

@@ -193,7 +193,9 @@ def words_of(text: str) -> tuple[str, str]:
 def _answer(text: str, decimal: str) -> WrittenAnswer:
     text, asides = unwrapped(text)
     read = _behind_name(text, decimal)
-    for aside in asides:
+    for aside in filter(None, asides):
+        if aside == "t":  # T(t) = ...: a function of time
+            continue
         is_unit = unit_word(aside) is not None
         read = _with_columns(read, aside if is_unit else "", "" if is_unit or not direction(aside) else aside)
     return read
