@@ -227,6 +227,12 @@ def test_ids_are_text(a_class: Class) -> None:
     assert [r["student_id"] for r in ran.rows()] == ["0012", "007", "1E5", "7"]
 
 
+@pytest.mark.parametrize("unseen", ["\u200b", "\u200e", "\u2060", "\ufeff", "\u00a0"])
+def test_signs_that_are_not_seen_make_no_other_student(a_class: Class, unseen: str) -> None:
+    ran = a_class.grade(f"student_id,case,answer,attempt\n0042{unseen},lever,200,2\n0042,lever,1,1\n")
+    assert [(r["student_id"], r["verdict"]) for r in ran.rows()] == [("0042", "right")]
+
+
 def test_a_line_that_is_cut_short_is_listed_and_the_others_graded(a_class: Class) -> None:
     ran = a_class.grade("student_id,case,answer\na,lever,200\nb,lev")
     assert ran.code == 1

@@ -57,11 +57,16 @@ class HeaderError(ValueError):
     """A header that can't be used; the message says what to do."""
 
 
+_UNSEEN = dict.fromkeys(map(ord, "\ufeff\u200b\u2060\u200e\u200f"))
+"""What pages put between letters of what is copied from them."""
+
+
 def identifier(text: str) -> str:
-    """An id as text: without spaces around it, and without what a spreadsheet puts about it (``="007"``)."""
+    """An id as text: without spaces around it, signs that are not seen, and what a spreadsheet puts about it
+    (``="007"``)."""
     if text.isalnum():
         return text
-    text = text.strip()
+    text = text.translate(_UNSEEN).strip()
     if text.startswith('="') and text.endswith('"'):
         text = text[2:-1]
     return text.lstrip("'#").strip() if text[:1] in ("'", "#") else text
