@@ -267,3 +267,52 @@ def test_an_in_between_number_and_direction_may_be_inches(way: str, mark: str) -
 def test_words_of_direction_in_their_other_forms(written: str, degrees: float) -> None:
     found = direction(written)
     assert found is not None and (found.kind, found.value) == ("line", degrees)
+
+
+@pytest.mark.parametrize("form", ["T12 ({}) = {}", "T12 [{}]: {}", "|T12 ({})| = {}", "Torque ({}): {}"])
+@pytest.mark.parametrize("said", ["N*m", "N m", "lbf·in", "ft-lb", "cw", "counter-clockwise", "N/mm"])
+def test_a_unit_or_a_sense_in_brackets_behind_a_name_counts(form: str, said: str) -> None:
+    """As a heading has it: ``T12 (N m) = 41`` was taken for 41 in the unit of the case."""
+    assert Reader().read(form.format(said, "41.2"))[:4] == Reader().read(f"41.2 {said}")[:4]
+
+
+@pytest.mark.parametrize("unit", ["Nm", "kN", "(N m)", "(lbf*in)"])
+def test_a_name_divided_by_a_unit_has_that_unit(unit: str) -> None:
+    assert Reader().read(f"M/{unit} = -41.2")[:3] == Reader().read(f"-41.2 {unit.strip('()')}")[:3]
+
+
+@pytest.mark.parametrize(
+    "text", ["T12 (N m) = 41 lbf in", "T12 (cw) = 41 ccw", "T12 (cw) = -41", "M/kN = 41 N m"]
+)
+def test_what_a_name_says_against_its_answer_is_for_a_person(text: str) -> None:
+    assert Reader().read(text).flag in ("ambiguous-unit", "ambiguous-direction")
+
+
+@pytest.mark.parametrize("said", ["max", "magnitude", "unknown", "link 2", "2", "about A", "t", ""])
+def test_other_words_in_brackets_behind_a_name_say_nothing(said: str) -> None:
+    assert Reader().read(f"T12 ({said}) = 41.2 N*m cw") == Reader().read("41.2 N*m cw")
+
+
+@pytest.mark.parametrize("words", [
+    "at most {}", "below {}", "P is under {}", "P is less than {}", "not more than {}", "up to {}", "P < {}",
+    "{} or less", "-inf to {}", "(-∞, {}]", "from -infinity to {}", "-oo < P < {}",
+])  # fmt: skip
+def test_a_range_with_an_open_end_in_words_below(words: str) -> None:
+    """``below 387 N`` was one value, under the name ``below``."""
+    read = read_range(words.format("387 N"))
+    assert (read.low, read.high, read.flag) == (None, 387.0, "")
+
+
+@pytest.mark.parametrize("words", [
+    "at least {}", "above {}", "P is over {}", "P must be more than {}", "no less than {}", "P > {}",
+    "{} or more", "{} to infinity", "[{}, ∞)", "from {} up to inf",
+])  # fmt: skip
+def test_a_range_with_an_open_end_in_words_above(words: str) -> None:
+    read = read_range(words.format("387 N"))
+    assert (read.low, read.high, read.flag) == (387.0, None, "")
+
+
+@pytest.mark.parametrize("word", ["nearby", "exactly", "beside", "force", "not"])
+def test_a_word_before_a_range_is_no_name(word: str) -> None:
+    assert read_range(f"{word} 387 N").flag == "unread"
+    assert read_range("P 113 to 387 N")[:2] == (113.0, 387.0)

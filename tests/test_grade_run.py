@@ -61,10 +61,36 @@ def test_times_tell_where_attempts_have_no_numbers(a_class: Class) -> None:
         ("1 March 2025  10:30 AM", "2025-03-01T10:30:00"),  # Moodle
         ("1. März 2025  22:30", "2025-03-01T22:30:00"),
         ("3/1/2025 10:00:00", "2025-03-01T10:00:00"),
+        ("2025-03-01 1:05 PM", "2025-03-01T13:05:00"),  # spreadsheets
+        ("2025-3-1 9:05", "2025-03-01T09:05:00"),
+        ("2025-03-01 12:00 AM", "2025-03-01T00:00:00"),
+        ("01.03.25 22:30", "2025-03-01T22:30:00"),
+        ("1.3.2025", "2025-03-01T00:00:00"),
+        ("1 Mar 2025 22:30", "2025-03-01T22:30:00"),
+        ("1-Mar-2025 10:30:05 pm", "2025-03-01T22:30:05"),
+        ("March 1, 2025 at 10:30 p.m.", "2025-03-01T22:30:00"),
+        ("1. März 2025 um 22:30 Uhr", "2025-03-01T22:30:00"),
     ],
 )
 def test_the_times_that_platforms_write(text: str, iso: str) -> None:
     assert timestamp(text) == datetime.fromisoformat(f"{iso}+00:00").timestamp()
+
+
+@pytest.mark.parametrize("text", ["13:00 PM", "2025-03-01 0:30 PM", "2025-03-01 25:00", "2025-13-01 10:00"])
+def test_what_is_no_time_is_none(text: str) -> None:
+    assert timestamp(text) is None
+
+
+@pytest.mark.parametrize("empty", [",,", " , ,", '"",,""', ",,,,"])
+@pytest.mark.parametrize(
+    "table", ["student_id,case,answer\na,lever,200\n", "student_id,lever,press\na,200,\n"]
+)
+def test_rows_in_which_nothing_stands_are_passed_over(a_class: Class, table: str, empty: str) -> None:
+    """As spreadsheets have them between the rows of a table and below it."""
+    plain = a_class.grade(table)
+    header, row = table.splitlines()
+    ran = a_class.grade("\n".join([empty, header, empty, row, empty, empty, ""]))
+    assert (ran.code, ran.err, ran.rows()) == (plain.code, plain.err, plain.rows())
 
 
 def test_rows_that_nothing_tells_apart_are_listed(a_class: Class) -> None:

@@ -190,6 +190,25 @@ def test_prairielearn_manual_grading(a_class: Class) -> None:
     assert "answers.csv:4: the submitted answer is not a JSON object" in ran.err
 
 
+def test_a_mapped_column_of_a_question_that_no_table_has_is_told(a_class: Class) -> None:
+    """All would miss the question in silence; of several tables one may have it."""
+    mapped = ("--map", "Q3=lever", "--map", "Q4=pusher")
+    told = "no column is called 'Q4', by which the answers to pusher are to be known"
+    ran = a_class.grade("student_id,Q3\n7,200\n", *mapped)
+    assert ran.code == 0 and told in ran.err and "'Q3'" not in ran.err
+    a_class.course("map: {Q3: lever, Q4: pusher}\n")
+    assert told in a_class.grade("student_id,lever\n7,200\n").err
+    assert a_class.grade("student_id,Q3,Q4\n7,200,3\n", *mapped).err == ""
+
+
+@pytest.mark.parametrize("swapped", [(), ("student_id",), ("Q3",), ("student_id", "Q3")])
+def test_a_map_may_be_written_either_way_round(a_class: Class, swapped: tuple[str, ...]) -> None:
+    maps = [("student_id", "Matr"), ("Q3", "lever")]
+    turned = [f"{b}={a}" if a in swapped else f"{a}={b}" for a, b in maps]
+    ran = a_class.grade("Matr,Name,Q3\n7,A,200\n", *(word for one in turned for word in ("--map", one)))
+    assert [(row["student_id"], row["verdict"]) for row in ran.rows()] == [("7", "right")]
+
+
 def test_unknown_headers_are_mapped_on_the_command_line_or_in_the_course(a_class: Class) -> None:
     table = "Matr,Lösung Q3 (5 Punkte)\n0042,200\n"
     ran = a_class.grade(table)
@@ -206,6 +225,12 @@ def test_ids_are_text(a_class: Class) -> None:
         'student_id,case,answer\n007,lever,200\n7,lever,200\n"=""0012""",lever,200\n1E5,lever,200\n'
     )
     assert [r["student_id"] for r in ran.rows()] == ["0012", "007", "1E5", "7"]
+
+
+@pytest.mark.parametrize("unseen", ["\u200b", "\u200e", "\u2060", "\ufeff", "\u00a0"])
+def test_signs_that_are_not_seen_make_no_other_student(a_class: Class, unseen: str) -> None:
+    ran = a_class.grade(f"student_id,case,answer,attempt\n0042{unseen},lever,200,2\n0042,lever,1,1\n")
+    assert [(r["student_id"], r["verdict"]) for r in ran.rows()] == [("0042", "right")]
 
 
 def test_a_line_that_is_cut_short_is_listed_and_the_others_graded(a_class: Class) -> None:

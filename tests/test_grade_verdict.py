@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 import re
 from pathlib import Path
@@ -270,12 +271,16 @@ BLOCK = (
 def test_a_load_that_holds_over_a_range_asks_for_both_ends(a_class: Class) -> None:
     a_class.case("block", BLOCK)
     named = ("Pmin = -20 N, Pmax = 20 N", "min -20 max 20", "P_max=20 N and P_min=-20 N")
+    named += ("|P| <= 20 N", "|P| < 0.02 kN", "|P|≤20")
     assert set(a_class.verdicts(*named, case="block")) == {"right"}
     answers = ("-20 N to 20 N", "20 to -20", "-20 lbf to 20 lbf", "20 N", "-20 N to 25 N")
     rows = a_class.judge(*answers, case="block")
     assert [(row["verdict"], row["code"]) for row in rows] == [
         ("right", ""), ("right", ""), ("wrong", "unit"), ("wrong", "one-end"), ("wrong", "one-end"),
     ]  # fmt: skip
+    assert set(a_class.verdicts("|P| >= 20 N", "|P| <= -20 N", "|P| <= 20 N left", case="block")) == {
+        "review"
+    }
     told = "its lower end from -20.20 to -19.80 N and its upper end from 19.80 to 20.20 N"
     assert told in rows[0]["feedback"]
 
@@ -289,6 +294,26 @@ def test_a_range_with_an_open_end_is_answered_by_the_other(a_class: Class) -> No
         "-63.3 N": "wrong", "-63.3 N to 500 N": "wrong", "P >= 63.3 N": "wrong",
     }  # fmt: skip
     assert dict(zip(answers, a_class.verdicts(*answers, case="block"), strict=True)) == answers
+
+
+UPRIGHT = """\
+icsolve: 1
+points: {A: [0, 0], G: [0.010471, 0.599909]}
+joints: [{pin: [1, 2], at: A, mu: 0.3, radius: 0.1}]
+loads:
+  W: {weight: unknown, link: 2, at: G}
+  T: {torque: -20, link: 2}
+"""
+
+
+def test_another_range_in_which_it_may_hold_is_for_a_person(a_class: Class) -> None:
+    """A bar that all but stands upright holds under a weight of 20 / (r - c) and more, c = 0.010471 and
+    r = 0.1 sin(atan 0.3), as it does when it is pulled up by 20 / (r + c): no weight pulls."""
+    a_class.case("bar", UPRIGHT)
+    circle = 0.1 * math.sin(math.atan(0.3))
+    pulls, presses = -20.0 / (circle + 0.010471), 20.0 / (circle - 0.010471)
+    answers = (f"W <= {pulls:.2f} N", f"W >= {presses:.1f} N", f"{presses:.1f} N or more", "W >= 900 N")
+    assert a_class.verdicts(*answers, case="bar") == ["right", "review", "review", "wrong"]
 
 
 def test_credit_is_given_for_the_parts_that_a_question_has(a_class: Class) -> None:
@@ -307,6 +332,37 @@ def test_the_direction_of_a_reaction_is_judged_by_its_angle(a_class: Class) -> N
         "100 N down": "review", "80 N up": "wrong",
     }  # fmt: skip
     assert dict(zip(answers, a_class.verdicts(*answers, case="lever:F12"), strict=True)) == answers
+
+
+BLOCK_IN_A_GUIDE = """\
+icsolve: 1
+points: {{A: [0, 0], C: [1, 1]}}
+joints: [{{slide: [2, 1], at: A, along: {along}}}]
+motion: {{point: A, link: 2, speed: 3, angle: {angle}}}
+loads:
+  P: {{force: unknown, link: 2, at: A, angle: {along}}}
+  W: {{force: 20, link: 2, at: A, angle: {load}}}
+"""
+
+
+@pytest.mark.parametrize(("angle", "minus"), [(180, "review"), (-90, "review"), (0, "wrong"), (90, "wrong")])
+def test_a_minus_on_a_size_may_be_that_of_a_component(a_class: Class, angle: int, minus: str) -> None:
+    """A block that moves to the left at 3 has the velocity -3, though its speed is 3; the force of the guide
+    is of the same kind. Moving to the right, or aslant, -3 can be no component that is right."""
+    block = BLOCK_IN_A_GUIDE.format(along=angle % 180, angle=angle, load=angle + 30)
+    a_class.case("block", block)
+    answers = ("3", "-3", "-3 m/s", "-4")
+    expected = ["right", minus, minus, "wrong"]
+    assert a_class.verdicts(*answers, case="block:v A on 2") == expected
+    across = {180: "wrong", -90: "review", 0: "review", 90: "wrong"}
+    assert a_class.verdicts("10 N", "-10 N", case="block:F12") == ["right", across[angle]]
+
+
+def test_a_minus_on_a_size_aslant_is_a_wrong_sense(a_class: Class) -> None:
+    a_class.case("block", BLOCK_IN_A_GUIDE.format(along=30, angle=210, load=0))
+    (row,) = a_class.judge("-3", case="block:v A on 2")
+    assert (row["verdict"], row["code"]) == ("wrong", "sign")
+    assert "Which way does the point move?" in row["feedback"]
 
 
 def test_a_point_before_three_digits_may_divide_thousands(a_class: Class) -> None:
@@ -371,7 +427,7 @@ def test_an_answer_under_the_name_of_another_quantity_is_for_a_person(a_class: C
     task = Task(a_class.path("cases/press.yaml"))
     right, own = task.right(what), _OWN_NAMES[what]
     others = {name for names in _OWN_NAMES.values() for name in names} | _FURTHER_NAMES
-    others |= _OF_ITS_KIND.get(what, set())
+    others |= _OF_ITS_KIND.get(what, set()) | {f"{what}/2", f"{what}/P", f"w3/{what}"}
     for form in ("{} = {}", "{}: {}", "the answer is {} = {}"):
         for name in own + _NO_QUANTITY:
             judged = task.grade(what, form.format(name, right))
@@ -537,3 +593,10 @@ def test_what_cannot_be_read_is_told_how_to_write_in_a_form_that_is_read(
     advice = re.search(r"Write ([^']*), such as '([^']*)'\.", told["feedback"])
     assert advice is not None and advice[1] == form
     assert task.grade(question, advice[2])["verdict"] in ("right", "wrong")
+
+
+@pytest.mark.parametrize(
+    ("given", "verdict"), [(None, "missing"), (200, "right"), (200.0, "right"), (-200, "wrong")]
+)
+def test_a_task_takes_what_a_form_hands_over(a_class: Class, given: float | None, verdict: str) -> None:
+    assert Task(a_class.path("cases/lever.yaml")).grade("", given)["verdict"] == verdict

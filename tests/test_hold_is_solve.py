@@ -252,6 +252,28 @@ def test_where_nothing_changes_it_is_told_whether_it_holds(
         assert said in told.err
 
 
+UPRIGHT = """icsolve: 1
+points: {{A: [0, 0]}}
+lengths: {{AG: 0.6}}
+angles: {{AG: {angle}}}
+joints: [{{pin: [1, 2], at: A, mu: 0.03, radius: 0.1}}]
+loads: {{W: {{weight: 300, link: 2, at: G}}, T: {{torque: {torque}, link: 2}}}}
+"""
+
+
+@pytest.mark.parametrize("torque", [20, -20, 60, 0])
+def test_ranges_about_positions_of_rest_are_found_however_narrow(torque: int) -> None:
+    """Along a datum of the figure as `solve` lists them, though no place of the span falls in one:
+    |T - W c cos a| <= W r, over half a degree."""
+    arm, circle = 0.6 * 300.0, 300.0 * 0.1 * math.sin(math.atan(0.03))
+    case = icsolve.load(UPRIGHT.format(angle=30, torque=torque))
+    found = holding_values(case, "angles.AG", 1.0, 360.0)
+    ends = [math.degrees(math.acos((torque + side * circle) / arm)) for side in (1, -1)]
+    ends += [360.0 - end for end in ends]
+    assert [(one.before, one.after) for one in found] == [("slips", "holds"), ("holds", "slips")] * 2
+    assert [one.value for one in found] == pytest.approx(sorted(ends), rel=1e-13)
+
+
 def test_positions_of_rest_say_that_friction_has_no_part_in_them(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -143,6 +143,7 @@ def refused(*words: str) -> Callable[[str], bool]:
         ([*TURN, "--find", "T12=much"], ["no number"]),
         ([*TURN, "--vary", "loads.P=1:9:1", "--find", "dead"], ["along one varied number"]),
         ([*TURN, "--plot", "x.svg", "--find", "dead"], ["leave --plot out"]),
+        ([*TURN, "--points", "--rates", "--find", "max"], ["leave --points and --rates out"]),
     ],
 )
 def test_what_makes_no_sense_is_refused_in_one_line(

@@ -279,6 +279,7 @@ def test_a_path_that_the_case_does_not_have(path: str, said: str) -> None:
         ({}, ("answers",), "nothing is varied"),
         ({"angles.AB": []}, ("answers",), "no values"),
         ({"angles.AB": [float("nan")]}, ("answers",), "not all finite"),
+        ({"angles.AB": [1.0 + 2.0j]}, ("answers",), "should be numbers"),
         ({"angles.AB": [[1.0]]}, ("answers",), "one row of numbers"),
         (
             {"angles.AB": [1.0, 2.0], "loads.P": [1.0, 2.0, 3.0]},

@@ -159,7 +159,8 @@ def sheet_command(
     try:
         students = _students(variants, student)
     except (OSError, ValueError) as error:
-        complain(f"icsolve sheet: {variants or '--student'}: {error}")
+        why = error.strerror if isinstance(error, OSError) else error
+        complain(f"icsolve sheet: {variants or '--student'}: {why or error}")
         return UNREADABLE
     from icsolve.explain.given import Exercise, exercise, sheet_tex
 

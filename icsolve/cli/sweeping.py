@@ -218,7 +218,9 @@ def _wrong(asked: SweepOptions) -> str | None:
     if rows > MOST_ROWS:
         return f"the ranges have {rows} rows together; at most {MOST_ROWS} fit"
     if asked.find is not None:
-        return "--find looks between rows and makes no table: leave --plot out" if asked.plot else None
+        idle = ["plot"] * bool(asked.plot) + [name for name in MORE[1:] if name in asked.want]
+        shown = " and ".join(f"--{name}" for name in idle)
+        return f"--find looks between rows and makes no table: leave {shown} out" if idle else None
     if asked.as_json:
         return "--json is for --find; for rows as JSON Lines write -o FILE.jsonl"
     if asked.suffix not in WRITTEN:

@@ -62,6 +62,8 @@ class Import:
         """questions with a column of their own"""
         self.students: dict[str, None] = {}
         self.count = 0
+        self._absent: dict[str, str] | None = None
+        """questions by mapped columns that no table has; None before one is read"""
         self._items: dict[str, tuple[str, str]] = {}
         self._people: dict[tuple[str, ...], str] = {}
         self._path = ""
@@ -104,6 +106,8 @@ class Import:
         with io.BytesIO(sys.stdin.buffer.read()) if path == "-" else reading(path) as file:
             table = AnswerTable(file, lambda line, why: self.issues.note(path, line, why))
             columns = TableColumns(table.header, mapping, self.case_store.find, self.case_store.near)
+            before = columns.absent if self._absent is None else self._absent
+            self._absent = {name: before[name] for name in before if name in columns.absent}
             self._order = self._date_order(path)
             entries: Iterator[StoredAnswer]
             if student:
@@ -118,6 +122,12 @@ class Import:
         self.count += count
         if not count:
             raise HeaderError("there is no answer in it, only a header")
+
+    def note_absent(self, shown: str) -> None:
+        """Tell which mapped columns none of the tables has, so that all would miss their questions."""
+        for column, question in (self._absent or {}).items():
+            why = f"no column is called '{column}', by which the answers to {question} are to be known"
+            self.issues.note(shown, 1, why)
 
     def _told(self, entries: Iterator[StoredAnswer], file: IO[bytes], path: str) -> Iterator[StoredAnswer]:
         """The entries, with a report of how much of the file is read."""

@@ -40,7 +40,14 @@ from icsolve.grade.written.two_numbers import (
     read_range,
     without_axes,
 )
-from icsolve.grade.written.words import CASE, ENERGY, WrittenDirection, at_angle, unit_word
+from icsolve.grade.written.words import (
+    AMBIGUOUS_DIRECTION,
+    CASE,
+    ENERGY,
+    WrittenDirection,
+    at_angle,
+    unit_word,
+)
 from icsolve.grade.written.words import direction as direction_of
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording import listed
@@ -51,6 +58,7 @@ OPEN = (IN_REVIEW, INVALID)
 VERDICTS = (RIGHT, WRONG, INVALID, IN_REVIEW, MISSING)
 SQUARE = "square-direction"
 OTHER_NAME = "other-quantity"
+OTHER_RANGE = "other-range"
 BY_ANGLE = "direction-in-words"
 
 
@@ -280,6 +288,8 @@ def _in_full(key: NumberKey, written: WrittenAnswer) -> Judgement:
     if number and sign is None and key.value:
         why = BY_ANGLE if key.expected.by_angle else SQUARE
         return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, why)
+    if number and _may_be_component(key, written):
+        return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, AMBIGUOUS_DIRECTION)
     direction = _direction_is_right(key, written, value, sign)
     off = relative(abs(abs(value) - size), size)
     if number and unit and direction:
@@ -288,6 +298,12 @@ def _in_full(key: NumberKey, written: WrittenAnswer) -> Judgement:
         return _wrong_size(key, value, unit, direction, written)
     parts = (number, unit, direction)
     return _wrong(key, parts, _seen(key, written, value, parts, sign), value, off)
+
+
+def _may_be_component(key: NumberKey, written: WrittenAnswer) -> bool:
+    """Whether a minus on a size may say that it points along -x or -y, as it does."""
+    bare = written.number < 0.0 and written.direction is None and key.policy.direction != "ignored"
+    return bare and key.expected.is_minus_of_axis
 
 
 def _words_that_count(key: NumberKey, direction: WrittenDirection | None) -> WrittenDirection | None:
@@ -446,6 +462,7 @@ UNJUDGED = {
     "ambiguous-direction": ("Sign and words, or words alone, say two directions", ""),
     "ambiguous-unit": ("This unit has several meanings", ""),
     "two-values": ("There are two values in this", ""),
+    OTHER_RANGE: ("This is another range than the one that is asked for, in which it may hold too", ""),
     OTHER_NAME: ("This is named as another quantity than the one that is asked for", ""),
     SQUARE: ("These words are square to the answer's direction", ""),
     BY_ANGLE: ("This direction in words is not judged by itself", "Write an angle, as 'at 30 deg'."),
@@ -510,6 +527,8 @@ def judge_range(key: RangeKey, written: WrittenRange) -> Judgement:
     fits = _fits(key, ends)
     if not all(fits) and factor != 1.0 and all(_fits(key, _times(written, sign or 1))):
         fits, unit = (True, True), key.policy.unit == "ignored"
+    if not all(fits) and any(all(_fits(other, ends)) for other in key.others):
+        return _unjudged(OTHER_RANGE)
     parts = (all(fits), unit, sign != NEITHER)
     off = _off_range(key, ends)
     if all(parts):

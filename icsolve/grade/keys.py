@@ -63,7 +63,7 @@ DEGREE = 1.0
 """Degrees within which a direction that is asked for is right."""
 
 _KINDS: dict[type, str] = {
-    LoadIs: "load", RatioIs: "ratio", RateIs: "rate", SpeedIs: "rate", ReactionIs: "reaction",
+    LoadIs: "load", RatioIs: "ratio", RateIs: "rate", SpeedIs: "speed", ReactionIs: "reaction",
     TensionIs: "reaction", CentreIs: "place", PositionIs: "position",
 }  # fmt: skip
 """What is asked for, for messages; a force of unknown direction is a ``vector``, what else a ``length``."""
@@ -93,6 +93,14 @@ class ExpectedDirection(NamedTuple):
     """Whether the answer is a vector, which its two components tell as well."""
     given: str = ""
     """The positive sense as the case gives it by a point, whose direction may be a part of the task."""
+    size: bool = False
+    """Whether the value is a size: a minus on it may be that of a component."""
+
+    @property
+    def is_minus_of_axis(self) -> bool:
+        """Whether a size with a minus may be the component of what points along -x or -y."""
+        against = () if self.heading is None or not self.size else (self.heading - 180.0, self.heading + 90.0)
+        return any(abs(math.remainder(off, 360.0)) <= _ROUNDING for off in against)
 
     @property
     def any(self) -> bool:
@@ -143,7 +151,7 @@ def expected_of(target: Target, answer: Answer) -> ExpectedDirection:
     match target:
         case LoadIs(name) if name in answer.case.directed:
             return ExpectedDirection(
-                heading=_heading(answer.answers[name].components), asked=True, vector=True
+                heading=_heading(answer.answers[name].components), asked=True, vector=True, size=True
             )
         case LoadIs(name):
             return _of_load(next(load for load in answer.case.loads if load.name == name), answer)
@@ -160,11 +168,11 @@ def expected_of(target: Target, answer: Answer) -> ExpectedDirection:
                 force = [value_of(answer, target._replace(part=part))[0] for part in ("x", "y")]
             except LookupError:
                 force = []
-            return ExpectedDirection(heading=_heading(force), by_angle=True, vector=True)
+            return ExpectedDirection(heading=_heading(force), by_angle=True, vector=True, size=True)
         case SpeedIs(point, link):
             velocity = (answer.velocities or {}).get((point, link))
             heading = None if isinstance(velocity, str) else _heading(velocity)
-            return ExpectedDirection(heading=heading, by_angle=not answer.case.motion, vector=True)
+            return ExpectedDirection(heading=heading, by_angle=not answer.case.motion, vector=True, size=True)
     return ExpectedDirection()
 
 
@@ -336,6 +344,8 @@ class RangeKey(_Key):
     policy: Policy
     another: Callable[[str], bool] = _nothing_else
     name: str = ""
+    others: tuple[RangeKey, ...] = ()
+    """further ranges in which friction may hold, as the solution says: a person decides"""
 
     @cached_property
     def end(self) -> NumberKey:
@@ -361,7 +371,7 @@ class RangeKey(_Key):
     def scaled(self, factor: float) -> RangeKey:
         """The same where all loads are ``factor`` times as large."""
         low, high = (None if end is None else end.scaled(factor) for end in (self.low, self.high))
-        return replace(self, low=low, high=high)
+        return replace(self, low=low, high=high, others=tuple([one.scaled(factor) for one in self.others]))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -440,13 +450,21 @@ def range_key(question: str, target: LoadIs, answer: Answer, policy: Policy) -> 
         return None
     _not_drawn(policy, "the ends of a range over which friction holds")
     width = own_width(policy.tolerance, target, answer, drawn=False)
-    low, high = (
-        _number(question, end, target, answer, policy, width) if math.isfinite(end) else None
-        for end in found.holds
-    )
-    if low is None and high is None:
+
+    def key(held: tuple[float, float]) -> RangeKey:
+        low, high = (
+            _number(question, end, target, answer, policy, width) if math.isfinite(end) else None
+            for end in held
+        )
+        return RangeKey(question, low, high, found.unit, policy)
+
+    own = key(found.holds)
+    if own.low is None and own.high is None:
         raise NoKeyError(f"{answer.case.name} holds with any value of {target.load}, so nothing can be asked")
-    return RangeKey(question, low, high, found.unit, policy)
+    load = next(load for load in answer.case.loads if load.name == target.load)
+    is_root = not isinstance(load, ForceVector) and load.value is None  # a multiple of one has other ranges
+    again = answer.friction.again if answer.friction is not None and is_root else ()
+    return replace(own, others=tuple(map(key, again)))
 
 
 def position_key(

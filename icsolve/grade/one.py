@@ -56,13 +56,13 @@ class Task:
         """The right answer as text, which is right when it is handed in."""
         return right_in_words(self._key(what))
 
-    def grade(self, what: str, answer: str) -> dict[str, Any]:
+    def grade(self, what: str, answer: str | float | None) -> dict[str, Any]:
         """The marks for an answer.
 
         Parameters
         ----------
         what : what is asked (``w4/w2``); '' the unknown
-        answer : as it was written, with unit and direction
+        answer : as it was written, with unit and direction; a number too, or None, as forms hand them over
 
         Returns
         -------
@@ -71,7 +71,7 @@ class Task:
             person will look at it.
         """
         key = self._key(what)
-        judged, _ = judge_answer(key, Reader(self._course.decimal), answer)
+        judged, _ = judge_answer(key, Reader(self._course.decimal), "" if answer is None else str(answer))
         told = feedback(key, judged, self._course.reveal, by_person=False)
         return {"verdict": judged.verdict, "score": judged.share, "code": judged.code, "feedback": told}
 

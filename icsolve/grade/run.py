@@ -123,6 +123,7 @@ def grade(
         errors = [imported.read(path, job.course.columns, who or job.student) for path, who in paths]
         if not imported.count and any(errors):
             raise next(filter(None, errors))
+        imported.note_absent(_shown(paths))
         questions = tuple(sorted(set(job.course.own) or _asked(imported)))
         owing = () if roster is None or job.student else roster.people  # all answers may be one student's
         students = sorted({*imported.students, *owing})

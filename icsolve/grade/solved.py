@@ -229,6 +229,11 @@ def is_another(case: Case, target: Target, what: str, name: str) -> bool:
     meant = list(_meant(case, target, bare))
     if meant:
         return not any(_alike(one, target) for one in meant)
+    of = [part for part in bare.split("/") if part]
+    if len(of) > 1 and any(
+        part.casefold() == own.casefold() or any(_meant(case, target, part)) for part in of
+    ):
+        return True  # a quotient: T12/P, T12/2
     shape, asked = (re.sub(r"\d", "#", text.casefold()) for text in (bare, own))
     return shape == asked and "#" in shape
 

@@ -120,7 +120,10 @@ def _enclosed(
     radius = 4.0 * max(off) + 4.0 * balls.unit * (1.0 + max(abs(float(x)) for x in middle))
     for _ in range(WIDENINGS):
         box = [_ball(balls, x, radius) for x in middle]
-        left = _left(rough, system(box)[1])
+        rows = system(box)[1]
+        left = _left(rough, rows)
+        if max(left) >= 1.0:  # the rounding of doubles alone, beside a singular position
+            left = _left_in_digits(inverse, rows, balls)
         if max(left) >= 1.0:  # a wider box contracts no more than this one
             break
         reach = [(step + radius * most) * UP + TINY for step, most in zip(off, left, strict=True)]
@@ -185,6 +188,25 @@ def _left(rough: list[list[float]], rows: Sequence[Mapping[int, Scalar]]) -> lis
                     rest[j] -= product
                     spread[j] += abs(product) * ROUNDING * n + abs(c) * radius * UP
         sums.append((sum(map(abs, rest)) + 2.0 * sum(spread)) * UP)
+    return sums
+
+
+def _left_in_digits(
+    inverse: list[list[Decimal]], rows: Sequence[Mapping[int, Scalar]], balls: Balls
+) -> list[float]:
+    """The same with all digits."""
+    sums = []
+    for i, row in enumerate(inverse):
+        rest = dict.fromkeys(range(len(inverse)), Decimal(0)) | {i: Decimal(1)}
+        spread = TINY
+        for c, entry in zip(row, rows, strict=True):
+            weight = abs(float(c)) * UP
+            for j, v in entry.items():
+                value, radius = (v.value, v.radius) if type(v) is Ball else (Decimal(v), 0.0)
+                rest[j] = balls.subtract(rest[j], balls.multiply(c, value))
+                size = abs(float(value)) * UP + TINY
+                spread += weight * (radius + 4.0 * len(row) * balls.unit * size) * UP + TINY
+        sums.append((sum(abs(float(one)) for one in rest.values()) + spread) * UP)
     return sums
 
 

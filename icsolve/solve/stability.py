@@ -16,7 +16,7 @@ from icsolve.numbers.roots import zero_between
 from icsolve.read.names import shown
 from icsolve.scene import solve_scene
 from icsolve.scene.needed_part import by_needed_part
-from icsolve.solve.positions import driven_rest, moved_by, refuse_motion, refuse_profiles, rest_of
+from icsolve.solve.positions import driven_rest, find_along, moved_by, refuse_motion, refuse_profiles, rest_of
 from icsolve.solve.rest_position import RestPosition, balances, holding
 from icsolve.statics.power import has_friction
 from icsolve.sweep.varied_numbers import find_number, refuse_space, with_numbers
@@ -227,7 +227,7 @@ def holding_values(case: Case, path: str, low: float, high: float) -> list[Turni
 
     values = [low + (high - low) * k / CUTS for k in range(CUTS + 1)]
     known = [(max(a, low), min(b, high)) for a, b in held_along(case, own)]
-    values = sorted({*values, *(0.5 * (a + b) for a, b in known if a < b)})
+    values = sorted({*values, *(0.5 * (a + b) for a, b in known if a < b), *_rests(case, own, low, high)})
     for a, b in pairwise(tuple(values)):  # between two at which it slips in either sense it may hold
         if max(spare(a)[0], spare(b)[0]) < 0.0 and middle(a) * middle(b) < 0.0:
             values.append(zero_between(middle, a, b, middle(a), middle(b)))
@@ -238,6 +238,19 @@ def holding_values(case: Case, path: str, low: float, high: float) -> list[Turni
             words = ("holds", "slips") if holds else ("slips", "holds")
             found.append(TurningPower(*edge_of_rest(spare, *((a, b) if holds else (b, a))), *words))
     return found
+
+
+def _rests(case: Case, path: str, low: float, high: float) -> list[float]:
+    """The values of a number at which a mechanism under known loads rests without friction, and so holds
+    still with it; none of one that does not pose the figure."""
+    from icsolve.solve.known_loads import smooth
+
+    if not path.startswith(("angles.", "lengths.", "points.")):
+        return []
+    try:
+        return [rest.value for rest in find_along(smooth(case), path, low, high)[0]]
+    except (CaseError, SceneError):
+        return []
 
 
 def is_still(case: Case, path: str, value: float) -> bool:

@@ -130,6 +130,8 @@ def _path(case: Case, name: str) -> str:
 def array_of(name: str, values: npt.ArrayLike) -> Array:
     """Values as an array. Raises RequestError where they are no numbers."""
     try:
+        if np.iscomplexobj(values):
+            raise TypeError
         return np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):
         raise RequestError(

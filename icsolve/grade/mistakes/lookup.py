@@ -77,6 +77,7 @@ _OTHERWISE = {
     ("no-direction", "vector"): "Right size; say its direction as well, as an angle.",
     ("sign", "ratio"): "Right size, wrong sense. Do the two links turn the same way?",
     ("sign", "rate"): "Right size, wrong sense. Which way does the link turn?",
+    ("sign", "speed"): "Right size, wrong sense. Which way does the point move?",
     ("sign", "place"): "The sizes are right; a coordinate has the wrong sign.",
     ("sign", "reaction"): "Right size, wrong sense. Which link's force on which is asked?",
     ("sign", "length"): "Right size; a distance has no sign.",

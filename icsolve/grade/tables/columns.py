@@ -8,7 +8,7 @@ import os
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
-from datetime import UTC, datetime
+from datetime import UTC, datetime, time, timedelta
 from typing import IO
 
 from icsolve.files import reading
@@ -57,11 +57,16 @@ class HeaderError(ValueError):
     """A header that can't be used; the message says what to do."""
 
 
+_UNSEEN = dict.fromkeys(map(ord, "\ufeff\u200b\u2060\u200e\u200f"))
+"""What pages put between letters of what is copied from them."""
+
+
 def identifier(text: str) -> str:
-    """An id as text: without spaces around it, and without what a spreadsheet puts about it (``="007"``)."""
+    """An id as text: without spaces around it, signs that are not seen, and what a spreadsheet puts about it
+    (``="007"``)."""
     if text.isalnum():
         return text
-    text = text.strip()
+    text = text.translate(_UNSEEN).strip()
     if text.startswith('="') and text.endswith('"'):
         text = text[2:-1]
     return text.lstrip("'#").strip() if text[:1] in ("'", "#") else text
@@ -157,11 +162,18 @@ class TableColumns:
         """the case whose name a text is much like; '' for none"""
         self.fields: dict[str, int] = {}
         self.questions: dict[int, str] = {}
+        self.absent: dict[str, str] = {}
+        """questions by the mapped columns that this table has not"""
         for left, right in mapping:
             self._map(left, right)
 
     def _map(self, left: str, right: str) -> None:
-        """``student_id=Email Address`` names a field's column; ``Q3=press`` a question's."""
+        """``student_id=Email Address`` names a field's column; ``Q3=press`` a question's; and the other way
+        round, where that can be meant."""
+        if not self._matching(left) and self.find(left) is not None and self._matching(right):
+            left, right = right, left
+        if right in FIELDS and left not in FIELDS and self._matching(left) and self.find(right) is None:
+            left, right = right, left
         if left in FIELDS and self._matching(right):
             self.fields[left] = self._one(right)
             return
@@ -169,6 +181,7 @@ class TableColumns:
         if not columns:
             if left in FIELDS:
                 raise HeaderError(f"there is no column '{right}' for {left}; the columns are {self.listed()}")
+            self.absent[left] = right
             return
         question = self.find(right)
         if question is None:
@@ -281,20 +294,19 @@ def candidates(header: str) -> Iterable[str]:
 
 _ZONE = re.compile(r" ?(?:UTC|GMT|Z)?(?:(?<=[TC ])([-+])(\d{1,2}):?(\d\d)?|(?<=[TCZ]))$")
 """``UTC``, ``GMT+1``, ``-0800``."""
-_FORMATS = (
-    "%d %B %Y %I:%M %p",
-    "%d %B %Y %I:%M:%S %p",
-    "%d %B %Y %H:%M",
-    "%d %b %Y %H:%M:%S",
-    "%B %d, %Y %I:%M %p",
-    "%b %d, %Y %I:%M %p",
-    "%d.%m.%Y %H:%M:%S",
-    "%d.%m.%Y %H:%M",
-    "%Y/%m/%d %H:%M:%S",
-    "%Y/%m/%d %H:%M",
-    "%Y/%m/%d %I:%M:%S %p",
-    "%Y/%m/%d %I:%M %p",
+_DATES = (
+    "%d %B %Y",
+    "%d %b %Y",
+    "%B %d, %Y",
+    "%b %d, %Y",
+    "%B %d %Y",
+    "%b %d %Y",
+    "%d.%m.%Y",
+    "%d.%m.%y",
     "%Y/%m/%d",
+)
+_CLOCK = re.compile(
+    r"(?:^| |T)(\d{1,2}):(\d\d)(?::(\d\d)(?:[.,]\d+)?)?(?: ?(?P<half>[ap])\.? ?m\.?)?$", re.IGNORECASE
 )
 _MONTHS = {
     word: english
@@ -352,19 +364,40 @@ def timestamp(text: str) -> float | None:
         sign, hours, minutes = zone.groups()
         off = float(f"{sign}1") * (3600.0 * int(hours) + 60.0 * int(minutes or 0)) if sign else 0.0
     plain = re.sub(r"(?<=\d)(?:st|nd|rd|th)\b|, (?=\d+:)|^[A-Za-z]+, ", " ", text).replace(". ", " ")
-    plain = _FOREIGN.sub(lambda found: _MONTHS[found.group().lower()], re.sub(r"\b(?:de|del)\b", " ", plain))
+    plain = _FOREIGN.sub(
+        lambda found: _MONTHS[found.group().lower()], re.sub(r"\b(?:de|del|le|at|um|à|Uhr)\b", " ", plain)
+    )
     plain = re.sub(r"^[^\W\d]+\.?,? (?=\d{1,2}\.? +[^\W\d])", "", " ".join(plain.split()))
     plain = re.sub(r"(?<=\d), (?=\d+:)", " ", year_first(plain, "month"))
-    for form in _FORMATS:
+    plain = re.sub(r"^(\d{4})-(\d\d?)-(?=\d)|^(\d\d?)-([A-Za-z]{3,})-(?=\d)", _spaced, plain)
+    clock = _CLOCK.search(plain)
+    day = plain[: clock.start()] if clock is not None else plain
+    for form in _DATES:
         with suppress(ValueError):
-            return _seconds(datetime.strptime(plain, form)) - off
+            return _seconds(datetime.strptime(day, form) + (_time_of(clock) if clock else timedelta())) - off
     with suppress(ValueError):
         return _seconds(datetime.fromisoformat(text)) - off
     return None
 
 
-def _seconds(time: datetime) -> float:
-    return (time if time.tzinfo is not None else time.replace(tzinfo=UTC)).timestamp()
+def _spaced(found: re.Match[str]) -> str:
+    """``2025/11/`` of ``2025-11-``, ``5 Nov `` of ``5-Nov-``."""
+    year, month, day, name = found.groups()
+    return f"{year}/{month}/" if year else f"{day} {name} "
+
+
+def _time_of(clock: re.Match[str]) -> timedelta:
+    """The time of a day, of twelve hours or of twenty-four. Raises ValueError."""
+    hour, minute, second = (int(part or 0) for part in clock.group(1, 2, 3))
+    if clock.group("half"):
+        half = clock.group("half").lower()
+        hour = datetime.strptime(f"{hour} {half}m", "%I %p").hour
+    time(hour, minute, second)
+    return timedelta(hours=hour, minutes=minute, seconds=second)
+
+
+def _seconds(found: datetime) -> float:
+    return (found if found.tzinfo is not None else found.replace(tzinfo=UTC)).timestamp()
 
 
 def year_first(text: str, order: str) -> str:

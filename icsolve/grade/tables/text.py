@@ -107,12 +107,12 @@ class AnswerTable:
 
     def _header(self) -> list[str]:
         for row in self.rows():
-            if any(cell.strip() for cell in row.cells):
-                return [" ".join(cell.replace("\ufeff", "").split()) for cell in row.cells]
+            return [" ".join(cell.replace("\ufeff", "").split()) for cell in row.cells]
         raise ValueError("there is nothing in it but empty lines")
 
     def rows(self) -> Iterator[TableRow]:
-        """The rows that follow, each with the number of its first line; empty ones are passed over."""
+        """The rows that follow, each with the number of its first line; those in which nothing stands, which
+        spreadsheets have below a table, are passed over."""
         csv.field_size_limit(max(csv.field_size_limit(), LARGEST + 1))
         while not self._lines.done:
             reader = csv.reader(iter(self._lines), delimiter=self.delimiter)
@@ -134,7 +134,7 @@ class AnswerTable:
                     raise _RunawayError
                 line -= len(pending) - 1
             pending.clear()
-            if cells:
+            if any(map(str.strip, cells)):
                 yield TableRow(line, cells, TOO_LONG if lines.cut and line in lines.cut else "")
 
     def _swallows(self, lines: list[str]) -> bool:

@@ -108,8 +108,10 @@ _WHERE = re.compile(
 """Where it acts, which the question says itself: ``on link 2``, ``about A``."""
 _DASH = re.compile(r"(?:(?<=[\w\])]) ?|^)[-:;,]+ (?=[A-Za-z(])(?! *[xy]\b)| -$|^-$")
 """A dash or a colon between a unit and a direction; before x and y it may be a sign."""
+_ASIDE_OF_NAME = r"(?: ?(?:\([\w' ·*/+-]*\)|\[[\w' ·*/+-]*\]))?"
+"""Behind a name: its unit or its sense, ``T12 (N m) = 3``, or what says nothing, ``P (max) = 3``."""
 _NAME = re.compile(
-    r"\s*\|?[^\W\d_][\w'\-/ω{}^.]*(?: ?\([\w' ]*\))?\|?\s*(?:[<>]=|=>|=<|=|:|~)[=~]?\s*(?=[^=])"
+    rf"\s*\|?(?P<name>[^\W\d_][\w'\-/ω{{}}^.]*)(?P<aside>{_ASIDE_OF_NAME})\|?\s*(?:[<>]=|=>|=<|=|:|~)[=~]?\s*(?=[^=])"
 )
 _SIGNS = re.compile(
     r"(?:(?P<less>minus|negative|moins|menos|meno|neg\.)|(?P<more>plus|positive|pos\.))$", re.IGNORECASE
@@ -189,7 +191,18 @@ def words_of(text: str) -> tuple[str, str]:
 
 
 def _answer(text: str, decimal: str) -> WrittenAnswer:
-    text = unwrapped(text)
+    text, asides = unwrapped(text)
+    read = _behind_name(text, decimal)
+    for aside in filter(None, asides):
+        if aside == "t":  # T(t) = ...: a function of time
+            continue
+        is_unit = unit_word(aside) is not None
+        read = _with_columns(read, aside if is_unit else "", "" if is_unit or not direction(aside) else aside)
+    return read
+
+
+def _behind_name(text: str, decimal: str) -> WrittenAnswer:
+    """What stands behind all that only introduces it."""
     first = _NUMBER.search(text)
     if first is None:
         return flagged(UNREAD if holds_digits(text) else NO_NUMBER)
@@ -210,6 +223,8 @@ def _answer(text: str, decimal: str) -> WrittenAnswer:
     if found.flag:
         return flagged(found.flag)
     rest = text[found.end :]
+    if rest[:1] == "-" and not rest[1:].strip(" .;"):
+        return flagged(AMBIGUOUS_DIRECTION)  # books and spreadsheets put the sign behind too: ``412.7-``
     if before.rstrip().endswith(("[", "{")):
         rest = re.sub(r"^ ?[\])}]", "", rest)  # the bracket closes around the number: ``[-64.5] N``
     read = tail(rest.strip(), WrittenAnswer(0.0, None, None))
@@ -223,9 +238,10 @@ def holds_digits(text: str) -> bool:
     return any(c.isdigit() for c in _LABEL.sub("", text))
 
 
-def unwrapped(text: str) -> str:
-    """Without what only introduces: ``T12 = ...``, ``approx.``, brackets around all of it, quotes, a stop."""
-    before = ""
+def unwrapped(text: str) -> tuple[str, list[str]]:
+    """Without what only introduces: ``T12 = ...``, ``approx.``, brackets around all of it, quotes, a stop;
+    and what stood in brackets behind names, ``T12 (N m) = ...``."""
+    before, asides = "", []
     while text != before:
         before = text
         text = _unquoted(text)
@@ -235,15 +251,16 @@ def unwrapped(text: str) -> str:
             text = inside.strip()
         name = _NAME.match(text)
         if name is not None and _is_name(name.group()):
+            asides += [name.group("aside").strip(" ()[]"), _without_unit(name.group("name"))[1]]
             text = text[name.end() :]
         lead = _LEAD.match(text)
         if lead is not None and 0 < lead.end() < len(text):
             text = text[lead.end() :]
         text = re.sub(r"^(?:[<>]=|=[<>]) ?(?=[\d.+-])", "", text)
-    return text
+    return text, asides
 
 
-_CALLED = r"\|?(?P<name>[^\W\d_][\w'\-/{}^.]*?)(?:_?(?:min|max))?(?: ?\([\w' ]*\))?\|? ?"
+_CALLED = rf"\|?(?P<name>[^\W\d_][\w'\-/{{}}^.]*?)(?:_?(?:min|max))?{_ASIDE_OF_NAME}\|? ?"
 _NAMED = re.compile(
     rf"(?<![\w.*·/^])(?<!\d )(?<!\d){_CALLED}(?=[<>=~:∈])"
     rf"|^{_CALLED.replace('name', 'first')}(?=\(|(?:is|at|in|lies|must|can)\b)",
@@ -257,9 +274,14 @@ may_name = re.compile(r"\W*+(?:[^\W\d_]|\d[^<>&≤≥]*+[<>&≤≥])").match
 
 def names_in(text: str) -> list[str]:
     """The names to which an answer gives what it says: ``T12`` of ``T12 = 41 N*m``, ``P >= 3`` has ``P``."""
-    return [
-        found.group("name") or found.group("first") for found in _NAMED.finditer(plain(text[: LONGEST * 20]))
-    ]
+    found = _NAMED.finditer(plain(text[: LONGEST * 20]))
+    return [_without_unit(one.group("name") or one.group("first"))[0] for one in found]
+
+
+def _without_unit(name: str) -> tuple[str, str]:
+    """A name, and the unit by which it is divided: ``M/Nm = 3``."""
+    whole, _, unit = name.partition("/")
+    return (whole, unit) if unit and unit_word(unit) is not None else (name, "")
 
 
 def _unquoted(text: str) -> str:

@@ -153,18 +153,24 @@ def read_components(text: str) -> WrittenPlace:
 # --- ranges -----------------------------------------------------------------------------------------
 
 _NAME = r"(?:\|?[A-Za-z][\w']{0,7}\|?)"
+_BARE = r"(?:\|?[A-Za-z][a-z]?_?\d{0,3}'?\|?)"
+"""A name with nothing between it and a number, which another word is not: ``P 113 to 287``, ``below 113``."""
 _START = re.compile(
-    rf"(?:(?:any )?(?:value|values|force|torque) )?(?:{_NAME} ?(?:=|:|in|is|∈|can be|must be)? ?)??"
+    rf"(?:(?:any )?(?:value|values|force|torque) )?"
+    rf"(?:(?:{_NAME} ?(?:=|:|in|is|∈|can be|must be)|{_BARE}) ?)??"
     r"(?:(?:anything |any value )?(?:from|between|von|zwischen|entre|de|da|dal|tra|fra|desde))? ?"
     r"(?:about|approx\.?|approximately|ca\.?|~)? ?[\[({]? ?",
     re.IGNORECASE,
 )
 _LIMITED = re.compile(
     rf"(?:{_NAME} ?(?=[<>=])|{_NAME} (?=is |must |at |no ))?(?:is |must be )?"
-    r"(?P<low>>=?|=>|at least|min\.?|minimum|no less than|mindestens)? ?"
-    r"(?P<high><=?|=<|at most|max\.?|maximum|no more than|höchstens)? ?",
+    r"(?P<low>>=?|=>|at least|min\.?|minimum|(?:no|not) (?:less|smaller|lower) than|mindestens|above|over"
+    r"|(?:greater|more|larger|bigger|higher) than(?: or equal to)?|exceeding)? ?"
+    r"(?P<high><=?|=<|at most|max\.?|maximum|(?:no|not) (?:more|greater|larger|higher) than|höchstens|below"
+    r"|under|(?:less|smaller|lower) than(?: or equal to)?|up to)? ?",
     re.IGNORECASE,
 )
+_SIZE = re.compile(r"\|[^|]+\| ?[<>]")
 _MORE = re.compile(
     r",? ?(?:or|and) (?:(?P<low>more|above|greater|larger|higher)|less|below|smaller|lower)", re.IGNORECASE
 )
@@ -180,6 +186,18 @@ _LABELLED = re.compile(
 )
 """The names of two ends: ``Pmin = 113 N, Pmax = 287 N``."""
 _NUMBER = re.compile(r"(?<!\w)(?:\d|[.,]\d)")
+
+
+_ENDLESS = r"(?:∞|inf(?:inity|inite)?|oo|unendlich)(?![a-z])"
+_FROM_ENDLESS = re.compile(
+    rf"^(?:{_NAME} ?(?:=|:|in|is|∈) ?)?(?:from |between )?[\[(\]]? ?- ?{_ENDLESS} ?"
+    rf"(?:to|bis|and|und|,|;|<=? ?{_NAME} ?<=?) ?",
+    re.IGNORECASE,
+)
+_TO_ENDLESS = re.compile(
+    rf" ?(?:up to|to|bis|and|und|,|;) ?\+? ?{_ENDLESS} ?[\])\[]? ?(?P<unit>[A-Za-z/*]*)$", re.IGNORECASE
+)
+"""An open end that is written out: ``(-inf, 113] N``, ``387 N to infinity``."""
 
 
 class WrittenRange(NamedTuple):
@@ -199,6 +217,7 @@ def read_range(text: str, decimal: str = "either") -> WrittenRange:
     if flag:
         return WrittenRange(flag=flag)
     words = re.sub(r" ?\.{2,} ?", " to ", words).strip()
+    words = _TO_ENDLESS.sub(r" \g<unit> or more", _FROM_ENDLESS.sub("at most ", words, 1), 1)
     if len(set(_LABELLED.findall(words))) == 2:
         words = _LABELLED.sub(" to ", words).removeprefix(" to ")
     found = _numbers(words, decimal)
@@ -257,6 +276,9 @@ def _one(words: str, start: int, number: WrittenNumber) -> WrittenRange:
     end = _end_of(after[: more.start()] if more else after)
     sign, before = _sign(words[:start])
     limit = _LIMITED.fullmatch(before)
+    if _SIZE.match(before):  # a size has both ends: |P| <= 3
+        both = limit is not None and limit.group("high") and not sign < 0.0 and not end.direction and not more
+        return end._replace(low=-number.value, high=number.value) if both else WrittenRange(flag=UNREAD)
     if end.flag or (limit is None and not _START.fullmatch(before)):
         return WrittenRange(flag=end.flag or UNREAD)
     value = sign * number.value

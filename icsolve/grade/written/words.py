@@ -300,8 +300,12 @@ _EXTRA = {
 }
 _ENERGIES = frozenset({"J", "kJ"})
 """Units of energy, which is no torque though it is force times length."""
-_AMBIGUOUS = {"mn", "mN", "Mn", "mNm", "mN*m", "mnm", "mN-m", "mN·m", "oz.", "ton", "tons", "k"}
-"""Names that mean one unit to some and another to others: millinewtons or meganewtons."""
+_AMBIGUOUS = {"mn", "mN", "Mn", "mNm", "mN*m", "mnm", "mN-m", "mN·m", "oz.", "ton", "tons", "k"} | {
+    "1/min",
+    "/min",
+    "min^-1",
+}
+"""Names that mean one unit to some and another to others: millinewtons or meganewtons, radians or turns."""
 
 _SPOKEN = (
     (re.compile(r"#"), "lb"),

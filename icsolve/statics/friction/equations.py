@@ -148,9 +148,9 @@ def _size(form: Form, y: Sequence[float]) -> float:
 def contraction(equations: Lengths) -> list[list[float]] | None:
     """(I - L)^-1, (n, n), where y -> |v(y)| contracts; None where that is not sure.
 
-    L has the lengths of the derivatives of v. Where I - L has an inverse without a negative entry the
-    spectral radius of L is below 1 (Berman and Plemmons, Nonnegative Matrices, 1994, ch. 6), and Banach's
-    theorem gives one solution, no more and no less.
+    L has the lengths of the derivatives of v. Where L w < w for some w > 0 the spectral radius of L is below
+    1 (Berman and Plemmons, Nonnegative Matrices, 1994, ch. 6), and Banach's theorem gives one solution, no
+    more and no less. If any w does, the sums of the rows of the inverse do.
     """
     if not equations.is_fixed_point:
         return None
@@ -159,9 +159,11 @@ def contraction(equations: Lengths) -> list[list[float]] | None:
         [math.hypot(*(form[j + 1] for form in forms)) for j in range(n)] for forms in equations.vectors
     ]
     found = inverse([[float(k == j) - factors[k][j] for j in range(n)] for k in range(n)])
-    if found is None or any(a < -1e-12 or a > 1e6 for row in found for a in row):
+    if found is None or any(a > 1e6 for row in found for a in row):
         return None
-    return found
+    sums = [sum(row) for row in found]
+    shrunk = (sum(a * w for a, w in zip(row, sums, strict=True)) for row in factors)
+    return found if all(0.0 <= less < w for less, w in zip(shrunk, sums, strict=True)) else None
 
 
 def error_of(equations: Lengths, y: Sequence[float]) -> float:

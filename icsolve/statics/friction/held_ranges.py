@@ -108,7 +108,21 @@ def held(scene: RestingScene, at: float | None = None) -> HeldRanges:
         complete &= search.is_complete(None if at is None else at * limits.scale)
         unit = 1.0 / limits.scale
         found += [one._replace(low=one.low * unit, high=one.high * unit) for one in search.found]
-    return HeldRanges(tuple(joined(joined(found), partial(_meet, scene))), complete)
+    ranges = joined(joined(found), partial(_meet, scene))
+    if len(ranges) > 1 and at is None:  # of one alone the ends are told as they are proven
+        ranges = [_in_all_digits(scene, one) for one in ranges]
+    return HeldRanges(tuple(ranges), complete)
+
+
+def _in_all_digits(scene: RestingScene, one: HeldRange) -> HeldRange:
+    """A range with its finite ends rounded once, where inequalities say them: doubles lose the digits of one
+    that lies far out."""
+    ends = [one.low, one.high]
+    for n, vertex in enumerate(one.vertices):
+        with suppress(SceneError):  # no digits settle it
+            exact = exactly(scene, vertex) if math.isfinite(ends[n]) else None
+            ends[n] = ends[n] if exact is None else exact.value
+    return one._replace(low=ends[0], high=ends[1])
 
 
 def _meet(scene: RestingScene, lower: HeldRange, upper: HeldRange) -> bool:

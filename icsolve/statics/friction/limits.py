@@ -111,7 +111,8 @@ def slid(statics: Statics, senses: Sequence[float], workless: bool, alone: bool 
     roots = every.all_roots(by.equations)
     unique = "" if roots is None else COUNTED
     main = found.main
-    others = [y for y in roots or () if main is None or not every.near(y, main)]
+    off = 0.0 if main is None else min(error_of(by.equations, main), MOST_OFF)
+    others = [y for y in roots or () if main is None or not every.near(y, main, off)]
     if main is not None:
         loads = tuple(by.load(other)[0] / statics.scale for other in others if by.loads)
         return _of(statics, by, main, loads, unique)
@@ -131,6 +132,10 @@ def parting(equations: Lengths, share: float) -> int | None:
     last = every.followed(equations.scaled(SHORT * share))[0] or without_friction(equations)
     threes = zip(last, without_friction(equations), equations.touching, strict=True)
     return next((k for k, (left, smooth, only) in enumerate(threes) if only and left < 0.01 * smooth), None)
+
+
+MOST_OFF = 0.25
+"""Two solutions that differ by more are two, however near to a jam they are found."""
 
 
 SHORT = 0.999

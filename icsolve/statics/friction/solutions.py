@@ -40,10 +40,10 @@ FARTHEST = 0.2
 """and so was a step by which they change by more: it may lead to another solution."""
 
 
-def near(y: Sequence[float], other: Sequence[float]) -> bool:
-    """Whether two solutions are one."""
+def near(y: Sequence[float], other: Sequence[float], error: float = 0.0) -> bool:
+    """Whether two solutions are one; ``error`` is that of one, where it is known."""
     size = largest_of((*y, *other))
-    return largest_of([a - b for a, b in zip(y, other, strict=True)]) <= 1e-7 * size
+    return largest_of([a - b for a, b in zip(y, other, strict=True)]) <= max(1e-7, error) * size
 
 
 def followed(equations: Lengths) -> tuple[Y | None, float, bool]:

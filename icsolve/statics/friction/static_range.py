@@ -143,12 +143,20 @@ def static_range(
     if all(_is_proven(end.statics or statics, senses) for end in ends):
         return range_of(ends)._replace(how=PROVEN)
     found = within()
-    if not found.ranges:
+    if not all(_is_held(found, end) for end in ends):  # doubles have lost the range of one about to move
         return range_of(ends)
     own, others = found.nearest(smooth_load(statics) or 0.0)
     told = range_of([_kept(own, end, senses) for end in ends])
-    possible = _same_ends((own.low, own.high), (told.least, told.most))
+    possible = _same_ends(statics, (own.low, own.high), (told.least, told.most))
     return _with_grown(statics, senses, told._replace(possible=possible, how=found.how, again=others))
+
+
+def _is_held(found: HeldRanges, end: End) -> bool:
+    """Whether one of the ranges in which friction within its limits holds has an end about to move."""
+    if not math.isfinite(end.value):
+        return bool(found.ranges)
+    room = SAME * abs(end.value)
+    return any(one.low - room <= end.value <= one.high + room for one in found.ranges)
 
 
 def _kept(own: HeldRange, end: End, senses: Sequence[float]) -> End:
@@ -164,10 +172,12 @@ def at_vertex(value: float, vertex: Vertex, senses: Sequence[float] = ()) -> End
     return End(value, tuple(senses), pushes=not vertex.parts, vertex=vertex)
 
 
-def _same_ends(values: tuple[float, float], ends: tuple[float, float]) -> tuple[float, float]:
+def _same_ends(
+    statics: Statics, values: tuple[float, float], ends: tuple[float, float]
+) -> tuple[float, float]:
     """Two ends, each as it is told already where that is the same."""
     low, high = (
-        told if value == told or _is_same(told, value) else value
+        told if value == told or _is_same(statics, told, value) else value
         for value, told in zip(values, ends, strict=True)
     )
     return low, high
@@ -215,6 +225,8 @@ def of_limits(
 
 SAME = 1e-9
 """Ends of two ways that differ by less of their size are one."""
+LEFT = 1e-12
+"""So much of the known loads rounding leaves of an end."""
 
 
 def smooth_load(statics: Statics) -> float | None:
@@ -377,7 +389,7 @@ def pressed(statics: Statics, senses: Sequence[float], driven: bool, within: Wit
         least = of_limits(statics, senses, found, False, toward=max(ends, default=0.0))
         return least._replace(presses=True, self_locking=False)
     own, others = found.nearest(_value_inside(told.least, told.most))
-    possible = _same_ends((own.low, own.high), (told.least, told.most))
+    possible = _same_ends(statics, (own.low, own.high), (told.least, told.most))
     return _with_grown(statics, senses, told._replace(possible=possible, how=found.how, again=others))
 
 
@@ -412,17 +424,22 @@ def _with_grown(statics: Statics, senses: Sequence[float], told: StaticRange) ->
     moving, found = [end.value for end in _about_to_move(statics, senses)], list[tuple[float, float]]()
     for low, high in told.again:
         start, end = (low, high) if math.isfinite(low) else (high, low)
-        sides.append((start, end, any(_is_same(start, at) for at in moving)))
+        sides.append((start, end, any(_is_same(statics, start, at) for at in moving)))
     for start, end, holds in sides:
-        marks = [at for at in moving if min(start, end) < at < max(start, end) and not _is_same(start, at)]
+        marks = [
+            at for at in moving if min(start, end) < at < max(start, end) and not _is_same(statics, start, at)
+        ]
         marks.sort(reverse=end < start)
         parts = enumerate(pairwise([start, *marks, end]))
         found += [(min(part), max(part)) for n, part in parts if (n % 2 == 0) is holds]
     return told._replace(grown=tuple(sorted(found)))
 
 
-def _is_same(end: float, other: float) -> bool:
-    return abs(end - other) <= SAME * abs(end)
+def _is_same(statics: Statics, end: float, other: float) -> bool:
+    """Whether two ends are one: of one near zero doubles keep the digits that the known loads leave it."""
+    rows = (*statics.general.solved.values(), *statics.general.left)
+    known = largest_of([row.get(statics.known, 0.0) for row in rows]) / statics.scale
+    return abs(end - other) <= max(SAME * abs(end), LEFT * known)
 
 
 def _value_inside(a: float, b: float) -> float:
