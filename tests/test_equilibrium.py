@@ -1739,6 +1739,26 @@ def test_positions_against_a_load_are_a_row_each(tmp_path: Path, capsys: pytest.
     ]
 
 
+@pytest.mark.parametrize("kind", ["weight", "mass"])
+def test_found_loads_are_held_in_more_digits_than_their_doubles(kind: str) -> None:
+    """Two weights on a lever, of which one is found: ``-W (y - x v / u)`` is how stiff it is, to the
+    last digit and within its bound, also where the two parts all but cancel."""
+    dice = random.Random(1907)
+    for _ in range(300 if FULL else 30):
+        w, x, y, u = (Fraction(dice.randint(1, 999), 100) for _ in range(4))
+        v = round(y * u / x, 2) if dice.random() < 0.5 else Fraction(dice.randint(1, 999), 100)
+        case = icsolve.load(
+            f"icsolve: 1\npoints: {{A: [0, 0], P: [{float(x)}, {float(y)}], Q: [{-float(u)}, {-float(v)}]}}\n"
+            "joints: [{pin: [1, 2], at: A}]\n"
+            f"loads: {{W: {{weight: {float(w)}, link: 2, at: P}}, U: {{{kind}: unknown, link: 2, at: Q}}}}\n"
+        )
+        true = -w * (y - x * v / u)
+        stiffness = with_stability(case, icsolve.solve(case), "2").stiffness
+        assert stiffness is not None and stiffness.error is not None
+        assert stiffness.error <= 2.0 * math.ulp(stiffness.value)
+        assert abs(Fraction(stiffness.value) - true) <= Fraction(stiffness.error)
+
+
 def test_the_stability_of_a_position_as_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = pendulum("T: {torque: unknown, link: 2}", "60")
     for of in ("angles.AB", "2"):
