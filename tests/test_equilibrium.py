@@ -1742,21 +1742,40 @@ def test_positions_against_a_load_are_a_row_each(tmp_path: Path, capsys: pytest.
 @pytest.mark.parametrize("kind", ["weight", "mass"])
 def test_found_loads_are_held_in_more_digits_than_their_doubles(kind: str) -> None:
     """Two weights on a lever, of which one is found: ``-W (y - x v / u)`` is how stiff it is, to the
-    last digit and within its bound, also where the two parts all but cancel."""
+    last digit and within its bound, also where the two parts all but cancel; where they do it is neutral."""
     dice = random.Random(1907)
     for _ in range(300 if FULL else 30):
         w, x, y, u = (Fraction(dice.randint(1, 999), 100) for _ in range(4))
-        v = round(y * u / x, 2) if dice.random() < 0.5 else Fraction(dice.randint(1, 999), 100)
+        v = dice.choice([round(y * u / x, 2), y * u, Fraction(dice.randint(1, 999), 100)])
+        x = Fraction(1) if v == y * u else x
         case = icsolve.load(
             f"icsolve: 1\npoints: {{A: [0, 0], P: [{float(x)}, {float(y)}], Q: [{-float(u)}, {-float(v)}]}}\n"
             "joints: [{pin: [1, 2], at: A}]\n"
             f"loads: {{W: {{weight: {float(w)}, link: 2, at: P}}, U: {{{kind}: unknown, link: 2, at: Q}}}}\n"
         )
         true = -w * (y - x * v / u)
-        stiffness = with_stability(case, icsolve.solve(case), "2").stiffness
+        found = with_stability(case, icsolve.solve(case), "2")
+        stiffness = found.stiffness
         assert stiffness is not None and stiffness.error is not None
-        assert stiffness.error <= 2.0 * math.ulp(stiffness.value)
         assert abs(Fraction(stiffness.value) - true) <= Fraction(stiffness.error)
+        assert stiffness.error <= (2.0 * math.ulp(stiffness.value) if true else 1e-30)
+        assert found.stability == ("stable" if true > 0 else "unstable" if true else "neutral")
+
+
+def test_what_cancels_in_a_factor_is_neutral() -> None:
+    """Of two torques on links that turn as one the found one balances the other in every position: that is
+    told by each link, also where the sum of both is multiplied by what is other than zero."""
+    case = icsolve.load(
+        "icsolve: 1\nunits: {length: ft}\n"
+        "points: {A: [-3.32, 1.96], D: [-0.24, -1.6], F: [3.04, 1.64], H: [-1.12, -0.28], G: [-2.4, -3], "
+        "B: [-4.12, -1.6], E: [-1.54, -3.7]}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [1, 3], at: D}, {slot: [2, 3], at: F, along: -20}, "
+        "{pin: [3, 4], at: H}, {pin: [2, 5], at: G}, {slide: [5, 4], at: G, along: [B, E]}]\n"
+        "links: {4: [B, E]}\nloads: {M: {torque: 79.1, link: 5}, T: {torque: unknown, link: 4}}\n"
+    )
+    for link in "2345":
+        found = with_stability(case, icsolve.solve(case), link)
+        assert (found.stability, found.stiffness is not None) == ("neutral", True)
 
 
 def test_the_stability_of_a_position_as_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

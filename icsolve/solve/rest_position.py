@@ -3,7 +3,6 @@ from it another is."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from decimal import Decimal
@@ -166,8 +165,8 @@ def holding(case: Case, answer: Answer) -> Case:
     return replace(case, loads=tuple(loads), directed=(), expect=(), motion=())
 
 
-SPARE = 1e-9
-"""Of a unit in the last place of its double: what a found load may lie off where its digits are held."""
+HELD = 1e-60
+"""What a found load that is held may lie off, as a fraction: far less than what counts as zero beside it."""
 
 
 def _found_digits(case: Case) -> dict[str, Decimal]:
@@ -182,6 +181,6 @@ def _found_digits(case: Case) -> dict[str, Decimal]:
 def _digits(found: Evaluation) -> dict[str, Decimal]:
     values = found.outcome.solution.values.items()
     balls = {name: value for name, value in values if isinstance(value, Ball) and not value.holds_zero}
-    if any(ball.radius > SPARE * math.ulp(abs(ball)) for ball in balls.values()):
+    if any(ball.radius > HELD * abs(ball) for ball in balls.values()):
         raise MoreDigits
     return {name: ball.value for name, ball in balls.items()}
