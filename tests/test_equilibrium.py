@@ -1778,6 +1778,36 @@ def test_what_cancels_in_a_factor_is_neutral() -> None:
         assert (found.stability, found.stiffness is not None) == ("neutral", True)
 
 
+ROLLED = """icsolve: 1
+points: {A: [0.12, -0.24], P: [0.88, 1.2], D: [0.128, 1.764], B: [2.68, -3.28]}
+joints:
+  - {pin: [2, 1], at: A}
+  - {pin: [4, 3], at: D}
+  - {pin: [2, 4], at: B}
+  - {roll: [3, 1], at: P, radii: [0.94, 0]}
+loads: {M: {torque: TURN, link: 2}, F: {force: 100, link: 4, at: D, angle: 30}}
+"""
+
+
+@pytest.mark.parametrize("turn", ["-76.8", "900"])
+def test_a_wheel_that_rolls_does_not_come_round(
+    turn: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Beyond the limits of its way a whole turn more is no whole turn less: it is further along. Rows there
+    keep the branch as written, and say so; it rests where the torque that holds it in these rows is zero."""
+    text = ROLLED.replace("TURN", turn)
+    probed = text.replace("loads: {", "loads: {T: {torque: unknown, link: 3}, ")
+    turned = ("sweep", "CASE", "--drive", "3=0:360:40")
+    rests = json.loads(run(tmp_path, capsys, text, *turned, "--find", "rest", "--json"))["found"]
+    zeros = json.loads(run(tmp_path, capsys, probed, *turned, "--find", "T=0", "--json"))["found"]
+    assert [one["at"]["3"] for one in rests if one["stiffness"]] == pytest.approx(
+        [one["at"]["3"] for one in zeros], abs=1e-9
+    )
+    swept = icsolve.sweep(icsolve.load(probed), drive={"3": np.arange(0.0, 361.0, 40.0)})
+    assert swept.status[-1] == "ok"
+    assert any("no motion leads" in note for note in swept.notes)
+
+
 def test_the_stability_of_a_position_as_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = pendulum("T: {torque: unknown, link: 2}", "60")
     for of in ("angles.AB", "2"):
