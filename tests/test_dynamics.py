@@ -21,6 +21,8 @@ from icsolve.answer import Answer
 from icsolve.case import Case, Contact, Inertia, KnownCentre, Motion, Number, Pin, Roll
 from icsolve.errors import CaseError, SceneError
 from icsolve.manual import template
+from icsolve.numbers import linear
+from icsolve.numbers.balls import Ball
 from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.varied_numbers import find_number, with_numbers
 from reference import MANY, many, motions, points_of
@@ -179,6 +181,38 @@ def test_wheels_that_roll_on_a_coupler_go_on_as_gears_do(inner: bool, digits: in
         assert rolling.angular_accelerations == pytest.approx(
             geared.angular_accelerations, rel=1e-9 if digits == 17 else 1e-3
         )
+
+
+@pytest.mark.parametrize("centre", ["[-0.16, 0.12]", "[0.2, 0]", "[0.12, 0.16]"])
+@pytest.mark.parametrize("radii", ["[0, 0.2]", "[0.3, 0.2]", "[-0.7, 0.2]"])
+def test_equations_of_balls_hold_no_rounded_doubles(
+    centre: str, radii: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two doubles in them are divided as doubles are, with an error that no ball carries. The normal of a
+    rolling contact was one: a wheel at constant speed on a slope had an acceleration of 1e-17, and reactions
+    lay beyond their bounds."""
+    seen: list[Any] = []
+    own = linear._Work.__init__
+
+    def watched(self: Any, rows: Any, *rest: Any) -> None:
+        seen.append([*(row.values() for row in rows)])
+        own(self, rows, *rest)
+
+    monkeypatch.setattr(linear._Work, "__init__", watched)
+    text = (
+        f"icsolve: 1\npoints: {{A: [-1.28, -4.04], P: [0, 0], B: {centre}, C: [1.28, -1.68]}}\n"
+        "links: {4: {mass: 9.5 kg, centre: B, inertia: 0.1 kg*m^2}}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: C}, {pin: [3, 4], at: B}, "
+        f"{{roll: [1, 4], at: P, radii: {radii}}}]\n"
+        "loads: {T: {torque: unknown, link: 3}}\nmotion: {link: 4, speed: 6.6, turns: cw}\n"
+    )
+    answer = icsolve.solve(icsolve.load(text), dynamic=True, reactions=True)
+    assert answer.answers["T"].error is not None
+    mixed = [[a for row in rows for a in row] for rows in seen]
+    mixed = [rows for rows in mixed if any(isinstance(a, Ball) for a in rows)]
+    assert mixed
+    for rows in mixed:  # what is a power of two divides without rounding
+        assert {math.frexp(a)[0] for a in rows if isinstance(a, float)} <= {0.0, 0.5, -0.5}
 
 
 def test_slider_crank_by_its_closed_form() -> None:

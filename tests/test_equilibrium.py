@@ -1862,6 +1862,75 @@ def test_positions_against_a_load_are_a_row_each(tmp_path: Path, capsys: pytest.
     ]
 
 
+@pytest.mark.parametrize("kind", ["weight", "mass"])
+def test_found_loads_are_held_in_more_digits_than_their_doubles(kind: str) -> None:
+    """Two weights on a lever, of which one is found: ``-W (y - x v / u)`` is how stiff it is, to the
+    last digit and within its bound, also where the two parts all but cancel; where they do it is neutral."""
+    dice = random.Random(1907)
+    for _ in range(300 if FULL else 30):
+        w, x, y, u = (Fraction(dice.randint(1, 999), 100) for _ in range(4))
+        v = dice.choice([round(y * u / x, 2), y * u, Fraction(dice.randint(1, 999), 100)])
+        x = Fraction(1) if v == y * u else x
+        case = icsolve.load(
+            f"icsolve: 1\npoints: {{A: [0, 0], P: [{float(x)}, {float(y)}], Q: [{-float(u)}, {-float(v)}]}}\n"
+            "joints: [{pin: [1, 2], at: A}]\n"
+            f"loads: {{W: {{weight: {float(w)}, link: 2, at: P}}, U: {{{kind}: unknown, link: 2, at: Q}}}}\n"
+        )
+        true = -w * (y - x * v / u)
+        found = with_stability(case, icsolve.solve(case), "2")
+        stiffness = found.stiffness
+        assert stiffness is not None and stiffness.error is not None
+        assert abs(Fraction(stiffness.value) - true) <= Fraction(stiffness.error)
+        assert stiffness.error <= (2.0 * math.ulp(stiffness.value) if true else 1e-30)
+        assert found.stability == ("stable" if true > 0 else "unstable" if true else "neutral")
+
+
+def test_what_cancels_in_a_factor_is_neutral() -> None:
+    """Of two torques on links that turn as one the found one balances the other in every position: that is
+    told by each link, also where the sum of both is multiplied by what is other than zero."""
+    case = icsolve.load(
+        "icsolve: 1\nunits: {length: ft}\n"
+        "points: {A: [-3.32, 1.96], D: [-0.24, -1.6], F: [3.04, 1.64], H: [-1.12, -0.28], G: [-2.4, -3], "
+        "B: [-4.12, -1.6], E: [-1.54, -3.7]}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [1, 3], at: D}, {slot: [2, 3], at: F, along: -20}, "
+        "{pin: [3, 4], at: H}, {pin: [2, 5], at: G}, {slide: [5, 4], at: G, along: [B, E]}]\n"
+        "links: {4: [B, E]}\nloads: {M: {torque: 79.1, link: 5}, T: {torque: unknown, link: 4}}\n"
+    )
+    for link in "2345":
+        found = with_stability(case, icsolve.solve(case), link)
+        assert (found.stability, found.stiffness is not None) == ("neutral", True)
+
+
+ROLLED = """icsolve: 1
+points: {A: [0.12, -0.24], P: [0.88, 1.2], D: [0.128, 1.764], B: [2.68, -3.28]}
+joints:
+  - {pin: [2, 1], at: A}
+  - {pin: [4, 3], at: D}
+  - {pin: [2, 4], at: B}
+  - {roll: [3, 1], at: P, radii: [0.94, 0]}
+loads: {M: {torque: TURN, link: 2}, F: {force: 100, link: 4, at: D, angle: 30}}
+"""
+
+
+@pytest.mark.parametrize("turn", ["-76.8", "900"])
+def test_a_wheel_that_rolls_does_not_come_round(
+    turn: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Beyond the limits of its way a whole turn more is no whole turn less: it is further along. Rows there
+    keep the branch as written, and say so; it rests where the torque that holds it in these rows is zero."""
+    text = ROLLED.replace("TURN", turn)
+    probed = text.replace("loads: {", "loads: {T: {torque: unknown, link: 3}, ")
+    turned = ("sweep", "CASE", "--drive", "3=0:360:40")
+    rests = json.loads(run(tmp_path, capsys, text, *turned, "--find", "rest", "--json"))["found"]
+    zeros = json.loads(run(tmp_path, capsys, probed, *turned, "--find", "T=0", "--json"))["found"]
+    assert [one["at"]["3"] for one in rests if one["stiffness"]] == pytest.approx(
+        [one["at"]["3"] for one in zeros], abs=1e-9
+    )
+    swept = icsolve.sweep(icsolve.load(probed), drive={"3": np.arange(0.0, 361.0, 40.0)})
+    assert swept.status[-1] == "ok"
+    assert any("no motion leads" in note for note in swept.notes)
+
+
 def test_the_stability_of_a_position_as_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = pendulum("T: {torque: unknown, link: 2}", "60")
     for of in ("angles.AB", "2"):

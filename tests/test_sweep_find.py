@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable
 from decimal import Decimal, localcontext
@@ -30,6 +31,7 @@ from icsolve.sweep.find_on_record import Query, RangeSearch, find
 from icsolve.sweep.path_tracking import PathTracker
 from icsolve.sweep.varied_numbers import numbers_of
 from library import FILES, sample
+from shell import exit_status
 from sizes import FULL, few, sampled
 from test_sweep_status import FOUR_BAR, PARALLELOGRAM, SLIDER_CRANK
 
@@ -1004,3 +1006,49 @@ def ends_of(case: icsolve.Case, path: str, values: Any) -> list[tuple[float, flo
     rows = zip(values.tolist(), icsolve.sweep(case, {path: values}).status.tolist(), strict=True)
     clear = [row for row in rows if row[1] in ("ok", "cannot-assemble")]
     return [(low, high) for (low, one), (high, other) in pairwise(clear) if one != other]
+
+
+TRAIN = """icsolve: 1
+points:
+  B: [-0.68, 3.16]
+  E: [-3.48, 1.08]
+  K: [-5.04, 0.16]
+  F: [0.32, -1.36]
+  N: [-3.48, -1.12]
+  D: [-3.48, 0.08]
+  G: [3, -3.88]
+  H: [-3.52, 0.32]
+  C: [1.6, 1.4]
+  A: [-1.28, -0.16]
+joints:
+  - {pin: [1, 2], at: B}
+  - {pin: [3, 4], at: E}
+  - {slide: [3, 2], at: E, along: [E, K]}
+  - {slide: [4, 1], at: F, along: -20}
+  - {pin: [3, 5], at: D}
+  - {roll: [4, 5], at: N, radii: [-2.2, 1.2]}
+  - {pin: [6, 5], at: G}
+  - {slot: [6, 3], at: H, along: 30}
+links: {1: [A], 2: [E, K], 5: [C, G]}
+loads:
+  S: {spring: 38.5, corner: A-G-C, free: 153, link: 5}
+"""
+
+
+def test_zeros_where_the_scale_of_the_motion_vanishes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Links of a group are told by the motion of one of them. Where that one stands still the known loads
+    have a power other than zero and the unknown a factor without bound: the answer is zero there, and the
+    links rest, as the rows to both sides say."""
+    probed = TRAIN + "  T: {torque: unknown, link: 6}\n"
+    beside = icsolve.sweep(icsolve.load(probed), drive={"6": np.array([-15.77, -15.755])}).answers["T"]
+    assert beside[0] < 0.0 < beside[1]
+    for name, text, what in (("probed", probed, "T=0"), ("known", TRAIN, "rest")):
+        path = tmp_path / f"{name}.yaml"
+        path.write_text(text)
+        for span in ("-20:-10:1", "-60:60:10"):
+            assert exit_status("sweep", path, "--drive", f"6={span}", "--find", what, "--json") == 0
+            (found,) = json.loads(capsys.readouterr().out)["found"]
+            assert found["at"]["6"] == pytest.approx(-15.762949219184383, abs=1e-12)
+            assert what == "T=0" or found["stability"] == "stable"

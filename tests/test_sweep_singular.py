@@ -28,6 +28,7 @@ import full_turns
 import icsolve
 import transcribe
 from icsolve.bench.promises import scissors
+from icsolve.solve.stability import with_stability
 from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.varied_numbers import numbers_of, with_numbers
 from library import FILES, sample
@@ -830,3 +831,54 @@ loads: {{P: {{force: 120, link: 3, at: B, angle: 270}}, Q: {{force: unknown, lin
             degrees = flat + turn + np.array([-0.5, 0.0, 0.5])
             found = icsolve.sweep(case, drive={link: degrees})
             assert found.status.tolist() == ["ok", "change-point", "ok"], (link, turn)
+
+
+HARDLY_TURNING = """icsolve: 1
+units: {length: ft, force: kN}
+points:
+  A6: [1.68, 2.6]
+  G4: [-2.56, 3.08]
+  E3: [-1.96, -2.28]
+  C8: [0.32, 3.84]
+  A4: [1.84, 4]
+  P: [-1.2, 3.68]
+  S: [-2.84, -3.32]
+  C3: [-2.84, -4.04]
+  E7: [1, -3.24]
+  D7: [2, 2.8]
+  G7: [-1.96, -0.44]
+  A1: [-3.68, -2.04]
+  A2: [-0.6, 3.16]
+  C7: [-2.76, 3.04]
+  C: [1.6, -0.96]
+  Q: [0.84, 0.36]
+joints:
+  - {pin: [2, 1], at: A6}
+  - {pin: [1, 3], at: G4}
+  - {pin: [2, 4], at: E3}
+  - {slide: [4, 3], at: C8, along: [A4, P]}
+  - {pin: [5, 6], at: C3}
+  - {pin: [6, 3], at: E7}
+  - {roll: [2, 5], at: S, radii: [0, 0.72]}
+  - {pin: [7, 4], at: D7}
+  - {pin: [7, 8], at: G7}
+  - {pin: [8, 6], at: A1}
+links:
+  3: [A4, P]
+loads:
+  L1: {distributed: -2.4, link: 2, from: A2, to: C7, slope: [3, 1], turns_with: 1}
+  L2: {spring: 44.5, free: 0.7, link: 6, at: A1, to: E3, against: 2}
+  L3: {mass: 44.1 kg, link: 3, at: C}
+  U: {force: unknown, link: 6, at: Q, slope: [-1, 4], turns_with: 4}
+"""
+
+
+def test_a_link_that_all_but_stands_still_is_turned_between_its_limits() -> None:
+    """One of its limits lies 0.0016 degrees from the position as written, nearer than a record is made beside
+    it elsewhere: that position is none itself, and what moves by another link moves by this one too."""
+    case = icsolve.load(HARDLY_TURNING)
+    swept = icsolve.sweep(case, drive={"2": np.array([-0.01, -1e-4, 0.0, 1e-4])})
+    assert swept.status.tolist() == ["cannot-assemble", "ok", "ok", "ok"]
+    assert swept.answers["U"][2] == pytest.approx(icsolve.solve(case).answers["U"].value, rel=1e-9)
+    by = {link: with_stability(case, icsolve.solve(case), link) for link in ("2", "4")}
+    assert {found.stability for found in by.values()} == {"stable"}

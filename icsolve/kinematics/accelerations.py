@@ -352,13 +352,14 @@ def _by_normal(
 ) -> Iterator[tuple[Triple, Triple]]:
     """The forces along x and y at a rolling contact, and their changes, as those along the normal and square
     to it: the first may only repeat what pins and guides say, and to few digits; the other alone tells how
-    the links turn one another."""
+    the links turn one another. The normal has the digits of the arithmetic: a double would bring its own."""
     centre, _ = _wheels(place, joint)[0]
     (x, y), (u, v) = place.points[centre], place.points[joint.at]
-    nx, ny = float(u) - float(x), float(v) - float(y)
-    size = math.hypot(nx, ny)
+    nx, ny = u - x, v - y
+    size = math.ldexp(1.0, math.frexp(largest_of((nx, ny)))[1])  # rounds nothing
+    nx, ny = nx / size, ny / size
     (first, one), (second, two) = wrenches
-    for c, s in ((nx / size, ny / size), (ny / size, -nx / size)):
+    for c, s in ((nx, ny), (ny, -nx)):
         yield blend(c, first, s, second), blend(c, one, s, two)
 
 

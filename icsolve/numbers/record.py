@@ -497,3 +497,29 @@ def terms_of(nodes: Sequence[Traced], k: int) -> float:
     if node.op in (Op.ADD, Op.SUB):
         return terms_of(nodes, node.a) + terms_of(nodes, node.b)
     return terms_of(nodes, node.a) if node.op == Op.NEG else abs(node.value)
+
+
+CANCELLED = 1e-9
+"""A value is rounding of its terms below this fraction of them."""
+
+
+def terms_within(nodes: Sequence[Traced], k: int) -> float:
+    """The same, where what is multiplied or divided may be a sum that vanishes and counts by its terms."""
+    sizes: dict[int, float] = {}
+    waiting = [k]
+    while waiting:
+        node = nodes[waiting[-1]]
+        parts = node.of if node.op in (Op.ADD, Op.SUB, Op.NEG, Op.MUL) else node.of[:1] * (node.op == Op.DIV)
+        if missing := [n for n in parts if n not in sizes]:
+            waiting += missing
+            continue
+        found = [sizes[n] for n in parts]
+        if node.op in (Op.MUL, Op.DIV):
+            values = [abs(nodes[n].value) for n in parts]
+            found = [v if v > CANCELLED * size else size for v, size in zip(values, found, strict=True)]
+            below = abs(nodes[node.b].value) or math.inf
+            size = found[0] * found[1] if node.op == Op.MUL else found[0] / below
+        else:
+            size = sum(found) if found else abs(node.value)
+        sizes[waiting.pop()] = size
+    return sizes[k]

@@ -30,6 +30,8 @@ from icsolve.tuples import NamedTuple
 SAMPLES = 720
 ZOOMS = 5
 """So many times the place where a margin is lowest is looked for sixteen times more closely."""
+ROUND = 1e-3
+"""To so much of its size a figure is the same beside both ends of a whole turn, at a limit too."""
 CLOSER = 3
 """So many times the place where a branch comes nearest to `near` is looked for eight times more closely."""
 CONTRARY = -2
@@ -195,8 +197,9 @@ class Branches:
         return float(values[k])
 
     def _closed(self, ids: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
-        """A whole turn ends where it begins: what goes straight on there is one branch."""
-        if self.high - self.low != 360.0 or not self.functions[0].turns_links:
+        """A whole turn ends where it begins, where nothing rolls on: what goes straight on there is one
+        branch."""
+        if self.high - self.low != 360.0 or not self.functions[0].turns_links or not self._comes_round():
             return ids
         for m in np.flatnonzero(ids[:, -1] >= 0).tolist():
             ahead = self._ahead(ids, m, SAMPLES + 1)
@@ -207,6 +210,17 @@ class Branches:
             if self.whole[m, 0] and np.isfinite(off[n]) and margin >= 0:
                 ids[ids == ids[m, -1]] = ids[n, 1]
         return ids
+
+    def _comes_round(self) -> bool:
+        """Whether a whole turn leads back to the same figure in the modes that assemble at both ends."""
+        both = self.whole[:, 0] & self.whole[:, -1]
+        gap = np.abs(self.places[both, -1] - self.places[both, 0])
+        return not gap.size or float(gap.max()) <= ROUND / self.functions[0].compiled.scene.frame.scale
+
+    def islands(self, m: int, branch: int) -> frozenset[int]:
+        """The branches of a mode at the values to which another branch does not lead in any mode."""
+        away = ~(self.ids == branch).any(axis=0)
+        return frozenset(self.ids[m, away].tolist()) - {-1}
 
     def samples(self, branch: int) -> list[tuple[int, float]]:
         """The sampled modes and values of a branch, by rising value."""

@@ -37,7 +37,6 @@ from icsolve.structure import topology
 from icsolve.sweep.branches import may_vanish
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.program import (
-    NUDGES,
     CompiledSweep,
     RowRequest,
     Setting,
@@ -365,13 +364,13 @@ def _spare(figure: Figure, order: Order, case: Case, placed: Placement, record: 
                 yield record.lifted(off * (AGREED / (max(room, AGREED) * (size or 1.0)))).index
 
 
-def moved(setting: Setting, signs: Signs = (), nudges: Sequence[float] = NUDGES) -> RecordedMode:
+def moved(setting: Setting, signs: Signs = (), away: float | None = None) -> RecordedMode:
     """A mode in which the mechanism moves from the position as written, with the signs of some branches;
-    ``nudges`` as of `compile_sweep`.
+    ``away`` as of `compile_sweep`.
 
     Raises TogetherError where points only all together have places.
     """
-    compiled = compile_sweep(setting, RowRequest(answers=False), signs, nudges)
+    compiled = compile_sweep(setting, RowRequest(answers=False), signs, away)
     if compiled.motion is not None and compiled.motion.groups:
         raise TogetherError(Status.UNSUPPORTED, TOGETHER)
     margins = [n for root in compiled.record.roots.values() for n, _ in root.margins]
@@ -423,9 +422,9 @@ def _other_way(function: LoadFunction, signs: Signs, span: tuple[float, float]) 
     values = np.linspace(*span, ELSEWHERE) if not compiled.record.counted else ()
     size = 180.0 if function.turns_links else 1.0 / compiled.setting.figure.frame.scale
     written = 0.0 if function.path in function.case.links else number_at(function.case, function.path).value
-    for nudges in (NUDGES, *([(float(value) - written) / size] for value in values)):
+    for away in (None, *((float(value) - written) / size for value in values)):
         with suppress(SceneError):  # a load may have no direction in it
-            return _on_record(moved(compiled.setting, signs, nudges), function.path, span)
+            return _on_record(moved(compiled.setting, signs, away), function.path, span)
     return None
 
 

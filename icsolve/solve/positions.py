@@ -59,6 +59,10 @@ ESTIMATED = (
     "{path} = {value:g} is a change point, where no scene has an answer: the position there is found from "
     "the loads beside it, and its errors are estimates."
 )
+ISLANDS = (
+    "where no motion leads from the position as written, the branch of that position was searched along "
+    "{along}, as rows of a sweep keep it there."
+)
 STRETCHES = 4
 """So many times the range of a length or a coordinate is made ten times longer."""
 
@@ -285,8 +289,8 @@ def _along(case: Case, along: str, low: float, high: float) -> tuple[list[RestPo
     branch = branches.on(0, value)
     if _balances_everywhere(functions, branches.samples(branch)) is True:
         raise any_value(own)
-    kept = frozenset({branch})
-    notes: list[str] = []
+    kept = frozenset({branch}) | branches.islands(0, branch)
+    notes = [ISLANDS.format(along=along)] if len(kept) > 1 else []
     found = (rest for _, rest in search_modes(functions, branches, kept, False, notes))
     return [rest for rest in found if low <= rest.value <= high], notes
 

@@ -17,7 +17,7 @@ from icsolve.numbers import DEGREE
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.decimals import CONTEXT, as_written, decimal_ratio
 from icsolve.numbers.intervals import Interval, enclose
-from icsolve.numbers.record import terms_of
+from icsolve.numbers.record import terms_within
 from icsolve.numbers.replay import Array, Code
 from icsolve.numbers.roots import MOST_ORDER, last_that_holds, zeros_between
 from icsolve.numbers.units import found_number
@@ -75,7 +75,7 @@ def _values(function: LoadFunction, at: Decimal, nodes: Sequence[int]) -> list[D
 
 def _least(function: LoadFunction, node: int) -> Decimal:
     """What is zero beside the terms of a node."""
-    return ZERO * Decimal(terms_of(function.record.nodes, node))
+    return ZERO * Decimal(terms_within(function.record.nodes, node))
 
 
 def _zero(function: LoadFunction, start: Decimal, low: Decimal, high: Decimal) -> Decimal | None:

@@ -4,14 +4,19 @@ from it another is."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from decimal import Decimal
 from itertools import combinations
 
 from icsolve.answer import Answer, by_load
 from icsolve.answer.equilibrium import Stiffness
 from icsolve.case import Case, Force, ForceVector, Number, Torque
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.balls import Ball, MoreDigits
+from icsolve.numbers.units import found_number
 from icsolve.scene import solve_by_power, solve_scene
-from icsolve.statics.power import is_unknown
+from icsolve.scene.program import EvaluatedScene, Evaluation, Want, prepare
+from icsolve.statics.power import has_friction, is_unknown
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import left_out
 
@@ -146,11 +151,36 @@ def probes(case: Case, links: Sequence[str], freedoms: int) -> Iterator[Torque |
 
 
 def holding(case: Case, answer: Answer) -> Case:
-    """The case with its unknown loads at the values that were found."""
-    loads, found = [], by_load(answer.answers)
+    """The case with its unknown loads at the values that were found, in the digits of the balls where power
+    alone gives them: how stiff a position is hangs on what doubles cut off."""
+    loads, found, digits = [], by_load(answer.answers), _found_digits(case)
     for load in case.loads:
         if is_unknown(load) and not isinstance(load, ForceVector):
-            value = found[load.name].value
-            load = load._replace(value=Number(value, 0.0, f"loads.{load.name}", repr(value)))  # noqa: PLW2901
+            value, path = found[load.name].value, f"loads.{load.name}"
+            number = Number(value, 0.0, path, repr(value))
+            if load.name in digits and float(digits[load.name]) == value:
+                number = found_number(digits[load.name], path)
+            load = load._replace(value=number)  # noqa: PLW2901
         loads.append(load)
     return replace(case, loads=tuple(loads), directed=(), expect=(), motion=())
+
+
+HELD = 1e-60
+"""What a found load that is held may lie off, as a fraction: far less than what counts as zero beside it."""
+
+
+def _found_digits(case: Case) -> dict[str, Decimal]:
+    """The unknown loads by power, by name; none where friction or inertia has a share in them."""
+    if case.space is not None or case.touches or case.dynamic or has_friction(case):
+        return {}
+    with suppress(SceneError):
+        return EvaluatedScene(prepare(case, Want()), True).ask(_digits)
+    return {}
+
+
+def _digits(found: Evaluation) -> dict[str, Decimal]:
+    values = found.outcome.solution.values.items()
+    balls = {name: value for name, value in values if isinstance(value, Ball) and not value.holds_zero}
+    if any(ball.radius > HELD * abs(ball) for ball in balls.values()):
+        raise MoreDigits
+    return {name: ball.value for name, ball in balls.items()}

@@ -199,10 +199,21 @@ class RangeSearch:
         if self._vanishes(miss) and not self._vanishes(bottom):
             self.notes[HAS.format(load=load)] = None
             places = [*dict.fromkeys((*self.span, *limits))]
+        places = [s for s in places if not self._is_nothing(bottom, s)]
+        if not self.query.value:
+            places += [s for s in self._between_powers(answer, bottom) if s not in places]
         for s in places:
-            if not self._is_nothing(bottom, s):
-                for spot in self._pulling(s, "value", load):
-                    yield spot if spot.answer is None else spot._replace(answer=self.query.value)
+            for spot in self._pulling(s, "value", load):
+                yield spot if spot.answer is None else spot._replace(answer=self.query.value)
+
+    def _between_powers(self, answer: Scalar, bottom: Scalar) -> Iterator[Decimal]:
+        """Where the answer is zero, its numerator is not and its denominator without bound: what gives the
+        links their scale, the motion of one of them, stands still there."""
+        size = Decimal(abs(float(answer)) or 1.0)
+        for divisor in self._divisors(bottom):
+            for s in self._zeros(divisor):
+                if all(abs(self._value(answer, s + k * NEAR)) * LARGE < size for k in (-1, 1)):
+                    yield s
 
     def _dead(self, answer: Scalar, load: str) -> Iterator[FoundPosition]:
         """Where the unknown does no work, where the links reach their limit, where branches meet. Where the

@@ -298,6 +298,8 @@ def _poses(case: Case, figure: Figure, scratch: Mechanism, path: str) -> bool:
 NUDGES = (2.0**-9, -(2.0**-9), 2.0**-14, -(2.0**-14), 2.0**-6, -(2.0**-6))
 """Where the record is made: this far (of half a turn, of the figure's size) from the position as written,
 so that nothing in it is zero by chance."""
+CLOSER = (2.0**-21, -(2.0**-21))
+"""Else so far: between the limits of a link that all but stands still."""
 
 
 def _apart(nudge: float, inputs: Collection[object]) -> float:
@@ -313,16 +315,16 @@ YIELDS_HERE = (
 
 
 def compile_sweep(
-    setting: Setting, asked: RowRequest, signs: Signs = (), nudges: Sequence[float] = NUDGES
+    setting: Setting, asked: RowRequest, signs: Signs = (), away: float | None = None
 ) -> CompiledSweep:
-    """The record of a sweep, made at the first of ``nudges`` at which it can be; the branches in ``signs``
-    have theirs as inputs."""
+    """The record of a sweep; the branches in ``signs`` have theirs as inputs. It is made beside the position
+    as written, or ``away`` from there, in the measure of `NUDGES`."""
     refusal: SceneError | None = None
-    for nudge in nudges:
+    for nudge in NUDGES + CLOSER if away is None else (away,):
         try:
             compiled = _compiled(setting, asked, nudge, signs)
         except (SceneError, ZeroDivisionError) as error:
-            refusal = error if isinstance(error, SceneError) else refusal
+            refusal = error if isinstance(error, SceneError) and nudge in NUDGES else refusal
             continue
         if all(compiled.record.nodes[root.radicand].value > 0.0 for root in compiled.record.roots.values()):
             return compiled

@@ -13,6 +13,7 @@ import numpy as np
 
 from icsolve.case import is_angle
 from icsolve.numbers.intervals import enclose_one
+from icsolve.numbers.record import Op
 from icsolve.numbers.replay import BLOCK, Array, Mask, code_of
 from icsolve.sweep.branches import (
     MOST_CELLS,
@@ -38,6 +39,8 @@ PART = 2.0**-7
 """Longest step of a line along a length, as a part of the figure's size."""
 CLEAR = "clear"
 """Under this a record keeps from where to where its branches are known to meet nothing."""
+SAME_FIGURE = 1e-9
+"""What branches hang on differs by less, in a frame of size 1, where two figures are the same."""
 GLANCES = 96
 """Places on the straight line to a row at which its branches are glanced at."""
 
@@ -271,7 +274,24 @@ class SweepParts:
         widest = WIDEST if angle else PART / self.start.setting.figure.frame.scale
         base = {name: self._written(name) for name in compiled.inputs if name in self.arrays}
         base = {**base, **here, main: 0.0}
-        return InputLine(base, {main: 1.0}, self._written(main), widest, 360.0 if angle else None)
+        turns = angle and comes_round(compiled, compiled.inputs[main])
+        return InputLine(base, {main: 1.0}, self._written(main), widest, 360.0 if turns else None)
+
+
+def comes_round(compiled: CompiledSweep, angle: int) -> bool:
+    """Whether a whole turn of an input leads back to the same figure: a wheel that rolls is further on then,
+    and one that it meshes with is turned otherwise."""
+    record = compiled.record
+    groups = compiled.motion.groups if compiled.motion is not None else ()
+    places = [root.radicand for root in live_roots(compiled)]
+    places += [record.lifted(x).index for group in groups for x in group.equations.residuals]
+    turns = np.array([0.0, 360.0, -360.0])
+    given = {n: np.full(3, node.value) for n, node in enumerate(record.nodes) if node.op == Op.INPUT}
+    given[angle] = record.nodes[angle].value + turns
+    found = [np.broadcast_to(x, 3) for x in code_of(record, places).run(given, 3)]
+    changes = [np.abs(x - x[0]) for x in found]
+    turned = np.radians(np.abs(turns))  # the angle of a link of a group, which goes on with the input
+    return all(bool((c <= SAME_FIGURE).all() or (abs(c - turned) <= SAME_FIGURE).all()) for c in changes)
 
 
 def distinct_rows(table: Array) -> tuple[Array, Rows]:
