@@ -91,8 +91,8 @@ class TwoLoci:
     def loci(self, _workspace: Workspace) -> Any:
         return self.both
 
-    def gaps(self, _workspace: Workspace) -> Any:
-        return gaps_of(*self.both, FLOATS)
+    def gaps(self, _workspace: Workspace, *loci: Any) -> Any:
+        return gaps_of(*loci, FLOATS)
 
 
 def away(locus: Any, at: Any) -> float:

@@ -149,14 +149,14 @@ class Meet(NamedTuple):
 
     def crossing(self, workspace: Workspace) -> Intersection:
         """Where the loci meet."""
-        return intersection(*self.loci(workspace), self._apart(workspace))
+        apart = None if self.apart is None else workspace.length(self.apart)
+        return intersection(*self.loci(workspace), apart)
 
-    def gaps(self, workspace: Workspace) -> tuple[Scalar, ...]:
-        """By how much the loci meet, as `gaps_of` has it."""
-        return gaps_of(*self.loci(workspace), workspace.arithmetic, self._apart(workspace))
-
-    def _apart(self, workspace: Workspace) -> Scalar | None:
-        return None if self.apart is None else workspace.length(self.apart)
+    def gaps(self, workspace: Workspace, *loci: PlacedLocus) -> tuple[Scalar, ...]:
+        """By how much the loci meet, as `gaps_of` has it; these are given where they are placed already."""
+        one, two = loci or self.loci(workspace)
+        apart = None if self.apart is None else workspace.length(self.apart)
+        return gaps_of(one, two, workspace.arithmetic, apart)
 
     def ahead(self, workspace: Workspace) -> list[float]:
         """How far ahead on each ray among the loci the point lies."""

@@ -124,7 +124,8 @@ def _gap(workspace: Workspace, value: Scalar, size: float) -> Gap:
 
 def gaps_between(step: Meet, workspace: Workspace) -> list[Gap]:
     """What must not be negative for two loci to meet, as `gaps_of` has it."""
-    loci, gaps = step.loci(workspace), step.gaps(workspace)
+    loci = step.loci(workspace)
+    gaps = step.gaps(workspace, *loci)
     size = sum(abs(locus.radius) for locus in loci if isinstance(locus, PlacedCircle)) + 1.0
     size = size + abs(gaps[3]) if len(gaps) > 3 else size
     return [_gap(workspace, gap, size) for gap in gaps]
@@ -484,7 +485,7 @@ def _middle_of_gap(step: Meet, workspace: Workspace) -> Point:
         share = (1.0 + b / (math.hypot(x - qx, y - qy) or 1.0)) / 2.0
         return qx + (x - qx) * share, qy + (y - qy) * share
     (px, py), a = one
-    far, over, _, d = step.gaps(workspace)
+    far, over, _, d = step.gaps(workspace, one, two)
     # on the line of centres: between the circles, or where the one inside comes closest to the other
     along = (a + d - b) / 2.0 if far < 0.0 else (a + d + b) / 2.0 if over < 0.0 else -(a + b - d) / 2.0
     return px + along * (qx - px) / (d or 1.0), py + along * (qy - py) / (d or 1.0)

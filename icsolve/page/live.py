@@ -249,7 +249,8 @@ class _ProgramWriter:
     def _meet(self, step: Meet, told: dict[str, Any]) -> list[Scalar]:
         """Two loci, with what must not be negative; a branch is -1, 1 or 0, where a circle touches."""
         ws = self.workspace
-        pair, found, gaps = step.loci(ws), step.crossing(ws), step.gaps(ws)[:3]
+        pair, found = step.loci(ws), step.crossing(ws)
+        gaps = step.gaps(ws, *pair)[:3]
         ws.points[step.target] = found.middle
         if found.factors is None:
             told["lines"] = True
