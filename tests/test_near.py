@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from random import Random
 
 import numpy as np
@@ -611,3 +612,49 @@ def test_a_straight_ternary_link_of_a_group_may_be_written_by_three_lengths(seed
 def test_a_ring_of_straight_ternary_links_is_placed_at_near(links: int, seed: int) -> None:
     draft = straight_plates(seed, links)
     assert apart(places_of(draft.case()), draft.at) < 1e-9
+
+
+@pytest.mark.parametrize("group", [False, True])
+@pytest.mark.parametrize("above", [False, True])
+@pytest.mark.parametrize("seed", range(few(12, 6)))
+def test_points_in_line_to_the_last_digits_of_doubles_are_in_line(
+    seed: int, above: bool, group: bool
+) -> None:
+    """Lengths that a program writes: their sum misses the whole by a spacing of doubles or less.
+    The scene is that of the direction, and a note says so; lengths in few decimals are what they are."""
+    random = Random(f"doubles {seed}")
+    whole, along = random.uniform(2.5, 3.5), random.uniform(0.8, 1.6)
+    exact = Fraction(repr(whole)) - Fraction(repr(along))
+    rest = float(exact)
+    if (Fraction(repr(rest)) > exact) != above or Fraction(repr(rest)) == exact:
+        rest = math.nextafter(rest, math.inf if above else -math.inf)
+    form = TRIAD if group else STRAIGHT
+    at = {"p": (0.9, 2.6), "q": (0.9 + whole, 2.6), "r": (0.9 + along, 2.6), "d": (4.6, 0), "e": (2, -1.5)}
+    rods = {a + b: math.dist(at[a], at[b]) for a, b in (("p", "q"), ("d", "q"), ("e", "r"))}
+    numbers = {name: list(place) for name, place in at.items()} | {"dq": rods["dq"], "er": rods["er"]}
+    numbers |= {"ab": 1, "free": 60, "bp": math.dist((0.5, 3**0.5 / 2), at["p"])}
+    plates = {f"PQ: {whole!r}, PR: {along!r}, RQ: {rest!r}": "", f"PQ: {whole!r}, PR: {along!r}": ", QPR: 0"}
+    one, other = (
+        solve(load(form.format(plate=plate, angle=angle, **numbers))) for plate, angle in plates.items()
+    )
+    assert one.answers["T"].value == pytest.approx(other.answers["T"].value, rel=1e-12)
+    assert any("half a unit of the last digit" in note for note in one.notes)
+    rounded = f"PQ: {whole:.4f}, PR: {along:.4f}, RQ: {round(whole, 4) - round(along, 4) - 1e-4:.4f}"
+    with pytest.raises(SceneError):
+        solve(load(form.format(plate=rounded, angle="", **numbers)))
+
+
+STRAIGHT = """icsolve: 1
+points: {{A: [0, 0], D: {d}}}
+lengths: {{AB: {ab}, BP: {bp}, DQ: {dq}, {plate}}}
+angles: {{AB: {free}, BP: 77{angle}}}
+near: {{Q: {q}}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: P}}
+  - {{pin: [3, 4], at: Q}}
+  - {{pin: [4, 1], at: D}}
+loads:
+  T: {{torque: unknown, link: 2}}
+  W: {{weight: 10, link: 3, at: R}}
+"""

@@ -132,7 +132,11 @@ def _figure(walk: Walk, mode: Mode) -> Figure | Miss:
     if mode.offs:
         given = any(isinstance(step, Given) for step in order.steps)
         notes = refusals.notes_of(workspace, mode.offs, walk.used, given, size_of(workspace, order.points))
-    notes += (*_far_from_near(walk, mode, order.points), *(() if walk.complete else (NOT_SHOWN,)))
+    notes += (
+        *walk.in_line,
+        *_far_from_near(walk, mode, order.points),
+        *(() if walk.complete else (NOT_SHOWN,)),
+    )
     return Figure(workspace.frame, {p: mode.points[p] for p in order.points}, mode.steps, notes, ())
 
 

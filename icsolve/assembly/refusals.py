@@ -158,6 +158,15 @@ def bare(workspace: Workspace, length: float) -> str:
     return f"{length / workspace.frame.scale:.6g}"
 
 
+def all_but_in_line(workspace: Workspace, sides: Sequence[Datum], gap: float) -> str:
+    """The note on points that three lengths put in line but for their last digits."""
+    names = listed([joined(*side.points) for side in sides])
+    return (
+        f"{names} put their points in line but for {measure(workspace, gap)}, which half a unit of the last "
+        "digits of numbers of 15 digits or more explains: they count as in line."
+    )
+
+
 def too_far(step: Meet, workspace: Workspace, gaps: list[float]) -> Miss:
     """Two loci that do not meet."""
     gap = -min(gaps)

@@ -16,7 +16,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from icsolve.assembly.conditions import TOO_CLOSE, agrees, is_vague, residual, size_of
-from icsolve.assembly.loci import PlacedCircle, is_ray, is_round, side
+from icsolve.assembly.loci import CircleLocus, PlacedCircle, is_ray, is_round, side
 from icsolve.assembly.order import Order
 from icsolve.assembly.steps import CLOSED_FORMS, Meet, Miss, Step, aims, needs
 from icsolve.assembly.workspace import Datum, Key, Workspace, normalised
@@ -262,6 +262,8 @@ class Walk:
         self.best = math.inf
         self.every = every
         self.complete = True
+        self.in_line: dict[str, None] = {}
+        """sentences on points that lengths put in line but for their last digits"""
         """Whether groups that only all their data together place were searched to the end."""
 
     def run(self) -> Walk:
@@ -410,7 +412,31 @@ class Walk:
         if abs(gap.value) > DOUBT * float(self.workspace.length(c)):
             return gap.sign
         exact = self.decimals.decided(step, less)
-        return gap.sign if exact is None else exact.sign
+        sign = gap.sign if exact is None else exact.sign
+        return 0 if sign and self._in_line((a, b, c)) else sign
+
+    def _all_but_flat(self, step: Meet) -> bool:
+        """Whether a triangle that moves as a whole is flat but for the last digits of its lengths."""
+        circles = [locus for locus in (step.first, step.second) if isinstance(locus, CircleLocus)]
+        sides = [span for span in (step.apart, *(one.radius for one in circles)) if isinstance(span, Datum)]
+        return len(sides) == 3 and self._in_line(sides)
+
+    def _in_line(self, sides: Sequence[Datum]) -> bool:
+        """Whether half units of the last digits of three lengths, as programs write them, explain that two of
+        them are not as long as the third."""
+        from icsolve.numbers.balls import PRECISIONS, HalfUnits, MoreDigits
+
+        balls = HalfUnits(PRECISIONS[0])
+        exact = Workspace(self.workspace.case, self.workspace.frame, balls)
+        *short, long = sorted(map(exact.length, sides), key=float)
+        gap = short[0] + short[1] - long
+        try:
+            explained = balls.vanishes(gap, float(long)) and float(gap) != 0.0
+        except MoreDigits:
+            return False
+        if explained:
+            self.in_line[refusals.all_but_in_line(exact, sides, abs(float(gap)))] = None
+        return explained
 
     def _crossings(self, depth: int, path: Path, step: Meet) -> tuple[list[Step], bool]:
         """The places where two loci meet, the one nearer to `near` first; whether floats may lose them."""
@@ -418,6 +444,8 @@ class Walk:
         if doubtful := _doubtful(gaps):
             gaps = self.decimals.decided(step, partial(gaps_between, step)) or _rounded(step, gaps)
         signs = [gap.sign for gap in gaps]
+        if doubtful and (min(signs) < 0 or step.target not in self.near) and self._all_but_flat(step):
+            return [step._replace(sign=0)], doubtful
         if not is_round(step.second):
             if signs[0] != 0:
                 return [step], doubtful
