@@ -76,17 +76,31 @@ class Branches:
         return np.array(np.stack(columns, axis=1) / scale + origin)
 
     def assemble(self, values: Array) -> npt.NDArray[np.bool_]:
-        """Whether each mode assembles at each value (modes, n); of margins about zero decimals say it."""
-        whole = np.ones((len(self.functions), len(values)), dtype=bool)
-        for n, function in enumerate(self.functions):
+        """Whether each mode assembles at each value (modes, n); of margins about zero decimals say it, and
+        where loci coincide, so that a margin has no value, those beside do, on either side."""
+        whole, untold = self._assemble(values)
+        for n, k in np.argwhere(whole & untold):
+            beside, still = self._assemble(values[k] + self.slack * np.array([-1.0, 1.0]), [int(n)])
+            whole[n, k] = bool((beside & ~still).any())
+        return whole
+
+    def _assemble(
+        self, values: Array, modes: Sequence[int] | None = None
+    ) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.bool_]]:
+        """The same of some modes by the margins that have a value, and where some have none."""
+        functions = self.functions if modes is None else [self.functions[n] for n in modes]
+        whole = np.ones((len(functions), len(values)), dtype=bool)
+        untold = np.zeros_like(whole)
+        for n, function in enumerate(functions):
             found = Code(function.record, function.margins).run(function.given(values), len(values))
             for node, margin in zip(function.margins, found, strict=True):
-                holds = np.array(np.broadcast_to(margin >= 0.0, len(values)))
+                untold[n] |= np.isnan(margin)
+                holds = np.array(np.broadcast_to(~(margin < 0.0), len(values)))
                 for k in np.flatnonzero(~holds & np.broadcast_to(margin > -DOUBT, len(values))):
                     least = _exactly(function, node, as_written(values[k]))
                     holds[k] = not least.is_nan() and least >= -self.open
                 whole[n] &= holds
-        return whole
+        return whole, untold
 
     def _followed(self) -> npt.NDArray[np.int64]:
         """The branch of every sample of every mode; -1 where it does not assemble."""
@@ -108,7 +122,9 @@ class Branches:
                 n = int(np.argmin(off))
                 stays = self.whole[m, k] and m not in taken
                 if off[n] < np.inf and (not stays or off[n] < 0.25 * off[m]):
-                    meets = self._meets(m, n, k)
+                    meets = self._meets(m, n, k, ahead)
+                    if meets < 0 and not self.whole[m, k]:
+                        continue  # it ends, whatever another does
                     taken[m if meets > 0 else n] = int(ids[m, k - 1]) if meets >= 0 else -1
                 elif stays:
                     taken[m] = int(ids[m, k - 1])
@@ -142,16 +158,24 @@ class Branches:
         before = np.flatnonzero(ids[:, k - 2] == ids[m, k - 1])
         return np.asarray(2.0 * here - self.places[before[0], k - 2] if before.size else here)
 
-    def _meets(self, m: int, n: int, k: int) -> int:
+    def _meets(self, m: int, n: int, k: int, ahead: Array) -> int:
         """Between two samples: 0 where a branch passes from one mode to another that it meets there, 1 where
-        it turns back before it does, and -1 where it ends."""
+        it turns back before it does, and -1 where it ends. A figure goes straight on, too, where one mode of
+        it ends and the other begins: a ray turns over where its point passes another."""
         if m == n:
             return 0
         if not (self.whole[m, k] and self.whole[n, k - 1]):
-            return -1
+            return 0 if self._takes_over(m, n, k, ahead) else -1
         gap = min(np.abs(self.places[m, j] - self.places[n, j]).max() for j in (k - 1, k))
         step = np.abs(self.places[m, k] - self.places[m, k - 1]).max()
         return self._margin(m, k) if gap <= 4.0 * step else -1
+
+    def _takes_over(self, m: int, n: int, k: int, ahead: Array) -> bool:
+        """Whether a mode begins at a sample, or the one before, where another ends and is heading."""
+        ends = not self.whole[m, k : k + 2].all()
+        begins = not self.whole[n, max(k - 2, 0) : k].all()
+        step = np.abs(self.places[n, k] - self.places[m, k - 1]).max()
+        return ends and begins and bool(np.abs(self.places[n, k] - ahead).max() <= 0.25 * step)
 
     def _margin(self, m: int, k: int) -> int:
         """Between two samples the sign of the margins of a mode that come near to zero, by the decimals as
