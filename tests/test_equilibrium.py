@@ -231,6 +231,32 @@ def test_a_crank_whose_length_the_figure_leaves_to_its_place_rests_where_two_cra
         assert one.at["angles.AB"] == pytest.approx(other.at["angles.AB"], abs=1e-9)
 
 
+@pytest.mark.parametrize("seed", range(20 if FULL else 3))
+def test_a_way_without_an_answer_that_near_does_not_mean_refuses_no_other(seed: int) -> None:
+    """Scissors also assemble folded, both bars on one another, where a platform on top could turn: it rests
+    as its load on the bar does."""
+    rng = random.Random(f"scissors {seed}")
+    half, at = round(rng.uniform(0.4, 1.5), 2), rng.randint(20, 70)
+    foot = 2 * half * math.cos(math.radians(at))
+    text = (
+        f"icsolve: 1\npoints: {{A: [0, 0], B: [unknown, 0]}}\n"
+        f"lengths: {{AM: {half}, MC: {half}, BM: {half}, MD: {half}}}\n"
+        f"angles: {{AM: {{unknown: [5, 85], from: {at}}}, AMC: 180, BMD: 180}}\n"
+        f"near: {{B: [{foot}, 0]}}\njoints:\n  - {{pin: [1, 2], at: A}}\n  - {{pin: [2, 3], at: M}}\n"
+        "  - {slot: [3, 1], at: B, along: 0}\nPLATFORM"
+        f"loads:\n  F: {{force: {rng.randint(10, 40)}, link: LINK, at: D, angle: -90}}\n"
+        f"  S: {{spring: {rng.randint(50, 90)}, free: {0.3 * half}, link: 3, at: B, to: A}}\n"
+    )
+    platform = "  - {pin: [3, 4], at: D}\n  - {slot: [2, 4], at: C, along: 0}\n"
+    bare, both = (
+        positions(text.replace("PLATFORM", joints).replace("LINK", link))
+        for joints, link in (("", "3"), (platform, "4"))
+    )
+    assert both and [one.stability for one in both] == [one.stability for one in bare]
+    for one, other in zip(both, bare, strict=True):
+        assert one.at["angles.AM"] == pytest.approx(other.at["angles.AM"], abs=1e-9)
+
+
 TRAMMEL = """icsolve: 1
 points: {{O: [0, 0], Z: [0.2, -2.5], B: [unknown, 0], C: [0, unknown]}}
 lengths: {{BC: {rod}{crank}}}

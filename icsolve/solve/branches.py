@@ -52,8 +52,10 @@ class Branches:
         self.open = open_by(functions[0].compiled.scene.case, functions[0].compiled.scene.frame.scale)
         beside = np.append(self.values[:-1] + self.slack, high - self.slack)  # where loci coincide none meet
         self.places = np.array([self._places(f, beside) for f in functions])  # (mode, sample, 2 points)
-        self.whole = self.assemble(self.values)  # (modes, samples)
+        self.whole, self.untold = self._assemble(self.values)  # (modes, samples)
         self.whole[:, [0, -1]] &= self.assemble(np.array([low + self.slack, high - self.slack]))
+        some = np.flatnonzero(self.untold.any(axis=0))
+        self.whole[:, some] &= ~self.untold[:, some] | self.assemble(beside[some])
         self.ids = self._followed()
         if functions[0].compiled.motion is None:
             self._leave_out_contrary()
@@ -76,22 +78,15 @@ class Branches:
         return np.array(np.stack(columns, axis=1) / scale + origin)
 
     def assemble(self, values: Array) -> npt.NDArray[np.bool_]:
-        """Whether each mode assembles at each value (modes, n); of margins about zero decimals say it, and
-        where loci coincide, so that a margin has no value, those beside do, on either side."""
+        """Whether each mode assembles at each value (modes, n); of margins about zero decimals say it."""
         whole, untold = self._assemble(values)
-        for n, k in np.argwhere(whole & untold):
-            beside, still = self._assemble(values[k] + self.slack * np.array([-1.0, 1.0]), [int(n)])
-            whole[n, k] = bool((beside & ~still).any())
-        return whole
+        return whole & ~untold
 
-    def _assemble(
-        self, values: Array, modes: Sequence[int] | None = None
-    ) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.bool_]]:
-        """The same of some modes by the margins that have a value, and where some have none."""
-        functions = self.functions if modes is None else [self.functions[n] for n in modes]
-        whole = np.ones((len(functions), len(values)), dtype=bool)
+    def _assemble(self, values: Array) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.bool_]]:
+        """The same by the margins that have a value, and where some have none, as loci coincide."""
+        whole = np.ones((len(self.functions), len(values)), dtype=bool)
         untold = np.zeros_like(whole)
-        for n, function in enumerate(functions):
+        for n, function in enumerate(self.functions):
             found = Code(function.record, function.margins).run(function.given(values), len(values))
             for node, margin in zip(function.margins, found, strict=True):
                 untold[n] |= np.isnan(margin)
@@ -121,6 +116,7 @@ class Branches:
                 off[list(taken)] = np.inf
                 n = int(np.argmin(off))
                 stays = self.whole[m, k] and m not in taken
+                stays = stays and not (self.untold[m, k] and self._turns_over(m, m, k, ahead))
                 if off[n] < np.inf and (not stays or off[n] < 0.25 * off[m]):
                     meets = self._meets(m, n, k, ahead)
                     if meets < 0 and not self.whole[m, k]:
@@ -165,17 +161,16 @@ class Branches:
         if m == n:
             return 0
         if not (self.whole[m, k] and self.whole[n, k - 1]):
-            return 0 if self._takes_over(m, n, k, ahead) else -1
+            ends = not (self.whole[m, k] or self.whole[n, k - 1])
+            return 0 if ends and not self._turns_over(m, n, k, ahead) else -1
         gap = min(np.abs(self.places[m, j] - self.places[n, j]).max() for j in (k - 1, k))
         step = np.abs(self.places[m, k] - self.places[m, k - 1]).max()
         return self._margin(m, k) if gap <= 4.0 * step else -1
 
-    def _takes_over(self, m: int, n: int, k: int, ahead: Array) -> bool:
-        """Whether a mode begins at a sample, or the one before, where another ends and is heading."""
-        ends = not self.whole[m, k : k + 2].all()
-        begins = not self.whole[n, max(k - 2, 0) : k].all()
+    def _turns_over(self, m: int, n: int, k: int, ahead: Array) -> bool:
+        """Whether a mode is elsewhere at a sample than where one was heading from that before."""
         step = np.abs(self.places[n, k] - self.places[m, k - 1]).max()
-        return ends and begins and bool(np.abs(self.places[n, k] - ahead).max() <= 0.25 * step)
+        return not np.abs(self.places[n, k] - ahead).max() <= 0.25 * step
 
     def _margin(self, m: int, k: int) -> int:
         """Between two samples the sign of the margins of a mode that come near to zero, by the decimals as
