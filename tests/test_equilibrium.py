@@ -204,6 +204,96 @@ def test_beyond_a_change_point_a_third_crank_rests_where_two_cranks_do(free: str
         assert one.at["angles.AB"] == pytest.approx(other.at["angles.AB"], abs=1e-12)
 
 
+@pytest.mark.parametrize("lacks", ["CD", "EF"])
+@pytest.mark.parametrize("seed", range(20 if FULL else 3))
+def test_a_crank_whose_length_the_figure_leaves_to_its_place_rests_where_two_cranks_do(
+    lacks: str, seed: int
+) -> None:
+    """Of three cranks two have a length, and the other reaches from pin to pin where the figure is written.
+    There it assembles in another way, too, in which the cranks hold one another: that is no branch, and the
+    positions of the way that moves are found."""
+    rng = random.Random(f"length left open {seed}")
+    ab, bc, at = round(rng.uniform(0.6, 1.5), 2), round(rng.uniform(2.5, 4), 2), rng.randint(30, 150)
+    numbers = {"weight": round(rng.uniform(2, 9), 1), "force": round(rng.uniform(2, 9), 1)}
+    numbers |= {"ab": ab, "bc": bc, "bf": round(rng.uniform(0.5, bc - 0.4), 2), "toward": rng.randrange(360)}
+    third = "  - {pin: [3, 5], at: F}\n  - {pin: [5, 1], at: E}\n"
+    two, three = (
+        THIRD.format(free=f"{{unknown: [0, 360], from: {at}}}", ef=ef, joints=joints, **numbers)
+        for ef, joints in (("", ""), (f", EF: {ab}", third))
+    )
+    crank = cmath.rect(ab, math.radians(at))
+    feet = {"B": 0.0, "C": bc, "F": numbers["bf"]}
+    near = ", ".join(f"{p}: [{x + crank.real}, {crank.imag}]" for p, x in feet.items())
+    three = re.sub(r"near: .*", f"near: {{{near}}}", three.replace(f", {lacks}: {ab}", ""))
+    found, wanted = positions(three), positions(two)
+    assert found and [one.stability for one in found] == [one.stability for one in wanted]
+    for one, other in zip(found, wanted, strict=True):
+        assert one.at["angles.AB"] == pytest.approx(other.at["angles.AB"], abs=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(20 if FULL else 3))
+def test_a_way_without_an_answer_that_near_does_not_mean_refuses_no_other(seed: int) -> None:
+    """Scissors also assemble folded, both bars on one another, where a platform on top could turn: it rests
+    as its load on the bar does."""
+    rng = random.Random(f"scissors {seed}")
+    half, at = round(rng.uniform(0.4, 1.5), 2), rng.randint(20, 70)
+    foot = 2 * half * math.cos(math.radians(at))
+    text = (
+        f"icsolve: 1\npoints: {{A: [0, 0], B: [unknown, 0]}}\n"
+        f"lengths: {{AM: {half}, MC: {half}, BM: {half}, MD: {half}}}\n"
+        f"angles: {{AM: {{unknown: [5, 85], from: {at}}}, AMC: 180, BMD: 180}}\n"
+        f"near: {{B: [{foot}, 0]}}\njoints:\n  - {{pin: [1, 2], at: A}}\n  - {{pin: [2, 3], at: M}}\n"
+        "  - {slot: [3, 1], at: B, along: 0}\nPLATFORM"
+        f"loads:\n  F: {{force: {rng.randint(10, 40)}, link: LINK, at: D, angle: -90}}\n"
+        f"  S: {{spring: {rng.randint(50, 90)}, free: {0.3 * half}, link: 3, at: B, to: A}}\n"
+    )
+    platform = "  - {pin: [3, 4], at: D}\n  - {slot: [2, 4], at: C, along: 0}\n"
+    bare, both = (
+        positions(text.replace("PLATFORM", joints).replace("LINK", link))
+        for joints, link in (("", "3"), (platform, "4"))
+    )
+    assert both and [one.stability for one in both] == [one.stability for one in bare]
+    for one, other in zip(both, bare, strict=True):
+        assert one.at["angles.AM"] == pytest.approx(other.at["angles.AM"], abs=1e-9)
+
+
+TRAMMEL = """icsolve: 1
+points: {{O: [0, 0], Z: [0.2, -2.5], B: [unknown, 0], C: [0, unknown]}}
+lengths: {{BC: {rod}{crank}}}
+angles: {{CB: {free}{half}}}
+near: {{B: [{b}, 0], C: [0, {c}]}}
+joints:
+  - {{pin: [2, 3], at: B}}
+  - {{slide: [3, 1], at: B, along: 0}}
+  - {{pin: [2, 4], at: C}}
+  - {{slide: [4, 1], at: C, along: 90}}
+{joints}loads:
+  F: {{force: {force}, link: 3, at: B, angle: 180}}
+  S: {{spring: {k}, free: 0.5, link: 4, at: C, to: Z}}
+"""
+
+
+@pytest.mark.parametrize("free", ["unknown", "{unknown: [-360, 0]}", "{unknown: [-361.3, -3.7]}"])
+@pytest.mark.parametrize("seed", range(20 if FULL else 3))
+def test_the_crank_of_a_trammel_ends_no_branch_where_its_rod_lies_in_a_guide(free: str, seed: int) -> None:
+    """The crank from the crossing of both guides to the middle of the rod repeats what they hold. Placed as
+    where a ray meets its circle, its pin is of another mode beyond the positions in which the rod lies in a
+    guide, and the figure goes straight on through them: beyond, positions were missed."""
+    rng = random.Random(f"trammel {seed}")
+    half = round(rng.uniform(0.4, 1.5), 2)
+    angle = math.radians(rng.randint(10, 170))
+    numbers = {"rod": 2 * half, "force": rng.randint(10, 90), "k": rng.randint(10, 60), "free": free}
+    numbers |= {"b": 2 * half * math.cos(angle), "c": 2 * half * math.sin(angle)}
+    crank = "  - {pin: [1, 5], at: O}\n  - {pin: [5, 2], at: M}\n"
+    bare = positions(TRAMMEL.format(crank="", half="", joints="", **numbers))
+    both = positions(
+        TRAMMEL.format(crank=f", CM: {half}, OM: {half}", half=", BCM: 0", joints=crank, **numbers)
+    )
+    assert both and [one.stability for one in both] == [one.stability for one in bare]
+    for one, other in zip(both, bare, strict=True):
+        assert one.at["angles.CB"] == pytest.approx(other.at["angles.CB"], abs=1e-9)
+
+
 LIFT = """icsolve: 1
 points: {A: [0, 0]}
 lengths: {AM: 0.7, MC: 0.7, AC: 1.4, BM: 0.7, MD: 0.7, BD: 1.4,

@@ -559,6 +559,38 @@ def test_a_link_that_repeats_what_others_hold_keeps_its_length_in_every_row(seed
     assert rows.answers["T"][good] == pytest.approx(-work[good], abs=1e-6)
 
 
+@pytest.mark.parametrize("seed", range(20 if FULL else 4))
+def test_coupled_wheels_leave_the_rows_of_an_engine_as_they_are(seed: int) -> None:
+    """A locomotive: two more wheels, coupled to the crank by one rod, of which one is redundant and neither
+    bears on the torque, pass their change points with the crank, in every row all round."""
+    draw = random.Random(f"locomotive {seed}")
+    r, apart, rod = (round(draw.uniform(*of), 3) for of in ((0.3, 0.6), (1.2, 2.0), (2.0, 3.5)))
+    start = 15.0 * draw.randint(1, 11)
+    crank = cmath.rect(r, math.radians(start))
+    head = crank.real - math.sqrt(rod**2 - crank.imag**2)
+    wheels = f"D: [{apart}, 0], O: [{2 * apart:.3f}, 0], "
+    text = (
+        f"icsolve: 1\npoints: {{A: [0, 0], {wheels}S: [0.3, 1.1], X: [unknown, 0]}}\n"
+        f"lengths: {{AB: {r}, BX: {rod}, BC: {apart}, CD: {r}, CE: {apart}, EO: {r}}}\n"
+        f"angles: {{AB: {start}, BCE: 180}}\n"
+        f"near: {{X: [{head}, 0], C: [{apart + crank.real}, {crank.imag}]}}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: X}, "
+        "{slide: [4, 1], at: X, along: 0}, {pin: [2, 5], at: B}, {pin: [5, 6], at: C}, {pin: [6, 1], at: D}, "
+        "{pin: [5, 7], at: E}, {pin: [7, 1], at: O}]\n"
+        f"loads: {{F: {{force: {draw.randint(10, 90)}, link: 4, at: X, angle: 0}}, "
+        "K: {spring: 30, free: 0.5, link: 2, at: B, to: S}, T: {torque: unknown, link: 2}}\n"
+    )
+    bare = text.replace(wheels, "")
+    for word in (f", BC: {apart}, CD: {r}, CE: {apart}, EO: {r}", ", BCE: 180"):
+        bare = bare.replace(word, "")
+    bare = bare.replace(f", C: [{apart + crank.real}, {crank.imag}]", "")
+    bare = re.sub(r", \{pin: \[2, 5\].*?at: O\}", "", bare)
+    turn = {"angles.AB": np.linspace(0.0, 360.0, 49)}
+    found, wanted = (icsolve.sweep(icsolve.load(one), turn, ("status", "answers")) for one in (text, bare))
+    assert found.status.tolist() == wanted.status.tolist() == ["ok"] * 49
+    assert found.answers["T"] == pytest.approx(wanted.answers["T"], rel=1e-9, abs=1e-9)
+
+
 @pytest.mark.parametrize("seed", range(40 if FULL else 2))
 def test_places_as_programs_write_them_go_straight_on_through_a_change_point(seed: int) -> None:
     """A parallelogram whose places are doubles, so that as its decimals stand it just misses the change

@@ -1052,3 +1052,20 @@ def test_zeros_where_the_scale_of_the_motion_vanishes(
             (found,) = json.loads(capsys.readouterr().out)["found"]
             assert found["at"]["6"] == pytest.approx(-15.762949219184383, abs=1e-12)
             assert what == "T=0" or found["stability"] == "stable"
+
+
+@pytest.mark.parametrize("seed", range(20 if FULL else 6))
+def test_a_place_at_zero_has_its_answer_in_whatever_order_the_joints_stand(seed: int) -> None:
+    """Where the number is zero, what is found is a rounding beside it: the answer is that of the place."""
+    draw = Random(f"yoke {seed}")
+    joints = ["{pin: [1, 2], at: A}", "{slot: [2, 3], at: B, along: 90, through: C}"]
+    joints.append("{slide: [3, 1], at: C, along: 0}")
+    draw.shuffle(joints)
+    case = icsolve.load(
+        f"icsolve: 1\npoints: {{A: [0, 0], C: [unknown, 0]}}\nlengths: {{AB: {draw.randint(1, 9) / 10}}}\n"
+        f"angles: {{AB: {draw.randint(20, 70)}}}\njoints: [{', '.join(joints)}]\ndynamic: yes\n"
+        f"links: {{3: {{mass: {draw.randint(1, 9)} kg, centre: C}}}}\nmotion: {{link: 2, speed: 10}}\n"
+        "loads: {T: {torque: unknown, link: 2}}\n"
+    )
+    (one,) = find(case, {"angles.AB": [-10.0, 70.0]}, Query("value", "T", 0.0))
+    assert (one.at, one.answer) == (0.0, 0.0)

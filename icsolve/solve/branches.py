@@ -52,8 +52,10 @@ class Branches:
         self.open = open_by(functions[0].compiled.scene.case, functions[0].compiled.scene.frame.scale)
         beside = np.append(self.values[:-1] + self.slack, high - self.slack)  # where loci coincide none meet
         self.places = np.array([self._places(f, beside) for f in functions])  # (mode, sample, 2 points)
-        self.whole = self.assemble(self.values)  # (modes, samples)
+        self.whole, self.untold = self._assemble(self.values)  # (modes, samples)
         self.whole[:, [0, -1]] &= self.assemble(np.array([low + self.slack, high - self.slack]))
+        some = np.flatnonzero(self.untold.any(axis=0))
+        self.whole[:, some] &= ~self.untold[:, some] | self.assemble(beside[some])
         self.ids = self._followed()
         if functions[0].compiled.motion is None:
             self._leave_out_contrary()
@@ -77,16 +79,23 @@ class Branches:
 
     def assemble(self, values: Array) -> npt.NDArray[np.bool_]:
         """Whether each mode assembles at each value (modes, n); of margins about zero decimals say it."""
+        whole, untold = self._assemble(values)
+        return whole & ~untold
+
+    def _assemble(self, values: Array) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.bool_]]:
+        """The same by the margins that have a value, and where some have none, as loci coincide."""
         whole = np.ones((len(self.functions), len(values)), dtype=bool)
+        untold = np.zeros_like(whole)
         for n, function in enumerate(self.functions):
             found = Code(function.record, function.margins).run(function.given(values), len(values))
             for node, margin in zip(function.margins, found, strict=True):
-                holds = np.array(np.broadcast_to(margin >= 0.0, len(values)))
+                untold[n] |= np.isnan(margin)
+                holds = np.array(np.broadcast_to(~(margin < 0.0), len(values)))
                 for k in np.flatnonzero(~holds & np.broadcast_to(margin > -DOUBT, len(values))):
                     least = _exactly(function, node, as_written(values[k]))
                     holds[k] = not least.is_nan() and least >= -self.open
                 whole[n] &= holds
-        return whole
+        return whole, untold
 
     def _followed(self) -> npt.NDArray[np.int64]:
         """The branch of every sample of every mode; -1 where it does not assemble."""
@@ -107,8 +116,11 @@ class Branches:
                 off[list(taken)] = np.inf
                 n = int(np.argmin(off))
                 stays = self.whole[m, k] and m not in taken
+                stays = stays and not (self.untold[m, k] and self._turns_over(m, m, k, ahead))
                 if off[n] < np.inf and (not stays or off[n] < 0.25 * off[m]):
-                    meets = self._meets(m, n, k)
+                    meets = self._meets(m, n, k, ahead)
+                    if meets < 0 and not self.whole[m, k]:
+                        continue  # it ends, whatever another does
                     taken[m if meets > 0 else n] = int(ids[m, k - 1]) if meets >= 0 else -1
                 elif stays:
                     taken[m] = int(ids[m, k - 1])
@@ -142,16 +154,23 @@ class Branches:
         before = np.flatnonzero(ids[:, k - 2] == ids[m, k - 1])
         return np.asarray(2.0 * here - self.places[before[0], k - 2] if before.size else here)
 
-    def _meets(self, m: int, n: int, k: int) -> int:
+    def _meets(self, m: int, n: int, k: int, ahead: Array) -> int:
         """Between two samples: 0 where a branch passes from one mode to another that it meets there, 1 where
-        it turns back before it does, and -1 where it ends."""
+        it turns back before it does, and -1 where it ends. A figure goes straight on, too, where one mode of
+        it ends and the other begins: a ray turns over where its point passes another."""
         if m == n:
             return 0
         if not (self.whole[m, k] and self.whole[n, k - 1]):
-            return -1
+            ends = not (self.whole[m, k] or self.whole[n, k - 1])
+            return 0 if ends and not self._turns_over(m, n, k, ahead) else -1
         gap = min(np.abs(self.places[m, j] - self.places[n, j]).max() for j in (k - 1, k))
         step = np.abs(self.places[m, k] - self.places[m, k - 1]).max()
         return self._margin(m, k) if gap <= 4.0 * step else -1
+
+    def _turns_over(self, m: int, n: int, k: int, ahead: Array) -> bool:
+        """Whether a mode is elsewhere at a sample than where one was heading from that before."""
+        step = np.abs(self.places[n, k] - self.places[m, k - 1]).max()
+        return not np.abs(self.places[n, k] - ahead).max() <= 0.25 * step
 
     def _margin(self, m: int, k: int) -> int:
         """Between two samples the sign of the margins of a mode that come near to zero, by the decimals as

@@ -77,6 +77,10 @@ class TogetherError(SceneError):
     """Points of a figure can only all together be placed: no function is written of them."""
 
 
+class StillError(SceneError):
+    """A number moves nothing in the position as written."""
+
+
 class LoadFunction(NamedTuple):
     """One mode of a figure and its power on a record whose input is the free number.
 
@@ -390,7 +394,7 @@ def moving_function(
     if path and not setting.moves:
         held = next((joint for joint in case.joints if not joint.stays_known), None)
         moves_nothing = sentences.poses_nothing(path)
-        raise SceneError(Status.UNSUPPORTED, why_not_moved(held) if held is not None else moves_nothing)
+        raise StillError(Status.UNSUPPORTED, why_not_moved(held) if held is not None else moves_nothing)
     return _on_record(moved(setting), path or link, span)
 
 

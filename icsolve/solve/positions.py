@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from itertools import product
+from operator import itemgetter
 
 import numpy as np
 
@@ -24,6 +25,7 @@ from icsolve.solve.driven_search import (
 )
 from icsolve.solve.load_function import (
     LoadFunction,
+    StillError,
     TogetherError,
     given_at,
     load_functions,
@@ -370,15 +372,31 @@ def _moving_from(
     case: Case, path: str, start: float, span: tuple[float, float]
 ) -> tuple[list[LoadFunction], bool, list[int]]:
     """The mechanism moved from each way in which it assembles where it is written, and the further ways to
-    which that leads; whether these are all, and which modes are the ways as written."""
+    which that leads; whether these are all, and which modes are the ways as written. A way in which nothing
+    moves is no branch: it is refused where `near` means it, or there is no other; so is one without an
+    answer that `near` does not mean."""
     written, wide = given_at(case, path, start), (min(span[0], start), max(span[1], start))
     found = ways_of(written)
     functions, own = list[LoadFunction](), list[int]()
+    moving, refused = [math.inf], [(math.inf, SceneError(Status.CANNOT_ASSEMBLE, ""))]
     for way in found.ways:
-        function = moving_function(replace(written, near=way.near), path, span=span, posing=True)
+        off = math.hypot(
+            *(a - b for name in case.near for a, b in zip(way.points[name], case.near[name], strict=True))
+        )
+        try:
+            function = moving_function(replace(written, near=way.near), path, span=span, posing=True)
+        except SceneError as why:
+            if isinstance(why, TogetherError) or not (case.near or isinstance(why, StillError)):
+                raise
+            refused.append((off, why))
+            continue
+        moving.append(off)
         same = next((n for n, one in enumerate(functions) if one.meets(function, start)), None)
         own.append(len(functions) if same is None else same)
         functions += with_other_ways(function, wide) if same is None else ()
+    least, refusal = min(refused, key=itemgetter(0))
+    if least < min(moving):
+        raise refusal
     return functions, found.complete, own
 
 

@@ -344,8 +344,8 @@ class RangeSearch:
         yield self._spot(s, kind, load)
 
     def _spot(self, s: Decimal, kind: str, load: str | None, error: float | None = None) -> FoundPosition:
-        at = 0.0 if abs(s) < NEAR * NEAR else float(s)
-        answer = None
+        s = Decimal(0) if abs(s) < NEAR * NEAR else s  # what is told is the scene there
+        at, answer = float(s), None
         if load is not None:
             with suppress(SceneError):
                 answer = float(by_load(solve_scene(self.scene(s)).answers)[load].value)

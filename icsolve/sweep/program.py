@@ -165,18 +165,33 @@ class CompiledSweep(NamedTuple):
 
 
 def live_roots(compiled: CompiledSweep) -> list[Root]:
-    """The branches that bear on what is asked, in order."""
-    record = compiled.record
-    stack = [
-        v.index for values in compiled.outputs.values() for v in values if isinstance(v, Traced) and v.row
-    ]
-    stack += compiled.rubbing.nodes if compiled.rubbing is not None else ()
-    stack += compiled.loaded
+    """The branches that bear on what is asked, in order: those behind the links' checks too, which hold on
+    the branches of the motion only."""
+    record, stack = compiled.record, _asked(compiled)
+    stack += living_checks(compiled, live(record.nodes, stack))
     key = ("live roots", tuple(stack))
     if key not in record.kept:
         record.kept[key] = roots_of(record, stack)
     found: list[Root] = record.kept[key]
     return found
+
+
+def _asked(compiled: CompiledSweep) -> list[int]:
+    """The nodes of what is asked."""
+    stack = [
+        v.index for values in compiled.outputs.values() for v in values if isinstance(v, Traced) and v.row
+    ]
+    stack += compiled.rubbing.nodes if compiled.rubbing is not None else ()
+    stack += compiled.loaded
+    return stack
+
+
+def living_checks(compiled: CompiledSweep, behind: Sequence[int]) -> list[int]:
+    """The checks of links that bear on what is asked: they share more with what is behind it than a varied
+    number, such as a place that a group found."""
+    checks = compiled.motion.checks if compiled.motion is not None else ()
+    known = {*behind} - {*compiled.inputs.values()}
+    return [k for k in checks if known.intersection(live(compiled.record.nodes, [k]))]
 
 
 def roots_of(record: Record, stack: list[int]) -> list[Root]:

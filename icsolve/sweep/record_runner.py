@@ -19,7 +19,7 @@ from icsolve.numbers.record import Op, Record, Root, Traced, live, terms_of, var
 from icsolve.numbers.replay import BLOCK, Array, Code, Mask
 from icsolve.sweep.exact_record import RowScenes
 from icsolve.sweep.friction_rows import FrictionRows
-from icsolve.sweep.program import CompiledSweep, live_roots
+from icsolve.sweep.program import CompiledSweep, live_roots, living_checks
 from icsolve.tuples import NamedTuple, cached_property
 
 SHALLOW = 1e-6
@@ -80,13 +80,15 @@ class Runner:
         alive = [k for k in behind if nodes[k].op != Op.INPUT]
         answers = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
         standing = live(nodes, [*wanted, *self.rubs, *compiled.loaded]) if compiled.loaded else behind
-        self.roots = [record.roots[k] for k in standing if k in record.roots]
+        checks = living_checks(compiled, standing)
+        leading = live(nodes, [*standing, *checks]) if checks else standing
+        self.roots = [record.roots[k] for k in leading if k in record.roots]
         shallow, divisor = (STEEP * STEEP, STEEP) if compiled.dynamic else (SHALLOW, SMALL)
         self.watched = [
             *(Watched(root.radicand, shallow * _size_of(record, root)) for root in self.roots),
             *(Watched(k, divisor * terms_of(nodes, k), sized=True) for k in _divisors(nodes, alive)),
             *(Watched(k, CLOSE) for k in (*compiled.margins, *compiled.fits)),
-            *(Watched(k, -math.inf, AGREED, True) for k in _living(compiled, standing)),
+            *(Watched(k, -math.inf, AGREED, True) for k in checks),
         ]
         small = LEANING if compiled.rests else SMALL
         for k in (wanted[n] for n in answers):
@@ -256,14 +258,6 @@ class Watched(NamedTuple):
 def _size_of(record: Record, root: Root) -> float:
     """The size of the terms of a root's radicand, where the record was made."""
     return math.prod(record.nodes[size].value for _, size in root.margins)
-
-
-def _living(compiled: CompiledSweep, behind: Sequence[int]) -> list[int]:
-    """The checks of links that bear on what is asked: they share more with what is behind it than a varied
-    number, such as a place that a group found."""
-    checks = compiled.motion.checks if compiled.motion else ()
-    known = {*behind} - {*compiled.inputs.values()}
-    return [k for k in checks if known.intersection(live(compiled.record.nodes, [k]))]
 
 
 def column(array: Array, part: int) -> Array:
