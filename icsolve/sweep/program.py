@@ -168,7 +168,8 @@ def live_roots(compiled: CompiledSweep) -> list[Root]:
     """The branches that bear on what is asked, in order: those behind the links' checks too, which hold on
     the branches of the motion only."""
     record, stack = compiled.record, _asked(compiled)
-    stack += living_checks(compiled, live(record.nodes, stack))
+    if compiled.motion is not None and compiled.motion.checks:
+        stack += living_checks(compiled, live(record.nodes, stack))
     key = ("live roots", tuple(stack))
     if key not in record.kept:
         record.kept[key] = roots_of(record, stack)
