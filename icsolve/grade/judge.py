@@ -22,14 +22,18 @@ from icsolve.grade.keys import (
 from icsolve.grade.mistakes.lookup import Wrong, message, near_miss, together
 from icsolve.grade.tolerance import SLACK
 from icsolve.grade.written.answer import (
+    MINUS,
     MISSING,
     NO_NUMBER,
+    SIZE,
     TWO_VALUES,
     Reader,
     WrittenAnswer,
     flagged,
     may_name,
+    may_place,
     names_in,
+    places_in,
 )
 from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, figures, plain
 from icsolve.grade.written.two_numbers import (
@@ -60,6 +64,7 @@ SQUARE = "square-direction"
 OTHER_NAME = "other-quantity"
 OTHER_RANGE = "other-range"
 BY_ANGLE = "direction-in-words"
+SIZE_ALONE = "size-alone"
 
 
 class Judgement(NamedTuple):
@@ -118,9 +123,16 @@ def judge_answer(
     if key.name and isinstance(key, NumberKey) and key.expected.vector:
         answer = without_axes(answer, key.name)
     found = _judged(key, reader, answer, unit, direction)
-    if may_name(answer) and found[0].verdict in (RIGHT, WRONG) and any(map(key.another, names_in(answer))):
+    if found[0].verdict in (RIGHT, WRONG) and _is_elsewhere(key, answer):
         return _unjudged(OTHER_NAME), flagged(OTHER_NAME)
     return found
+
+
+def _is_elsewhere(key: AnyKey, answer: str) -> bool:
+    """Whether what is answered is named as another quantity, or acts on another link."""
+    if may_name(answer) and any(map(key.another, names_in(answer))):
+        return True
+    return bool(may_place(answer)) and any(map(key.elsewhere, places_in(answer)))
 
 
 _PARTED = re.compile(r"[ @-]")
@@ -192,7 +204,7 @@ def _judge_choice(
 ) -> tuple[Judgement, Read]:
     """By the nearest of several right values, whose mistakes alone are looked up where it is right; else by
     the first of which it shows a known mistake. Several values are right where each of them is."""
-    number, word, way, _, flag, _ = reader.read(answer, unit, direction)
+    number, word, way, _, flag, _, _ = reader.read(answer, unit, direction)
     several = flag in (TWO_VALUES, UNREAD) or (way is not None and way.measured)
     words = plain(answer) if several else ""
     parts = (_LISTED if _LISTED.search(words) else _SPACED).split(words)
@@ -227,10 +239,12 @@ def judge(key: NumberKey, written: WrittenAnswer) -> Judgement:
     Judgement
         The share is from 0 to 1; a text that could not be read has a flag in the place of a verdict.
     """
-    number, unit, way, _, flag, note = written
+    number, unit, way, _, flag, note, unsigned = written
     if flag:
         return _unjudged(flag)
-    if key.plain and not note:
+    if unsigned == MINUS and key.unit_name:
+        return _unjudged(AMBIGUOUS_DIRECTION)
+    if key.plain and not note and not unsigned:
         factor = 1.0 if unit is None else key.factors.get(unit.name) or key.factor(unit)
         sign = 1 if way is None else key.sign(way)
         if factor and sign:
@@ -291,6 +305,8 @@ def _in_full(key: NumberKey, written: WrittenAnswer) -> Judgement:
     if number and _may_be_component(key, written):
         return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, AMBIGUOUS_DIRECTION)
     direction = _direction_is_right(key, written, value, sign)
+    if number and not direction and written.unsigned == SIZE and value > 0.0 > key.value:
+        return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, SIZE_ALONE)
     off = relative(abs(abs(value) - size), size)
     if number and unit and direction:
         return _right(key, written, value, off)
@@ -463,8 +479,9 @@ UNJUDGED = {
     "ambiguous-unit": ("This unit has several meanings", ""),
     "two-values": ("There are two values in this", ""),
     OTHER_RANGE: ("This is another range than the one that is asked for, in which it may hold too", ""),
-    OTHER_NAME: ("This is named as another quantity than the one that is asked for", ""),
+    OTHER_NAME: ("This is named as another quantity than the one that is asked for, or acts elsewhere", ""),
     SQUARE: ("These words are square to the answer's direction", ""),
+    SIZE_ALONE: ("This is a size, whose direction is not said", ""),
     BY_ANGLE: ("This direction in words is not judged by itself", "Write an angle, as 'at 30 deg'."),
     "no-direction": ("In which direction it lies at infinity is not said", ""),
 }
