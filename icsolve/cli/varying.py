@@ -218,9 +218,6 @@ def _exported(kind: str, cases: str, output: str, options: dict[str, Any]) -> in
     for option in ("roster", "variants"):
         if options[option] and kind != "gradescope-zip":
             raise ValueError(f"--{option} is for gradescope-zip; the variants of {kind} are nobody's")
-    for option in ("count", "figures"):
-        if options[option] and kind == "gradescope-zip":
-            raise ValueError(f"--{option} is for questions; {kind} makes none, it grades: {_WHOSE}")
     course = course_of(options["course"], cases, False, {"seed": options["seed"]})
     case_store = CaseStore(existing(cases), course)
     case_store.check_course()
@@ -237,5 +234,8 @@ def _exported(kind: str, cases: str, output: str, options: dict[str, Any]) -> in
     for problem in problems:
         complain(problem)
     what = "case" if kind == "gradescope-zip" else "question"
+    for option in ("count", "figures"):
+        if options[option] and kind == "gradescope-zip":
+            complain(f"--{option} is for questions, of which {kind} makes none: {_WHOSE}")
     complain(f"wrote {output}: {plural(made, what)}")
     return NO_ANSWER if problems else DONE
