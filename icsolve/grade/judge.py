@@ -31,7 +31,6 @@ from icsolve.grade.written.answer import (
     WrittenAnswer,
     flagged,
     may_name,
-    may_place,
     names_in,
     places_in,
 )
@@ -123,16 +122,12 @@ def judge_answer(
     if key.name and isinstance(key, NumberKey) and key.expected.vector:
         answer = without_axes(answer, key.name)
     found = _judged(key, reader, answer, unit, direction)
-    if found[0].verdict in (RIGHT, WRONG) and _is_elsewhere(key, answer):
+    if may_name(answer) and found[0].verdict in (RIGHT, WRONG) and any(map(key.another, names_in(answer))):
+        return _unjudged(OTHER_NAME), flagged(OTHER_NAME)
+    placed = "on " in answer or "at " in answer or "bout " in answer or "ound " in answer  # few are
+    if placed and found[0].verdict in (RIGHT, WRONG) and any(map(key.elsewhere, places_in(answer))):
         return _unjudged(OTHER_NAME), flagged(OTHER_NAME)
     return found
-
-
-def _is_elsewhere(key: AnyKey, answer: str) -> bool:
-    """Whether what is answered is named as another quantity, or acts on another link."""
-    if may_name(answer) and any(map(key.another, names_in(answer))):
-        return True
-    return bool(may_place(answer)) and any(map(key.elsewhere, places_in(answer)))
 
 
 _PARTED = re.compile(r"[ @-]")

@@ -116,8 +116,6 @@ _PLACE = re.compile(
     rf"(?:(?:{_BODY}|point|pivot) (?P<name>[^\W_][\w']*)|(?P<alone>[^\W\d_][\w']*))",
     re.IGNORECASE,
 )
-may_place = re.compile(r".*?\b(?:on|at|about|around) ", re.IGNORECASE).match
-"""Whether a text may say where what it gives acts."""
 _DASH = re.compile(r"(?:(?<=[\w\])]) ?|^)[-:;,]+ (?=[A-Za-z(])(?! *[xy]\b)| -$|^-$")
 """A dash or a colon between a unit and a direction; before x and y it may be a sign."""
 _ASIDE_OF_NAME = r"(?: ?(?:\([\w' ·*/+-]*\)|\[[\w' ·*/+-]*\]))?"
