@@ -467,6 +467,16 @@ def test_what_is_for_the_autograder_alone_is_refused_elsewhere(a_class: Class, o
     assert ran.code == 2 and f"--{option} is for gradescope-zip" in ran.err
 
 
+@pytest.mark.parametrize("option", [("--count", "4"), ("--figures",)])
+def test_what_an_autograder_has_none_of_is_told(option: tuple[str, ...], a_class: Class) -> None:
+    """No option does nothing in silence: an autograder has no questions."""
+    path = str(a_class.path("cases/lever.yaml"))
+    for kind, told in (("gradescope-zip", True), ("moodle-xml", False)):
+        to = str(a_class.path("a" + ENDINGS[kind][0]))
+        ran = a_class.run("export", kind, path, "-o", to, *option)
+        assert ran.code == 0 and (f"{option[0]} is for questions" in ran.err) == told
+
+
 def test_questions_whose_answer_is_zero_are_exported(a_class: Class) -> None:
     for name in ("lever", "pusher", "dead"):
         a_class.path(f"cases/{name}.yaml").unlink()

@@ -370,3 +370,21 @@ def test_of_two_columns_of_one_question_the_last_counts_and_is_told_as_a_column(
     assert "the last column counts" in ran.err
     ran = a_class.grade("student_id,case,answer\n1,lever,100\n1,lever,200\n")
     assert "the last row counts" in ran.err
+
+
+@pytest.mark.parametrize("unseen", ["\u200b", "\u200d", "\u2060", "\u00ad", "\ufe0f"])
+@pytest.mark.parametrize(
+    "table",
+    [
+        "student_id,ca*se,answer\n1,lever,200\n",
+        "*student_id,case,answ*er*\n1,lever,200\n",
+        "student_id,case,answer\n1,lev*er*,200\n",
+        "student_id,case,answer\n1,lever:*T*,200\n",
+        "student_id,le*ver\n1,200\n",
+    ],
+)
+def test_what_nobody_sees_makes_no_other_name(table: str, unseen: str, a_class: Class) -> None:
+    """Of a column or of a case: pages put such marks between the letters of what is copied from them."""
+    plain, marked = (a_class.grade(table.replace("*", mark)).rows() for mark in ("", unseen))
+    assert plain == marked
+    assert marked[0]["verdict"] == "right"

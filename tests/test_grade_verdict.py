@@ -42,6 +42,25 @@ loads:
 """
 
 
+PLAIN_PRESS = """\
+icsolve: 1
+units: {length: in, force: lbf}
+points: {A: [0, 0], D: [4, 0]}
+lengths: {AB: 1, BC: 3.5, CD: 2.5, DE: 1.5}
+angles: {AB: 60, CDE: 0}
+near: {C: [3.5, 2.4]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 1], at: D}
+loads:
+  P: {force: 100, link: 4, at: E, angle: 180}
+  T12: {torque: unknown, link: 2}
+"""
+"""The answer is 33.7582 lbf*in clockwise."""
+
+
 @pytest.fixture
 def a_class(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Class:
     return Class(tmp_path, capsys)
@@ -600,3 +619,54 @@ def test_what_cannot_be_read_is_told_how_to_write_in_a_form_that_is_read(
 )
 def test_a_task_takes_what_a_form_hands_over(a_class: Class, given: float | None, verdict: str) -> None:
     assert Task(a_class.path("cases/lever.yaml")).grade("", given)["verdict"] == verdict
+
+
+@pytest.mark.parametrize("said", ["|T12| = {}", "|T12| = {} lbf*in", "magnitude {}", "size {} lbf*in"])
+def test_a_size_is_no_wrong_sense(said: str, tmp_path: Path) -> None:
+    """What is written as a size says nothing of its sense: a person decides where the sense may be the
+    other, and a wrong size is wrong."""
+    (tmp_path / "press.yaml").write_text(PLAIN_PRESS)
+    press = Task(tmp_path / "press.yaml")
+    found = press.grade("", said.format(33.758))
+    assert (found["verdict"], found["code"]) == ("review", "size-alone")
+    assert press.grade("", said.format(43.9))["verdict"] == "wrong"
+    (tmp_path / "gears.yaml").write_text(GEARS.replace("torque: 10", "torque: -10"))
+    assert (
+        Task(tmp_path / "gears.yaml").grade("", said.format(5).replace("lbf*in", "N*m"))["verdict"] == "right"
+    )
+
+
+@pytest.mark.parametrize("number", ["5", "-5"])
+def test_a_minus_in_brackets_is_read_as_no_plus(number: str, tmp_path: Path) -> None:
+    """``5 (-)`` may be -5 where the answer has a unit; of a ratio it is the unit."""
+    (tmp_path / "gears.yaml").write_text(GEARS)
+    gears = Task(tmp_path / "gears.yaml")
+    assert gears.grade("", f"{number} (-)")["verdict"] == ("review" if number == "5" else "right")
+    assert gears.grade("w3/w2", "0.5 (-)")["verdict"] == "right"
+
+
+@pytest.mark.parametrize(
+    ("place", "verdict"),
+    [
+        ("on link 2", "right"),
+        ("on Link 2", "right"),
+        ("acting on the link 2", "right"),
+        ("at A", "right"),
+        ("on the crank", "right"),  # no link of the case is called so
+        ("on link 4", "review"),
+        ("(on link 4)", "review"),
+        ("on the frame", "review"),
+        ("at D", "review"),
+    ],
+)
+def test_what_acts_on_another_link_waits_for_a_person(place: str, verdict: str, tmp_path: Path) -> None:
+    (tmp_path / "press.yaml").write_text(PLAIN_PRESS)
+    assert Task(tmp_path / "press.yaml").grade("", f"33.758 lbf*in cw {place}")["verdict"] == verdict
+
+
+@pytest.mark.parametrize(("place", "verdict"), [("on link 4", "right"), ("on link 3", "review")])
+def test_a_reaction_is_the_force_on_its_second_link(place: str, verdict: str) -> None:
+    task = Task(CASES / "linkages/four_bar.yaml")
+    force = icsolve.solve(icsolve.load(CASES / "linkages/four_bar.yaml"), reactions=True).to_dict()
+    size = math.hypot(force["reactions"]["F34"]["x"], force["reactions"]["F34"]["y"])
+    assert task.grade("F34", f"{size:.6g} N {place}")["verdict"] == verdict

@@ -1330,3 +1330,31 @@ def test_a_slot_along_points_of_its_own_pins_link_is_told(along: str, point: str
     assert icsolve.load(too).joints
     slide = ARM.replace("slot", "slide").replace("[O, E]", along)
     assert icsolve.load(slide).joints  # a block keeps its direction on its guide
+
+
+PISTON = """\
+icsolve: 1
+points: {A: [0, 0], Q: [0, 20]}
+lengths: {AB: 50, BC: 160}
+angles: {AB: 40}
+near: {C: [195, 20]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0}
+loads:
+  P: {force: 2000, link: 4, at: C, angle: 180}
+  T12: {torque: unknown, link: 2}
+"""
+"""Its guide has a direction alone."""
+
+
+def test_a_guide_without_a_line_is_told_what_gives_it_one() -> None:
+    """Its line is where its point is, so it places nothing: that a length is needed says so to nobody."""
+    with pytest.raises(icsolve.SceneError) as refused:
+        icsolve.solve(icsolve.load(PISTON))
+    assert refused.value.status == "underdetermined"
+    assert "give 'through', a point of that line, or a coordinate of C" in refused.value.message
+    for mended in (("along: 0}", "along: 0, through: Q}"), ("Q: [0, 20]", "C: [unknown, 20]")):
+        assert icsolve.solve(icsolve.load(PISTON.replace(*mended))).status == "ok"

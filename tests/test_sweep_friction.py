@@ -300,3 +300,33 @@ loads:
         assert swept.status[k] == ("ok" if found.holds is None else "holds")
         row = [swept.answers["P"][k]] if found.holds is None else swept.holds["P"][k].tolist()
         assert row == pytest.approx(found.holds or [found.value], rel=1e-15, abs=1e-15)
+
+
+@pytest.mark.parametrize("motion", ["", "motion: {point: A, link: 2, speed: 1, angle: %d}\n"])
+@pytest.mark.parametrize(
+    ("push", "mu", "along", "at"),
+    [
+        (45, 1, 0, (50, 0)),
+        (45, 1, 90, (50, 0)),
+        (90, 1, 45, (30, 30)),
+        (45, 0.3, 0, (50, 0)),
+        (-60, 0.3, 90, (50, 0)),
+    ],
+)
+def test_a_row_whose_load_cancels_has_the_zero_of_its_scene(
+    motion: str, push: int, mu: float, along: int, at: tuple[int, int]
+) -> None:
+    """On the edge of locking what the push needs is just what the friction takes: what rounding leaves of
+    both, -1.4e-14 N, is no row's answer."""
+    case = icsolve.load(
+        f"icsolve: 1\npoints: {{A: [0, 0], D: [{at[0]}, {at[1]}]}}\n"
+        f"joints:\n  - {{slide: [2, 1], at: A, along: {along}, mu: {mu}, length: 30}}\n"
+        f"loads:\n  P: {{force: 100, link: 2, at: D, angle: {push}}}\n"
+        f"  Q: {{force: unknown, link: 2, at: A, angle: {along}}}\n" + (motion % along if motion else "")
+    )
+    scene = icsolve.solve(case).answers["Q"]
+    rows = icsolve.sweep(case, {"joints.A.mu": np.array([mu])})
+    found = rows.holds["Q"][0] if "Q" in rows.holds else (rows.answers["Q"][0],) * 2
+    own = scene.holds or (scene.value, scene.value)
+    for row, end in zip(found, own, strict=True):
+        assert end is not None and (row == 0.0) == (end == 0.0) and row == pytest.approx(end)

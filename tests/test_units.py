@@ -74,7 +74,7 @@ SPELLINGS = {
     "mm": ["millimetre", "millimeters"],
     "N": ["newton", "newtons", "Newtons"],
     "lbf": ["lb", "lbs", "pounds", "LBF"],
-    "deg": ["°", "degree", "degrees", "DEG"],
+    "deg": ["°", "º", "˚", "degree", "degrees", "DEG"],
     "rad/s": ["rad/sec", "rad s^-1", "rad·s⁻¹", "radians/second", "rad per s"],
     "rpm": ["rev/min", "r/min", "RPM", "revolutions/minute"],
     "N*m": ["N·m", "N⋅m", "Nm", "N-m", "N.m", "N m", "newton-metres"],

@@ -180,6 +180,9 @@ QUESTIONS = {
     "gradescope-zip": (".zip",),
 }
 """The kinds that are exported, and what their files end in; without that a folder."""
+_WHOSE = "each student has numbers of their own, by --roster or --variants"
+COUNT = 10
+"""Variants of a case, where no other number is asked for."""
 
 
 @click.command("export", cls=Verb)
@@ -192,10 +195,8 @@ QUESTIONS = {
 @click.option("--roster", metavar="FILE", help="For gradescope-zip: by which students get their variants.")
 @click.option("--seed", metavar="TEXT", help="Seed of the variants.")
 @click.option("--variants", metavar="FILE", multiple=True, help="For gradescope-zip: values.csv, the record.")
-@click.option(
-    "--count", type=click.IntRange(1, 1000), default=10, show_default=True, help="Variants of a case."
-)
-@click.option("--figures/--no-figures", default=True, help="The figure of each question, without its answer.")
+@click.option("--count", type=click.IntRange(1, 1000), show_default=f"{COUNT}", help="Variants of a case.")
+@click.option("--figures/--no-figures", default=None, help="The figure of each question, without its answer.")
 @FORCE
 def export_command(kind: str, cases: str, output: str, **options: Any) -> int:
     """Make quiz questions (with tolerances, units, and feedback on known mistakes) or an autograder of cases.
@@ -226,12 +227,15 @@ def _exported(kind: str, cases: str, output: str, options: dict[str, Any]) -> in
     elif os.path.splitext(output)[1].lower() in {ending for some in QUESTIONS.values() for ending in some}:
         raise ValueError(f"{output} ends as a file, and what {kind} writes is a folder")
     own = options["course"] or course_file(cases)
-    drawn = (options["force"], options["figures"], options["count"])
+    drawn = (options["force"], options["figures"] is not False, options["count"] or COUNT)
     order = ExportOrder(case_store, output, *drawn, own, options["roster"] or "")
     with together():
         made = export(kind, order._replace(records=tuple(options["variants"])), problems.append)
     for problem in problems:
         complain(problem)
     what = "case" if kind == "gradescope-zip" else "question"
+    for option in ("count", "figures"):
+        if options[option] and kind == "gradescope-zip":
+            complain(f"--{option} is for questions, of which {kind} makes none: {_WHOSE}")
     complain(f"wrote {output}: {plural(made, what)}")
     return NO_ANSWER if problems else DONE

@@ -13,6 +13,7 @@ from icsolve.grade.keys import AnyKey
 from icsolve.grade.solved import SolvedCase, asked_of, canonical, check_plane, unknowns
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import VariantRecord, Varied
+from icsolve.grade.written.numerals import without_unseen
 from icsolve.read import case_name, read_file
 
 _MOST_SLIPS = 200
@@ -46,7 +47,7 @@ class CaseStore:
 
     def find(self, text: str) -> str | None:
         """The question that a text names, by the name of its case's file and what is asked of it."""
-        case, colon, what = text.strip().partition(":")
+        case, colon, what = without_unseen(text).strip().partition(":")
         case = case.removesuffix(".yaml").removesuffix(".yml")
         name = case.strip() if case.strip() in self.paths else self._lower.get(case.strip().lower())
         what = what.strip()

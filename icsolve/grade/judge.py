@@ -22,14 +22,17 @@ from icsolve.grade.keys import (
 from icsolve.grade.mistakes.lookup import Wrong, message, near_miss, together
 from icsolve.grade.tolerance import SLACK
 from icsolve.grade.written.answer import (
+    MINUS,
     MISSING,
     NO_NUMBER,
+    SIZE,
     TWO_VALUES,
     Reader,
     WrittenAnswer,
     flagged,
     may_name,
     names_in,
+    places_in,
 )
 from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, figures, plain
 from icsolve.grade.written.two_numbers import (
@@ -60,6 +63,7 @@ SQUARE = "square-direction"
 OTHER_NAME = "other-quantity"
 OTHER_RANGE = "other-range"
 BY_ANGLE = "direction-in-words"
+SIZE_ALONE = "size-alone"
 
 
 class Judgement(NamedTuple):
@@ -119,6 +123,9 @@ def judge_answer(
         answer = without_axes(answer, key.name)
     found = _judged(key, reader, answer, unit, direction)
     if may_name(answer) and found[0].verdict in (RIGHT, WRONG) and any(map(key.another, names_in(answer))):
+        return _unjudged(OTHER_NAME), flagged(OTHER_NAME)
+    placed = "on " in answer or "at " in answer or "bout " in answer or "ound " in answer  # few are
+    if placed and found[0].verdict in (RIGHT, WRONG) and any(map(key.elsewhere, places_in(answer))):
         return _unjudged(OTHER_NAME), flagged(OTHER_NAME)
     return found
 
@@ -192,7 +199,7 @@ def _judge_choice(
 ) -> tuple[Judgement, Read]:
     """By the nearest of several right values, whose mistakes alone are looked up where it is right; else by
     the first of which it shows a known mistake. Several values are right where each of them is."""
-    number, word, way, _, flag, _ = reader.read(answer, unit, direction)
+    number, word, way, _, flag, _, _ = reader.read(answer, unit, direction)
     several = flag in (TWO_VALUES, UNREAD) or (way is not None and way.measured)
     words = plain(answer) if several else ""
     parts = (_LISTED if _LISTED.search(words) else _SPACED).split(words)
@@ -227,10 +234,12 @@ def judge(key: NumberKey, written: WrittenAnswer) -> Judgement:
     Judgement
         The share is from 0 to 1; a text that could not be read has a flag in the place of a verdict.
     """
-    number, unit, way, _, flag, note = written
+    number, unit, way, _, flag, note, unsigned = written
     if flag:
         return _unjudged(flag)
-    if key.plain and not note:
+    if unsigned == MINUS and key.unit_name:
+        return _unjudged(AMBIGUOUS_DIRECTION)
+    if key.plain and not note and not unsigned:
         factor = 1.0 if unit is None else key.factors.get(unit.name) or key.factor(unit)
         sign = 1 if way is None else key.sign(way)
         if factor and sign:
@@ -291,6 +300,8 @@ def _in_full(key: NumberKey, written: WrittenAnswer) -> Judgement:
     if number and _may_be_component(key, written):
         return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, AMBIGUOUS_DIRECTION)
     direction = _direction_is_right(key, written, value, sign)
+    if number and not direction and written.unsigned == SIZE and value > 0.0 > key.value:
+        return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, SIZE_ALONE)
     off = relative(abs(abs(value) - size), size)
     if number and unit and direction:
         return _right(key, written, value, off)
@@ -463,8 +474,9 @@ UNJUDGED = {
     "ambiguous-unit": ("This unit has several meanings", ""),
     "two-values": ("There are two values in this", ""),
     OTHER_RANGE: ("This is another range than the one that is asked for, in which it may hold too", ""),
-    OTHER_NAME: ("This is named as another quantity than the one that is asked for", ""),
+    OTHER_NAME: ("This is named as another quantity than the one that is asked for, or acts elsewhere", ""),
     SQUARE: ("These words are square to the answer's direction", ""),
+    SIZE_ALONE: ("This is a size, whose direction is not said", ""),
     BY_ANGLE: ("This direction in words is not judged by itself", "Write an angle, as 'at 30 deg'."),
     "no-direction": ("In which direction it lies at infinity is not said", ""),
 }

@@ -213,7 +213,8 @@ def _nothing_else(name: str) -> bool:
 
 class _Key:
     """What all keys have: the unit, how wide the accepted band is, in words, the ``name`` of what is asked,
-    and (``another``) whether a name that stands before an answer is that of another quantity."""
+    and whether a name that stands before an answer is that of another quantity (``another``), one after it
+    that of a place where what is asked does not act (``elsewhere``)."""
 
     unit_name: str
     policy: Policy
@@ -267,6 +268,7 @@ class NumberKey(_Key):
     kind: str = "load"
     period: float = 0.0
     another: Callable[[str], bool] = _nothing_else
+    elsewhere: Callable[[str], bool] = _nothing_else
     name: str = ""
 
     @cached_property
@@ -323,6 +325,7 @@ class PlaceKey(_Key):
     policy: Policy
     kind = "place"
     another: Callable[[str], bool] = _nothing_else
+    elsewhere: Callable[[str], bool] = _nothing_else
     name: str = ""
 
     @property
@@ -343,6 +346,7 @@ class RangeKey(_Key):
     unit_name: str
     policy: Policy
     another: Callable[[str], bool] = _nothing_else
+    elsewhere: Callable[[str], bool] = _nothing_else
     name: str = ""
     others: tuple[RangeKey, ...] = ()
     """further ranges in which friction may hold, as the solution says: a person decides"""
@@ -384,6 +388,7 @@ class ChoiceKey(_Key):
     policy: Policy
     kind = "position"
     another: Callable[[str], bool] = _nothing_else
+    elsewhere: Callable[[str], bool] = _nothing_else
     name: str = ""
 
     @property

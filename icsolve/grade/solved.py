@@ -16,6 +16,7 @@ from icsolve.case.expected import (
     LoadIs,
     OfBodies,
     PositionIs,
+    RateIs,
     ReactionIs,
     SpeedIs,
     Target,
@@ -140,9 +141,11 @@ class SolvedCase:
         if question not in self._keys:
             try:
                 what = question.partition(":")[2] or "".join(unknowns(self.case)[:1])
-                another = partial(is_another, self.case, self.target(question), what)
+                target = self.target(question)
+                another = lru_cache(partial(is_another, self.case, target, what))
+                elsewhere = lru_cache(partial(is_elsewhere, self.case, target))
                 made = self._made(question)
-                self._keys[question] = replace(made, another=lru_cache(another), name=what)
+                self._keys[question] = replace(made, another=another, elsewhere=elsewhere, name=what)
             except SceneError as error:
                 raise NoKeyError(f"{question} has no answer ({error.status}): {error.message}") from None
         return self._keys[question]
@@ -236,6 +239,28 @@ def is_another(case: Case, target: Target, what: str, name: str) -> bool:
         return True  # a quotient: T12/P, T12/2
     shape, asked = (re.sub(r"\d", "#", text.casefold()) for text in (bare, own))
     return shape == asked and "#" in shape
+
+
+def is_elsewhere(case: Case, target: Target, name: str) -> bool:
+    """Whether what is asked does not act at a link, or a point, of this name: what bears no such name says
+    nothing."""
+    own = _link_of(case, target)
+    if not own:
+        return False
+    link = case.ground if name.casefold() in ("frame", "ground") and name not in case.links else name
+    named = [one for one in case.links if one.casefold() == link.casefold()]
+    if named:
+        return own not in named
+    return isinstance(target, LoadIs) and name in points_of(case) and name not in case.carries.get(own, ())
+
+
+def _link_of(case: Case, target: Target) -> str:
+    """The link on which what is asked acts; '' where it is on none."""
+    if isinstance(target, LoadIs):
+        return next((load.link for load in case.loads if load.name == target.load), "")
+    if isinstance(target, ReactionIs):
+        return target.on
+    return target.link if isinstance(target, RateIs | SpeedIs) else ""
 
 
 def _meant(case: Case, target: Target, bare: str) -> Iterator[Target]:

@@ -92,7 +92,7 @@ _TABLE: tuple[tuple[str, int, int, int, str], ...] = (
     ("lbm", 45359237, 10**8, 0, "mass"),
     ("slug slugs", _POUND[0] * 1250, _POUND[1] * 381, 0, "mass"),
     ("rad radian radians", 1, 1, 0, "angle"),
-    ("deg ° degree degrees", 1, 180, 1, "angle"),
+    ("deg ° º ˚ degree degrees", 1, 180, 1, "angle"),
     ("rev revolution revolutions r turn turns", 2, 1, 1, "angle"),
     ("s sec secs second seconds", 1, 1, 0, "time"),
     ("min mins minute minutes", 60, 1, 0, "time"),
@@ -204,7 +204,7 @@ def _factor(text: str, whole: str) -> tuple[Unit, str]:
     elif text.startswith("1") and text[1:].lstrip().startswith("/"):
         return ONE, text[1:]
     else:
-        end = next((i for i, c in enumerate(text) if not (c.isalpha() or c == "°")), len(text))
+        end = next((i for i, c in enumerate(text) if not (c.isalpha() or c in "°˚")), len(text))
         unit, rest = word(text[:end], whole), text[end:]
         if rest[:1] == "." and text[:end].lower() in _SHORTENED and not rest[1:2].isalpha():
             rest = rest[1:]

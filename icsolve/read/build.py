@@ -9,6 +9,7 @@ from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.figure import (
     check_given,
     check_unknowns,
+    guides_without_line,
     read_angles,
     read_dynamic,
     read_lengths,
@@ -59,7 +60,8 @@ def build(root: Mapping, problems: Problems, name: str, units: Units) -> Case:
             given = (loads, motion, parts["inertia"], parts["expect"])
             reading.noticed += check_loads(reading, root, figure, *given, ground)
             reading.noticed += check_guides(figure)
-            reading.noticed += (*stray_points(reading, figure), *small_angles(figure))
+            reading.noticed += (*stray_points(reading, figure), *guides_without_line(reading, figure))
+            reading.noticed += small_angles(figure)
     links = tuple(reading.links or ())
     return Case(
         **told_of_itself(reading, root, name, units, ground),

@@ -438,7 +438,7 @@ def _is_angle(text: str) -> bool:
         parts = split_quantity(text)
     except UnitError:
         return False
-    return parts is not None and parts[1] in ("", "deg", "°", "degrees")
+    return parts is not None and parts[1] in ("", "deg", "°", "º", "˚", "degrees")
 
 
 _SHARE = "(?:%|per ?cent)"

@@ -353,6 +353,24 @@ def stray_points(reading: Reading, figure: FigureData) -> list[str]:
     return said
 
 
+def guides_without_line(reading: Reading, figure: FigureData) -> list[str]:
+    """Sentences on guides by a direction alone, whose line is where their point is, at points that too little
+    else places: they place nothing."""
+    times = Counter(name for datum in (*figure.lengths, *figure.angles) for name in datum[:-1])
+    placed = {*figure.points, *reading.centroids, *reading.on_guides}
+    said = []
+    for joint in figure.joints:
+        guide, at = joint.guide, joint.at
+        if guide is None or at is None or guide.ends or guide.through or at in placed or times[at] > 1:
+            continue
+        links = " and ".join(joint.links)
+        said.append(
+            f"the guide of links {links} at {at} has a direction, and no line: give 'through', a point of "
+            f"that line, or a coordinate of {at}."
+        )
+    return said
+
+
 def small_angles(figure: FigureData) -> list[str]:
     """A sentence where all angles may be radians: each has decimals, and none is more than a turn of them."""
     angles = [datum.value for datum in figure.angles if datum.value.factor == 1.0]

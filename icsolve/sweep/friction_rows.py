@@ -35,6 +35,9 @@ ITERATIONS, STEPS = 24, 12
 """Plain iterations of all rows; Newton's steps of those that are still on their way."""
 SETTLED = 2.0**-49
 """A change of this fraction of the largest force is none."""
+CANCELLED = 1e-9
+"""A load below this fraction of its terms is what rounding left of them: the row is a scene, which has its
+digits and its zero."""
 
 Take = Callable[[Scalar], Array | float]
 """The rows' values of an expression."""
@@ -124,9 +127,12 @@ class FrictionRows(NamedTuple):
         ]
         sizes, settled = _fixed_point(signed, rows)
         load: Array = np.broadcast_to(np.asarray(take(self.load[0])), rows).copy()
+        largest = np.abs(load)
         for s, a, y in zip(senses, self.load[1:], sizes, strict=True):
-            load -= s * take(a) * y
-        return load, settled & np.isfinite(load)
+            part = s * take(a) * y
+            load -= part
+            largest = np.maximum(largest, np.abs(part))
+        return load, settled & np.isfinite(load) & ~(np.abs(load) < CANCELLED * largest)
 
 
 class Balanced(NamedTuple):

@@ -13,6 +13,7 @@ from typing import IO
 
 from icsolve.files import reading
 from icsolve.grade.tables.text import AnswerTable, Report, TableRow
+from icsolve.grade.written.numerals import without_unseen
 from icsolve.tuples import NamedTuple
 
 
@@ -57,16 +58,12 @@ class HeaderError(ValueError):
     """A header that can't be used; the message says what to do."""
 
 
-_UNSEEN = dict.fromkeys(map(ord, "\ufeff\u200b\u2060\u200e\u200f"))
-"""What pages put between letters of what is copied from them."""
-
-
 def identifier(text: str) -> str:
     """An id as text: without spaces around it, signs that are not seen, and what a spreadsheet puts about it
     (``="007"``)."""
     if text.isalnum():
         return text
-    text = text.translate(_UNSEEN).strip()
+    text = without_unseen(text).strip()
     if text.startswith('="') and text.endswith('"'):
         text = text[2:-1]
     return text.lstrip("'#").strip() if text[:1] in ("'", "#") else text
@@ -142,7 +139,7 @@ Find = Callable[[str], "str | None"]
 
 def plain_name(text: str) -> str:
     """A header in small letters with single spaces and plain apostrophes."""
-    return " ".join(text.replace("\ufeff", "").replace("\u2019", "'").lower().split())
+    return " ".join(without_unseen(text).replace("\u2019", "'").lower().split())
 
 
 class TableColumns:

@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterator
 from datetime import datetime, timedelta
 from typing import IO, TYPE_CHECKING
 
+from icsolve.grade.written.numerals import without_unseen
 from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
@@ -107,7 +108,7 @@ class AnswerTable:
 
     def _header(self) -> list[str]:
         for row in self.rows():
-            return [" ".join(cell.replace("\ufeff", "").split()) for cell in row.cells]
+            return [" ".join(without_unseen(cell).split()) for cell in row.cells]
         raise ValueError("there is nothing in it but empty lines")
 
     def rows(self) -> Iterator[TableRow]:

@@ -27,6 +27,7 @@ MISSING = "missing"
 NO_NUMBER = "no-number"
 TOO_LONG = "too-long"
 TWO_VALUES = "two-values"
+SIZE, MINUS = "size", "minus"
 LONGEST = 200
 """Characters of an answer; more is no number with a unit and a direction."""
 _MOST = 4096
@@ -38,7 +39,8 @@ class WrittenAnswer(NamedTuple):
 
     ``number`` is signed, in ``unit`` (None: none was given); ``digits`` carries its significant figures;
     ``direction`` is None where no words give one. ``flag`` is '' where all of the text was read in
-    one way; ``note`` is ``unit-case`` where capitals were overlooked.
+    one way; ``note`` is ``unit-case`` where capitals were overlooked; ``unsigned`` says that a number without
+    a sign need not be positive: a size alone (``SIZE``), or beside a minus in brackets (``MINUS``).
     """
 
     number: float
@@ -47,6 +49,7 @@ class WrittenAnswer(NamedTuple):
     digits: str = ""
     flag: str = ""
     note: str = ""
+    unsigned: str = ""
 
 
 _made: Callable[[tuple[Any, ...]], WrittenAnswer] = partial(tuple.__new__, WrittenAnswer)
@@ -95,17 +98,24 @@ _ASIDE = re.compile(
 )
 """Words that say nothing about the value, and a unit in brackets that is none."""
 _BRACKETED_MINUS = re.compile(r"\( ?- ?\)")
-"""Alone the unit of a ratio; beside a unit or a direction perhaps the number's sign."""
+"""Alone the unit of a ratio; beside a unit or a direction, or of what has a unit, perhaps the sign."""
+_SIZE = re.compile(r"\|[^|]+\||(?<!\w)(?:magnitude|size|absolute value|modulus|abs)(?!\w)", re.IGNORECASE)
+"""What says that a number is a size, whatever its sense: ``|T12| = 41``, ``magnitude 41``."""
 _VECTOR_FIRST = re.compile(r"(?<!\w)([ij]|[ijk]-hat) (.+)")
 _BODY = (
     r"link|crank|bar|member|body|input|output|frame|rod|coupler|rocker"
     r"|slider|block|piston|gear|wheel|arm|lever|pin"
 )
 _WHERE = re.compile(
-    rf",? ?\b(?:(?:acting|applied|exerted) )?(?:on|at|about|around) (?:the |link |point |pin )*"
-    rf"(?:(?:{_BODY})(?: [A-Z]?\d{{0,2}}[A-Z]?)?|(?<=link )\d{{1,2}}|[A-Z]\d?'?)(?![\w'.,°]|[.,]\w)",
+    rf",? ?\b(?i:(?:acting|applied|exerted) )?(?i:on|at|about|around) (?i:the |link |point |pin )*"
+    rf"(?:(?i:{_BODY})(?: [A-Z]?\d{{0,2}}[A-Z]?)?|(?<=[Ll]ink )\d{{1,2}}|[A-Z]\d?'?)(?![\w'.,°]|[.,]\w)",
 )
 """Where it acts, which the question says itself: ``on link 2``, ``about A``."""
+_PLACE = re.compile(
+    rf"\b(?:on|at|about|around) (?:the )?"
+    rf"(?:(?:{_BODY}|point|pivot) (?P<name>[^\W_][\w']*)|(?P<alone>[^\W\d_][\w']*))",
+    re.IGNORECASE,
+)
 _DASH = re.compile(r"(?:(?<=[\w\])]) ?|^)[-:;,]+ (?=[A-Za-z(])(?! *[xy]\b)| -$|^-$")
 """A dash or a colon between a unit and a direction; before x and y it may be a sign."""
 _ASIDE_OF_NAME = r"(?: ?(?:\([\w' ·*/+-]*\)|\[[\w' ·*/+-]*\]))?"
@@ -150,14 +160,14 @@ class Reader:
                 return self.slowly(text)
             digits, rest = quick.groups()
             after = self._rests.get(rest) or self._remember(rest)
-        _, word, said, _, flag, note = after
+        _, word, said, _, flag, note, _ = after
         try:
             number = float(digits)
         except ValueError:
             return self.slowly(text)
         if flag or (number < 0.0 and said is not None) or number - number != 0.0:
             return self.slowly(text)
-        return _made((number, word, said, digits, "", note))
+        return _made((number, word, said, digits, "", note, ""))
 
     def _remember(self, rest: str) -> WrittenAnswer:
         if len(self._rests) >= _MOST:
@@ -191,8 +201,14 @@ def words_of(text: str) -> tuple[str, str]:
 
 
 def _answer(text: str, decimal: str) -> WrittenAnswer:
+    whole = text
     text, asides = unwrapped(text)
     read = _behind_name(text, decimal)
+    if read.number >= 0.0 and read.direction is None and not read.flag:
+        first = _NUMBER.search(whole)
+        said_size = first is not None and _SIZE.search(whole, 0, first.start())
+        behind = _BRACKETED_MINUS.search(text)
+        read = read._replace(unsigned=MINUS if behind else SIZE if said_size else "")
     for aside in filter(None, asides):
         if aside == "t":  # T(t) = ...: a function of time
             continue
@@ -276,6 +292,12 @@ def names_in(text: str) -> list[str]:
     """The names to which an answer gives what it says: ``T12`` of ``T12 = 41 N*m``, ``P >= 3`` has ``P``."""
     found = _NAMED.finditer(plain(text[: LONGEST * 20]))
     return [_without_unit(one.group("name") or one.group("first"))[0] for one in found]
+
+
+def places_in(text: str) -> list[str]:
+    """The links and points at which an answer says that what it gives acts: ``4`` of ``41 N*m on link 4``."""
+    found = _PLACE.finditer(plain(text[: LONGEST * 20]))
+    return [one.group("name") or one.group("alone") for one in found]
 
 
 def _without_unit(name: str) -> tuple[str, str]:

@@ -174,9 +174,10 @@ def figures(digits: str) -> tuple[int, int]:
 
 _MINUS = "−‐‑‒–—―﹣－➖"
 _SPACES = "\u00a0\u1680\u202f\u205f\u3000" + "".join(map(chr, range(0x2000, 0x200B)))
-_GONE = "\ufeff\u200b\u200c\u200d\u2060\u00ad\u200e\u200f\u061c\ufe0e\ufe0f\0"
-_GONE += "\u202a\u202b\u202c\u2066\u2067\u2068\u2069"
+_UNSEEN = "\ufeff\u200b\u200c\u200d\u2060\u00ad\u200e\u200f\u061c\ufe0e\ufe0f\0"
+_UNSEEN += "\u202a\u202b\u202c\u2066\u2067\u2068\u2069"
 """Marks that nobody sees; not the two that turn digits round."""
+_AS_NOTHING = dict.fromkeys(map(ord, _UNSEEN))
 _SAME = {
     "×✕✖⨯": "×", "⋅∙•‧・": "·", "º˚": "°", "′’‘ʼ´`": "'", "″“”„«»": '"', "≈≃≅∼≐": "~", "：": ":",
     "＝": "=", "，": ",", "．": ".", "；": ";", "（": "(", "）": ")", "／⁄∕÷": "/", "＋﹢": "+", "＊∗": "*",
@@ -190,7 +191,7 @@ _SAME = {
 _TABLE = str.maketrans(
     dict.fromkeys(_MINUS, "-")
     | dict.fromkeys(_SPACES, " ")
-    | dict.fromkeys(_GONE, "")
+    | dict.fromkeys(_UNSEEN, "")
     | {c: plain for many, plain in _SAME.items() for c in many}
 )
 _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
@@ -256,3 +257,8 @@ def _plain_character(c: str) -> str:
     if "\uff01" <= c <= "\uff5e":
         return chr(ord(c) - 0xFEE0)
     return c
+
+
+def without_unseen(text: str) -> str:
+    """A name without the marks that nobody sees, which pages put between the letters that are copied."""
+    return text if text.isascii() else text.translate(_AS_NOTHING)
