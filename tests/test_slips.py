@@ -100,6 +100,14 @@ REFUSED = {
     # YAML
     "colon in a title": ("Four-bar press", "Press: four-bar", 2, 8, 'in quotes, title: "Press: four-bar"'),
     "curly quotation marks": ("Four-bar press", "“Press: 1”", 2, 8, "write straight ones"),
+    "a colon of another keyboard": (
+        "lengths: {",
+        "lengths： {",
+        5,
+        8,
+        "the wide '：' is a letter to YAML; write ':'",
+    ),
+    "a colon before a list": ("joints:\n", "joints：\n", 8, 7, "write ':'"),
     "tab": ("  T12", "\tT12", 15, 1, "indented with spaces only"),
     "decimal comma": ("BC: 3.5", "BC: 3,5", 5, 22, "write a decimal point, 3.5"),
     "decimal comma and unit": ("BC: 3.5", "BC: 3,5 in", 5, 22, "write a decimal point, 3.5 in"),

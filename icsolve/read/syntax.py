@@ -27,9 +27,25 @@ def _known(error: yaml.MarkedYAMLError, place: Mark, lines: list[str], line: str
     """Causes that are met often."""
     return (
         _of_characters(error, place, line)
+        or _of_wide_signs(place[0], lines)
         or _of_another_language(error.problem or "", place[0], lines)
         or _of_lines(error, place, lines, line)
     )
+
+
+WIDE = dict(zip("：，｛｝［］", ":,{}[]", strict=True))
+"""Signs of Chinese and Japanese keyboards, and those of YAML."""
+
+
+def _of_wide_signs(line: int, lines: list[str]) -> tuple[Mark, str] | None:
+    """A sign of another keyboard in the line of the complaint, or in the one before."""
+    for n in (line, line - 1):
+        text = lines[n - 1].partition(" #")[0] if 0 < n <= len(lines) else ""
+        found = next((k for k, sign in enumerate(text) if sign in WIDE), None)
+        if found is not None:
+            sign = text[found]
+            return (n, found + 1), f"the wide '{sign}' is a letter to YAML; write '{WIDE[sign]}'"
+    return None
 
 
 def _of_characters(error: yaml.MarkedYAMLError, place: Mark, line: str) -> tuple[Mark, str] | None:
