@@ -110,7 +110,7 @@ loads:
 FLAT = """icsolve: 1
 points: {{A: [0, 0], D: [{ad}, 0]{more}}}
 lengths: {{AB: {ab}, BC: {bc}, CD: {cd}, BF: {bf}{length}}}
-angles: {{AB: unknown{angle}}}
+angles: {{AB: {free}{angle}}}
 near: {{C: {near}}}
 joints:
   - {{pin: [1, 2], at: A}}
@@ -146,7 +146,7 @@ def test_a_point_in_line_with_two_pins_rests_the_same_by_its_lengths_as_by_its_a
         joints = "  - {pin: [3, 5], at: F}\n  - {pin: [5, 1], at: E}\n"
     loads = {"weight": drawn(2, 9), "force": drawn(2, 9), "toward": drawn(0, 360)}
     near = [float(ad), float(ab)] if which == "third crank" else [float(ad) + 1, 2.5]
-    text = partial(FLAT.format, ab=ab, bc=bc, cd=cd, bf=bf, ad=ad, near=near, **loads)
+    text = partial(FLAT.format, free="unknown", ab=ab, bc=bc, cd=cd, bf=bf, ad=ad, near=near, **loads)
     by_angle = text(more="", joints="", length="", angle=f", CBF: {180 if which == 'beyond' else 0}")
     by_length = text(more=more, joints=joints, length=f", FC: {fc}{third}", angle="")
     expected, found = (icsolve.solve(icsolve.load(one)) for one in (by_angle, by_length))
@@ -160,20 +160,16 @@ def test_a_point_in_line_with_two_pins_rests_the_same_by_its_lengths_as_by_its_a
     assert not any("change point" in note for note in found.notes)
 
 
-THIRD = """icsolve: 1
-points: {{A: [0, 0], D: [{bc}, 0], E: [{bf}, 0]}}
-lengths: {{AB: {ab}, BC: {bc}, CD: {ab}, BF: {bf}{ef}}}
-angles: {{AB: {free}, CBF: 0}}
-near: {{C: [{bc}, {ab}]}}
-joints:
-  - {{pin: [1, 2], at: A}}
-  - {{pin: [2, 3], at: B}}
-  - {{pin: [3, 4], at: C}}
-  - {{pin: [4, 1], at: D}}
-{joints}loads:
-  W: {{weight: {weight}, link: 3, at: F}}
-  P: {{force: {force}, link: 2, at: B, angle: {toward}}}
-"""
+def two_and_three_cranks(rng: random.Random, free: str) -> tuple[str, str, dict[str, float]]:
+    """A random parallelogram, and the same with a third crank E-F; its lengths."""
+    ab, bc = round(rng.uniform(0.6, 1.5), 2), round(rng.uniform(2.5, 4), 2)
+    loads = {"weight": round(rng.uniform(2, 9), 1), "force": round(rng.uniform(2, 9), 1)}
+    bf, loads["toward"] = round(rng.uniform(0.5, bc - 0.4), 2), rng.randrange(360)
+    sides = {"ab": ab, "bc": bc, "cd": ab, "ad": bc, "bf": bf, "near": [bc, ab]}
+    text = partial(FLAT.format, free=free, angle=", CBF: 0", more=f", E: [{bf}, 0]", **sides, **loads)
+    third = "  - {pin: [3, 5], at: F}\n  - {pin: [5, 1], at: E}\n"
+    lengths = {"ab": ab, "bc": bc, "bf": bf}
+    return text(length="", joints=""), text(length=f", EF: {ab}", joints=third), lengths
 
 
 @sampled(4, "free")
@@ -190,17 +186,10 @@ joints:
 def test_beyond_a_change_point_a_third_crank_rests_where_two_cranks_do(free: str, seed: int) -> None:
     """A parallelogram, whose crank E-F repeats what the others hold: from where it is written it goes
     straight on through both change points, beyond which the crossed linkage cannot have that crank."""
-    rng = random.Random(f"third {seed}")
-    ab, bc = round(rng.uniform(0.6, 1.5), 2), round(rng.uniform(2.5, 4), 2)
-    numbers = {"weight": round(rng.uniform(2, 9), 1), "force": round(rng.uniform(2, 9), 1)}
-    numbers |= {"ab": ab, "bc": bc, "bf": round(rng.uniform(0.5, bc - 0.4), 2), "toward": rng.randrange(360)}
-    third = "  - {pin: [3, 5], at: F}\n  - {pin: [5, 1], at: E}\n"
-    two, three = (
-        positions(THIRD.format(free=free, ef=ef, joints=joints, **numbers))
-        for ef, joints in (("", ""), (f", EF: {ab}", third))
-    )
-    assert [one.stability for one in three] == [one.stability for one in two]
-    for one, other in zip(three, two, strict=True):
+    two, three, _ = two_and_three_cranks(random.Random(f"third {seed}"), free)
+    wanted, found = positions(two), positions(three)
+    assert [one.stability for one in found] == [one.stability for one in wanted]
+    for one, other in zip(found, wanted, strict=True):
         assert one.at["angles.AB"] == pytest.approx(other.at["angles.AB"], abs=1e-12)
 
 
@@ -213,16 +202,11 @@ def test_a_crank_whose_length_the_figure_leaves_to_its_place_rests_where_two_cra
     There it assembles in another way, too, in which the cranks hold one another: that is no branch, and the
     positions of the way that moves are found."""
     rng = random.Random(f"length left open {seed}")
-    ab, bc, at = round(rng.uniform(0.6, 1.5), 2), round(rng.uniform(2.5, 4), 2), rng.randint(30, 150)
-    numbers = {"weight": round(rng.uniform(2, 9), 1), "force": round(rng.uniform(2, 9), 1)}
-    numbers |= {"ab": ab, "bc": bc, "bf": round(rng.uniform(0.5, bc - 0.4), 2), "toward": rng.randrange(360)}
-    third = "  - {pin: [3, 5], at: F}\n  - {pin: [5, 1], at: E}\n"
-    two, three = (
-        THIRD.format(free=f"{{unknown: [0, 360], from: {at}}}", ef=ef, joints=joints, **numbers)
-        for ef, joints in (("", ""), (f", EF: {ab}", third))
-    )
+    at = rng.randint(30, 150)
+    two, three, sides = two_and_three_cranks(rng, f"{{unknown: [0, 360], from: {at}}}")
+    ab = sides["ab"]
     crank = cmath.rect(ab, math.radians(at))
-    feet = {"B": 0.0, "C": bc, "F": numbers["bf"]}
+    feet = {"B": 0.0, "C": sides["bc"], "F": sides["bf"]}
     near = ", ".join(f"{p}: [{x + crank.real}, {crank.imag}]" for p, x in feet.items())
     three = re.sub(r"near: .*", f"near: {{{near}}}", three.replace(f", {lacks}: {ab}", ""))
     found, wanted = positions(three), positions(two)

@@ -483,6 +483,7 @@ def _meet(cluster: Cluster, point: str, one: Locus, two: Locus) -> Step | None:
     if frozenset((one, two)) in cluster.drawing.banned:
         return None
     line, other = (two, one) if is_round(one) and not is_round(two) else (one, two)
+    span: Span | None = None
     if isinstance(line, LineLocus) and isinstance(other, CircleLocus):
         if line.ray and line.through == other.centre:
             return Polar(cluster.key(point), line.through, other.radius, line.direction)
@@ -490,14 +491,13 @@ def _meet(cluster: Cluster, point: str, one: Locus, two: Locus) -> Step | None:
         if one.centre == two.centre:
             return None
         span = cluster.spans.get(frozenset((one.centre, two.centre)))
-        return Meet(cluster.key(point), one, two, 1, span)
     elif (
         isinstance(line, LineLocus)
         and isinstance(other, LineLocus)
         and _course(cluster, line.direction) == _course(cluster, other.direction)
     ):
         return None
-    return Meet(cluster.key(point), line, other, 1 if is_round(other) else 0)
+    return Meet(cluster.key(point), line, other, 1 if is_round(other) else 0, span)
 
 
 def _course(cluster: Cluster, direction: LineDirection) -> tuple[object, tuple[tuple[Datum, int], ...]]:

@@ -97,9 +97,9 @@ def order_that_assembles(case: Case, goal: Sequence[str]) -> Order:
         walk = every_mode(case, order, frame)
         if not walk.modes:
             return refusal(walk)
-        flat = {s.target: s for s in walk.modes[0].steps if isinstance(s, Meet) and s.stays_flat}
-        steps = (flat.get(s.target, s) if isinstance(s, Meet) else s for s in order.steps)
-        return replace(order, steps=tuple(steps))
+        pairs = zip(order.steps, walk.modes[0].steps, strict=True)
+        steps = (own if isinstance(own, Meet) and own.stays_flat else step for step, own in pairs)
+        return replace(order, steps=tuple(steps))  # what touches in one position touches in all
 
     return by_other_data(case, goal, attempt)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from functools import partial
 
@@ -22,7 +22,7 @@ from icsolve.assembly.order import Order, order_of
 from icsolve.assembly.refusals import OF_SIZE, allowance, compare
 from icsolve.assembly.steps import Meet, PointGroup, Step
 from icsolve.assembly.ways import order_that_assembles
-from icsolve.assembly.workspace import Workspace, frame_of
+from icsolve.assembly.workspace import Datum, Workspace, frame_of
 from icsolve.case import Case, Coordinates, Number, TorsionSpring, is_angle, is_named
 from icsolve.errors import SceneError, Status
 from icsolve.numbers import FLOATS, Arithmetic, Scalar
@@ -306,8 +306,7 @@ def clearance(case: Case, order: Order, steps: Steps) -> float:
     except (ZeroDivisionError, ValueError, SceneError):
         return 0.0
     least = min((float(margin) for margin in margins), default=1.0)
-    used = order.used
-    spare = [d for d in order.facts.data if d not in used and all(p in placed.points for p in d.points)]
+    spare = _unneeded(order, placed.points)
     if least > 0.0 and spare:
         workspace = Workspace(case, figure.frame, FLOATS)
         workspace.points.update(placed.points)
@@ -353,13 +352,17 @@ def read_anew(case: Case, paths: Sequence[str], figure: Figure, order: Order) ->
     return RecordedMode(compiled, nodes, tuple(_spare(figure, order, case, placed, compiled.record)))
 
 
+def _unneeded(order: Order, points: Collection[object]) -> list[Datum]:
+    """The data of some points that no step of their construction needs."""
+    return [d for d in order.facts.data if d not in order.used and all(p in points for p in d.points)]
+
+
 def _spare(figure: Figure, order: Order, case: Case, placed: Placement, record: Record) -> Iterator[int]:
     """By how much the data that no step needed are missed, over what their last digits allow."""
-    spare = [d for d in order.facts.data if d not in order.used and placed.points.keys() >= {*d.points}]
     here, on_record = (Workspace(case, figure.frame, arithmetic) for arithmetic in (FLOATS, record))
     here.points.update(figure.points)
     on_record.points.update(placed.points)
-    for datum in (one for one in spare if here.points.keys() >= {*one.points}):
+    for datum in _unneeded(order, here.points):
         size, _ = scale_of(here, datum)
         room = min(allowance(here, figure.steps, datum), OF_SIZE * size_of(here, order.points))
         for part in parts_of(datum):
