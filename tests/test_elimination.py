@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 from decimal import Decimal
 from fractions import Fraction
 from itertools import combinations
+from operator import mul
 from random import Random
 from typing import Any
 
@@ -19,7 +20,7 @@ import pytest
 from icsolve.assembly.exclusion import _Link, _narrow_length
 from icsolve.numbers import ZERO
 from icsolve.numbers.balls import INEXACT, Ball, Balls, MoreDigits
-from icsolve.numbers.inequalities import deepest, region
+from icsolve.numbers.inequalities import _simplex, deepest, region
 from icsolve.numbers.linear import (
     SINGULAR,
     SPENT,
@@ -478,14 +479,22 @@ def test_a_region_without_a_wall_goes_to_infinity() -> None:
 def test_the_deepest_point_of_inequalities_is_proven_by_their_shares(seed: int) -> None:
     """No form is less there than the depth, and shares of the forms, 1 in all and none negative, add up to
     the depth without variables: so no point is deeper (weak duality). To 1e-9, as numbers are about 1; two in
-    five with small whole numbers, where many corners coincide."""
+    five with small whole numbers, where many corners coincide. In whole numbers all of
+    it is exact."""
     dice = Random(f"deepest {seed}")
     count, whole = dice.randint(0, 8), dice.random() < 0.4
     forms = []
     for _ in range(dice.randint(1, 25)):
         form = [dice.uniform(-1.0, 1.0) * (dice.random() < 0.6) for _ in range(count + 1)]
         forms.append(tuple([float(round(2.0 * a)) for a in form] if whole else form))
+    exact = _simplex(forms, [1.0] * len(forms), exact=True)
+    columns = zip(*(forms[k] for k in exact.of), strict=True)
+    left = [sum(map(mul, map(Fraction, column), exact.shares)) for column in columns]
+    at = [sum(map(mul, map(Fraction, form), (1, *exact.point))) for form in forms]
+    assert not any(left[1:]) and min(exact.shares, default=0) >= 0 <= (rest := 1 - sum(exact.shares))
+    assert min(at) >= exact.depth == (left[0] if left else 0) + rest
     found = deepest(forms)
+    assert found.depth == pytest.approx(float(exact.depth), abs=1e-9)
     values = [form[0] + sum(a * x for a, x in zip(form[1:], found.point, strict=True)) for form in forms]
     assert min(values) >= found.depth - 1e-9
     sums = [

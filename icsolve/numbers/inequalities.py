@@ -8,8 +8,8 @@ than variables are gone, and one more, follows from the others (S. N. Chernikov,
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from operator import mul, sub
+from collections.abc import Callable, Iterator, Sequence
+from operator import mul, sub, truediv
 from typing import Any
 
 from icsolve.numbers import largest_of
@@ -167,10 +167,7 @@ def deepest(forms: Sequence[Form], counts: Sequence[float] | None = None) -> Dee
     if not found.is_proven(forms, counts):  # pivots add up roundings, of the point first
         found = _solved_again(found, forms, counts)
         if not found.is_proven(forms, counts):  # they led to rows that hang on each other
-            from fractions import Fraction
-
-            exact = [tuple(map(Fraction, form)) for form in forms]
-            found = _simplex(exact, list(map(Fraction, counts)))
+            found = _simplex(forms, counts, exact=True)
     point, shares = (tuple(map(float, own)) for own in (found.point, found.shares))
     return Deepest(float(found.depth), found.of, point, shares)
 
@@ -185,23 +182,30 @@ def _solved_again(found: Deepest, forms: Sequence[Form], counts: Sequence[float]
     return found._replace(point=tuple([point.get(j, {}).get(count, 0.0) for j in range(count)]))
 
 
-def _simplex(forms: Sequence[Sequence[Any]], counts: Sequence[Any]) -> Deepest:
-    """`deepest` in floats or in fractions."""
+def _simplex(forms: Sequence[Form], counts: Sequence[Any], exact: bool = False) -> Deepest:
+    """`deepest` in floats, or in whole numbers over one denominator, its numbers then fractions."""
     count, last = len(forms[0]) - 1 if forms else 0, len(forms)
-    zero, one = (counts[0] * 0, counts[0] * 0 + 1) if counts else (0.0, 1.0)
-    nothing = CLOSE if isinstance(one, float) else 0
+    over: Callable[[Any, Any], Any] = truediv
+    nothing, below = CLOSE, 1
+    costs: list[Any] = [*(form[0] for form in forms), 1.0]
+    if exact:
+        from fractions import Fraction
+
+        over, nothing = Fraction, 0.0
+        costs, counts = list(map(Fraction, costs)), list(map(Fraction, counts))
     # shares, how often each equation is taken, right side; the last form is 1, wherever it is asked
-    table = [[form[j] for form in forms] + [zero] * (count + 2) for j in range(1, count + 1)]
+    table: list[list[Any]] = [[*(form[1 + j] for form in forms), *[0.0] * (count + 2)] for j in range(count)]
     for j, row in enumerate(table):
-        row[last + 1 + j] = one
-    table.append([*counts, one, *[zero] * count, one])
-    costs = [*(form[0] for form in forms), one]
-    table.append([*map(sub, costs, counts), *[zero] * (count + 1), -one])
+        row[last + 1 + j] = 1.0
+    table.append([*counts, 1.0, *[0.0] * count, 1.0])
+    table.append([*map(sub, costs, counts), *[0.0] * (count + 1), -1.0])
+    table = [*map(_whole, table)] if exact else table
+    unit = -table[-1][-1]
     basis = [-1] * count + [last]
     for r in range(count):  # nothing has a share yet: any place will do
         c = max(range(last), key=lambda k: abs(table[r][k]), default=last)
         if abs(table[r][c]) > nothing:
-            _pivot(table, basis, r, c)
+            below = _pivot(table, below, basis, r, c)
     rows = [r for r, c in enumerate(basis) if c >= 0]
     for pivots in range(MOST_PIVOTS):
         worth = table[-1][: last + 1]
@@ -210,17 +214,18 @@ def _simplex(forms: Sequence[Sequence[Any]], counts: Sequence[Any]) -> Deepest:
             enters = next((c for c, w in enumerate(worth) if w < -nothing and c not in basis), None)
         if enters is None or worth[enters] >= -nothing:
             break
-        ratios = [(table[r][-1] / table[r][enters], basis[r], r) for r in rows if table[r][enters] > nothing]
-        if not ratios:
-            both = {**{basis[r]: -table[r][enters] for r in rows}, enters: one}
+        positive = [r for r in rows if table[r][enters] > nothing]
+        if not positive:
+            both = {**{basis[r]: over(-table[r][enters], below) for r in rows}, enters: over(1, 1)}
             of = tuple(sorted(c for c in both if c < last))
-            return Deepest(-math.inf, of, (zero,) * count, tuple([both[c] for c in of]))
-        _pivot(table, basis, min(ratios)[2], enters)
-    depth = sum(costs[basis[r]] * table[r][-1] for r in rows)
-    shares = {basis[r]: table[r][-1] for r in rows if basis[r] < last}
-    of = tuple(sorted(shares))
-    point = tuple(table[-1][last + 1 : -1])
-    return Deepest(depth, of, point, tuple([shares[k] for k in of]))
+            return Deepest(-math.inf, of, (0.0,) * count, tuple([both[c] for c in of]))
+        leaves = min((over(table[r][-1], table[r][enters]), basis[r], r) for r in positive)[2]
+        below = _pivot(table, below, basis, leaves, enters)
+    values = {basis[r]: over(table[r][-1], below) for r in rows}
+    depth = sum(costs[c] * value for c, value in values.items())
+    of = tuple(sorted(c for c in values if c < last))
+    point = tuple([over(a, below * unit) for a in table[-1][last + 1 : -1]])
+    return Deepest(depth, of, point, tuple([values[k] for k in of]))
 
 
 MOST_PIVOTS = 10_000
@@ -230,11 +235,31 @@ STEEPEST = 40
 leads around in no circle."""
 
 
-def _pivot(table: list[list[Any]], basis: list[int], r: int, c: int) -> None:
-    """Take a place into the basis, in the row of another."""
-    entry = table[r][c]
-    own = table[r] = [a / entry for a in table[r]]
+def _whole(row: Sequence[Any]) -> list[int]:
+    """The numbers times a power of two, by which they are whole."""
+    ratios = [a.as_integer_ratio() for a in row]
+    most = max(below for _, below in ratios)
+    return [above * (most // below) for above, below in ratios]
+
+
+def _pivot(table: list[list[Any]], below: int, basis: list[int], r: int, c: int) -> int:
+    """Take a place into the basis, in the row of another; returns the denominator.
+
+    Of whole numbers that is the pivot, and what a row becomes can be divided by the denominator before (J.
+    Edmonds, 1967; E. Bareiss, 1968).
+    """
+    basis[r], own, entry = c, table[r], table[r][c]
+    if isinstance(entry, float):
+        own = table[r] = [a / entry for a in own]
+        for k, row in enumerate(table):
+            if k != r and (share := row[c]):
+                table[k] = [a - share * b for a, b in zip(row, own, strict=True)]
+        return 1
+    if entry < 0:
+        own, entry = [-a for a in own], -entry
     for k, row in enumerate(table):
-        if k != r and (share := row[c]):
-            table[k] = [a - share * b for a, b in zip(row, own, strict=True)]
-    basis[r] = c
+        share = row[c]
+        table[k] = (
+            [(entry * a - share * b) // below for a, b in zip(row, own, strict=True)] if k != r else own
+        )
+    return int(entry)
