@@ -2847,3 +2847,49 @@ def test_a_figure_written_at_one_place_goes_straight_on_through_its_change_point
     wanted = [x for x in (30.0 + 180.0 * n for n in range(-6, 7)) if low <= x <= high]
     assert all(min(abs(x - y) for y in wanted) < 1e-6 for x in clear)
     assert third or clear == pytest.approx(wanted, abs=1e-6)
+
+
+TWIN_LIFT = """icsolve: 1
+points: {{A: [0, 0], B: [unknown, 0], E: [{e}, 0], G: [unknown, 0]}}
+lengths: {{AM: {a}, MC: {a}, BM: {a}, MD: {a}, EN: {a}, NK: {a}, GN: {a}, NH: {a}, DH: {e}}}
+angles: {{AM: {{unknown: [0, 93], from: {start}}}, AMC: 180, BMD: 180, DH: 0, ENK: 180, GNH: 180}}
+near: {{B: [{b:.12g}, 0], G: [{g:.12g}, 0], N: [{n.real:.12g}, {n.imag:.12g}]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: M}}
+  - {{slot: [3, 1], at: B, along: 0}}
+  - {{pin: [3, 4], at: D}}
+  - {{slot: [2, 4], at: C, along: 0}}
+  - {{pin: [1, 5], at: E}}
+  - {{pin: [5, 6], at: N}}
+  - {{slot: [6, 1], at: G, along: 0}}
+  - {{pin: [6, 4], at: H}}
+  - {{slot: [5, 4], at: K, along: 0}}
+loads:
+  F: {{force: {f}, link: 4, at: D, angle: 90}}
+  S: {{spring: {k}, free: {free}, link: 3, at: B, to: A}}
+"""
+
+
+@pytest.mark.parametrize("seed", range(12 if FULL else 1))
+def test_two_scissors_under_one_table_rest_as_one_does(seed: int) -> None:
+    """V = F 2a sin u + k (2a cos u - l)^2 / 2 while B is right of A. Past upright a pair of scissors passes
+    from one place to another between samples, and no branch of that is about as near as the one drawn."""
+    dice = random.Random(f"twin lift {seed}")
+    a, k = round(dice.uniform(0.5, 1.0), 3), dice.randint(30, 300)
+    start, rest = dice.randint(20, 70), math.radians(dice.uniform(15, 75))
+    e, f = round(dice.uniform(2.5, 4.0), 3), round(dice.uniform(0.1, 0.5) * k * a * math.sin(rest), 2)
+    free = round(2 * a * math.cos(rest) + f / (k * math.tan(rest)), 3)
+    arm = cmath.rect(a, math.radians(start))
+    text = TWIN_LIFT.format(
+        e=e, a=a, start=start, b=2 * arm.real, g=e + 2 * arm.real, n=e + arm, f=f, k=k, free=free
+    )
+
+    def slope(u: float) -> float:
+        """dV/du / 2a [N]; a spring under pressure and the force up."""
+        return -f * math.cos(u) - k * (2 * a * math.cos(u) - free) * math.sin(u)
+
+    values = [math.radians(0.05 * j) for j in range(1, 1800)]
+    wanted = [math.degrees(u) for u, v in pairwise(values) if slope(u) * slope(v) < 0]
+    found = [value for value in places(text) if 0.1 < value < 89.9]
+    assert wanted and found == pytest.approx(wanted, abs=0.1)
