@@ -115,6 +115,11 @@ def least_squares(j: Any, f: Any) -> list[Any]:
     return x
 
 
+def is_recorded(sweep: icsolve.Sweep) -> bool:
+    """Whether its rows stand on a record; else each is a scene of its own."""
+    return hasattr(sweep._case_of, "__self__")
+
+
 def truths(sweep: icsolve.Sweep, row: int) -> dict[tuple[str, str], list[Any]]:
     """All of a row in sixty digits, by kind and name, on the decimals of the case and of what varies."""
     work = sweep._case_of.__self__  # type: ignore[union-attr]

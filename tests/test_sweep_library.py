@@ -15,6 +15,7 @@ import pytest
 import icsolve
 from icsolve.case import Number
 from icsolve.manual import kinds, template
+from icsolve.sweep.table import _parted, columns
 from icsolve.sweep.varied_numbers import numbers_of
 from library import FILES, sample
 from sizes import FULL, sampled
@@ -160,3 +161,48 @@ def motion_of(answer: icsolve.Answer) -> dict[str, dict[str, Any]]:
         "velocities": {name: np.array(v) for name, v in velocities.items() if not isinstance(v, str)},
         "terms": {term.load: term.factor for term in answer.terms if term.load in loads},
     }
+
+
+MOTION = ("points", "rates", "velocities", "accelerations", "angular_accelerations")
+
+
+@sampled(3)
+@pytest.mark.parametrize("name", sample(FILES, 12, "motion bounds"))
+def test_every_number_of_a_motion_has_a_bound_in_rows_and_in_scenes(name: str) -> None:
+    """The exact number lies within both, of a scene as of its row; those of a scene are two units at most.
+    A row of another position than that of the scene, which reads the figure anew, is passed over."""
+    case, paths = icsolve.load(FILES[name]), Random(f"bounds {name}")
+    if case.unknowns or case.space is not None or case.profiles:
+        return
+    want = ("status", "error", *MOTION[: 4 if case.dynamic else 3])
+    numbers = [(path, n) for path, n in numbers_of(case).items() if path.startswith(("angles.", "lengths."))]
+    for path, number in paths.sample(numbers, min(3, len(numbers))):
+        values = np.round(number.value * np.array([0.97, 1.0, 1.02]), 6)
+        try:
+            rows = icsolve.sweep(case, {path: values}, want)
+        except icsolve.SceneError:
+            continue
+        for n in np.flatnonzero(rows.status == "ok").tolist():
+            try:
+                scene = icsolve.solve(icsolve.load(FILES[name], {path: repr(float(values[n]))}), rates=True)
+            except icsolve.SceneError:
+                continue
+            size = max(abs(x) for at in scene.points.values() for x in at) if scene.points else 1.0
+            if any(
+                np.abs(rows.points[p][n] - at).max() > 1e-6 * size
+                for p, at in scene.points.items()
+                if p in rows.points
+            ):
+                continue
+            for kind in MOTION:
+                for key, value in (getattr(scene, kind) or {}).items():
+                    spot = key if isinstance(key, str) else f"{key[0]} on {key[1]}"
+                    if isinstance(value, str) or spot not in rows.kinds[kind]:
+                        continue
+                    own, bound = np.array(value), np.array(scene.errors[kind][key])
+                    zero = (own == 0.0) & (bound <= 1e-30)  # nothing to within 1e-40 of its terms
+                    assert (zero | (bound <= 2.0 * np.spacing(np.abs(own)))).all(), (kind, spot)
+                    off = np.abs(rows.kinds[kind][spot][n] - own)
+                    assert (off <= rows.errors[kind][spot][n] + bound).all(), (path, n, kind, spot)
+                    header = columns(rows)
+                    assert {f"error {column}" for column in _parted(kind, spot, own[None])} <= header.keys()

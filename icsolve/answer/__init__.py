@@ -205,8 +205,9 @@ class Answer:
     notes: Sequence[str] = ()
     skipped: Sequence[str] = ()
     steps: Sequence[str] = ()
-    errors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
-    """bounds on the errors of ``rates`` by link; those of centres stand with them"""
+    errors: Mapping[str, Mapping[Any, Any]] = field(default_factory=dict)
+    """bounds on the errors of ``points``, ``rates``, ``velocities``, ``accelerations`` and
+    ``angular_accelerations``, by kind and in the shape of these; those of centres stand with them"""
     sensitivities: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     """derivative of every unknown load by every number of the case, by its path"""
     status: str = "ok"

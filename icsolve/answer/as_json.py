@@ -98,6 +98,8 @@ def _finite(errors: Any) -> Any:
     """Errors by name, each None where it is beyond all numbers."""
     if isinstance(errors, Mapping):
         return {name: _finite(error) for name, error in errors.items()}
+    if isinstance(errors, tuple):
+        return [*map(_finite, errors)]
     return errors if not isinstance(errors, float) or math.isfinite(errors) else None
 
 
@@ -183,8 +185,20 @@ def _velocity(velocity: tuple[float, float] | str) -> list[float] | dict[str, st
 def _errors(answer: Answer) -> dict[str, Any]:
     case = answer.case
     known = {pair_name(case, pair): c.error for pair, c in answer.centres.items() if c.error is not None}
-    found: dict[str, Any] = _finite({**answer.errors, **({"centres": known} if known else {})})
-    return found
+    named = {
+        kind: {
+            _spot(key): error
+            for key, error in by.items()
+            if is_named(key if isinstance(key, str) else key[0])
+        }
+        for kind, by in {**answer.errors, "centres": known}.items()
+    }
+    return {kind: _finite(by) for kind, by in named.items() if by}
+
+
+def _spot(key: str | tuple[str, str]) -> str:
+    """What moves, as the format names it: a link, or a point on a link."""
+    return key if isinstance(key, str) else f"{key[0]} on {key[1]}"
 
 
 def _term(term: Term) -> dict[str, Any]:

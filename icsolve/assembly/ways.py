@@ -169,10 +169,10 @@ def _rounded_once(figure: Figure, case: Case) -> dict[str, Place]:
         balls = Balls(digits, highest=digits == PRECISIONS[-1])
         try:
             points = place(figure, case, balls).points
-            return case_places(figure.frame, {p: points[p] for p in figure.points}, balls)
+            return case_places(figure.frame, {p: points[p] for p in figure.points}, balls)[0]
         except (MoreDigits, BelowZero, ZeroDivisionError):
             continue
-    return case_places(figure.frame, figure.points, FLOATS)
+    return case_places(figure.frame, figure.points, FLOATS)[0]
 
 
 def _groups(order: Order) -> list[Step]:

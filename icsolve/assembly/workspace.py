@@ -225,21 +225,22 @@ def case_point(frame: Frame, xy: tuple[float, float]) -> tuple[float, float]:
 
 def case_places(
     frame: Frame, points: Mapping[str, tuple[Scalar, Scalar]], arithmetic: Showing
-) -> dict[str, tuple[float, float]]:
-    """The points that have a name in the case, in case lengths, each coordinate rounded once.
+) -> tuple[dict[str, tuple[float, float]], dict[str, tuple[float, float]]]:
+    """The points that have a name in the case, in case lengths, each coordinate rounded once; and bounds on
+    their errors.
 
     Raises MoreDigits where the digits of the arithmetic do not settle one.
     """
     ox, oy, scale = frame
     spans = ((ox, 1.0 / scale + abs(ox)), (oy, 1.0 / scale + abs(oy)))
-    found = {}
+    found, errors = {}, {}
     for name, at in points.items():
         if is_named(name):
-            (x, _), (y, _) = (
+            (x, off_x), (y, off_y) = (
                 arithmetic.rounded(c / scale + o, size) for c, (o, size) in zip(at, spans, strict=True)
             )
-            found[name] = (x, y)
-    return found
+            found[name], errors[name] = (x, y), (off_x, off_y)
+    return found, errors
 
 
 def normalised(frame: Frame, xy: tuple[float, float]) -> tuple[float, float]:

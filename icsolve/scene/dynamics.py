@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from functools import partial
+from typing import Any
 
 from icsolve.answer import Answer, Deferred, Later
 from icsolve.assembly.workspace import PlacedCase
@@ -33,10 +34,12 @@ TOO_FAST = (
 
 
 class Accelerations(NamedTuple):
-    """Of links [rad/s^2] and of points on links [case length/s^2]; a sentence where one is open."""
+    """Of links [rad/s^2] and of points on links [case length/s^2]; a sentence where one is open. ``errors``
+    has bounds of both."""
 
     links: dict[str, float | str]
     points: dict[tuple[str, str], tuple[float, float] | str]
+    errors: dict[str, Mapping[Any, Any]]
 
 
 def solve_dynamic(case: Case, solve: Callable[..., Answer], **options: bool) -> Answer:
@@ -51,6 +54,7 @@ def solve_dynamic(case: Case, solve: Callable[..., Answer], **options: bool) -> 
         advantage=None,
         accelerations=found.points,
         angular_accelerations=found.links,
+        errors={**answer.errors, **found.errors},
         notes=Later(lambda: (*answer.notes, *notes)),
         sensitivities=Deferred(lambda: _slopes(loaded, solve)),
     )
@@ -134,20 +138,23 @@ def _shown(place: PlacedCase, moves: Moving, arithmetic: Showing) -> Acceleratio
     (case, (_, _, scale), points, _), size = place, moves.size
     links: dict[str, float | str] = {}
     places: dict[tuple[str, str], tuple[float, float] | str] = {}
+    off_links: dict[str, float] = {}
+    off_places: dict[tuple[str, str], tuple[float, float]] = {}
     for link in told_links(case):
         if link in moves.open:
             links[link] = f"the acceleration of link {link} is left open: {OPEN}"
         else:
-            links[link] = _rounded(moves.rates[link][2], arithmetic, moves.size)
+            links[link], off_links[link] = arithmetic.rounded(moves.rates[link][2], size)
         for name in moving_points(case, link):
             if not is_named(name) or name not in points:
                 continue
             if link in moves.open:
                 places[name, link] = f"the acceleration of {name} on link {link} is left open: {OPEN}"
             else:
-                x, y = (_rounded(a / scale, arithmetic, size) for a in moves.acceleration(link, points[name]))
-                places[name, link] = (x, y)
-    return Accelerations(links, places)
+                both = (arithmetic.rounded(a / scale, size) for a in moves.acceleration(link, points[name]))
+                (x, off_x), (y, off_y) = both
+                places[name, link], off_places[name, link] = (x, y), (off_x, off_y)
+    return Accelerations(links, places, {"accelerations": off_places, "angular_accelerations": off_links})
 
 
 def _rounded(value: Scalar, arithmetic: Showing, size: float) -> float:

@@ -159,10 +159,12 @@ def structure(program: Program, bound: bool, refusal: SceneError) -> Answer:
         remedy = "Any value of the unknown load is carried: give it a number, or take out a joint or a link."
         raise SceneError(refusal.status, f"{said} {remedy}")
     scene = EvaluatedScene(program, bound, run=evaluate_still)
-    points = scene.ask(points_shown)
+    points, errors = scene.ask(points_shown)
     said = "the links form a structure: nothing moves, and statics alone gives the reactions."
     if has_friction(case):
         said += " Friction is left out: a structure needs none."
     notes = (*figure.notes, *case.noticed, said)
-    answer = Answer(case, points=points, mobility=0, notes=notes, skipped=figure.skipped)
+    answer = Answer(
+        case, points=points, mobility=0, notes=notes, skipped=figure.skipped, errors={"points": errors}
+    )
     return scene.ask(lambda found: _bodies(found, {})).added_to(answer)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from decimal import Decimal
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
 from icsolve.case import Area, Case, Force, Load, Number, Pair, link_order
@@ -92,7 +92,8 @@ def _where(case: Case, w: Wrench) -> str:
     return where if w.against == case.ground else f"{where} against link {w.against}"
 
 
-Velocities = dict[tuple[str, str], tuple[float, float] | str]
+Components = tuple[float, float]
+Velocities = dict[tuple[str, str], Components | str]
 
 
 class AnswerBuilder:
@@ -158,8 +159,8 @@ class AnswerBuilder:
             answers=answers,
             centres=Deferred(self.plain_centres),
             rates=rates,
-            velocities=None if rates is None else Deferred(lambda: self.scene.ask(_velocities)),
-            points=Deferred(lambda: self.scene.ask(points_shown)),
+            velocities=None if rates is None else Deferred(lambda: self._point_velocities[0]),
+            points=Deferred(lambda: self._shown_points[0]),
             terms=Later(lambda: self.scene.ask(self._terms)),
             advantage=self.scene.ask(self._advantage),
             mobility=motions.mobility,
@@ -167,7 +168,8 @@ class AnswerBuilder:
             skipped=Later(lambda: _skipped(self.program, self.first.outcome)),
             steps=Later(lambda: _steps(self.program)),
             sensitivities=Deferred(lambda: self.slopes),
-            errors={"rates": errors} if errors else {},
+            errors={"points": Deferred(lambda: self._shown_points[1])}
+            | ({} if rates is None else self._motion_errors(errors)),
             scene=self,
         )
 
@@ -187,11 +189,24 @@ class AnswerBuilder:
             case=self.case,
             centres=Deferred(self.plain_centres),
             rates=rates,
-            velocities=Deferred(lambda: self.scene.ask(_velocities)),
-            points=Deferred(lambda: self.scene.ask(points_shown)),
+            velocities=Deferred(lambda: self._point_velocities[0]),
+            points=Deferred(lambda: self._shown_points[0]),
             mobility=self.first.outcome.motions.mobility,
             scene=self,
         )
+
+    @cached_property
+    def _shown_points(self) -> tuple[dict[str, Components], dict[str, Components]]:
+        """Points, and bounds of their errors."""
+        return self.scene.ask(points_shown)
+
+    @cached_property
+    def _point_velocities(self) -> tuple[Velocities, dict[tuple[str, str], Components]]:
+        """Point velocities, and bounds of their errors."""
+        return self.scene.ask(_velocities)
+
+    def _motion_errors(self, rates: Mapping[str, float]) -> dict[str, Mapping[Any, Any]]:
+        return {"rates": rates, "velocities": Deferred(lambda: self._point_velocities[1])}
 
     def plain_centres(self) -> dict[Pair, Centre]:
         """The centres that are asked for."""
@@ -406,13 +421,18 @@ def _rates(found: Evaluation) -> tuple[dict[str, float | str], dict[str, float]]
     return rates, errors
 
 
-def _velocities(found: Evaluation) -> Velocities:
-    """Point velocities."""
+def _velocities(found: Evaluation) -> tuple[Velocities, dict[tuple[str, str], Components]]:
+    """Point velocities, and bounds of their errors."""
     place, twists, a = found.outcome.place, found.outcome.motions.twists, found.arithmetic
     velocities: Velocities = {}
+    errors: dict[tuple[str, str], Components] = {}
     for key, both in speeds.point_velocities(place, twists, speed_of(found)).items():
-        velocities[key] = both if isinstance(both, str) else (a.rounded(both[0])[0], a.rounded(both[1])[0])
-    return velocities
+        if isinstance(both, str):
+            velocities[key] = both
+        else:
+            (x, off_x), (y, off_y) = map(a.rounded, both)
+            velocities[key], errors[key] = (x, y), (off_x, off_y)
+    return velocities, errors
 
 
 def _centres(found: Evaluation) -> dict[Pair, Centre]:

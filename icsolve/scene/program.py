@@ -299,8 +299,11 @@ def places_in(found: Evaluation) -> dict[str, tuple[Scalar, Scalar]]:
     return {name: (x / scale + ox, y / scale + oy) for name, (x, y) in named.items()}
 
 
-def points_shown(found: Evaluation) -> dict[str, tuple[float, float]]:
-    """The points that have a name in the case, in case units, each coordinate rounded once."""
+def points_shown(
+    found: Evaluation,
+) -> tuple[dict[str, tuple[float, float]], dict[str, tuple[float, float]]]:
+    """The points that have a name in the case, in case units, each coordinate rounded once; and bounds on
+    their errors."""
     return case_places(found.program.figure.frame, found.outcome.points, found.arithmetic)
 
 

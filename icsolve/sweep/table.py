@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.answer import Answer, by_load
-from icsolve.case import Case, Coordinates, is_named, pair_name
+from icsolve.case import Case, is_named, pair_name
 from icsolve.errors import SceneError, Status
 from icsolve.numbers import turn_of
 from icsolve.numbers.replay import Array
@@ -74,8 +74,8 @@ class Sweep:
     vary : the varied numbers by path, and the turnings of driven links by link, (n,)
     answers : unknown loads by name, (n,) [case units]; not a number where the status is another than ok
     error : bounds of the absolute rounding errors of the answers, (n,)
-    errors : the same by kind (``answers``, ``points``, ``centres``, ``rates``) and name, each number's own,
-        in the shape of its array; not a number where none is proven (with friction)
+    errors : the same of every kind (``points``, ``velocities``, ...) by name, each number's own, in the shape
+        of its array; not a number where none is proven (with friction)
     points : places, (n, 2) [case length]
     centres : relative centres as homogeneous coordinates, (n, 3): (x, y, w) at (x/w, y/w), at infinity
         toward (x, y) where w is zero; all zero where the two links have no relative motion
@@ -162,11 +162,10 @@ class Sweep:
 
 
 VECTORS = ("velocities", "accelerations")
-RECORDED = ("answers", "points", "centres", "rates", *VECTORS, "angular_accelerations", "terms")
+MOTION = ("rates", *VECTORS, "angular_accelerations")
+RECORDED = ("answers", "points", "centres", *MOTION, "terms")
 """What a record tells, of many rows at once."""
 KINDS = (*RECORDED, "reactions")
-UNBOUNDED = RECORDED[4:]
-"""Of these no bounds are told."""
 LETTERS = {"rates": "w", "angular_accelerations": "a", "terms": "power "}
 
 
@@ -278,10 +277,7 @@ class Table:
             self.put("touching", "-".join(one.links), row, (*one.at, angle, float(one.lost)))
         for name in asked.points if not missing else ():
             if name in answer.points:
-                x, y = answer.points[name]
-                given = isinstance(case.points.get(name), Coordinates)
-                error = (abs(x) * UNIT, abs(y) * UNIT) if given else None
-                self.put("points", name, row, (x, y), error)
+                self.put("points", name, row, answer.points[name], answer.errors.get("points", {}).get(name))
         self._fill_motion(row, answer)
         self._fill_forces(row, answer)
         loads = {load.name for load in case.loads}  # the power of friction is none of a unit of a load
@@ -298,23 +294,14 @@ class Table:
 
     def _fill_motion(self, row: int, answer: Answer) -> None:
         """Rates, velocities and accelerations, where they are asked; of those that are open none."""
-        asked, errors = self.asked, answer.errors.get("rates", {})
-        for link, rate in (answer.rates or {}).items() if asked.rates else ():
-            if isinstance(rate, float):
-                self.put("rates", link, row, rate, errors.get(link, 0.0 if rate == 0.0 else None))
-            else:
-                self.leave_open("rates", link, row)
-        for link, rate in (answer.angular_accelerations or {}).items() if asked.accelerations else ():
-            if isinstance(rate, float):
-                self.put("angular_accelerations", link, row, rate)
-            else:
-                self.leave_open("angular_accelerations", link, row)
-        for kind in (kind for kind in VECTORS if getattr(asked, kind)):
-            for (point, on), vector in (getattr(answer, kind) or {}).items():
-                if isinstance(vector, str):
-                    self.leave_open(kind, f"{point} on {on}", row)
-                elif is_named(point):
-                    self.put(kind, f"{point} on {on}", row, vector)
+        for kind in (kind for kind in MOTION if getattr(self.asked, kind.removeprefix("angular_"))):
+            errors = answer.errors.get(kind, {})
+            for key, value in (getattr(answer, kind) or {}).items():
+                name = key if isinstance(key, str) else f"{key[0]} on {key[1]}"
+                if isinstance(value, str):
+                    self.leave_open(kind, name, row)
+                elif is_named(name):
+                    self.put(kind, name, row, value, errors.get(key, 0.0 if value == 0.0 else None))
 
     def _fill_forces(self, row: int, answer: Answer) -> None:
         """Forces in joints and pulls of ropes, where they are asked; of those that are open none."""
@@ -331,7 +318,7 @@ class Table:
         """Whether a row lacks a number of what moves in it (or of some kinds of these), as where what scales
         the others stands still, or where the record divides by what is zero there; or a centre, where it has
         lines that coincide meet."""
-        kinds = kinds or ("rates", "centres", *KINDS[4:7])
+        kinds = kinds or ("centres", *MOTION)
         some = [(kind, array[row]) for (kind, _), array in self.values.items() if kind in kinds]
         return any(np.isnan(at).any() or (kind == "centres" and not at.any()) for kind, at in some)
 
@@ -403,7 +390,7 @@ def columns(sweep: Sweep) -> dict[str, Array]:
         bounds = sweep.errors.get(kind, {})
         for name, array in arrays.items():
             table |= _parted(kind, name, array)
-            if name in bounds and kind not in UNBOUNDED:
+            if name in bounds:
                 table |= {f"error {n}": bound for n, bound in _parted(kind, name, bounds[name]).items()}
     for name, array in sweep.holds.items():
         table |= {f"{name} from": array[:, 0], f"{name} to": array[:, 1]}
