@@ -166,3 +166,41 @@ def test_given_speeds() -> None:
         assert velocity is not None
         angle = math.degrees(math.atan2(velocity[1], velocity[0])) + rng.choice([0, 180])
         check_rates(scene | {"motion": {"point": "C", "link": 4, "speed": 2.5, "angle": angle}})
+
+
+def parallelograms(dice: Random, cranks: int, lean: float, stories: int) -> str:
+    """Cranks of one length between equal bases, one such mechanism on another, the lowest turned by ``lean``
+    from the base; the uppermost base is loaded, the first crank holds it."""
+    along = complex(*dice.choice([(0.6, 0.8), (1.0, 0.0), (-0.28, 0.96), (0.0, 1.0)]))
+    feet = [round(dice.uniform(1.2, 2.0), 1) * n for n in range(cranks)]
+    at, joints, base, link = {f"P0{n}": along * x for n, x in enumerate(feet)}, [], 1, 2
+    for story in range(stories):
+        turn = complex(1.0, 0.0) if not (lean or story) else complex(0.6, 0.8)
+        upper = link + cranks
+        for n in range(cranks):
+            at[f"P{story + 1}{n}"] = at[f"P{story}{n}"] + along * turn
+            joints += [f"{{pin: [{base}, {link + n}], at: P{story}{n}}}"]
+            joints += [f"{{pin: [{link + n}, {upper}], at: P{story + 1}{n}}}"]
+        base, link = upper, upper + 1
+    points = ", ".join(f"{name}: [{z.real:.6g}, {z.imag:.6g}]" for name, z in at.items())
+    return (
+        f"icsolve: 1\npoints: {{{points}}}\njoints: [{', '.join(joints)}]\nloads:\n"
+        f"  T: {{torque: unknown, link: 2}}\n  P: {{force: 5, link: {base}, at: P{stories}1, angle: 33}}\n"
+    )
+
+
+@pytest.mark.parametrize("seed", range(few(24)))
+@pytest.mark.parametrize("cranks", [2, 3, 4])
+def test_a_freedom_that_is_not_kept_is_one_of_a_change_point(cranks: int, seed: int) -> None:
+    """Flat cranks have two freedoms to first order, of which one goes on, however many cranks there are:
+    counting, which tells it of two, says nothing of redundant ones. Two stories have two that they keep."""
+    dice = Random(f"kept {cranks} {seed}")
+    status = {}
+    for lean, stories in ((0.0, 1), (1.0, 1), (1.0, 2)):
+        try:
+            status[lean, stories] = icsolve.solve(
+                icsolve.load(parallelograms(dice, cranks, lean, stories))
+            ).status
+        except icsolve.SceneError as refusal:
+            status[lean, stories] = refusal.status
+    assert status == {(0.0, 1): "change-point", (1.0, 1): "ok", (1.0, 2): "mobility"}

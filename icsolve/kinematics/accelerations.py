@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations_with_replacement
 
 from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import Joint, Motion, Number, Rope
@@ -159,6 +160,20 @@ def goes_on(place: PlacedCase, twists: Twists) -> bool | None:
         return _solved(place, twists, (), 0.0)[1]
     except SceneError:
         return None
+
+
+def go_on_together(place: PlacedCase, twists: Mapping[str, Sequence[Triple]]) -> bool | None:
+    """Whether all of several motions, and all that are made of them, extend to second order: at a change
+    point only some do. Each of the motions and each sum of two tells all, as the condition is quadratic.
+
+    None where a joint does not tell how it moves on. Raises MoreDigits of balls, where it is open.
+    """
+    count = max(map(len, twists.values()))
+    for k, n in combinations_with_replacement(range(count), 2):
+        one = {link: own[k] if k == n else add(own[k], own[n]) for link, own in twists.items()}
+        if not (on := goes_on(place, one)):
+            return on
+    return True
 
 
 def _solved(place: PlacedCase, twists: Twists, drives: Sequence[Drive], slack: float) -> tuple[General, bool]:

@@ -18,9 +18,11 @@ from icsolve.tuples import LateModule
 from icsolve.wording import direction_words, listed
 
 if TYPE_CHECKING:
+    from icsolve.kinematics import accelerations
     from icsolve.screws import ropes as rope_screws
     from icsolve.wording import sentences
 else:
+    accelerations = LateModule("icsolve.kinematics.accelerations")
     rope_screws, sentences = map(LateModule, ("icsolve.screws.ropes", "icsolve.wording.sentences"))
 
 
@@ -139,10 +141,12 @@ def refuse_unbalanced(outcome: power.Outcome) -> None:
         return
     case, top = outcome.place.case, outcome.place.top
     active = motions.mobility - len(solution.idle)
-    if motions.redundant and top.freedoms_by_count == unknowns < motions.mobility:
+    if motions.redundant and unknowns < motions.mobility:
         # whatever the loads do: in which of its motions they do no work is a choice of these
-        message = sentences.change_point(motions.mobility, top.freedoms_by_count)
-        raise SceneError(Status.CHANGE_POINT, message)
+        count = top.freedoms_by_count
+        if count == unknowns or accelerations.go_on_together(outcome.place, motions.twists) is False:
+            message = sentences.change_point(motions.mobility, count if count == unknowns else None)
+            raise SceneError(Status.CHANGE_POINT, message)
     if solution.verdict in ("too few unknowns", "too many unknowns") or unknowns > max(active, 1):
         ends = sentences.free_ends(top, case)
         message = sentences.wrong_count(motions.mobility, unknowns, len(solution.idle), ends)

@@ -302,9 +302,10 @@ def turned_roller(at: str, along: float) -> str:
     )
 
 
-def change_point(mobility: int, count: int) -> str:
-    """Momentarily more freedoms than the joints leave elsewhere."""
-    return (
-        f"change point: in this position the mechanism has {plural(mobility, 'degree')} of freedom where "
-        f"counting leaves {count}, so it can go on in more than one way. Take a position beside it."
-    )
+def change_point(mobility: int, count: int | None) -> str:
+    """Momentarily more freedoms than the joints leave elsewhere; by counting, where that tells."""
+    fewer = ", not all of which it keeps beside it"
+    if count is not None:
+        fewer = f" where counting leaves {count}, so it can go on in more than one way"
+    freedoms = f"in this position the mechanism has {plural(mobility, 'degree')} of freedom{fewer}"
+    return f"change point: {freedoms}. Take a position beside it."
