@@ -17,6 +17,10 @@ import icsolve
 from icsolve.case import Number
 from icsolve.numbers.balls import Ball, Balls, BelowZero, HalfUnits, MoreDigits
 from icsolve.scene.parts import scene_of
+from icsolve.sweep.find_on_record import Query, find
+from icsolve.sweep.request import RequestError
+from icsolve.sweep.varied_numbers import numbers_of
+from library import FILES, sample
 from sizes import sampled
 
 CASES = Path(__file__).parent.parent / "cases"
@@ -306,3 +310,22 @@ def test_no_operation_changes_a_number_that_an_arithmetic_remembers(digits: int)
         told = [(b.value.as_tuple(), b.radius, b.size, b.last) for b in (kept, read)]
         assert told[0] == told[1], value
         assert value or not kept.value.is_signed()
+
+
+@sampled(3)
+@pytest.mark.parametrize("name", sample(FILES, 12, "digits of decimals"))
+def test_no_operation_on_decimals_rounds_to_the_digits_of_the_default_context(name: str) -> None:
+    """28 digits are none that anything here is asked for: where they round, an operation has lost the context
+    that it belongs in, or abs() or a minus has rounded a number on its way."""
+    with decimal.localcontext() as context:
+        context.traps[decimal.Inexact] = True
+        with contextlib.suppress(icsolve.SceneError, icsolve.CaseError):
+            case = icsolve.load(FILES[name])
+            answer = icsolve.solve(case, rates=True, all_centres=True)
+            assert answer.to_dict() and dict(answer.sensitivities) is not None
+            icsolve.solve(case, reactions=True).to_dict()
+        angles = [path for path in numbers_of(case) if path.startswith("angles.")]
+        for path in () if case.unknowns else angles[:1]:
+            with contextlib.suppress(icsolve.SceneError, RequestError):  # some have no unknown load
+                icsolve.sweep(case, {path: [1.0, 2.5, 179.99999999, 180.0]}, ("answers", "error", "rates"))
+                find(case, {path: [0.5, 200.0]}, Query("dead"))

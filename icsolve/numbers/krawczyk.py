@@ -243,7 +243,7 @@ def _inverse(
     n, zero = len(rows), subtract(one, one)
     work = [row + [one if i == k else zero for k in range(n)] for i, row in enumerate(rows)]
     for c in range(n):
-        r = max(range(c, n), key=lambda k: abs(work[k][c]))
+        r = max(range(c, n), key=lambda k: abs(float(work[k][c])))
         if not work[r][c]:
             return None
         work[c], work[r] = work[r], work[c]

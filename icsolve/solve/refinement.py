@@ -75,7 +75,7 @@ def _values(function: LoadFunction, at: Decimal, nodes: Sequence[int]) -> list[D
 
 def _least(function: LoadFunction, node: int) -> Decimal:
     """What is zero beside the terms of a node."""
-    return ZERO * Decimal(terms_within(function.record.nodes, node))
+    return CONTEXT.multiply(ZERO, Decimal(terms_within(function.record.nodes, node)))
 
 
 def _zero(function: LoadFunction, start: Decimal, low: Decimal, high: Decimal) -> Decimal | None:
@@ -99,7 +99,8 @@ def _zero(function: LoadFunction, start: Decimal, low: Decimal, high: Decimal) -
 def rounded(exact: Decimal) -> tuple[float, float]:
     """The nearest double and a bound of its error."""
     value = float(exact)
-    return value, 0.0 if abs(exact - Decimal(value)) <= CLOSED else math.ulp(value)
+    off = CONTEXT.subtract(exact, Decimal(value))
+    return value, 0.0 if off.copy_abs() <= CLOSED else math.ulp(value)
 
 
 def in_range(
@@ -246,8 +247,9 @@ def described(function: LoadFunction, value: float, error: float) -> RestPositio
     """A position with its stiffness: rounded once where the zero is known in all digits, else enclosed about
     the value by the record. Of no error the value is meant as it stands, as a file writes it."""
     at = as_written(value)
-    beside = 2 * Decimal(error)
-    exact = _zero(function, at, at - beside, at + beside) if error else at
+    beside = Decimal(2.0 * error)
+    low, high = CONTEXT.subtract(at, beside), CONTEXT.add(at, beside)
+    exact = _zero(function, at, low, high) if error else at
     stiffness = None if exact is None else _stiffness(function, exact)
     if stiffness is not None:
         return told(function, value, error, _kind(stiffness), stiffness, "", exact if error else None)
@@ -258,7 +260,7 @@ def _stiffness(function: LoadFunction, at: Decimal) -> Stiffness | None:
     """Minus the derivative of the generalised load at a decimal of the free number, rounded once; None at a
     limit, where the number stands still."""
     power, slope, rate = _values(function, at, [function.power, function.slope, function.rate])
-    if any(map(Decimal.is_nan, (power, slope, rate))) or abs(rate) <= _least(function, function.rate):
+    if any(map(Decimal.is_nan, (power, slope, rate))) or rate.copy_abs() <= _least(function, function.rate):
         return None
     node = function.slope
     if abs(power) > _least(function, function.power):

@@ -419,7 +419,7 @@ def _hides(compiled: CompiledSweep) -> bool:
     except Unreached:
         return True
     return any(
-        value.is_nan() or abs(value) > ZERO * Decimal(size)
+        value.is_nan() or abs(float(value)) > float(ZERO) * size
         for value, (_, size) in zip(found, compiled.spent, strict=True)
     )
 
