@@ -270,9 +270,8 @@ class AnswerBuilder:
         for name in self.case.directed:
             both = [f"{name}.{axis}" for axis in "xy"]
             if size := math.hypot(*(self.unknowns[one].value for one in both)):
-                own = f"loads.{name}."  # where its components point
                 parts = [(self.unknowns[one].value / size, by_load[one]) for one in both]
-                paths = {p: None for _, slope in parts for p in slope if not p.startswith(own)}
+                paths = {p: None for _, slope in parts for p in slope if p not in self.case.axes}
                 by_load[name] = {p: sum(share * slope.get(p, 0.0) for share, slope in parts) for p in paths}
         return by_load
 
