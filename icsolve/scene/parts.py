@@ -9,7 +9,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
-from icsolve.case import Area, Case, Force, Load, Number, Pair, link_order
+from icsolve.case import Case, Number, Pair, link_order
 from icsolve.errors import SceneError, refuse_overflow
 from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
@@ -37,6 +37,7 @@ from icsolve.tuples import LateModule, NamedTuple, cached_property, replace
 from icsolve.wording import (
     at_words,
     direction_words,
+    less_than_none,
     link_words,
     links_named,
     listed,
@@ -227,7 +228,7 @@ class AnswerBuilder:
             with suppress(SceneError):  # where no digits tell that a link stands still
                 notes += self.scene.ask(_at_rest)
         notes += self._known_alone()
-        notes += [sentences.sucks(load.name) for load in self.case.loads if _sucks(load, answers)]
+        notes += [sentences.below_none(load) for load in less_than_none(self.case.loads, answers)]
         if answers and self.scene.certain and self.given is None and self.case.profiles is None:
             notes += sensitivity.unsettled(self.case, answers, self._change())
         return notes
@@ -513,12 +514,6 @@ def _notes(found: Evaluation) -> list[str]:
         ends = sentences.free_ends(program.top, program.case)
         notes.append(f"{count} in which no load does work{': ' if ends else ''}{ends}.")
     return notes
-
-
-def _sucks(load: Load, answers: Mapping[str, Found]) -> bool:
-    """Whether a load is a pressure that is found to be less than none."""
-    pressure = isinstance(load, Force) and isinstance(load.over, Area)
-    return pressure and load.name in answers and answers[load.name].value < 0.0
 
 
 def _at_rest(found: Evaluation) -> list[str]:

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
-from icsolve.case import Case
+from icsolve.case import Case, Load, Spring, TorsionSpring, Weight
 from icsolve.structure import Topology
 from icsolve.wording import link_words, links_named, listed, plural
+
+if TYPE_CHECKING:
+    from icsolve.case.space import Load as SpatialLoad
 
 RECONSTRUCTED = "Reconstructed"
 
@@ -136,12 +140,21 @@ def known_at_rest(loads: Sequence[str], link: str) -> str:
     return f"{link_words(link)} stands still in this position: {listed(loads)} {verb} no work on it."
 
 
-def sucks(load: str) -> str:
-    """A pressure that would have to be less than none."""
-    return (
-        f"{load} is negative, and a fluid only pushes: it would have to suck here. Let the other side of the "
-        "piston carry the load, with its own area and the opposite direction."
-    )
+def below_none(load: Load | SpatialLoad) -> str:
+    """A load that is found to be negative, as none of its kind is, and what would do its work."""
+    if isinstance(load, Weight):
+        why = "no mass is: it would have to rise against gravity here. Let a force carry the load."
+    elif isinstance(load, Spring | TorsionSpring):
+        why = (
+            "no spring's stiffness is: it would have to stretch or wind itself further here. Give it a "
+            "`free` on the other side of what it has in this position, or let it act elsewhere."
+        )
+    else:
+        why = (
+            "a fluid only pushes: it would have to suck here. Let the other side of the piston carry the "
+            "load, with its own area and the opposite direction."
+        )
+    return f"{load.name} is negative, and {why}"
 
 
 def idle_load(load: str, links: Sequence[str], couple: bool, slack: bool) -> str:
