@@ -168,6 +168,34 @@ def test_what_is_never_negative_and_is_found_to_be_is_told(unknown: str, scene: 
     assert not any("is negative" in note for note in icsolve.solve(icsolve.load(free)).notes)
 
 
+@pytest.mark.parametrize(
+    ("unknowns", "words"),
+    [
+        (["R"], "1 too many. R counts as two, its size and its direction: give it a direction"),
+        (["R", "S"], "3 too many. R and S count as two each, size and direction: give each a direction"),
+        (["R", "T"], "2 too many. R counts as two, its size and its direction: give it a direction"),
+    ],
+)
+def test_a_force_of_unknown_direction_that_is_one_unknown_too_many_is_told_so(
+    unknowns: list[str], words: str
+) -> None:
+    """It has no number that could be given, nor can it be like another."""
+    forms = {
+        "R": "R: {force: [unknown, unknown], link: 4, at: E}",
+        "S": "S: {force: [unknown, unknown], link: 3, at: C}",
+        "T": "T: {torque: unknown, link: 2}",
+    }
+    text = PRESS.format(
+        units=INCHES, load="{force: 100, link: 4, at: E, angle: 180}", torque="{torque: 0, link: 2}"
+    )
+    text = text.replace("T12:", "M:")
+    with pytest.raises(SceneError, match=words) as told:
+        icsolve.solve(icsolve.load(text + "".join(f"  {forms[name]}\n" for name in unknowns)))
+    assert told.value.status == "mobility"
+    assert "as in `force: unknown, angle: 30`" in told.value.message
+    assert ("a number" in told.value.message) == (len(unknowns) > 1)
+
+
 def spread(first: float, last: float, n: int = 4000) -> float:
     """The torque against many small forces along CD: a force to the left has the arm y about D."""
     answer = icsolve.solve(press("{force: 1, link: 4, at: E, angle: 180}"))

@@ -226,17 +226,18 @@ def free_ends(top: Topology, case: Case) -> str:
     return f"link {names[0]} has a free end (its only joint is {f'at {at}' if at else 'a mesh'})"
 
 
-def wrong_count(mobility: int, unknowns: int, idle: int, ends: str = "") -> str:
-    """Freedoms that do not match the unknowns; ``ends``: which links have a free end."""
+def wrong_count(mobility: int, unknowns: int, idle: int, ends: str = "", directed: Sequence[str] = ()) -> str:
+    """Freedoms that do not match the unknowns; ``ends``: which links have a free end; ``directed``: which
+    forces are of unknown direction."""
     active = mobility - idle
     beside = f" beside {plural(idle, 'freedom')} in which no load does work" if idle else ""
     if unknowns > active:
         extra = unknowns - active
-        return (
-            f"{plural(unknowns, 'unknown load')} for a mobility of {active}{beside}: {extra} too many. "
-            f"Give {'one of them a number' if extra == 1 else f'{extra} of them numbers'}, or tie it to "
-            "another with `like`."
-        )
+        wrong = f"{plural(unknowns, 'unknown load')} for a mobility of {active}{beside}: {extra} too many."
+        if directed:
+            return f"{wrong} {_two_each(directed, extra)}"
+        give = "one of them a number" if extra == 1 else f"{extra} of them numbers"
+        return f"{wrong} Give {give}, or tie it to another with `like`."
     missing = active - unknowns
     wrong = (
         f"the mechanism has {plural(active, 'degree')} of freedom{beside} but "
@@ -248,6 +249,17 @@ def wrong_count(mobility: int, unknowns: int, idle: int, ends: str = "") -> str:
         return f"{wrong} It seems that {lost}: {ends}. Add it, or {plural(missing, 'unknown load')}."
     lock = f"joints that take {missing} freedoms" if several else "one more joint"
     return f"{wrong} Add {plural(missing, 'unknown load')}, or {lock} to lock it."
+
+
+def _two_each(directed: Sequence[str], extra: int) -> str:
+    """What forces of unknown direction are to have where so many unknowns are too many."""
+    one, left = len(directed) == 1, extra - len(directed)
+    counts = "counts as two, its size and its direction" if one else "count as two each, size and direction"
+    whom = "it" if one else "each" if left >= 0 else "one of them" if extra == 1 else f"{extra} of them"
+    numbers = "" if left <= 0 else f", and {plural(left, 'unknown load')} a number"
+    return (
+        f"{listed(directed)} {counts}: give {whom} a direction, as in `force: unknown, angle: 30`{numbers}."
+    )
 
 
 def nothing_asked(mobility: int, left: Sequence[str], turning: Sequence[str]) -> str:
