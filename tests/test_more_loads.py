@@ -461,6 +461,10 @@ def test_every_command_knows_it(
 
 
 SLIPS = {
+    "an unknown place": (
+        "{force: 100, link: 4, at: unknown, angle: 30}",
+        "a place is no unknown: give it as",
+    ),
     "no area": (f"{{pressure: 8 MPa, {ON_E}}}", "needs its area: 'bore', the cylinder's diameter, or 'area'"),
     "bore and area": (f"{{pressure: 8 MPa, bore: 2, area: 3, {ON_E}}}", "has 'bore' and 'area'; give one"),
     "rod without a bore": (f"{{pressure: 8 MPa, area: 3, rod: 1, {ON_E}}}", "goes with a 'bore'"),
