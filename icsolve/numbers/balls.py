@@ -333,7 +333,7 @@ class Balls:
             cosine, sine = cos_sin_within(rest, self.digits)
             off, own = degrees.radius * 0.0174533, float(f"1e-{self.digits + 2}")
             c, s = (self._rounded(v, (off + abs(float(v)) * own) * UP + TINY) for v in (cosine, sine))
-            if degrees.radius == 0.0 and abs(rest) == 30:
+            if degrees.radius == 0.0 and rest.copy_abs() == 30:  # abs() rounds to 28 digits
                 s = self.ball(0.5 if rest > 0 else -0.5)
         return ((c, s), (-s, c), (-c, -s), (s, -c))[quarter]
 
