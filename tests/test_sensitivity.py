@@ -153,11 +153,14 @@ def test_the_text_and_the_json_say_the_same_numbers() -> None:
     assert lines[2].split() == [first["path"], f"{first['percent']:.4g}", f"{first['per_unit']:.4g}"]
 
 
-def test_beside_a_dead_centre_the_slopes_come_from_more_digits() -> None:
-    """A tape of doubles says nothing there; in closed form M2 is -1/2 over the gap of B and A."""
+@pytest.mark.parametrize("places", range(5, 18))
+def test_beside_a_dead_centre_the_slopes_come_from_more_digits(places: int) -> None:
+    """A tape of doubles says nothing there, and on the way there less and less; in closed form M2 is -1/2
+    over the gap of B and A."""
+    gap, at = float(f"37e-{places + 2}"), f"2.{'0' * places}37"
     text = """
 icsolve: 1
-points: {A0: [0, 0], A: [1, 0], B: [2.00000000000000001, 2], B0: [3, 4]}
+points: {A0: [0, 0], A: [1, 0], B: [AT, 2], B0: [3, 4]}
 joints:
   - {pin: [1, 2], at: A0}
   - {pin: [2, 3], at: A}
@@ -165,9 +168,9 @@ joints:
   - {pin: [4, 1], at: B0}
 loads: {M4: {torque: 1, link: 4}, M2: {torque: unknown, link: 2}}
 """
-    slopes = icsolve.solve(icsolve.load(text)).sensitivities["M2"]
-    assert slopes["points.B.x"] == pytest.approx(0.5e34, rel=1e-9)
-    assert slopes["loads.M4"] == pytest.approx(-0.5e17, rel=1e-9)
+    slopes = icsolve.solve(icsolve.load(text.replace("AT", at))).sensitivities["M2"]
+    assert slopes["points.B.x"] == pytest.approx(0.5 / gap**2, rel=1e-8)
+    assert slopes["loads.M4"] == pytest.approx(-0.5 / gap, rel=1e-8)
 
 
 def test_the_size_of_a_force_of_unknown_direction_has_the_slopes_of_a_root_of_squares() -> None:

@@ -254,7 +254,7 @@ class AnswerBuilder:
             told = found and all(any(by.values()) for by in found.values())  # nothing of an answer that is 0
             if not self.scene.certain:
                 return self._with_sizes(found)
-            if told and self._tape_tells():
+            if told and self._tape_tells(DERIVED):
                 by_load, doubtful = found, _near_nothing(found, numbers)
         for number in (numbers[path] for path in numbers if path in doubtful):
             step = Decimal(repr(1e-40 * (abs(number.value) or 1.0)))
@@ -286,18 +286,19 @@ class AnswerBuilder:
         """By how much half a unit of a number moves each answer: by the derivatives of the tape, and so near
         a singular position that a tape says nothing, by what the number so moved gives."""
         with suppress(SceneError, ZeroDivisionError):
-            if self.traced and self._tape_tells():
-                by = self.slopes
+            if self.traced and self._tape_tells(ROUGH):
+                by = self._with_sizes(slopes(self.traced))
                 return lambda n: {load: abs(slope.get(n.path, 0.0)) * n.half for load, slope in by.items()}
         return self._moved
 
-    def _tape_tells(self) -> bool:
+    def _tape_tells(self, share: float) -> bool:
+        """Whether the answers of the tape are right to such a share of them."""
         assert self.traced is not None
         found, true = self.traced.outcome.solution.values, self.first.outcome.solution.values
         if found.keys() != true.keys():
             return False
         pairs = [(float(found[root]), float(true[root])) for root in true]
-        return all(abs(near - exact) <= 0.01 * abs(exact) for near, exact in pairs)
+        return all(abs(near - exact) <= share * abs(exact) for near, exact in pairs)
 
     def _moved(self, number: Number) -> dict[str, float]:
         reach: dict[str, float] = {}
@@ -365,6 +366,8 @@ class AnswerBuilder:
         return tuple(power_terms(found, self._values(found), speed_of(found)))
 
 
+DERIVED, ROUGH = 1e-9, 0.01
+"""How far off the answers of a tape may be whose derivatives are told; of which a note gives two figures."""
 ROUNDED = 1e-12
 """Of the strongest influence on an answer: what is less may be rounding."""
 
