@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import decimal
+import itertools
 import math
 from fractions import Fraction
 from pathlib import Path
@@ -181,6 +182,22 @@ def test_right_angles_and_thirds_of_them_are_exact() -> None:
         assert balls.turn(Number(0.0, 0.0, degrees, degrees))[1] == half / 2
     for degrees, half in {"60": 1, "120": -1, "240": -1}.items():
         assert balls.turn(Number(0.0, 0.0, degrees, degrees))[0] == half / 2
+
+
+@pytest.mark.parametrize("places", [20, 27, 28, 29, 39, 60, 110])
+@pytest.mark.parametrize("digits", [30, 120])
+def test_beside_thirds_of_right_angles_sines_and_cosines_are_those_of_the_angle(
+    digits: int, places: int
+) -> None:
+    """However near: an angle that differs in its last places alone has a half no more."""
+    balls = Balls(digits)
+    for third, sign in itertools.product(range(-90, 300, 30), "+-"):
+        text = str(
+            decimal.Context(prec=200).add(decimal.Decimal(third), decimal.Decimal(f"{sign}1e-{places}"))
+        )
+        turned = balls.turn(Number(float(text), 0.0, text, text))
+        true = many.radians(many.mpf(text))
+        assert holds(turned[0], many.cos(true)) and holds(turned[1], many.sin(true)), text
 
 
 def test_short_numbers_stay_exact_through_products_roots_and_quotients() -> None:

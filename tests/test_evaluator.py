@@ -127,6 +127,51 @@ def test_the_gradient_is_the_scenes_sensitivity() -> None:
                 assert found.gradients["T12"][path][-1] == pytest.approx(slopes[path], rel=1e-9)
 
 
+@sampled(3, "rows", "angle")
+@pytest.mark.parametrize("angle", [20.0, 60.0, 133.0, 290.0])
+@pytest.mark.parametrize("rows", [1, 3, 25])
+def test_where_an_answer_vanishes_its_gradient_is_that_of_both_sides(angle: float, rows: int) -> None:
+    """A crank that a weight balances is what Newton's method looks for: its place is one as all others.
+
+    A slope is linear in the weight, so it is the mean of those beside."""
+    text = FOUR_BAR.replace("loads:", "loads:\n  W: {weight: 200, link: 2, at: B}")
+    call = icsolve.evaluator(icsolve.load(text), ("angles.AB", "lengths.BC", "loads.W"), gradient=True)
+    ends = call(angle, 3.5, np.array([0.0, 100.0])).answers["T12"]
+    balance = float(100.0 * ends[0] / (ends[0] - ends[1]))
+    beside = call(angle, 3.5, np.array([balance - 10.0, balance + 10.0])).gradients["T12"]
+    there = call(*([angle, 3.5, balance] if rows == 1 else np.tile([angle, 3.5, balance], (rows, 1)).T))
+    assert there.answers["T12"] == pytest.approx(np.zeros(rows), abs=1e-9)
+    for path, slopes in there.gradients["T12"].items():
+        assert slopes == pytest.approx(np.full(rows, beside[path].mean()), rel=1e-9), path
+    weight = np.array([200.0])
+    for _ in range(4):
+        found = call(angle, 3.5, weight)
+        weight = weight - found.answers["T12"] / found.gradients["T12"]["loads.W"]
+    assert weight == pytest.approx([balance], rel=1e-12)
+
+
+@pytest.mark.parametrize("gap", [1e-3, 1e-7, 1e-11, 1e-15])
+def test_beside_a_dead_centre_a_row_has_the_gradient_of_the_closed_form(gap: float) -> None:
+    """M2 is -1/2 over the gap between the coupler and the line of link 4, however narrow that is."""
+    case = icsolve.load("""icsolve: 1
+points: {A0: [0, 0], A: [1, 0], B: [2.5, 2], B0: [3, 4]}
+joints:
+  - {pin: [1, 2], at: A0}
+  - {pin: [2, 3], at: A}
+  - {pin: [3, 4], at: B}
+  - {pin: [4, 1], at: B0}
+loads: {M4: {torque: 1, link: 4}, M2: {torque: unknown, link: 2}}
+""")
+    call = icsolve.evaluator(case, ("points.B.x", "loads.M4"), gradient=True)
+    x = 2.0 + gap
+    found = call(x, 1.0)
+    exact = icsolve.solve(call.case_of(x, 1.0))
+    assert found.answers["M2"][0] == pytest.approx(exact.answers["M2"].value, rel=1e-9)
+    for path, slopes in found.gradients["M2"].items():
+        assert slopes[0] == pytest.approx(exact.sensitivities["M2"][path], rel=1e-6)
+    assert found.gradients["M2"]["loads.M4"][0] == pytest.approx(-0.5 / gap, rel=1e-8)
+
+
 def test_a_row_that_does_not_assemble_says_so_and_the_others_stand() -> None:
     found = icsolve.evaluator(icsolve.load(FOUR_BAR), ("lengths.BC",))(np.array([3.5, 9.0, 3.4]))
     assert found.status.tolist() == ["ok", "cannot-assemble", "ok"]

@@ -119,6 +119,83 @@ loads:
     assert sorted(told) == [False, True]
 
 
+SWINGING = """icsolve: 1
+points: {{A: [0, 0], B: [1.5, 0.6], C: [4, 0], S: [{x}, {y}]}}
+joints: [{{pin: [1, 2], at: A{rubs}}}]
+loads:
+  W: {{force: 700, link: 2, at: C, angle: -90}}
+  Q: {{{unknown}}}
+"""
+SWINGING_IN_SPACE = """icsolve: 1
+points: {{A: [0, 0, 0], B: [1.5, 0.6, 0], C: [4, 0, 0], S: [{x}, {y}, 0]}}
+joints: [{{hinge: [1, 2], at: A, axis: z}}]
+gravity: [0, -9.81, 0]
+loads:
+  W: {{force: [0, -700, 0], link: 2, at: C}}
+  Q: {{{unknown}}}
+"""
+NEVER_NEGATIVE = {
+    "mass: unknown, link: 2, at: {at}": "no mass is",
+    "spring: unknown, free: 2, link: 2, at: B, to: S": "no spring's stiffness is",
+    "spring: unknown, corner: AB, free: {free}, link: 2": "no spring's stiffness is",
+    "pressure: unknown, bore: 0.05, link: 2, at: B, angle: {free}": "a fluid only pushes",
+}
+
+
+@pytest.mark.parametrize("scene", ["plane", "rubs", "turns", "space"])
+@pytest.mark.parametrize("unknown", NEVER_NEGATIVE)
+def test_what_is_never_negative_and_is_found_to_be_is_told(unknown: str, scene: str) -> None:
+    """Masses and stiffnesses, which no case may give as less than none, and pressures: with friction where
+    the whole range is. A negative force or weight is one of the other sense, and is told nothing."""
+    draw, told, words = Random(unknown + scene), set(), NEVER_NEGATIVE[unknown]
+    if scene == "space" and ("corner" in unknown or "pressure" in unknown):
+        pytest.skip("a load of the plane")
+    for _ in range(12):
+        load = unknown.format(at=draw.choice("CS"), free=draw.randrange(360))
+        rubs = ", mu: 0.2, radius: 0.01" if scene in ("rubs", "turns") else ""
+        x, y = draw.choice((-3.0, 3.0)), draw.choice((-4.0, 0.9, 4.0))
+        text = (SWINGING_IN_SPACE if scene == "space" else SWINGING).format(x=x, y=y, rubs=rubs, unknown=load)
+        text += "motion: {link: 2, turns: ccw}\n" if scene == "turns" else ""
+        answer = icsolve.solve(icsolve.load(text))
+        found = answer.answers["Q"]
+        most = found.value if found.holds is None else found.holds[1]
+        assert any(words in note for note in answer.notes) == (most < 0.0), text
+        told.add(most < 0.0)
+    assert told == {True, False}
+    free = text.replace(
+        load, "force: unknown, link: 2, at: B, " + ("along: y" if scene == "space" else "angle: -90")
+    )
+    assert not any("is negative" in note for note in icsolve.solve(icsolve.load(free)).notes)
+
+
+@pytest.mark.parametrize(
+    ("unknowns", "words"),
+    [
+        (["R"], "1 too many. R counts as two, its size and its direction: give it a direction"),
+        (["R", "S"], "3 too many. R and S count as two each, size and direction: give each a direction"),
+        (["R", "T"], "2 too many. R counts as two, its size and its direction: give it a direction"),
+    ],
+)
+def test_a_force_of_unknown_direction_that_is_one_unknown_too_many_is_told_so(
+    unknowns: list[str], words: str
+) -> None:
+    """It has no number that could be given, nor can it be like another."""
+    forms = {
+        "R": "R: {force: [unknown, unknown], link: 4, at: E}",
+        "S": "S: {force: [unknown, unknown], link: 3, at: C}",
+        "T": "T: {torque: unknown, link: 2}",
+    }
+    text = PRESS.format(
+        units=INCHES, load="{force: 100, link: 4, at: E, angle: 180}", torque="{torque: 0, link: 2}"
+    )
+    text = text.replace("T12:", "M:")
+    with pytest.raises(SceneError, match=words) as told:
+        icsolve.solve(icsolve.load(text + "".join(f"  {forms[name]}\n" for name in unknowns)))
+    assert told.value.status == "mobility"
+    assert "as in `force: unknown, angle: 30`" in told.value.message
+    assert ("a number" in told.value.message) == (len(unknowns) > 1)
+
+
 def spread(first: float, last: float, n: int = 4000) -> float:
     """The torque against many small forces along CD: a force to the left has the arm y about D."""
     answer = icsolve.solve(press("{force: 1, link: 4, at: E, angle: 180}"))
@@ -384,6 +461,10 @@ def test_every_command_knows_it(
 
 
 SLIPS = {
+    "an unknown place": (
+        "{force: 100, link: 4, at: unknown, angle: 30}",
+        "a place is no unknown: give it as",
+    ),
     "no area": (f"{{pressure: 8 MPa, {ON_E}}}", "needs its area: 'bore', the cylinder's diameter, or 'area'"),
     "bore and area": (f"{{pressure: 8 MPa, bore: 2, area: 3, {ON_E}}}", "has 'bore' and 'area'; give one"),
     "rod without a bore": (f"{{pressure: 8 MPa, area: 3, rod: 1, {ON_E}}}", "goes with a 'bore'"),

@@ -13,6 +13,7 @@ from icsolve.errors import SceneError
 from icsolve.scene.program import Want, evaluate, prepare
 from icsolve.scene.sensitivity import band, entries, influences, numbers_of, text
 from icsolve.statics.power import has_friction
+from icsolve.sweep.varied_numbers import with_numbers
 from library import FILES, sample
 from more_digits import SixtyDigits
 from sizes import sampled
@@ -152,11 +153,14 @@ def test_the_text_and_the_json_say_the_same_numbers() -> None:
     assert lines[2].split() == [first["path"], f"{first['percent']:.4g}", f"{first['per_unit']:.4g}"]
 
 
-def test_beside_a_dead_centre_the_slopes_come_from_more_digits() -> None:
-    """A tape of doubles says nothing there; in closed form M2 is -1/2 over the gap of B and A."""
+@pytest.mark.parametrize("places", range(5, 18))
+def test_beside_a_dead_centre_the_slopes_come_from_more_digits(places: int) -> None:
+    """A tape of doubles says nothing there, and on the way there less and less; in closed form M2 is -1/2
+    over the gap of B and A."""
+    gap, at = float(f"37e-{places + 2}"), f"2.{'0' * places}37"
     text = """
 icsolve: 1
-points: {A0: [0, 0], A: [1, 0], B: [2.00000000000000001, 2], B0: [3, 4]}
+points: {A0: [0, 0], A: [1, 0], B: [AT, 2], B0: [3, 4]}
 joints:
   - {pin: [1, 2], at: A0}
   - {pin: [2, 3], at: A}
@@ -164,9 +168,9 @@ joints:
   - {pin: [4, 1], at: B0}
 loads: {M4: {torque: 1, link: 4}, M2: {torque: unknown, link: 2}}
 """
-    slopes = icsolve.solve(icsolve.load(text)).sensitivities["M2"]
-    assert slopes["points.B.x"] == pytest.approx(0.5e34, rel=1e-9)
-    assert slopes["loads.M4"] == pytest.approx(-0.5e17, rel=1e-9)
+    slopes = icsolve.solve(icsolve.load(text.replace("AT", at))).sensitivities["M2"]
+    assert slopes["points.B.x"] == pytest.approx(0.5 / gap**2, rel=1e-8)
+    assert slopes["loads.M4"] == pytest.approx(-0.5 / gap, rel=1e-8)
 
 
 def test_the_size_of_a_force_of_unknown_direction_has_the_slopes_of_a_root_of_squares() -> None:
@@ -189,3 +193,35 @@ loads:
     assert slopes["loads.H"] == pytest.approx(70 / size, rel=1e-12)
     assert not any(path.startswith("loads.P") for path in slopes)
     assert band(answer, "P", 0.01) == 0.0
+
+
+FIVE_BAR = """
+icsolve: 1
+points: {A: [0, 0], B: [0.3, 2], C: [2.6, 4.3], D: [4.1, 1.9], E: [5, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 5], at: D}
+  - {pin: [5, 1], at: E}
+loads:
+  P: {torque: 10, link: 2}
+  Q: {torque: -7, link: 5}
+  W: {weight: 3, link: 3, at: [1.5, 3]}
+  R: {force: [unknown, unknown], link: 3, at: [2.5, 4]}
+"""
+
+
+def test_the_size_of_a_force_hangs_on_its_own_place_too() -> None:
+    """Its coordinates `[x, y]` are numbers of the drawing: the band holds what each of all moves it by."""
+    case, step, reach = icsolve.load(FIVE_BAR), 1e-4, 0.0
+    answer = icsolve.solve(case)
+    slopes = {one.path: one.per_unit for one in influences(answer, "R")}
+    for path, number in numbers_of(case).items():
+        ends = [with_numbers(case, {path: number.value + way * step}) for way in (1, -1)]
+        more, less = (icsolve.solve(end).answers["R"].value for end in ends)
+        assert more is not None and less is not None
+        slope = (more - less) / (2 * step)
+        assert slopes.get(path, 0.0) == pytest.approx(slope, rel=1e-6, abs=1e-9), path
+        reach += abs(slope) if ".x" in path or ".y" in path else 0.0
+    assert band(answer, "R", 0.01) == pytest.approx(0.01 * reach, rel=1e-6)

@@ -750,6 +750,53 @@ loads:
     assert held(np.radians(one.at))["xy".index(load[-1])] == pytest.approx(3.0, abs=1e-12)
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_of_two_unknown_loads_each_is_linear_in_a_known_one(seed: int) -> None:
+    """Of five bars with two freedoms. A line has one place and no turns, which bounds show: nothing is told
+    of a search, though the known loads cancel somewhere in the range."""
+    draw = Random(seed)
+    unknowns = draw.sample(
+        [
+            "{torque: unknown, link: 2}",
+            "{torque: unknown, link: 5}",
+            "{force: unknown, link: 3, at: C, angle: 20}",
+            "{force: unknown, link: 4, at: C, angle: 110}",
+            "{force: unknown, link: 4, at: D, angle: 60}",
+        ],
+        2,
+    )
+    case = icsolve.load(
+        f"""icsolve: 1
+points: {{A: [0, 0], B: [0.3, 2], C: [2.6, 4.3], D: [4.1, 1.9], E: [5, 0]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 5], at: D}}
+  - {{pin: [5, 1], at: E}}
+loads:
+  P: {{torque: 10, link: 2}}
+  Q: {{torque: {draw.randint(-9, 9)}, link: 5}}
+  W: {{weight: {draw.randint(1, 9)}, link: 3, at: B}}
+  R: {unknowns[0]}
+  S: {unknowns[1]}
+"""
+    )
+    ends = {"loads.P": np.array([-20.0, 20.0])}
+    rows = icsolve.sweep(case, ends).answers
+    for load in "RS":
+        first, last = rows[load]
+        value = round(0.3 * first + 0.7 * last, 3)
+        places, peaks = (
+            find(case, ends, query) for query in (Query("value", load, value), Query("max", load))
+        )
+        assert (peaks, peaks.notes) == ([], ())
+        if abs(last - first) > 1e-9 * abs(first):  # else it does not hang on it
+            (one,), notes = places, places.notes
+            assert one.at == pytest.approx(-20.0 + 40.0 * (value - first) / (last - first), rel=1e-9)
+            assert not notes
+
+
 @sampled(2)
 @pytest.mark.parametrize("turns", ["free end", "drum"])
 def test_positions_in_which_a_rope_would_have_to_push_are_left_out(turns: str) -> None:

@@ -193,6 +193,11 @@ class Case:
             (kept if link in self.links else out).update(points)
         return frozenset(out - kept)
 
+    @cached_property
+    def axes(self) -> frozenset[str]:
+        """The paths of the directions of components: no file has these numbers."""
+        return frozenset(f"loads.{name}.{axis}.angle" for name in self.directed for axis in "xy")
+
     @property
     def touches(self) -> tuple[Touch, ...]:
         """The contacts that profiles place."""

@@ -139,6 +139,7 @@ def null_space(
     zero: float = ZERO,
     unit: float = 0.0,
     vanishes: Vanishes | None = None,
+    among: int | None = None,
 ) -> NullSpace:
     """All x with ``rows @ x = 0``, by elimination with complete pivoting.
 
@@ -151,6 +152,7 @@ def null_space(
     unit : the first pivot is measured by itself or this, whichever is larger: where all rows are
         rounding of terms of this size, none counts
     vanishes : of balls, what decides instead: a pivot is the largest that is certainly not zero
+    among : pivots are taken in so many columns, the first ones, alone
 
     Raises
     ------
@@ -163,8 +165,9 @@ def null_space(
     pivots: list[float] = []
     rank = 0
     dropped = 0.0
-    while rank < min(len(work), columns):
-        size, r, c = _largest_entry(work, rank, columns, vanishes is not None)
+    among = columns if among is None else among
+    while rank < min(len(work), among):
+        size, r, c = _largest_entry(work, rank, among, vanishes is not None)
         if vanishes is None:
             fraction = size / (pivots[0] if pivots else max(size, unit)) if size else 0.0
             if fraction <= limit:
@@ -172,7 +175,7 @@ def null_space(
                 break
         elif size <= 0.0:
             for row in work[rank:]:
-                for value in row[rank:columns]:
+                for value in row[rank:among]:
                     vanishes(value, max((unit, *pivots)))  # raises where that is open
             break
         pivots.append(size)

@@ -387,6 +387,11 @@ def _never_given(reading: Reading, name: str, given: set[str]) -> str:
     if name in COMPASS:
         meant = f"for a direction write 'angle: {COMPASS[name]}'"
         return f"a point stands here, and nothing gives a point '{name}'; {meant}"
+    if name == "unknown":
+        return (
+            "a place is no unknown: give it as [x, y], and ask for where it is to be by `icsolve sweep CASE "
+            "--vary loads.P.at.x=FROM:TO:STEP --find hold`, or `--find` of an answer"
+        )
     likely = _likely(reading, name, given)
     said = f"point {name} is named here, but nothing gives it: no coordinates, length, angle or guide{likely}"
     of = next((point for point, others in reading.centroids.items() if name in others), None)

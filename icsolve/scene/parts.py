@@ -9,7 +9,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
-from icsolve.case import Area, Case, Force, Load, Number, Pair, link_order
+from icsolve.case import Case, Number, Pair, link_order
 from icsolve.errors import SceneError, refuse_overflow
 from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
@@ -37,6 +37,7 @@ from icsolve.tuples import LateModule, NamedTuple, cached_property, replace
 from icsolve.wording import (
     at_words,
     direction_words,
+    less_than_none,
     link_words,
     links_named,
     listed,
@@ -242,7 +243,7 @@ class AnswerBuilder:
             with suppress(SceneError):  # where no digits tell that a link stands still
                 notes += self.scene.ask(_at_rest)
         notes += self._known_alone()
-        notes += [sentences.sucks(load.name) for load in self.case.loads if _sucks(load, answers)]
+        notes += [sentences.below_none(load) for load in less_than_none(self.case.loads, answers)]
         if answers and self.scene.certain and self.given is None and self.case.profiles is None:
             notes += sensitivity.unsettled(self.case, answers, self._change())
         return notes
@@ -268,7 +269,7 @@ class AnswerBuilder:
             told = found and all(any(by.values()) for by in found.values())  # nothing of an answer that is 0
             if not self.scene.certain:
                 return self._with_sizes(found)
-            if told and self._tape_tells():
+            if told and self._tape_tells(DERIVED):
                 by_load, doubtful = found, _near_nothing(found, numbers)
         for number in (numbers[path] for path in numbers if path in doubtful):
             step = Decimal(repr(1e-40 * (abs(number.value) or 1.0)))
@@ -285,9 +286,8 @@ class AnswerBuilder:
         for name in self.case.directed:
             both = [f"{name}.{axis}" for axis in "xy"]
             if size := math.hypot(*(self.unknowns[one].value for one in both)):
-                own = f"loads.{name}."  # where its components point
                 parts = [(self.unknowns[one].value / size, by_load[one]) for one in both]
-                paths = {p: None for _, slope in parts for p in slope if not p.startswith(own)}
+                paths = {p: None for _, slope in parts for p in slope if p not in self.case.axes}
                 by_load[name] = {p: sum(share * slope.get(p, 0.0) for share, slope in parts) for p in paths}
         return by_load
 
@@ -301,18 +301,19 @@ class AnswerBuilder:
         """By how much half a unit of a number moves each answer: by the derivatives of the tape, and so near
         a singular position that a tape says nothing, by what the number so moved gives."""
         with suppress(SceneError, ZeroDivisionError):
-            if self.traced and self._tape_tells():
-                by = self.slopes
+            if self.traced and self._tape_tells(ROUGH):
+                by = self._with_sizes(slopes(self.traced))
                 return lambda n: {load: abs(slope.get(n.path, 0.0)) * n.half for load, slope in by.items()}
         return self._moved
 
-    def _tape_tells(self) -> bool:
+    def _tape_tells(self, share: float) -> bool:
+        """Whether the answers of the tape are right to such a share of them."""
         assert self.traced is not None
         found, true = self.traced.outcome.solution.values, self.first.outcome.solution.values
         if found.keys() != true.keys():
             return False
         pairs = [(float(found[root]), float(true[root])) for root in true]
-        return all(abs(near - exact) <= 0.01 * abs(exact) for near, exact in pairs)
+        return all(abs(near - exact) <= share * abs(exact) for near, exact in pairs)
 
     def _moved(self, number: Number) -> dict[str, float]:
         reach: dict[str, float] = {}
@@ -380,6 +381,8 @@ class AnswerBuilder:
         return tuple(power_terms(found, self._values(found), speed_of(found)))
 
 
+DERIVED, ROUGH = 1e-9, 0.01
+"""How far off the answers of a tape may be whose derivatives are told; of which a note gives two figures."""
 ROUNDED = 1e-12
 """Of the strongest influence on an answer: what is less may be rounding."""
 
@@ -534,12 +537,6 @@ def _notes(found: Evaluation) -> list[str]:
         ends = sentences.free_ends(program.top, program.case)
         notes.append(f"{count} in which no load does work{': ' if ends else ''}{ends}.")
     return notes
-
-
-def _sucks(load: Load, answers: Mapping[str, Found]) -> bool:
-    """Whether a load is a pressure that is found to be less than none."""
-    pressure = isinstance(load, Force) and isinstance(load.over, Area)
-    return pressure and load.name in answers and answers[load.name].value < 0.0
 
 
 def _at_rest(found: Evaluation) -> list[str]:

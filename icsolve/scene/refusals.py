@@ -149,7 +149,7 @@ def refuse_unbalanced(outcome: power.Outcome) -> None:
             raise SceneError(Status.CHANGE_POINT, message)
     if solution.verdict in ("too few unknowns", "too many unknowns") or unknowns > max(active, 1):
         ends = sentences.free_ends(top, case)
-        message = sentences.wrong_count(motions.mobility, unknowns, len(solution.idle), ends)
+        message = sentences.wrong_count(motions.mobility, unknowns, len(solution.idle), ends, case.directed)
         raise SceneError(Status.MOBILITY, message)
     raise _no_work(outcome)
 

@@ -172,11 +172,10 @@ def parts_of(case: Case) -> Mapping[str, Mapping[str, Number]]:
 
 @lru_cache(maxsize=64 * len(NUMBERED))
 def _held_by(case: Case, part: str) -> Mapping[str, Number]:
-    own = {f"loads.{name}.{axis}.angle" for name in case.directed for axis in "xy"}  # no file has these
     held = getattr(case, part)
-    if part == "loads":  # nor those of inertia forces
+    if part == "loads":  # no file has those of inertia forces
         held = tuple(load for load in held if not name_of_inertia(load.name))
-    return {number.path: number for number in numbers_in(held) if number.path not in own}
+    return {number.path: number for number in numbers_in(held) if number.path not in case.axes}
 
 
 def _lengths(case: Case) -> set[str]:

@@ -262,7 +262,7 @@ def _solved_many(
     # over powers of two that bring their largest entries near 1
     sizes = [math.ldexp(1.0, math.frexp(max(map(abs, row.values)))[1]) for row in powers]
     count, rows = len(roots), [[v / s for v in row.values] for row, s in zip(powers, sizes, strict=True)]
-    free = linear.null_space([row[:count] for row in rows], count, 1e-13, vanishes=decider(arithmetic))
+    free = linear.null_space(rows, count + 1, 1e-13, vanishes=decider(arithmetic), among=count)
     whole = linear.null_space(rows, count + 1, 1e-13, vanishes=decider(arithmetic))
     if whole.rank > free.rank:
         verdict = "no value" if free.rank < count and len(rows) <= count else "too few unknowns"
@@ -272,7 +272,7 @@ def _solved_many(
         return Solution(verdict, {}, idle, _workless(powers, roots))
     if not whole.basis or not roots:
         return Solution("balanced", dict.fromkeys(roots, 0.0), idle)
-    vector = whole.basis[0]
+    (vector,) = free.basis  # divided by what the unknowns do: where known loads cancel it has no pole
     if abs(vector[-1]) == 0.0:
         raise SceneError(
             Status.NEAR_SINGULAR, "the equations of power of the motions can't be told from dependent ones"

@@ -8,6 +8,7 @@ dead centre is solved as a scene of its own, so each row says what `icsolve.solv
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from math import atan2, degrees, inf, isfinite, sqrt
 from typing import Any
 
@@ -70,7 +71,7 @@ class Evaluated:
     velocities, accelerations, angular_accelerations : as those of `Sweep`
     terms : by load, the power of a unit of it, (n,); only their ratios in a row tell something
     gradients : by answer, then by input as it was asked for: derivative [case units; per degree by an angle],
-        (n,); not a number in rows that were solved as scenes of their own
+        (n,); not a number where the status is not ``ok``
     """
 
     status: npt.NDArray[np.str_]
@@ -214,10 +215,10 @@ class Evaluator:
             again, slopes = np.arange(rows), Gradients()
         else:
             again, slopes = self.compiled.run(given, rows, table)
-        for row in again.tolist():
-            self._as_scene(given, row, table)
         for array in (array for by in slopes.values() for array in by.values()):
             array[again] = np.nan
+        for row in again.tolist():
+            self._as_scene(given, row, table, slopes)
         kinds = by_kind(table.values, RECORDED)
         status = np.array(WORDS if table.codes.any() else WORDS[:1], FINE.dtype)[table.codes]
         return Evaluated(status, gradients=slopes, **kinds)
@@ -252,8 +253,9 @@ class Evaluator:
         table.reserve({("rates", link): 1 for link in self.case.links} if asked.rates else {})
         return table
 
-    def _as_scene(self, given: list[Array], row: int, table: Table) -> None:
-        """One row as `icsolve.solve` has it, on the branch that was followed."""
+    def _as_scene(self, given: list[Array], row: int, table: Table, slopes: Gradients) -> None:
+        """One row as `icsolve.solve` has it, on the branch that was followed, with its derivatives
+        where gradients are asked for."""
         for array in table.values.values():
             array[row] = np.nan
         numbers = [float(c[row] if c.ndim else c) for c in given]
@@ -271,6 +273,10 @@ class Evaluator:
             table.refuse(row, refusal)
             return
         table.fill(row, answer)
+        with suppress(SceneError):  # so near a singular position that none can be told
+            for name, by in slopes.items():
+                for path, own in zip(self.inputs, self.own, strict=True):
+                    by[path][row] = answer.sensitivities[name].get(own, 0.0)
 
 
 def limits_of(case: Case, own: Sequence[str]) -> list[tuple[int, NumberLimit]]:

@@ -174,6 +174,19 @@ _CLOSE = 1.0
 """Degrees within which it may be called by an angle or by a point."""
 
 
+def less_than_none(
+    loads: Iterable[Load | SpatialLoad], answers: Mapping[str, Found]
+) -> list[Load | SpatialLoad]:
+    """Of masses, springs and pressures those that are found to be negative, with friction throughout."""
+    return [load for load in loads if load.name in answers and _is_below(load, answers[load.name])]
+
+
+def _is_below(load: Load | SpatialLoad, found: Found) -> bool:
+    kind = isinstance(load, Spring | TorsionSpring) or (isinstance(load, Weight) and load.mass)
+    most = found.value if found.holds is None else found.holds[1]
+    return most < 0.0 and (kind or (isinstance(load, Force) and isinstance(load.over, Area)))
+
+
 def same_way(published: str, found: str, load: Load | SpatialLoad, places: Places) -> bool:
     """Whether a load of sense ``found`` goes the way that ``published`` says, as books round directions: in
     space ``along -z`` may be published as ``down``, or as ``away from P`` where P lies above.

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
-from icsolve.case import Case
+from icsolve.case import Case, Load, Spring, TorsionSpring, Weight
 from icsolve.structure import Topology
 from icsolve.wording import link_words, links_named, listed, plural
+
+if TYPE_CHECKING:
+    from icsolve.case.space import Load as SpatialLoad
 
 RECONSTRUCTED = "Reconstructed"
 
@@ -136,12 +140,21 @@ def known_at_rest(loads: Sequence[str], link: str) -> str:
     return f"{link_words(link)} stands still in this position: {listed(loads)} {verb} no work on it."
 
 
-def sucks(load: str) -> str:
-    """A pressure that would have to be less than none."""
-    return (
-        f"{load} is negative, and a fluid only pushes: it would have to suck here. Let the other side of the "
-        "piston carry the load, with its own area and the opposite direction."
-    )
+def below_none(load: Load | SpatialLoad) -> str:
+    """A load that is found to be negative, as none of its kind is, and what would do its work."""
+    if isinstance(load, Weight):
+        why = "no mass is: it would have to rise against gravity here. Let a force carry the load."
+    elif isinstance(load, Spring | TorsionSpring):
+        why = (
+            "no spring's stiffness is: it would have to stretch or wind itself further here. Give it a "
+            "`free` on the other side of what it has in this position, or let it act elsewhere."
+        )
+    else:
+        why = (
+            "a fluid only pushes: it would have to suck here. Let the other side of the piston carry the "
+            "load, with its own area and the opposite direction."
+        )
+    return f"{load.name} is negative, and {why}"
 
 
 def idle_load(load: str, links: Sequence[str], couple: bool, slack: bool) -> str:
@@ -213,17 +226,18 @@ def free_ends(top: Topology, case: Case) -> str:
     return f"link {names[0]} has a free end (its only joint is {f'at {at}' if at else 'a mesh'})"
 
 
-def wrong_count(mobility: int, unknowns: int, idle: int, ends: str = "") -> str:
-    """Freedoms that do not match the unknowns; ``ends``: which links have a free end."""
+def wrong_count(mobility: int, unknowns: int, idle: int, ends: str = "", directed: Sequence[str] = ()) -> str:
+    """Freedoms that do not match the unknowns; ``ends``: which links have a free end; ``directed``: which
+    forces are of unknown direction."""
     active = mobility - idle
     beside = f" beside {plural(idle, 'freedom')} in which no load does work" if idle else ""
     if unknowns > active:
         extra = unknowns - active
-        return (
-            f"{plural(unknowns, 'unknown load')} for a mobility of {active}{beside}: {extra} too many. "
-            f"Give {'one of them a number' if extra == 1 else f'{extra} of them numbers'}, or tie it to "
-            "another with `like`."
-        )
+        wrong = f"{plural(unknowns, 'unknown load')} for a mobility of {active}{beside}: {extra} too many."
+        if directed:
+            return f"{wrong} {_two_each(directed, extra)}"
+        give = "one of them a number" if extra == 1 else f"{extra} of them numbers"
+        return f"{wrong} Give {give}, or tie it to another with `like`."
     missing = active - unknowns
     wrong = (
         f"the mechanism has {plural(active, 'degree')} of freedom{beside} but "
@@ -235,6 +249,17 @@ def wrong_count(mobility: int, unknowns: int, idle: int, ends: str = "") -> str:
         return f"{wrong} It seems that {lost}: {ends}. Add it, or {plural(missing, 'unknown load')}."
     lock = f"joints that take {missing} freedoms" if several else "one more joint"
     return f"{wrong} Add {plural(missing, 'unknown load')}, or {lock} to lock it."
+
+
+def _two_each(directed: Sequence[str], extra: int) -> str:
+    """What forces of unknown direction are to have where so many unknowns are too many."""
+    one, left = len(directed) == 1, extra - len(directed)
+    counts = "counts as two, its size and its direction" if one else "count as two each, size and direction"
+    whom = "it" if one else "each" if left >= 0 else "one of them" if extra == 1 else f"{extra} of them"
+    numbers = "" if left <= 0 else f", and {plural(left, 'unknown load')} a number"
+    return (
+        f"{listed(directed)} {counts}: give {whom} a direction, as in `force: unknown, angle: 30`{numbers}."
+    )
 
 
 def nothing_asked(mobility: int, left: Sequence[str], turning: Sequence[str]) -> str:

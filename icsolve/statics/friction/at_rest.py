@@ -51,13 +51,15 @@ from icsolve.statics.power import Balance, Value, is_unknown, unknown_loads
 from icsolve.statics.reaction_basis import Position, ties_of
 from icsolve.statics.reactions import tensions_of
 from icsolve.tuples import LateModule, NamedTuple, TypeVar, replace
-from icsolve.wording import listed, plural
+from icsolve.wording import less_than_none, listed, plural
 
 if TYPE_CHECKING:
     from icsolve.statics.friction import held_ranges as limited
     from icsolve.statics.friction.pushing import RestingScene
-else:  # where a contact parts, or rubs do not tell how they act on each other
+    from icsolve.wording import sentences
+else:  # where a contact parts, or rubs do not tell how they act on each other; where an answer is remarkable
     limited = LateModule("icsolve.statics.friction.held_ranges")
+    sentences = LateModule("icsolve.wording.sentences")
 
 T = TypeVar("T")
 
@@ -294,7 +296,8 @@ def held(scene: FrictionScene, answer_with: Callable[[Mapping[str, Value]], Answ
     answer = answer_with({root: Value(0.0, rest.bound, rest.why)})
     answers = {name: _held(scene, name, found, shown) for name, shown in answer.answers.items()}
     jams = jammed(scene.position, scene.balance, root, (found.least, found.most))
-    notes = (*answer.notes, *notes_at_rest(root, found), *([jams] if jams else ()))
+    told = [sentences.below_none(load) for load in less_than_none(answer.case.loads, answers)]
+    notes = (*answer.notes, *told, *notes_at_rest(root, found), *([jams] if jams else ()))
     friction = FrictionFound(
         (),
         0.0,

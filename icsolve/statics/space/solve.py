@@ -48,7 +48,8 @@ from icsolve.statics.witness import (
     unknowns_of,
 )
 from icsolve.tuples import replace
-from icsolve.wording.sentences import EXPLAINED
+from icsolve.wording import less_than_none
+from icsolve.wording.sentences import EXPLAINED, below_none
 
 
 def solve_space(case: Case, bound: bool) -> Answer:
@@ -131,13 +132,15 @@ def _answer(solved: SpatialSolution, bounds: Mapping[str, float], spatial: Spati
                 value = 0.0 if abs(value) <= error else value
             found[w.load.name] = Found(value, unit_of(w.load, case), sense_of(w, value), error)
         values[w.load.name] = value
+    assert case.space is not None
+    told = map(below_none, less_than_none(case.space.loads, found))
     return Answer(
         case=case,
         answers=found,
         terms=terms_of_power(solved, values, a),
         advantage=advantage(solved.powers.wrenches, exact, a),
         mobility=solved.mobility,
-        notes=(*case.noticed, *notes_of(solved, spatial.reactions)),
+        notes=(*case.noticed, *told, *notes_of(solved, spatial.reactions)),
         sensitivities=Deferred(_no_sensitivities),
         spatial=spatial,
     )
