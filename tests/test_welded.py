@@ -13,7 +13,10 @@ import pytest
 
 import icsolve
 from icsolve import Case
+from icsolve.draw.words import description
+from icsolve.explain import explain
 from icsolve.read.document import Mapping, Scalar, Sequence
+from icsolve.report.derivation.known import known_of
 from library import FILES
 from sizes import sampled
 from trees import document, tree
@@ -90,3 +93,14 @@ def test_a_cam_its_follower_and_their_frame_may_each_be_of_two_pieces(name: str,
     assert list(first.status) == list(second.status)
     for load, values in first.answers.items():
         assert second.answers[load] == pytest.approx(values, rel=1e-9, nan_ok=True)
+
+
+@sampled(12, "name")
+@pytest.mark.parametrize("name", [name for name in OTHERS if name not in RESTING])
+def test_what_is_welded_to_the_frame_is_not_told_to_move(name: str) -> None:
+    case = icsolve.load(FILES[name])
+    other = in_two(name, case.ground)
+    if not known_of(case).structure:
+        counted = [description(known_of(one)).partition(" and the frame")[0] for one in (case, other)]
+        assert counted[0] == counted[1]
+        assert f"The frame is link {case.ground}, with link {PIECE} welded to it; " in explain(other)
