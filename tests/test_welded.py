@@ -13,7 +13,7 @@ import pytest
 
 import icsolve
 from icsolve import Case
-from icsolve.draw.words import description
+from icsolve.draw.words import description, line_words
 from icsolve.explain import explain
 from icsolve.read.document import Mapping, Scalar, Sequence
 from icsolve.report.derivation.known import known_of
@@ -104,3 +104,24 @@ def test_what_is_welded_to_the_frame_is_not_told_to_move(name: str) -> None:
         counted = [description(known_of(one)).partition(" and the frame")[0] for one in (case, other)]
         assert counted[0] == counted[1]
         assert f"The frame is link {case.ground}, with link {PIECE} welded to it; " in explain(other)
+
+
+@sampled(3)
+@pytest.mark.parametrize("name", [name for name in OTHERS if "slot:" in TEXTS[name] and name not in RESTING])
+def test_a_centre_is_found_by_the_same_normals(name: str) -> None:
+    """Of the joint that is written, whichever piece bears its name, and with no roller that is none."""
+    case = icsolve.load(FILES[name])
+    one, two = known_of(case), known_of(in_two(name, case.ground))
+    if one.answer is None:
+        return
+    assert two.answer is not None
+    found = {frozenset(pair): centre for pair, centre in two.answer.centres.items()}
+    for pair, centre in one.answer.centres.items():
+        other = found[frozenset(pair)]
+        normals = [n for n, line in enumerate(centre.lines) if len(line) == 1]
+        others = [n for n, line in enumerate(other.lines) if len(line) == 1]
+        assert [line_words(one, centre.lines, n) for n in normals] == [
+            line_words(two, other.lines, n) for n in others
+        ]
+        for n in others:
+            assert {*other.lines[n][0]} == {*pair}

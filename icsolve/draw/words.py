@@ -219,7 +219,7 @@ def step_sentence(known: Known, steps: Sequence[Step], number: int) -> str:
 def line_words(known: Known, lines: Sequence[tuple[Pair, ...]], number: int) -> str:
     """A line of centres in words."""
     if len(lines[number]) == 1:
-        return f"the {normal_name(joint_of_normal(known.case.joints, lines, number))}"
+        return f"the {normal_name(joint_of_normal(known.case, lines, number))}"
     first, second = sorted(f"I{pair_name(known.case, pair)}" for pair in lines[number])
     return f"the line {first} {second}"
 
