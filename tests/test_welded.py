@@ -15,6 +15,8 @@ import icsolve
 from icsolve import Case
 from icsolve.draw.words import description, line_words
 from icsolve.explain import explain
+from icsolve.page.live import live_of
+from icsolve.page.motion import inputs
 from icsolve.read.document import Mapping, Scalar, Sequence
 from icsolve.report.derivation.known import known_of
 from library import FILES
@@ -125,3 +127,18 @@ def test_a_centre_is_found_by_the_same_normals(name: str) -> None:
         ]
         for n in others:
             assert {*other.lines[n][0]} == {*pair}
+
+
+@sampled(12, "name")
+@pytest.mark.parametrize("name", [name for name in OTHERS if name not in RESTING + CAMS])
+def test_a_page_is_moved_as_with_a_frame_in_one_piece(name: str) -> None:
+    """By the same link; links are dragged about the frame's pins, and along its guides."""
+    case = icsolve.load(FILES[name])
+    one, two = known_of(case, reactions=True), known_of(in_two(name, case.ground), reactions=True)
+    assert inputs(one) == inputs(two)
+    first, second = live_of(one), live_of(two)
+    assert (first is None) == (second is None)
+    if first is not None and second is not None:
+        for key in ("moves", "turning"):
+            assert first.data[key] == second.data[key]
+        assert first.data["rails"].keys() == second.data["rails"].keys()
