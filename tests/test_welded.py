@@ -19,6 +19,7 @@ from icsolve.page.live import live_of
 from icsolve.page.motion import inputs
 from icsolve.read.document import Mapping, Scalar, Sequence
 from icsolve.report.derivation.known import known_of
+from icsolve.solve.positions import rest_of
 from library import FILES
 from sizes import sampled
 from trees import document, tree
@@ -142,3 +143,14 @@ def test_a_page_is_moved_as_with_a_frame_in_one_piece(name: str) -> None:
         for key in ("moves", "turning"):
             assert first.data[key] == second.data[key]
         assert first.data["rails"].keys() == second.data["rails"].keys()
+
+
+def test_a_link_that_is_welded_to_the_frame_is_refused_as_the_frame_is() -> None:
+    name = "linkages/four_bar.yaml"
+    case = in_two(name, icsolve.load(FILES[name]).ground)
+    refused = []
+    for link in (case.ground, PIECE):
+        with pytest.raises(icsolve.SceneError) as caught:
+            rest_of(case, link)
+        refused.append((caught.value.status, caught.value.message.replace(link, "")))
+    assert refused[0] == refused[1]

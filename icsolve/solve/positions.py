@@ -354,7 +354,7 @@ def moved_by(case: Case, along: str, span: tuple[float, float] | None = None) ->
     refuse_motion(case)
     refuse_profiles(case)
     if along in case.links:
-        if along == case.ground:
+        if along in welded(case, case.ground):
             raise SceneError(Status.STRUCTURE, f"link {along} is the frame: it does not move.")
         return moving_function(case, link=along, span=span)
     path = find_number(case, along).path
