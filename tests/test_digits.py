@@ -134,6 +134,15 @@ def test_what_half_a_unit_of_a_last_decimal_could_do_is_told(gap: str) -> None:
     assert notes(TOGGLE % ("1.0", "2.4")) == []
 
 
+@pytest.mark.parametrize("unit", ["m", "cm", "in"])
+def test_a_decimal_in_the_unit_of_the_case_is_a_bare_one(unit: str) -> None:
+    """It is no whole number for that it carries the unit."""
+    bare = TOGGLE + f"units: {{length: {unit}}}\n"
+    (note,) = notes(bare % ("1.0", "2.00001"))
+    assert notes(bare % (f"1.0 {unit}", f"2.00001 {unit}")) == [note]
+    assert notes(bare % (f"1 {unit}", f"2.00001 {unit}")) == []
+
+
 def turned_parallelogram(angle: float, off: float = 0.0) -> str:
     """Three parallel cranks, turned by a program: one constraint repeats the others to 1e-16."""
     c, s = math.cos(angle), math.sin(angle)

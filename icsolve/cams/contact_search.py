@@ -63,6 +63,7 @@ from icsolve.case.profiles import (
 from icsolve.errors import SceneError, Status
 from icsolve.numbers import Scalar, turn_of
 from icsolve.numbers.balls import Balls, BelowZero, MoreDigits
+from icsolve.structure import welded
 from icsolve.tuples import NamedTuple, replace
 
 FITS = 2e-3
@@ -437,10 +438,17 @@ def places_of(case: Case, names: tuple[str, ...]) -> Places:
 
 def carrier(case: Case, link: str, follower: Follower) -> str:
     """The link by whose guide a follower moves: that on which a roller of its own turns, else itself."""
+    own = welded(case, link)
     for joint in case.joints if isinstance(follower, Roller) else ():
-        if joint.pivot == follower.at and link in joint.links:
-            return next(other for other in joint.links if other != link)
+        if joint.pivot == follower.at and (others := _others(joint, own)):
+            return others[0]
     return link
+
+
+def _others(joint: Joint, body: tuple[str, ...]) -> list[str]:
+    """The links to which a joint ties a body of welded links; none where it is no joint of it."""
+    others = [link for link in joint.links if link not in body]
+    return others if len(others) < len(joint.links) else []
 
 
 def guided(case: Case, link: str) -> FollowerGuide | None:
@@ -448,10 +456,11 @@ def guided(case: Case, link: str) -> FollowerGuide | None:
 
     The frame guides it where it can.
     """
-    own = [joint for joint in case.joints if link in joint.links and _guides(joint)]
-    for joint in sorted(own, key=lambda joint: case.ground not in joint.links):
-        others = [other for other in joint.links if other != link]
-        against = case.ground if case.ground in others else others[0]
+    body, frame = welded(case, link), {*welded(case, case.ground)}
+    own = [joint for joint in case.joints if _guides(joint) and _others(joint, body)]
+    for joint in sorted(own, key=lambda joint: frame.isdisjoint(joint.links)):
+        others = _others(joint, body)
+        against = others[0] if frame.isdisjoint(others) else case.ground
         try:
             freedom = _freedom(case, joint)
         except SceneError:
@@ -530,8 +539,10 @@ def missing(case: Case, link: str, points: tuple[str, ...], freedom: Freedom) ->
     if isinstance(freedom, Shift):
         axis = 0 if abs(freedom.along[0]) > abs(freedom.along[1]) else 1
         return Missing(points[0], "", axis, case.near.get(points[0], (0.0, 0.0))[axis])
-    pivot = next(p for p in case.pivots(link) if _is_at(case, p, freedom.about))
-    arm = next((p for p in (*points, *case.carries.get(link, ())) if p != pivot), None)
+    body = welded(case, link)
+    pivot = next(p for one in body for p in case.pivots(one) if _is_at(case, p, freedom.about))
+    carried = (p for one in body for p in case.carries.get(one, ()))
+    arm = next((p for p in (*points, *carried) if p != pivot), None)
     if arm is None:
         raise SceneError(
             Status.UNDERDETERMINED,

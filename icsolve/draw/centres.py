@@ -73,13 +73,13 @@ def _name(known: Known, pair: Pair) -> str:
 def _lines(scene: Scene, spots: dict[Pair, CentreSpot], step: Step) -> Iterable[Part]:
     """The lines on which a centre was found."""
     target = spots[step.centre.pair]
-    lines, joints = step.centre.lines, scene.case.joints
+    lines = step.centre.lines
     for number, ends in enumerate(lines, 1):
         places = [spots[end] for end in ends if end in spots]
         if len(ends) == 2:
             chain = _chain([*places, target])
         else:
-            chain = _normal(scene, joint_of_normal(joints, lines, number - 1), target)
+            chain = _normal(scene, joint_of_normal(scene.case, lines, number - 1), target)
         pieces = clipped(chain, scene.view.window) if chain else ()
         if not pieces:
             continue

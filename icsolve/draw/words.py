@@ -15,6 +15,7 @@ from icsolve.errors import refuse_overflow
 from icsolve.report import positions_text
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.ratios import Step
+from icsolve.structure import welded
 from icsolve.wording import holding, plural, spelt
 from icsolve.wording.joints import joint_of_normal, normal_name
 from icsolve.wording.sentences import provenance
@@ -218,7 +219,7 @@ def step_sentence(known: Known, steps: Sequence[Step], number: int) -> str:
 def line_words(known: Known, lines: Sequence[tuple[Pair, ...]], number: int) -> str:
     """A line of centres in words."""
     if len(lines[number]) == 1:
-        return f"the {normal_name(joint_of_normal(known.case.joints, lines, number))}"
+        return f"the {normal_name(joint_of_normal(known.case, lines, number))}"
     first, second = sorted(f"I{pair_name(known.case, pair)}" for pair in lines[number])
     return f"the line {first} {second}"
 
@@ -226,7 +227,8 @@ def line_words(known: Known, lines: Sequence[tuple[Pair, ...]], number: int) -> 
 def description(known: Known) -> str:
     """The picture in a sentence, for those who can't see it."""
     case = known.case
-    moving = [link for link in case.links if link != case.ground]
+    frame = (case.ground,) if known.structure or case.space is not None else welded(case, case.ground)
+    moving = {*case.links}.difference(frame)
     what, link = ("Structure", "link") if known.structure else ("Mechanism", "moving link")
     joints = plural(len(case.joints), "joint")
     said = [f"{what} of {plural(len(moving), link)} and the frame, {joints}."]

@@ -80,7 +80,7 @@ def _constructed(work: Worked, centre: Centre) -> Iterable[Inline]:
     for n, line in enumerate(lines):
         yield ": on " if n == 0 else ", and on "
         if len(line) == 1:
-            yield f"the {normal_name(joint_of_normal(work.case.joints, lines, n))}"
+            yield f"the {normal_name(joint_of_normal(work.case, lines, n))}"
         yield from _line(work, centre, line)
 
 

@@ -19,6 +19,7 @@ from icsolve.screws.space import size
 from icsolve.statics.power import has_friction
 from icsolve.statics.space.reaction_basis import SpatialTie
 from icsolve.statics.space.reactions import direction_words
+from icsolve.structure import welded
 from icsolve.tuples import NamedTuple
 from icsolve.wording import at_words, listed
 from icsolve.wording.sentences import provenance
@@ -30,10 +31,7 @@ def given_section(work: Worked) -> Section:
     if work.case.space is not None:
         return _given_in_space(work)
     case, told = work.case, work.statement()
-    others = [link for link in told_links(case) if link != case.ground]
-    s, verb = ("", "s") if len(others) == 1 else ("s", "")
-    verb = f" {'is' if verb else 'are'} held" if work.known.structure else f" move{verb}"
-    blocks: list[Block] = [words(f"The frame is link {case.ground}; link{s} {listed(others)}{verb}.")]
+    blocks: list[Block] = [words(f"The frame is {_frame_and_others(work)}.")]
     rows = [told.joint(joint) for joint in told.case.joints]
     rows += [told.rope(rope) for rope in case.ropes]
     rows += [(f"link {link}", told.mass(inertia)) for link, inertia in case.inertia.items()]
@@ -45,6 +43,18 @@ def given_section(work: Worked) -> Section:
         blocks += [words("Loads:"), _loads(known_loads)]
     blocks += [words(f"{told.moving(one)} {told.motion(one)}.") for one in case.motion]
     return Section("Given", tuple(blocks))
+
+
+def _frame_and_others(work: Worked) -> str:
+    """The frame, and the links that it holds; or that move, and what else is frame, as it is welded to it."""
+    case, still = work.case, work.known.structure
+    frame = (case.ground,) if still else welded(case, case.ground)
+    others = [link for link in told_links(case) if link not in frame]
+    s, verb = ("", "s") if len(others) == 1 else ("s", "")
+    verb = f" {'is' if verb else 'are'} held" if still else f" move{verb}"
+    held = [link for link in told_links(case) if link in frame and link != case.ground]
+    more = f", with link{'s' * (len(held) > 1)} {listed(held)} welded to it" if held else ""
+    return f"link {case.ground}{more}; link{s} {listed(others)}{verb}"
 
 
 def _items(rows: Iterable[Row]) -> Items:

@@ -374,7 +374,7 @@ class CentreFinder:
     def _placed(self, pair: Pair, at: Triple, known: LocatedCentre) -> Centre:
         """The centre at a homogeneous point, found in a way that is known."""
         a, (x, y, w), (ox, oy, scale) = self.arithmetic, at, self.frame
-        lines = tuple(tuple(self._names(end) for end in line.ends) for line in known.lines)
+        lines = tuple(tuple(self._names(end, pair) for end in line.ends) for line in known.lines)
         largest = max(abs(x), abs(y))
         if a.vanishes(w, max(INFINITE, min(4.0 * known.error, 1e-10) / ROUNDING_NOISE) * largest):
             toward = a.angle(x, y)
@@ -388,8 +388,11 @@ class CentreFinder:
             errors.append(error)
         return Centre(pair, "at", (place[0], place[1]), known.by, lines, "", _bound(sum(errors)))
 
-    def _names(self, pair: BodyPair) -> Pair:
-        return ordered_pair(self.case, self.top.members[pair[0]][0], self.top.members[pair[1]][0])
+    def _names(self, bodies: BodyPair, of: Pair) -> Pair:
+        """A link of each body: that of which the centre is asked, where that is one of its links."""
+        members = (self.top.members[body] for body in bodies)
+        a, b = (next((link for link in of if link in links), links[0]) for links in members)
+        return ordered_pair(self.case, a, b)
 
 
 REST: Triple = (0.0, 0.0, 0.0)

@@ -439,7 +439,7 @@ class _ProgramWriter:
             "rails": {
                 bond.joint.at: k
                 for k, bond in enumerate(top.bonds)
-                if isinstance(bond.joint, Guided) and case.ground in bond.links
+                if isinstance(bond.joint, Guided) and top.ground in (bond.a, bond.b)
             },
             "guides": self._guides(),
         }
@@ -494,9 +494,10 @@ class _ProgramWriter:
 
     def _turning(self) -> list[str]:
         """The links that are pinned to the frame."""
+        frame = {*self.top.members[self.top.ground]}
         pins = [joint for joint in self.case.joints if joint.pivot is not None]
-        found = [link for pin in pins if self.case.ground in pin.links for link in pin.links]
-        return [link for link in dict.fromkeys(found) if link != self.case.ground]
+        found = [link for pin in pins if not frame.isdisjoint(pin.links) for link in pin.links]
+        return [link for link in dict.fromkeys(found) if link not in frame]
 
     def _measures(self, place: Mapping[Key, int]) -> list[list[Any]] | None:
         """How each number that a motion changes is measured: kind, number, points or the link it turns with;
@@ -543,7 +544,8 @@ class _ProgramWriter:
         """Whether the places of the points tell all of a position: they are given, and no guide turns."""
         drawn = all(isinstance(step, Given | Mean) for step in self.figure.steps)
         guides = [bond for bond in self.top.bonds if getattr(bond.joint, "guide", None) is not None]
-        held = all(bond.joint.guide.angle is None or self.case.ground in bond.links for bond in guides)  # type: ignore[union-attr]
+        still = self.top.ground
+        held = all(bond.joint.guide.angle is None or still in (bond.a, bond.b) for bond in guides)  # type: ignore[union-attr]
         return drawn and held and not any(getattr(load, "turns_with", None) for load in self.case.loads)
 
     def _guides(self) -> dict[str, int]:

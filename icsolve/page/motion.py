@@ -41,6 +41,7 @@ from icsolve.scene.refusals import rubs
 from icsolve.screws import Point, Triple
 from icsolve.statics.load_wrenches import as_given
 from icsolve.statics.power import is_unknown
+from icsolve.structure import welded
 from icsolve.sweep import Sweep, sweep
 from icsolve.sweep.request import RequestError
 from icsolve.tuples import NamedTuple, replace
@@ -416,12 +417,13 @@ def _smooth(case: Case) -> Case:
 def inputs(known: Known) -> list[str]:
     """Links that may drive, best first: those that turn about the frame and not too slowly."""
     case = known.case
-    rates = {link: abs(t[2]) for link, t in known.twists.items() if link != case.ground}
+    frame = {*welded(case, case.ground)}
+    rates = {link: abs(t[2]) for link, t in known.twists.items() if link not in frame}
     least = SLOW * max(rates.values(), default=0.0)
     pinned = [
         link
         for joint in case.joints
-        if joint.pivot is not None and case.ground in joint.links
+        if joint.pivot is not None and not frame.isdisjoint(joint.links)
         for link in joint.links
     ]
     first = [m.link for m in case.motion]

@@ -17,7 +17,7 @@ from icsolve.numbers import FLOATS
 from icsolve.report.derivation.known import Known
 from icsolve.screws import Point
 from icsolve.screws.ropes import rope_length, rope_parts
-from icsolve.structure import topology
+from icsolve.structure import topology, welded
 from icsolve.structure.torn_points import CarriedPoints
 from icsolve.sweep import Sweep
 from icsolve.tuples import NamedTuple
@@ -140,7 +140,7 @@ def _by_guide(rows: PageRows, link: str) -> PagePose | None:
         if joint.guide is not None and joint.keeps_direction and link in joint.links:
             other = joint.links[1 - joint.links.index(link)]
             x, y = rows.found.points[name].T
-            if other == rows.known.case.ground:
+            if other in welded(rows.known.case, rows.known.case.ground):
                 return PagePose(name, x, y, np.zeros(len(rows.degrees)))
             if other in rows.poses:
                 return PagePose(name, x, y, rows.poses[other].angle)

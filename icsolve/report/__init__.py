@@ -226,7 +226,7 @@ def _line(case: Case, lines: Sequence[tuple[Pair, ...]], number: int) -> str:
     if len(lines[number]) == 1:
         from icsolve.wording.joints import joint_of_normal, normal_name
 
-        return f"the {normal_name(joint_of_normal(case.joints, lines, number))}"
+        return f"the {normal_name(joint_of_normal(case, lines, number))}"
     ends = sorted(lines[number], key=lambda pair: sorted(link_order(case, link) for link in pair))
     return "line " + " ".join(f"I{pair_name(case, pair)}" for pair in ends)
 

@@ -14,7 +14,7 @@ from icsolve.answer import Answer, Found
 from icsolve.case import Case, Coordinates, Corner, Direction, Number
 from icsolve.case.loads import name_of_inertia
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.units import numbers_in
+from icsolve.numbers.units import exactly, numbers_in, split_quantity
 from icsolve.tuples import NamedTuple
 
 
@@ -122,7 +122,7 @@ def unsettled(
     the change of each answer by half a unit of a number."""
     worst: dict[str, tuple[float, Number]] = {}
     for number in numbers_of(case).values():
-        if "." in number.digits and (number.exact is None or number.factor != 1.0):  # a whole one is exact
+        if "." in number.digits and _is_as_written(number):  # a whole one is exact
             for load, reach in change(number).items():
                 if load not in worst or reach > worst[load][0]:
                     worst[load] = reach, number
@@ -132,6 +132,16 @@ def unsettled(
         for load, (reach, number) in worst.items()
         if load in answers and reach > abs(answers[load].value) > 0.0
     ]
+
+
+def _is_as_written(number: Number) -> bool:
+    """Whether its decimals are all that is meant, in whatever unit; not so what arithmetic gave."""
+    if number.exact is None or number.factor != 1.0:
+        return True
+    written = split_quantity(number.digits)
+    assert written is not None
+    (num, den, power), (a, b, _) = number.exact, exactly(written[0])
+    return power == 0 and num * b == a * den
 
 
 NUMBERED = (

@@ -50,7 +50,7 @@ from icsolve.solve.refinement import (
     within_a_turn,
 )
 from icsolve.solve.rest_position import RestPosition, taut
-from icsolve.structure import topology
+from icsolve.structure import topology, welded
 from icsolve.structure.torn_points import torn_points
 from icsolve.sweep.varied_numbers import find_number, points_of
 from icsolve.tuples import NamedTuple, replace
@@ -354,7 +354,7 @@ def moved_by(case: Case, along: str, span: tuple[float, float] | None = None) ->
     refuse_motion(case)
     refuse_profiles(case)
     if along in case.links:
-        if along == case.ground:
+        if along in welded(case, case.ground):
             raise SceneError(Status.STRUCTURE, f"link {along} is the frame: it does not move.")
         return moving_function(case, link=along, span=span)
     path = find_number(case, along).path
@@ -452,9 +452,10 @@ def _history(case: Case) -> Iterator[tuple[str, str]]:
         elif not joint.stays_known:
             yield from ((f"the normal of links {pair}", link) for link in joint.links)
     yield from _history_of_loads(case)
+    frame = {*welded(case, case.ground)}
     for name in placed_by_coordinates(case):
         carriers = [link for link, names in case.carries.items() if name in names]
-        if case.ground not in carriers:
+        if frame.isdisjoint(carriers):
             yield from ((f"point {name} by coordinates", link) for link in carriers)
 
 

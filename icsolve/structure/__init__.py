@@ -169,6 +169,13 @@ def topology(case: Case, *, as_ties: bool = False) -> Topology:
     return Topology(body_of, members, bonds, tuple(map(tuple, at)), body_of[case.ground], ropes)
 
 
+def welded(case: Case, link: str) -> tuple[str, ...]:
+    """The links that move as one with a link, itself among them; what the frame has welded to it is frame."""
+    body_of, members = _bodies(case)
+    return members[body_of[link]]
+
+
+@lru_cache(maxsize=32)
 def _bodies(case: Case) -> tuple[dict[str, int], tuple[tuple[str, ...], ...]]:
     leader = {link: link for link in (*case.links, case.ground)}
 

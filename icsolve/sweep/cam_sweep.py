@@ -17,6 +17,7 @@ from icsolve.case.joints import Mesh
 from icsolve.case.profiles import Flat, Knife, Roller
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array, Mask
+from icsolve.structure import welded
 from icsolve.sweep.cam_motion import CamMotion, Rows, cam_motion
 from icsolve.sweep.program import RowRequest, setting_of
 from icsolve.sweep.record_runner import Key, Progress
@@ -100,9 +101,10 @@ def _moving(course: CamMotion, columns: Columns) -> set[str]:
     Raises SceneError where a follower is to be turned, or a link cannot be.
     """
     for follow in course.follows:
-        if follow.seeking.guided in columns.links:
+        driven = [link for link in welded(course.open, follow.seeking.guided) if link in columns.links]
+        if driven:
             cams = [one.seeking.cam for one in course.follows if one.driver == follow.driver]
-            raise SceneError(Status.MOBILITY, follower_driven(follow.seeking.guided, cams))
+            raise SceneError(Status.MOBILITY, follower_driven(driven[0], cams))
     turned = [follow.driver for follow in course.follows if isinstance(follow.freedom, Turn)]
     slid = [follow.driver for follow in course.follows if not isinstance(follow.freedom, Turn)]
     own = [path for path in columns.paths if not path.startswith("profile.")]
@@ -226,7 +228,7 @@ def _cam(case: Case, links: tuple[str, str]) -> str:
 
 def _over_a_turn(case: Case, cam: str) -> Mapping[tuple[str, str], tuple[float, float]]:
     """Least and greatest pressure angle of every contact that the whole turn of a cam keeps."""
-    if not case.pivots(cam, case.ground):
+    if not any(case.pivots(own, held) for own in welded(case, cam) for held in welded(case, case.ground)):
         return {}
     try:
         rows = Rows(cam_motion(case), Columns({}, {cam: np.arange(0.0, 360.0, STEP)}, {cam: cam}))

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import assert_never
 
 from icsolve.case import (
     Belt,
+    Case,
     Contact,
     Gears,
     Joint,
@@ -21,6 +22,7 @@ from icsolve.case import (
     is_named,
 )
 from icsolve.case.joints import Thread
+from icsolve.structure import welded
 from icsolve.wording import at_words, listed
 
 
@@ -145,17 +147,18 @@ def normal_words(joint: Joint) -> str:
     return "normal to the slot" if joint.guide is not None else "common normal"
 
 
-def joint_of_normal(joints: Iterable[Joint], lines: Sequence[Sequence[Pair]], number: int) -> Joint | None:
-    """The joint whose common normal is a line of a centre; of several between two links each has its own.
+def joint_of_normal(case: Case, lines: Sequence[Sequence[Pair]], number: int) -> Joint | None:
+    """The joint whose common normal is a line of a centre; of several between two bodies each has its own.
 
     Parameters
     ----------
-    joints : those of the case
     lines, number : the lines of the centre, and which of them it is
     """
     pair = set(lines[number][0])
     before = sum(len(line) == 1 and set(line[0]) == pair for line in lines[:number])
-    found = [joint for joint in joints if joint.has_normal and pair <= set(joint.links)]
+    bodies = [{*welded(case, link)} for link in pair]
+    normals = (joint for joint in case.joints if joint.has_normal)
+    found = [joint for joint in normals if not any(body.isdisjoint(joint.links) for body in bodies)]
     return found[before] if before < len(found) else None
 
 
