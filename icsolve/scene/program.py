@@ -11,13 +11,13 @@ position. Each number is rounded once; its error is what that rounding did, and 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Container, Iterable
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING
 
 from icsolve.assembly import Figure, place, placed_figure, solve_figure
-from icsolve.assembly.workspace import PlacedCase, case_places, names_of
-from icsolve.case import Case, is_named
+from icsolve.assembly.workspace import PlacedCase, case_places, data_of, names_of
+from icsolve.case import Case, Coordinates, is_named
 from icsolve.errors import SceneError, Status, refuse_overflow
 from icsolve.kinematics import motion, speeds
 from icsolve.numbers import FLOATS, Arithmetic, Scalar, Showing
@@ -142,7 +142,21 @@ def needed_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want)
         points += [mass.centre for mass in case.inertia.values() if mass.centre is not None]
     if want.bodies:
         points += [joint.at for joint in case.joints if joint.at is not None]
-    return list(dict.fromkeys(points))
+    needed = dict.fromkeys(points)
+    return [*needed, *_measured_from(case, needed)]
+
+
+def _measured_from(case: Case, needed: Container[str]) -> Iterable[str]:
+    """The points by coordinates from which alone a datum places needed ones: whether these agree takes no
+    step."""
+    found: dict[str, None] = {}
+    for datum in data_of(case):
+        others = [p for p in datum.points if p not in needed]
+        if others and len(others) < len(datum.points):
+            places = [case.points.get(p) for p in others]
+            if all(isinstance(at, Coordinates) and None not in at for at in places):
+                found |= dict.fromkeys(others)
+    return found
 
 
 def _placed(program: Program, arithmetic: Arithmetic) -> PlacedCase:
