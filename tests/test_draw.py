@@ -662,3 +662,98 @@ dynamic: yes
     assert not any(label.startswith(("Fi2", "Ti2")) for label in labels)
     faster = drawn(icsolve.load(text % ", acceleration: 2"), bodies=bodies)
     assert any(label.text.startswith("Ti2 = ") for label in faster.labels)
+
+
+def arrows_of(picture: Picture, name: str) -> list[tuple[complex, complex]]:
+    """The arrows of a load, from tail to tip, in the picture turned upright."""
+    group = next(e for e in picture.root.iter() if e.attrib.get("id") == f"load-{name}")
+    found = []
+    paths = [
+        e.attrib["d"] for e in group.iter() if e.tag.endswith("path") and "head" not in e.attrib["class"]
+    ]
+    for path in paths:
+        numbers = [float(number) for number in re.findall(r"-?[\d.]+", path)]
+        points = [complex(x, -y) for x, y in zip(numbers[::2], numbers[1::2], strict=True)]
+        if len(points) == 2:
+            found.append((points[0], points[1]))
+    return found
+
+
+@sampled(3)
+@pytest.mark.parametrize("seed", range(12))
+def test_arrows_of_a_line_load_point_as_it_acts_everywhere(seed: int) -> None:
+    """One that is another at its end: of a negative number along the other way, whichever end has it, and of
+    one whose resultant vanishes too; none has the sense of a couple."""
+    random = Random(f"line load {seed}")
+    first, last = random.choice([(-5, 0), (0, -5), (-3, -7), (4, -4), (-6, 2), (6, -2), (3, 8)])
+    angle, turn = random.uniform(20.0, 160.0), random.uniform(0.0, 360.0)
+    case = icsolve.load(f"""icsolve: 1
+points: {{A: [0, 0]}}
+lengths: {{AB: 3}}
+angles: {{AB: {turn}}}
+joints: [{{pin: [1, 2], at: A}}]
+loads:
+  q: {{distributed: [{first}, {last}], link: 2, from: A, to: B, angle: {turn + angle}}}
+  T: {{torque: unknown, link: 2}}
+""")
+    picture = drawn(case)
+    (words,) = (text for text in picture.texts("t-known") if text.startswith("q"))
+    assert "cw" not in words and "deg" not in words
+    way, bar = (cmath.rect(1.0, math.radians(a)) for a in (turn + angle, turn))
+    arrows = arrows_of(picture, "q")
+    at = [(tip / bar).real for _, tip in arrows]
+    low, high = min(at), max(at)
+    seen = set()
+    for (tail, tip), place in zip(arrows, at, strict=True):
+        size = first + (last - first) * (place - low) / (high - low)
+        if abs(size) > 1.5 and abs(((tip - tail) / way).imag) < 0.01 * abs(tip - tail):
+            assert ((tip - tail) / way).real * size > 0.0
+            seen.add(size > 0.0)
+    assert seen == {number > 0 for number in (first, last) if number}
+
+
+@sampled(2)
+@pytest.mark.parametrize("seed", range(6))
+def test_a_couple_between_two_links_is_drawn_on_both(seed: int) -> None:
+    """As its free bodies have it: one arc the one way, the other the other way, with its name."""
+    random = Random(f"couple between {seed}")
+    size = random.choice([5, -5])
+    link, other = random.sample("234", 2)
+    case = icsolve.load(f"""icsolve: 1
+points: {{A: [0, 0], D: [4, 0]}}
+lengths: {{AB: 2, BC: 4, CD: 3}}
+angles: {{AB: {random.uniform(40, 100)}}}
+near: {{C: [5, 2.5]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
+loads:
+  M: {{torque: {size}, link: {link}, against: {other}}}
+  T: {{torque: unknown, link: 2}}
+""")
+    picture = drawn(case)
+    group = next(e for e in picture.root.iter() if e.attrib.get("id") == "load-M")
+    arcs = [
+        e.attrib["d"] for e in group.iter() if " A" in e.attrib.get("d", "") or "A" in e.attrib.get("d", "")
+    ]
+    sweeps = {re.findall(r"A ?[\d.]+[ ,]+[\d.]+[ ,]+[\d.]+[ ,]+[01][ ,]+([01])", d)[0] for d in arcs}
+    assert len(arcs) == 2 and sweeps == {"0", "1"}
+    assert "M" in picture.texts("t-known")
+
+
+@sampled(2)
+@pytest.mark.parametrize("seed", range(6))
+def test_a_couple_in_a_free_body_is_told_by_its_moment(seed: int) -> None:
+    """A torsion spring by its stiffness times its turn, a line load without a resultant by its couple."""
+    random = Random(f"couples {seed}")
+    free, number = random.uniform(20.0, 80.0), random.uniform(1.0, 9.0)
+    case = icsolve.load(f"""icsolve: 1
+units: {{length: mm, force: N, torque: N*m}}
+points: {{A: [0, 0], B: [300, 0]}}
+joints: [{{pin: [1, 2], at: A}}]
+loads:
+  k: {{spring: 50, corner: AB, free: {free}, link: 2}}
+  q: {{distributed: [{number}, {-number}], link: 2, from: A, to: B, angle: -90}}
+  T: {{torque: unknown, link: 2}}
+""")
+    texts = drawn(case, bodies=True).texts("t-known")
+    assert f"k = {figure_number(50.0 * math.radians(free))} N·m" in texts
+    assert f"q = {figure_number(number * 300.0**2 / 6.0 / 1000.0)} N·m" in texts

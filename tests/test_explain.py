@@ -429,6 +429,76 @@ def test_ropes_and_screws_are_written_out(seed: int) -> None:
         assert "unsupported" not in text and "@" not in text
 
 
+JACK = """
+icsolve: 1
+units: {{length: mm, force: N, torque: N*m}}
+points: {{A: [0, 0], B: [unknown, 0]}}
+lengths: {{AL: {leg}, BL: {other}}}
+angles: {{AL: {angle}}}
+near: {{B: [-200, 0]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: L}}
+  - {{pin: [3, 4], at: B}}
+  - {{screw: [1, 4], at: B, along: 0, lead: {lead}, radius: 8{mu}}}
+loads:
+  W: {{force: 900, link: 3, at: L, angle: -90}}
+  T: {{torque: unknown, screw: 1-4}}
+"""
+LEVER = """
+icsolve: 1
+points: {{A: [0, 0], B: [2, 0], G: [{place}, 0], P: [2, 3], H: [0.5, 3], D: [-1, {low}]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{rope: [B, P, H, D], on: [2, 1, 1]}}
+loads:
+  W: {{weight: 400, link: 2, at: G}}
+  F: {{force: unknown, at: D}}
+"""
+
+
+@sampled(3)
+@pytest.mark.parametrize("seed", range(9))
+def test_no_name_of_the_machinery_and_no_idle_step_is_told(seed: int) -> None:
+    """Of legs that a screw draws together and of levers on ropes: a screw is called one, nothing is divided
+    by 1, and no side of an equation repeats the one before."""
+    draw = Random(f"idle {seed}")
+    leg, mu = draw.randint(110, 150), draw.choice(["", f", mu: {draw.uniform(0.05, 0.3):.2f}"])
+    numbers = {"angle": draw.randint(125, 160), "lead": draw.randint(2, 9)}
+    jack = JACK.format(leg=leg, other=leg + draw.randint(0, 9), mu=mu, **numbers)
+    lever = LEVER.format(place=f"{draw.uniform(0.3, 1.9):.2f}", low=f"{draw.uniform(-1, 2):.2f}")
+    for case in (icsolve.load(jack), icsolve.load(lever)):
+        text = explain(case)
+        assert "@" not in text and " / 1 " not in text
+        for line in text.splitlines():
+            sides = [re.sub(r" [A-Za-z*/^0-9]+$", "", side.strip()) for side in line.split(" = ")[1:]]
+            assert all(one != after for one, after in pairwise(sides)), line
+
+
+@sampled(2)
+@pytest.mark.parametrize("seed", range(6))
+def test_a_line_load_without_a_resultant_is_told_by_its_couple(seed: int) -> None:
+    """Whatever its line and direction, and whether torques have a unit of their own."""
+    draw = Random(f"no resultant {seed}")
+    torque, at = draw.choice([", torque: N*m", ""]), f"{draw.uniform(0, 360):.1f}"
+    number, angle = draw.choice([3, -7]), f"{draw.uniform(0, 360):.1f}"
+    case = icsolve.load(f"""
+icsolve: 1
+units: {{length: mm, force: N{torque}}}
+points: {{A: [0, 0], C: [100, 0]}}
+lengths: {{AB: 300}}
+angles: {{AB: {at}}}
+joints: [{{pin: [1, 2], at: A}}]
+loads:
+  w: {{distributed: [{number}, {-number}], link: 2, from: A, to: B, angle: {angle}}}
+  W: {{weight: 1000, link: 2, at: C}}
+  T: {{torque: unknown, link: 2}}
+""")
+    text = explain(case, digits=DIGITS)
+    assert "L_w = 300^2 / 6 x sin(" in text
+    assert check(text_equations(text), known_of(case).size or 1.0) > 3
+
+
 def test_inertia_forces_have_their_terms() -> None:
     """A crank of 2 kg m^2 that is started at 3 rad/s^2, with a mass of 4 kg on its end."""
     case = icsolve.load("""

@@ -22,6 +22,7 @@ from icsolve.grade.mistakes.engine import solved_for as solved
 from icsolve.grade.mistakes.lookup import CODES, Wrong, Wrongs, message, near_miss
 from icsolve.grade.written.answer import Reader
 from library import FILES, sample
+from sizes import sampled
 
 CAM = """\
 icsolve: 1
@@ -256,6 +257,38 @@ def test_wrong_steps_of_a_gear_train_are_named(a_class: Class) -> None:
         "missed-load": -8.0, "load-sense": -12.4,
     })  # fmt: skip
     assert {name for name, given in found.items() if name.strip() not in given} == set()
+
+
+@sampled(3)
+@pytest.mark.parametrize("seed", range(6))
+def test_a_drive_upside_down_is_named_behind_a_rope_too(seed: int, a_class: Class) -> None:
+    """What hangs on a drum has no rate of its own to turn over: the ratio is that of its drum and the other,
+    and of a train it may be that of one stage."""
+    draw = random.Random(f"drive {seed}")
+    teeth, height = draw.sample(range(17, 60), 2), draw.randint(10, 40) / 100.0
+    drive = draw.choice(
+        [f"gears: [2, 3], teeth: {teeth}", f"belt: [2, 3], radii: {[n / 100 for n in teeth]}"]
+    )
+    a_class.case(
+        "hoist",
+        f"""icsolve: 1
+points: {{O: [0, 0], Q: [2, 0.4], B: [{2 + height}, -2]}}
+joints:
+  - {{pin: [1, 2], at: O}}
+  - {{pin: [1, 3], at: Q}}
+  - {{{drive}}}
+  - {{rope: [Q, B], on: [3], radii: {{Q: {height}}}, wraps: {{Q: cw}}}}
+loads:
+  W: {{weight: 500, at: B}}
+  T: {{torque: unknown, link: 2}}
+""",
+    )
+    sign = -1.0 if "gears" in drive else 1.0
+    found = codes(a_class, "hoist", {"inverse-ratio": sign * 500.0 * height * teeth[1] / teeth[0]})
+    assert "inverse-ratio" in found["inverse-ratio"]
+    a_class.case("train", TRAIN)
+    stages = {"first": -70.0 * 2.5 * 2.0 / 7.0 + 11.0 * 2.5, "second": -70.0 * 0.4 * 3.5 + 4.4}
+    assert all("inverse-ratio" in given for given in codes(a_class, "train", stages).values())
 
 
 def test_revolutions_a_minute_taken_for_radians_a_second(a_class: Class) -> None:

@@ -140,6 +140,7 @@ SENSES = [
     ("N*m", "ccw", "cw"), ("lbf*in", "clockwise", "ccw"), ("kN*m", "anti-clockwise", "cw"),
     ("N", "right", "left"), ("kN", "downwards", "up"), ("lbf", "upward", "down"),
     ("N", "tension", "compression"), ("N*m", "im Uhrzeigersinn", "ccw"),
+    ("N*m", "rechtsherum", "links herum"), ("kN*m", "linksherum", "rechts herum"),
 ]  # fmt: skip
 CONVENTIONS = [
     "{} ({} positive)", "{}, {} is positive", "{}; {} = +", "{} (+ {})", "{}, positive {}",

@@ -70,8 +70,8 @@ def turn(window: Browser, degrees: float) -> None:
 def drawn_at(window: Browser, point: str) -> tuple[float, float]:
     """Where a joint's circle is now, in picture units."""
     x, y = window.run(
-        """const g = document.querySelector(`#mechanism [data-at="${arguments[0]}"]`);
-        const c = g.querySelector('circle');
+        """const c = document.querySelector(`#mechanism [data-at="${arguments[0]}"] circle`);
+        const g = c.closest('[data-at]');
         const p = new DOMPoint(c.cx.baseVal.value, c.cy.baseVal.value);
         const back = g.ownerSVGElement.getScreenCTM().inverse();
         const q = p.matrixTransform(c.getScreenCTM()).matrixTransform(back);
@@ -110,6 +110,50 @@ def test_the_slider_moves_the_crank(name: str, opened: Any) -> None:
         assert drawn_at(window, point) == pytest.approx(view.at((x, y)), abs=0.3)
         seen.append(window.run(TRANSFORM, f"link-{found.driver}"))
     assert len(set(seen)) == 3
+
+
+BETWEEN_LINKS = """
+icsolve: 1
+points: {A: [0, 0], D: [4, 0]}
+lengths: {AB: 1, BC: 3.5, CD: 2.5}
+angles: {AB: 60}
+near: {C: [3.5, 2.4]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}]
+loads:
+  w: {distributed: NUMBERS, link: 3, from: B, to: C, angle: -100}
+  v: {distributed: NUMBERS, link: 2, from: A, to: B, angle: 150, turns_with: 2}
+  K: {torque: 3, link: 4, against: 3}
+  T: {torque: unknown, link: 2}
+"""
+ENDS_OF = """return [...document.querySelectorAll(arguments[0])].map((g) => {
+  const back = g.ownerSVGElement.getScreenCTM().inverse();
+  const path = g.querySelector('path, polyline, line');
+  return [0, path.getTotalLength()].map((length) => {
+    const p = path.getPointAtLength(length).matrixTransform(path.getScreenCTM()).matrixTransform(back);
+    return [p.x, p.y];
+  });
+});"""
+
+
+@pytest.mark.parametrize("numbers", ["[20, 60]", "[60, -60]"])
+def test_loads_keep_to_their_links(numbers: str, opened: Any) -> None:
+    """The arrows of a line load stand side by side along its line in every position, the line through their
+    tails ends at them, and the couple that a link takes from another stays about its pin."""
+    window = opened(page_html(icsolve.load(BETWEEN_LINKS.replace("NUMBERS", numbers))))
+    for degrees in (0, 70, -110):
+        turn(window, degrees)
+        for name, ends in (("w", "BC"), ("v", "AB")):
+            a, b = (complex(*drawn_at(window, point)) for point in ends)
+            arrows = [[complex(*p) for p in line] for line in window.run(ENDS_OF, f"#load-{name} [data-end]")]
+            along = [((tip - a) / (b - a)).real for _, tip in arrows]  # they may be told from the other end
+            if along[0] > along[-1]:
+                a, b = b, a
+            for n, (_, tip) in enumerate(arrows):
+                assert abs(tip - (a + n / (len(arrows) - 1) * (b - a))) < 20.0, (degrees, name, n)
+            ((first, last),) = window.run(ENDS_OF, f"#load-{name} [data-tails]")
+            assert abs(complex(*first) - arrows[0][0]) < 1.0 and abs(complex(*last) - arrows[-1][0]) < 1.0
+        (arc,) = window.run(ENDS_OF, "#load-K [data-end]")
+        assert {round(abs(complex(*p) - complex(*drawn_at(window, "B")))) for p in arc} == {25}
 
 
 def test_the_contact_of_a_cam_follows(opened: Any) -> None:

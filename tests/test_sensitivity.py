@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from random import Random
 
 import pytest
 from mpmath import mpf
@@ -225,3 +226,45 @@ def test_the_size_of_a_force_hangs_on_its_own_place_too() -> None:
         assert slopes.get(path, 0.0) == pytest.approx(slope, rel=1e-6, abs=1e-9), path
         reach += abs(slope) if ".x" in path or ".y" in path else 0.0
     assert band(answer, "R", 0.01) == pytest.approx(0.01 * reach, rel=1e-6)
+
+
+LIKE = """
+icsolve: 1
+points: {{A: [0, 0], D: [8, 1]}}
+lengths: {{AB: 3, BC: 8, CD: 5}}
+angles: {{AB: {angle}}}
+near: {{C: [6, 5]}}
+joints:
+  - {{pin: [1, 2], at: A{rubs}}}
+  - {{pin: [2, 3], at: B{rubs}}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+loads:
+  P: {{force: 200, link: 4, at: C, angle: 180}}
+  T: {{torque: unknown, link: 2}}
+  U: {{torque: {{like: T, times: {u}}}, link: 3}}
+  V: {{torque: {{like: U, times: {v}}}, link: 4}}
+{motion}
+"""
+
+
+@sampled(2, "rubs")
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("rubs", ["", ", mu: 0.2, radius: 0.5"])
+def test_a_load_that_is_so_many_times_another_hangs_on_that_number_itself(rubs: str, seed: int) -> None:
+    """As its value does, with friction and without, and where what it is like is like a third."""
+    draw = Random(f"like {seed}")
+    numbers = {"u": draw.uniform(0.1, 0.6), "v": -draw.uniform(0.1, 0.9), "angle": draw.uniform(70.0, 130.0)}
+    motion = "motion: {link: 2, turns: cw}" if rubs else ""
+
+    def solved(**other: float) -> icsolve.Answer:
+        told = {name: f"{number!r}" for name, number in (numbers | other).items()}
+        return icsolve.solve(icsolve.load(LIKE.format(rubs=rubs, motion=motion, **told)))
+
+    answer = solved()
+    for key, path in (("u", "loads.U.times"), ("v", "loads.V.times")):
+        more, less = (solved(**{key: numbers[key] + h}) for h in (1e-6, -1e-6))
+        for load in "TUV":
+            change = (more.answers[load].value - less.answers[load].value) / 2e-6
+            (found,) = (i.per_unit for i in influences(answer, load) if i.path == path)
+            assert found == pytest.approx(change, rel=1e-6), (load, path)

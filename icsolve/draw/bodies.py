@@ -180,7 +180,8 @@ def _load(scene: Scene, acting: Acting, sign: float) -> DrawnPush:
     kind, link = kind_of(acting), acting.link if sign > 0 else acting.against
     name = f"body-load-{acting.load.name}-on-{link}"
     x, y = acting.force
-    value = abs(acting.value or 0.0) if acting.at is None else math.hypot(x, y)
+    ratio = scene.case.units.torque_per_force_length
+    value = abs(acting.couple) * ratio if acting.at is None else math.hypot(x, y)
     unit = scene.case.units.torque if acting.at is None else scene.case.units.force
     words = (*name_runs(acting.load.name), TextRun(f" = {quantity(value, unit)}"))
     place = acting.at if acting.at is None or sign > 0.0 else _other_end(scene, acting)

@@ -30,11 +30,16 @@ from icsolve.draw.marks import (
 from icsolve.draw.place import Label, Soft, area, joined
 from icsolve.draw.scene import BLOCK, HALF, RAIL, Part, Scene
 from icsolve.draw.words import figure_number, name_runs, quantity, unit_word
+from icsolve.numbers import FLOATS
 from icsolve.report.derivation.known import Acting, acting_loads
+from icsolve.statics.load_wrenches import direction
+from icsolve.tuples import NamedTuple
 from icsolve.wording import sense_of
 
 ARROW = 56.0
 """Length of a load's arrow."""
+LINE, HEADS = 34.0, 7.0
+"""Length of the largest arrow of a force per length, and the heads of arrows side by side."""
 ARC = 25.0
 """Radius of a torque's arc."""
 HUNG = (30.0, 24.0)
@@ -51,6 +56,8 @@ def load_parts(scene: Scene, links: shapely.Geometry, *, whole: bool = False) ->
     for acting in _whole(scene) if whole else acting_loads(scene.known):
         if isinstance(acting.load, TorsionSpring):
             part = _spiral(scene, acting, acting.load)
+        elif isinstance(getattr(acting.load, "over", None), Stretch):
+            part = _line_load(scene, acting)
         elif acting.at is None:
             part = _torque(scene, acting, turned)
         elif isinstance(acting.load, Spring):
@@ -99,8 +106,9 @@ def load_words(acting: Acting) -> tuple[TextRun, ...]:
         return (*name, TextRun(" = ?"))
     text = f" = {quantity(abs(acting.value), acting.unit)}"
     if ends := intensities(acting.load):
+        ends = ends if max(ends) > 0.0 else (-ends[0], -ends[1])  # as its arrows point
         text = f" = {figure_number(min(ends))} to {quantity(max(ends), acting.unit)}"
-    if acting.at is None and acting.value:
+    elif acting.at is None and acting.value:
         text += f" {sense_of(acting.load, acting.value, acting.gain, 0.0)}"
     if isinstance(acting.load, Spring | TorsionSpring):
         return (*name, TextRun(f": k = {quantity(abs(acting.value), acting.unit)}"))
@@ -123,47 +131,90 @@ def _force(scene: Scene, acting: Acting, links: shapely.Geometry) -> Part | None
         at = along(at, u, 10.0 - BLOCK[0] / 2.0)
         ends = ways(at, u, 0.6 * ARROW)[0]
     tail, tip = ends[:2]
-    spread = _spread(scene, acting, tail, tip)
-    lines = [(tail, tip), *(line for line, _ in spread)]
-    sheaf = [mark for line, size in spread for mark in arrow(*line, kind, size)]
+    spread = _pressed(tail, tip) if pressed else []
+    lines = [(tail, tip), *spread]
+    sheaf = [mark for line in spread for mark in arrow(*line, kind, HEADS)]
     marks: list[Mark] = [*(sheaf or arrow(tail, tip, kind)), *hung]
-    if spread and not pressed:
-        marks.append(Stroke(tuple(line[0] for line, _ in spread), kind))
-    groups, opposite = [_following(acting, marks)], tuple[Label, ...]()
-    if acting.against != scene.case.ground:
-        partner = _partner(scene, acting.load)
-        end = along(scene.at[partner], u, -8.0)
-        lines.append((end, along(end, u, -ARROW)))
-        groups.append(_following(acting, arrow(*lines[-1], kind), ("end", partner)))
-        runs, away = name_runs(acting.load.name), lines[-1][::-1]
-        opposite = (Label(f"label-{acting.load.name}-opposite", runs, f"t-{kind}", 14.0, away, 6.0),)
     soft = tuple(Soft(shapely.LineString(line).buffer(4.0, quad_segs=1), 4.0) for line in lines)
     outer, inner = (tail, tip) if math.dist(tail, at) > math.dist(tip, at) else (tip, tail)
     middle = ((outer[0] + inner[0]) / 2.0, (outer[1] + inner[1]) / 2.0)
     inward = along(outer, unit(at[0] - outer[0], at[1] - outer[1]), 12.0)
-    part = _with_label(acting, groups, soft, (outer, inward, middle))
-    return part._replace(labels=(*part.labels, *opposite))
+    part = _with_label(acting, [_following(acting, marks)], soft, (outer, inward, middle))
+    return _and_opposite(scene, acting, part, u)
 
 
-def _spread(scene: Scene, acting: Acting, tail: Point, tip: Point) -> list[tuple[tuple[Point, Point], float]]:
-    """The arrows of a pressure or of a force per length, side by side, with the size of their heads."""
-    load, over = acting.load, getattr(acting.load, "over", None)
+def _and_opposite(scene: Scene, acting: Acting, part: Part, u: Point) -> Part:
+    """A force along ``u`` with the opposite one, where it acts between two links."""
+    if acting.against == scene.case.ground:
+        return part
+    partner = _partner(scene, acting.load)
+    tail = along(scene.at[partner], u, -8.0)
+    tip = along(tail, u, -ARROW)
+    soft = Soft(shapely.LineString([tail, tip]).buffer(4.0, quad_segs=1), 4.0)
+    return _with_other(acting, part, arrow(tail, tip, kind_of(acting)), ("end", partner), soft, (tip, tail))
+
+
+def _with_other(
+    acting: Acting,
+    part: Part,
+    marks: Iterable[Mark],
+    place: tuple[str, str] | None,
+    soft: Soft,
+    anchors: tuple[Point, ...],
+) -> Part:
+    """A load with what it does to the link that it acts against, which has its name alone."""
+    group = MarkGroup("", "", tuple(marks)) if place is None else _following(acting, marks, place)
+    other = MarkGroup("", "", (group,))
+    name, kind = f"label-{acting.load.name}-opposite", f"t-{kind_of(acting)}"
+    label = Label(name, name_runs(acting.load.name), kind, 14.0, anchors, 6.0)
+    (own,) = part.marks
+    assert isinstance(own, MarkGroup)
+    return part._replace(
+        marks=(own._replace(marks=(*own.marks, *other.marks)),),
+        soft=(*part.soft, soft, *heads([other])),
+        labels=(*part.labels, label),
+    )
+
+
+def _pressed(tail: Point, tip: Point) -> list[tuple[Point, Point]]:
+    """The arrows of a pressure, side by side."""
     u = unit(tip[0] - tail[0], tip[1] - tail[1])
-    if isinstance(over, Face):
-        v = (-u[1], u[0])
-        return [((along(tail, v, s), along(tip, v, s)), 7.0) for s in (-8.0, 0.0, 8.0)]
-    if not isinstance(over, Stretch) or not {over.a, over.b} <= scene.at.keys():
-        return []
-    (ax, ay), (bx, by) = scene.at[over.a], scene.at[over.b]
-    first, last = intensities(load) or (1.0, 1.0)
-    largest = max(abs(first), abs(last)) or 1.0
-    count = max(int(math.dist((ax, ay), (bx, by)) / 22.0), 3)
-    found = []
+    v = (-u[1], u[0])
+    return [(along(tail, v, s), along(tip, v, s)) for s in (-8.0, 0.0, 8.0)]
+
+
+def _line_load(scene: Scene, acting: Acting) -> Part | None:
+    """A force per length: arrows of its size side by side, each as it acts, on a line through their tails.
+
+    In a picture that moves every arrow keeps to its place between the two ends of the line.
+    """
+    load, kind = acting.load, kind_of(acting)
+    assert isinstance(load, Force) and isinstance(load.over, Stretch)
+    a, b = load.over.a, load.over.b
+    if not {a, b} <= scene.at.keys():
+        return None
+    x, y = acting.direction if acting.at is not None else direction(load, scene.known.points, FLOATS)
+    sign = -1.0 if (acting.value or 0.0) < 0.0 else 1.0
+    first, last = intensities(load) or (sign, sign)
+    count = max(int(math.dist(scene.at[a], scene.at[b]) / 22.0), 3)
+    lines, groups = [], []
     for n in range(count + 1):
         s = n / count
-        p, size = (ax + s * (bx - ax), ay + s * (by - ay)), 34.0 * (first + s * (last - first)) / largest
-        found.append(((along(p, u, -HALF - size), along(p, u, -HALF)), 7.0))
-    return found
+        size = LINE * (first + s * (last - first)) / (max(abs(first), abs(last)) or 1.0)
+        way = math.copysign(1.0, size)
+        u = (way * x, -way * y)
+        (ax, ay), (bx, by) = scene.at[a], scene.at[b]
+        foot = along((ax + s * (bx - ax), ay + s * (by - ay)), u, -HALF)
+        lines.append((along(foot, u, -abs(size)), foot))
+        groups.append(_following(acting, arrow(*lines[-1], kind, HEADS), ("end", f"{a} {b} {s:.4f}")))
+    tails = [line[0] for line in lines]
+    far = [c - d for p, q in ((tails[0], a), (tails[-1], b)) for c, d in zip(p, scene.at[q], strict=True)]
+    ends = " ".join([load.name, a, b, *(f"{c:.1f}" for c in far)])
+    groups.append(MarkGroup("", "", (Stroke(tuple(tails), kind),), follows=(("tails", ends),)))
+    soft = tuple(Soft(shapely.LineString(line).buffer(4.0, quad_segs=1), 4.0) for line in lines)
+    largest = tails[-1] if abs(last) > abs(first) else tails[0]
+    part = _with_label(acting, groups, soft, (tails[len(tails) // 2], largest))
+    return part if acting.at is None else _and_opposite(scene, acting, part, (sign * x, -sign * y))
 
 
 def intensities(load: Load) -> tuple[float, float] | None:
@@ -261,6 +312,31 @@ def _torque(scene: Scene, acting: Acting, turned: dict[Point, int]) -> Part | No
     for screw in scene.case.screws:
         if screw.rotor == link:  # where on its axis nothing says, nothing is drawn
             return _screwed(scene, acting, screw) if screw.slide.at in scene.at else None
+    ccw = acting.couple > 0.0 or (not acting.couple and acting.gain > 0.0)
+    own = _arc(scene, link, ccw, kind_of(acting), turned)
+    if own is None:
+        return None
+    part = _with_label(acting, [_following(acting, own.marks)], (own.soft,), own.sides)
+    if acting.against == scene.case.ground:
+        return part
+    other = _arc(scene, acting.against, not ccw, kind_of(acting), turned)
+    if other is None:
+        return part
+    place = next((("end", p) for p, at in scene.at.items() if at == other.centre), None)
+    return _with_other(acting, part, other.marks, place, other.soft, other.sides)
+
+
+class _Arc(NamedTuple):
+    """A couple's arc about a centre, and where its label may stand."""
+
+    centre: Point
+    marks: tuple[Mark, ...]
+    soft: Soft
+    sides: tuple[Point, ...]
+
+
+def _arc(scene: Scene, link: str, ccw: bool, kind: str, turned: dict[Point, int]) -> _Arc | None:
+    """The arc of a couple on a link, outside of those that its axle has: ``turned`` counts them."""
     centre = axle(scene, link)
     if centre is None:
         return None
@@ -269,12 +345,11 @@ def _torque(scene: Scene, acting: Acting, turned: dict[Point, int]) -> Part | No
     radius = ARC + 11.0 * earlier
     far = max(scene.carried(link), key=lambda p: math.dist(p, centre), default=centre)
     gap = math.degrees(math.atan2(centre[1] - far[1], far[0] - centre[0])) if far != centre else 270.0
-    ccw = acting.couple > 0.0 or (not acting.couple and acting.gain > 0.0)
-    marks = turning(centre, radius, gap + (50.0 if ccw else -50.0), ccw, kind_of(acting))
+    marks = turning(centre, radius, gap + (50.0 if ccw else -50.0), ccw, kind)
     ring = shapely.Point(centre).buffer(radius + 3.0).difference(shapely.Point(centre).buffer(radius - 3.0))
     angles = (0.0, math.pi, -1.57, 1.57, -0.8, 2.4)
     sides = tuple(along(centre, (math.cos(a), math.sin(a)), radius) for a in angles)
-    return _with_label(acting, [_following(acting, marks)], (Soft(ring, 4.0),), sides)
+    return _Arc(centre, marks, Soft(ring, 4.0), sides)
 
 
 def axle(scene: Scene, link: str) -> Point | None:

@@ -155,10 +155,8 @@ def _blocks(work: Worked, ratios: Ratios, ratio: Ratio) -> Iterable[Block]:
             yield from _distances(work, (own, common), ratio)
             yield formula(left, _by_distances(work, ratio), work.distance(ratio.value))
         case "drives":
-            yield words(
-                common,
-                f" of link {ratio.link} moves as link {ratio.of}: {_heading(work, ratios, ratio.of)}.",
-            )
+            both = [link_words(link) for link in (ratio.link, ratio.of)]
+            yield words(common, f" of {both[0]} moves as {both[1]}: {_heading(work, ratios, ratio.of)}.")
             yield from _distances(work, (other, common), ratio)
             numbers = Quotient(Num("1"), _measured(work, ratio, 1))
             yield formula(left, _by_distances(work, ratio), _signed(numbers, ratio), value)
@@ -179,7 +177,7 @@ def _sense(ratio: Ratio) -> str:
 
 def _heading(work: Worked, ratios: Ratios, link: str) -> str:
     heading = work.show(ratios.headings[link])
-    return f"at {heading} deg where the speed of link {ratios.reference} is positive"
+    return f"at {heading} deg where the speed of {link_words(ratios.reference)} is positive"
 
 
 def _signed(expression: Expr, ratio: Ratio) -> Expr:

@@ -99,10 +99,20 @@ Terms = Sequence[tuple[int, "Expr"]]
 
 
 def total(terms: Terms) -> Expr:
-    """Terms added up; one that is positive is itself, none are 0."""
+    """Terms added up; one that is positive is itself, one number has its sign, none are 0."""
     if not terms:
         return Num("0")
-    return terms[0][1] if len(terms) == 1 and terms[0][0] > 0 else Sum(tuple(terms))
+    if len(terms) > 1:
+        return Sum(tuple(terms))
+    ((sign, term),) = terms
+    if sign < 0 and isinstance(term, Num) and not is_negative(term):
+        return Num(f"-{term.digits}", None if term.value is None else -term.value)
+    return term if sign > 0 else Sum(tuple(terms))
+
+
+def quotient(above: Expr, below: Expr) -> Expr:
+    """One over another; nothing is divided by 1."""
+    return above if below == Num("1") else Quotient(above, below)
 
 
 def solved_for(rest: Terms, factors: Terms) -> Expr:
@@ -113,7 +123,7 @@ def solved_for(rest: Terms, factors: Terms) -> Expr:
     if signs == {-1} or (signs == {1, -1} and {sign for sign, _ in above} == {-1}):
         above, below = ([(-sign, term) for sign, term in terms] for terms in (above, below))
     under = total(sorted(below, key=lambda term: -term[0]))
-    return total(above) if under == Num("1") else Quotient(total(above), under)
+    return quotient(total(above), under)
 
 
 def _signed(terms: Terms) -> list[tuple[int, Expr]]:

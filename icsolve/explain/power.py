@@ -21,9 +21,11 @@ from icsolve.explain.bodies import Rubbed, rubbed
 from icsolve.explain.document import Block, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Of, Quotient, Sum, product, solved_for, total
 from icsolve.explain.worked import Worked, exerted_name, gain_names, lever, load_name
+from icsolve.numbers import FLOATS, turn_of
 from icsolve.report.derivation.known import Acting, Known
 from icsolve.report.derivation.ratios import OneMotion, Ratios, independent_motions, speed_words
 from icsolve.screws import velocity
+from icsolve.statics.load_wrenches import direction
 from icsolve.tuples import NamedTuple
 from icsolve.wording import NOTHING, link_words, plain_vector
 
@@ -128,7 +130,9 @@ def links_of(known: Known, acting: Acting) -> list[tuple[int, str]]:
 def conversion(known: Known, ratios: Ratios, acting: Acting) -> float:
     """What brings a term to the unit of the equation: torque where the reference turns, else force."""
     ratio = known.case.units.torque_per_force_length
-    torque = acting.at is None
+    torque = acting.at is None and not isinstance(
+        acting.load, Force
+    )  # a line load makes its couple of forces
     if known.turns(ratios.reference):
         return 1.0 if torque else ratio
     return 1.0 / ratio if torque else 1.0
@@ -153,6 +157,8 @@ def gain_of(work: Worked, acting: Acting) -> tuple[float, list[Block]]:
         return slack, [words("By how much ", load_name(load.name), " is turned:"), turn]
     if isinstance(load, Force) and isinstance(load.over, Area):
         return acting.gain, _area(work, load, load.over, acting.gain)
+    if isinstance(load, Force) and isinstance(load.over, Stretch) and acting.at is None:
+        return _couple(work, load, load.over)
     if isinstance(load, Force) and load.over is not None:
         length = work.distance(acting.gain)
         said = words("The length over which ", load_name(load.name), " makes its resultant:")
@@ -183,6 +189,18 @@ def _area(work: Worked, load: Force, over: Area, gain: float) -> list[Block]:
             formula(name, product(area.number, unit.number), force),
         ]
     return blocks
+
+
+def _couple(work: Worked, load: Force, over: Stretch) -> tuple[float, list[Block]]:
+    """The couple of a line load that is as large the other way at its end, for a unit of it."""
+    a, b = (work.known.points[name] for name in (over.a, over.b))
+    (name,), (x, y), length = gain_names(load), direction(load, work.known.points, FLOATS), math.dist(a, b)
+    line, way = (math.degrees(math.atan2(v, u)) % 360.0 for u, v in ((b[0] - a[0], b[1] - a[1]), (x, y)))
+    between = Sum(((1, work.number(line)), (-1, work.number(way))))
+    gain = length**2 / 6.0 * turn_of(line - way)[1]
+    said = words(load_name(load.name), " has no resultant; a unit of it makes the couple")
+    numbers = product(Quotient(Of("square", work.number(length)), Num("6")), Of("sin", between))
+    return gain, [said, formula(name, numbers, work.quantity(gain, f"{work.units.length}^2"))]
 
 
 def _tapered(work: Worked, load: Force) -> Iterator[Expr]:

@@ -20,6 +20,7 @@ from icsolve.explain.formula import (
     Sum,
     minus,
     product,
+    quotient,
     solved_for,
     total,
 )
@@ -68,7 +69,7 @@ def rope_ratio(work: Worked, ratios: Ratios, ratio: Ratio) -> Iterable[Block]:
     yield formula(Sum(tuple(sorted(terms, key=lambda term: -term[0]))), Num("0"))
     over, under = parts[ratio.of], parts[ratio.link]
     flip = -1 if all(part.sign < 0 for part in under) else 1
-    symbols = Quotient(
+    symbols = quotient(
         total([(-flip * p.sign, p.symbol) for p in over]), total([(flip * p.sign, p.symbol) for p in under])
     )
     numbers = solved_for([(-p.sign, p.number) for p in over], [(p.sign, p.number) for p in under])

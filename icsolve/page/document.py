@@ -8,6 +8,7 @@ import os
 import re
 from collections.abc import Iterable
 from functools import cache
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -166,6 +167,9 @@ CLOSED = (
     ("{ ", "{"),
     (" }", "}"),
     (") {", "){"),
+    (": ", ":"),
+    ("if (", "if("),
+    ("for (", "for("),
     *((f" {sign} ", sign) for sign in SIGNS),
 )
 """What a script is as well without."""
@@ -177,7 +181,7 @@ OPEN_ENDS = ("{", ";", ",")
 def _parts() -> str:
     """What is the same in the script of every page, without its comments and indents, and without spaces
     about signs outside of strings, in lines that have no templates or expressions of their own; nor have
-    these ends where they need none."""
+    these ends where they need none, and the last statement of a block no semicolon."""
     text = re.sub(r"\s+// .*", "", "".join(_file("script", f"{part}.js") for part in PARTS))
     lines = re.sub(r"^\s*/\*.*?\*/\s*|^\s+", "", text, flags=re.MULTILINE | re.DOTALL).split("\n")
     plain = [n for n, s in enumerate(lines) if not any(c in s.replace(" / ", "") for c in "'`/\\")]
@@ -187,7 +191,9 @@ def _parts() -> str:
             pieces[k] = pieces[k].replace(spaced, closed)
     for n, line in zip(plain, '"'.join(pieces).split("\n"), strict=True):
         lines[n] = line
-    return "".join(line if line.endswith(OPEN_ENDS) else f"{line}\n" for line in lines)
+    last = {n for n, (line, after) in enumerate(pairwise(lines)) if line.endswith(";") and after[:1] == "}"}
+    pieces = [line if line.endswith(OPEN_ENDS) else f"{line}\n" for line in lines]
+    return "".join(line[:-1] if n in last else line for n, line in enumerate(pieces))
 
 
 def script(live: Live | None) -> str:

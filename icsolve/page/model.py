@@ -20,6 +20,7 @@ from icsolve.case import (
     Load,
     Pair,
     Spring,
+    Stretch,
     TorsionSpring,
     Toward,
     Weight,
@@ -58,16 +59,14 @@ def heading_rows(known: Known, motion: PageMotion, acting: Acting) -> Array:
     load = acting.load
     written = math.degrees(math.atan2(acting.direction[1], acting.direction[0]))
     level = np.full(len(motion.degrees), written)
-    if acting.at is None:
-        return level
-    target = _target(known, motion, acting)
-    if target is not None:
+    target = None if acting.at is None else _target(known, motion, acting)
+    if acting.at is not None and target is not None:
         x, y = place_rows(known, motion, acting.link, acting.at)
         a, b = target
         now = np.degrees(np.arctan2(b - y, a - x))
         return np.asarray(written + now - now[motion.zero])
     inertia = inertia_rows(known, motion, load)
-    if inertia is not None:
+    if inertia is not None and acting.at is not None:
         return np.asarray(np.degrees(np.arctan2(inertia[:, 1], inertia[:, 0])))
     turner = str(getattr(load, "turns_with", None))
     return level + motion.poses[turner].angle if turner in motion.poses else level
@@ -143,11 +142,15 @@ def _slack_rows(known: Known, motion: PageMotion, acting: Acting, load: TorsionS
 def load_data(scene: Scene, motion: PageMotion | None, acting: Acting) -> dict[str, Any]:
     """What the script of the page reads of a load: its place on its link and how its arrow turns."""
     load = acting.load
+    along = isinstance(getattr(load, "over", None), Stretch)  # it may be a couple, and is drawn as forces
     place = axle(scene, acting.link) if acting.at is None else scene.view.at(acting.at)
     if not is_link(acting.link):  # the free end of a rope, as it is drawn
         place = scene.at.get(str(getattr(load, "at", "")), place)
     x, y = place or (0.0, 0.0)
-    found: dict[str, Any] = {"on": [acting.link, round(x, 1), round(y, 1)], "torque": acting.at is None}
+    found: dict[str, Any] = {
+        "on": [acting.link, round(x, 1), round(y, 1)],
+        "torque": acting.at is None and not along,
+    }
     found |= _number_shown(acting)
     if isinstance(load, Spring):
         a, b = scene.at[load.at], scene.at[load.to]
@@ -166,7 +169,7 @@ def load_data(scene: Scene, motion: PageMotion | None, acting: Acting) -> dict[s
     if inertia is not None:
         size = inertia if acting.at is None else np.hypot(inertia[:, 0], inertia[:, 1])
         found |= {"values": exact(size[rows]), **_named(load.name), "unit": unit_word(acting.unit)}
-    if acting.at is not None:
+    if acting.at is not None or along:
         way = heading_rows(scene.known, motion, acting)
         way = (way - way[motion.zero])[rows]
         if moves(way, FINE["deg"]):

@@ -348,11 +348,10 @@ def evaluate_bounded(program: Program) -> Bounded:
 def slopes(scene: Bounded) -> dict[str, dict[str, float]]:
     """Derivative of every unknown load (and those like it) by every number of the case, by its path."""
     values = scene.outcome.solution.values
-    by_root = {root: scene.tape.back(value).by_path for root, value in values.items()}
     return {
-        w.load.name: {path: float(w.ratio) * slope for path, slope in by_root[w.root].items()}
+        w.load.name: scene.tape.back(w.ratio * values[w.root]).by_path  # how many times is a number too
         for w in scene.outcome.balance.wrenches
-        if w.root in by_root
+        if w.root in values
     }
 
 

@@ -74,7 +74,7 @@ def changed_figures(case: Case, answer: Answer) -> Iterator[Changed]:
         if case.motion:
             yield Changed("friction-sense", replace(case, motion=tuple(map(_reversed, case.motion))))
     yield from _changed_angles(case)
-    yield from _without_stages(case)
+    yield from _wrong_stages(case)
     yield from _misread_bodies(case, answer)
 
 
@@ -372,17 +372,21 @@ def _misread(angle: Number, alone: bool) -> Iterator[tuple[str, Number]]:
         yield "angle-sense", _written(angle, -angle.value)
 
 
-def _without_stages(case: Case) -> Iterator[Changed]:
-    """The case with the ratio of one mesh or belt left out."""
+def _wrong_stages(case: Case) -> Iterator[Changed]:
+    """The case with the ratio of one mesh or belt left out, or upside down: between wheels that turn about
+    the frame, where it is the ratio of their speeds."""
     for joint in case.joints:
         if not isinstance(joint, Mesh):
             continue
         first, second = joint.sizes
         if abs(first.value) != abs(second.value):
-            alike = _written(second, math.copysign(first.value, second.value * first.value))
             links = pair_name(case, (joint.links[0], joint.links[1]))
-            joints = _instead(case.joints, joint, joint.resized((first, alike)))
-            yield Changed("missed-stage", replace(case, joints=joints), links)
+            other = _written(first, abs(second.value))
+            fixed = all(case.pivots(link, case.ground) for link in joint.links)
+            for code, one in ([("inverse-ratio", other)] if fixed else []) + [("missed-stage", first)]:
+                two = _written(second, math.copysign(first.value, second.value * first.value))
+                joints = _instead(case.joints, joint, joint.resized((one, two)))
+                yield Changed(code, replace(case, joints=joints), links)
 
 
 TURN = 2.0 * math.pi

@@ -74,13 +74,14 @@ DOUBTFUL = WrittenDirection("line", 0.0, "", "", AMBIGUOUS_DIRECTION)
 _PHRASES = """\
 ccw | ccw, acw, c.c.w, counterclockwise, counter clockwise, counterclock wise, counter clock wise
 ccw | anticlockwise, anti clockwise, anticlock wise, contraclockwise
-ccw | linksdrehend, gegen uhrzeigersinn, entgegen uhrzeigersinn, gegenuhrzeigersinn, guzs, gegen uzs
+ccw | linksdrehend, linksherum, links herum
+ccw | gegen uhrzeigersinn, entgegen uhrzeigersinn, gegenuhrzeigersinn, guzs, gegen uzs
 ccw | antihoraire, anti horaire, trigonométrique, trigonometrique, trigo
 ccw | inverse aiguilles montre, contraire aiguilles montre, inverse horaire, inverse aiguilles d'une montre
 ccw | contraire aiguilles d'une montre
 ccw | antihorario, anti horario, contrario agujas reloj, contrario manecillas reloj, contra agujas reloj
 ccw | contra manecillas reloj, levógiro, antiorario, anti orario
-cw | cw, c.w, clockwise, clock wise, rechtsdrehend, uhrzeigersinn, uzs
+cw | cw, c.w, clockwise, clock wise, rechtsdrehend, rechtsherum, rechts herum, uhrzeigersinn, uzs
 cw | horaire, aiguilles montre, aiguilles d'une montre, horario, agujas reloj, manecillas reloj, dextrógiro
 cw | orario, rechtsom, klok mee, horário
 ccw | linksom, tegen klok, anti horário

@@ -5,9 +5,28 @@ const following = all("#mechanism [data-at], #loads [data-at]", figure)
   .filter(([, p]) => p);
 const contacts = all('#mechanism [data-at^="@"]', figure);
 const pushes = all("[data-load]", figure).map((e) => [e, loads[e.dataset.load], e.dataset.load]);
+/* The line through the tails of a force per length: the points at its ends, and how far from these it ends. */
+const tails = all("[data-tails]", figure).map((e) => {
+  const [name, a, b, ...far] = e.dataset.tails.split(" ");
+  return [e, name, [a, b].map((p, n) => [own(points, p), +far[2 * n], +far[2 * n + 1]])];
+});
 const springs = all("[data-span]", figure).map((e) => [e, loads[e.dataset.span]]);
 const unknown = (name) => answers.find((a) => a.name === name);
 
+/* What lies between two places, between two others. */
+function stretch(e, [a0, b0], [a, b]) {
+  const [u, v] = [minus(b0, a0), minus(b, a)];
+  const angle = (w) => (atan2(w[1], w[0]) * 180) / PI;
+  const k = hypot(...v) / (hypot(...u) || 1);
+  set(e, "transform", `translate(${f(a[0])} ${f(a[1])}) rotate(${f(angle(v))}) scale(${k.toFixed(4)} 1) rotate(${f(-angle(u))}) translate(${-a0[0]} ${-a0[1]})`);
+}
+/* Where a load's arrow was written and is: at a point, at a share of the way between two, else on its link. */
+function placesOf(end, load, r) {
+  const [a, b = a, s = 0] = (end || "").split(" ");
+  const [p, q] = [own(points, a), own(points, b)];
+  if (!p || !q) return [load.on.slice(1), carried(load.on, r)];
+  return [zero, r].map((n) => ["x", "y"].map((c) => p[c][n] + s * (q[c][n] - p[c][n])));
+}
 function turnOf(name, r) {
   const load = loads[name];
   const { values } = unknown(name) || load;
@@ -145,18 +164,15 @@ function moveParts(r) {
   for (const [e, load, name] of pushes) {
     const { way, flip, gone } = turnOf(name, r);
     e.classList.toggle("ghost", gone);
-    const end = e.dataset.end !== undefined && own(points, e.dataset.end);
-    const from = end ? [end.x[zero], end.y[zero]] : load.on.slice(1);
-    const to = end ? [end.x[r], end.y[r]] : carried(load.on, r);
+    const [from, to] = placesOf(e.dataset.end, load, r);
     const turned = load.torque ? (flip ? "scale(-1 1)" : "") : `rotate(${f(-way - (flip ? 180 : 0))})`;
     set(e, "transform", `translate(${f(to[0])} ${f(to[1])}) ${turned} translate(${-from[0]} ${-from[1]})`);
   }
-  for (const [e, load] of springs) {
-    const [a0, b0] = load.span.map((s) => s.slice(1));
-    const [a, b] = load.span.map((s) => carried(s, r));
-    const [u, v] = [minus(b0, a0), minus(b, a)];
-    const angle = (w) => (atan2(w[1], w[0]) * 180) / PI;
-    const k = hypot(...v) / hypot(...u);
-    set(e, "transform", `translate(${f(a[0])} ${f(a[1])}) rotate(${f(angle(v))}) scale(${k.toFixed(4)} 1) rotate(${f(-angle(u))}) translate(${-a0[0]} ${-a0[1]})`);
+  for (const [e, name, ends] of tails) {
+    const { way, flip, gone } = turnOf(name, r);
+    e.classList.toggle("ghost", gone);
+    const placed = (n, a) => ends.map(([p, x, y]) => [p.x[n] + cos(a) * x + sin(a) * y, p.y[n] - sin(a) * x + cos(a) * y]);
+    stretch(e, placed(zero, 0), placed(r, (way / 180 + flip) * PI));
   }
+  for (const [e, load] of springs) stretch(e, load.span.map((s) => s.slice(1)), load.span.map((s) => carried(s, r)));
 }

@@ -310,11 +310,21 @@ def _slopes(found: Slipping) -> dict[str, dict[str, float]]:
         why = error.args[0]
     if why:
         raise SceneError(Status.UNSUPPORTED, f"{NO_SLOPES}: {why}.")
-    return {
-        w.load.name: {path: float(w.ratio) * slope for path, slope in by_root[w.root].items()}
-        for w in scene.balance.wrenches
-        if w.root in by_root
-    }
+    if traced is None:
+        return {}
+    by_load = {}
+    for w in traced.outcome.balance.wrenches:
+        if w.root in by_root:
+            times, value, own = (
+                traced.tape.back(w.ratio).by_path,
+                found.solved.unknowns[w.root],
+                by_root[w.root],
+            )
+            by_load[w.load.name] = {  # how many times it is as large is a number too
+                path: float(w.ratio) * own.get(path, 0.0) + value * times.get(path, 0.0)
+                for path in {**own, **times}
+            }
+    return by_load
 
 
 NO_SLOPES = "sensitivities and tolerance bands are not worked out here"
