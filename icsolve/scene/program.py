@@ -11,13 +11,13 @@ position. Each number is rounded once; its error is what that rounding did, and 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Iterator
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING
 
 from icsolve.assembly import Figure, place, placed_figure, solve_figure
-from icsolve.assembly.workspace import PlacedCase, case_places, names_of
-from icsolve.case import Case, is_named
+from icsolve.assembly.workspace import PlacedCase, case_places, data_of, names_of
+from icsolve.case import Case, Coordinates, is_named
 from icsolve.errors import SceneError, Status, refuse_overflow
 from icsolve.kinematics import motion, speeds
 from icsolve.numbers import FLOATS, Arithmetic, Scalar, Showing
@@ -142,7 +142,19 @@ def needed_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want)
         points += [mass.centre for mass in case.inertia.values() if mass.centre is not None]
     if want.bodies:
         points += [joint.at for joint in case.joints if joint.at is not None]
-    return list(dict.fromkeys(points))
+    needed = dict.fromkeys(points)
+    return list(needed | dict.fromkeys(_measured_from(case, needed.keys())))
+
+
+def _measured_from(case: Case, needed: Collection[str]) -> Iterator[str]:
+    """The points by coordinates from which alone a datum places needed ones: whether these agree takes no
+    step."""
+    places = [(name, at) for name, at in case.points.items() if isinstance(at, Coordinates)]
+    known = {name for name, at in places if at.x is not None and at.y is not None}
+    for datum in data_of(case):
+        own = needed & set(datum.points)
+        if own and known >= set(datum.points) - own:
+            yield from datum.points
 
 
 def _placed(program: Program, arithmetic: Arithmetic) -> PlacedCase:
