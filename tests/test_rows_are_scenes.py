@@ -1215,12 +1215,13 @@ def solve_scene_status(case: Case, path: str, value: float) -> tuple[str, float]
         return refusal.status, math.nan
 
 
+SLIDE = "slide: [{0}, 1], at: C, along: {{along}}, through: O"
 GUIDED = {
-    "block alone": "points: {{O: {o}, C: {c}}}\njoints: [{{slide: [2, 1], at: C, along: {along}, through: O}}]\n"
-    "loads: {{P: {{force: unknown, link: 2, at: C, angle: 10}}, F: {{force: 5, link: 2, at: C, angle: 70}}}}\n",
-    "block on a crank": "points: {{A: [0, 0], O: {o}, C: {c}}}\nlengths: {{AB: 4, BC: 5}}\nnear: {{B: [1, 4]}}\n"
-    "joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}},\n"
-    "  {{slide: [4, 1], at: C, along: {along}, through: O}}]\n"
+    "block alone": f"points: {{{{O: {{o}}, C: {{c}}}}}}\njoints: [{{{{{SLIDE.format(2)}}}}}]\nloads:\n"
+    "  P: {{force: unknown, link: 2, at: C, angle: 10}}\n  F: {{force: 5, link: 2, at: C, angle: 70}}\n",
+    "block on a crank": "points: {{A: [0, 0], O: {o}, C: {c}}}\nlengths: {{AB: 4, BC: 5}}\n"
+    "near: {{B: [1, 4]}}\njoints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}},\n"
+    f"  {{{{{SLIDE.format(4)}}}}}]\n"
     "loads: {{F: {{force: 5, link: 4, at: C, angle: 200}}, T: {{torque: unknown, link: 2}}}}\n",
     "slotted arm": "points: {{A: [0, 0], D: [-1, -4], O: {o}, C: {c}}}\njoints: [{{pin: [1, 2], at: A}},\n"
     "  {{slot: [2, 3], at: C, along: {along}, through: O}}, {{pin: [3, 1], at: D}}]\nlinks: {{3: [O]}}\n"

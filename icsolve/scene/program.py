@@ -11,7 +11,8 @@ position. Each number is rounded once; its error is what that rounding did, and 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Iterator
+from collections.abc import Set as AbstractSet
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING
 
@@ -146,7 +147,7 @@ def needed_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want)
     return list(needed | dict.fromkeys(_measured_from(case, needed.keys())))
 
 
-def _measured_from(case: Case, needed: Collection[str]) -> Iterator[str]:
+def _measured_from(case: Case, needed: AbstractSet[str]) -> Iterator[str]:
     """The points by coordinates from which alone a datum places needed ones: whether these agree takes no
     step."""
     places = [(name, at) for name, at in case.points.items() if isinstance(at, Coordinates)]
