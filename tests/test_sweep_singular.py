@@ -228,6 +228,49 @@ def test_from_a_change_point_as_written_near_says_which_way(side: int) -> None:
         assert (abs(c - b - 2 * along) < 1e-12) == (side > 0)
 
 
+def flat_cranks(dice: Random, third: bool) -> tuple[str, list[str]]:
+    """A crank AB of one length with others along one line, whose couplers reach as far as their pivots: the
+    head of a case, its joints, and by how much `near` of C may lie off along that line, which is no side."""
+    along = complex(*dice.choice([(0.6, 0.8), (1.0, 0.0), (-0.28, 0.96), (0.0, -1.0)]))
+    crank, wide = dice.choice([0.5, 1.0, 1.5]), dice.choice([2.0, 2.5, 3.0])
+    a = complex(dice.randint(-3, 3), dice.randint(-3, 3))
+    d, c, e = a + wide * along, a + (wide + crank) * along, a + wide / 2 * along
+    near = c + along * dice.choice([0.0, 0.2, -0.3]) + 1j * along * dice.choice([0.0, 0.001, -0.001])
+    lengths, more = f"AB: {crank}, BC: {wide}, CD: {crank}", ""
+    joints = ["{pin: [1, 2], at: A}", "{pin: [2, 3], at: B}", "{pin: [3, 4], at: C}", "{pin: [4, 1], at: D}"]
+    if third:
+        lengths, more = lengths + f", BF: {wide / 2}", ", CBF: 0"
+        joints += ["{pin: [3, 5], at: F}", "{pin: [5, 1], at: E}"]
+    points = {"A": a, "D": d} | ({"E": e} if third else {})
+    text = ", ".join(f"{name}: [{z.real:.12g}, {z.imag:.12g}]" for name, z in points.items())
+    head = (
+        f"icsolve: 1\npoints: {{{text}}}\nlengths: {{{lengths}}}\nangles: {{DAB: 0{more}}}\n"
+        f"near: {{C: [{near.real:.12g}, {near.imag:.12g}]}}\n"
+        "loads: {T: {torque: unknown, link: 2}, P: {force: 5, link: 3, at: B, angle: 33}}\n"
+    )
+    return head, joints
+
+
+@pytest.mark.parametrize("third", [False, True])
+@pytest.mark.parametrize("seed", range(3))
+def test_a_near_in_line_with_flat_links_tells_no_side_in_whatever_order_the_joints_stand(
+    seed: int, third: bool
+) -> None:
+    """The rows then start from one that assembles, and are what `near` says there: the order of the joints,
+    and of their links, chose between a parallelogram and the crossed one."""
+    dice = Random(f"flat {seed} {third}")
+    head, joints = flat_cranks(dice, third)
+    found = set()
+    for _ in range(4):
+        own = dice.sample(joints, len(joints))
+        own = [re.sub(r"\[(\d), (\d)\]", r"[\2, \1]", one) if dice.random() < 0.5 else one for one in own]
+        case = icsolve.load(f"{head}joints: [{', '.join(own)}]\n")
+        rows = icsolve.sweep(case, {"angles.DAB": [-40.0, 25.0]}, ("status", "points"))
+        found.add((*rows.status.tolist(), *np.round(rows.points["C"], 9).ravel().tolist()))
+    assert len(found) == 1
+    assert next(iter(found))[:2] == ("ok", "ok")
+
+
 def test_a_rough_near_does_not_put_a_driven_figure_on_another_branch_than_it_is_written_on() -> None:
     """B lies a little above the line AC, and its `near`, which the data do not need, below."""
     text = IN_LINE.format(d=14, ab=2, cd=3.5, angle=64, near="C: [12.4, -3.9], B: [11.6, -5.6]")

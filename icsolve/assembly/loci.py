@@ -110,16 +110,31 @@ def side(one: PlacedLocus, two: PlacedLocus, at: Point) -> float:
 
     In floats, without a root and without a division: also where the loci do not meet.
     """
-    if isinstance(one, PlacedLine):
-        if isinstance(two, PlacedLine):
-            return 0.0
-        (x, y), (cx, cy) = two.centre, one.along
-    elif isinstance(two, PlacedLine):
-        (x, y), (cx, cy) = one.centre, two.along
-    else:
-        (x, y), (qx, qy) = one.centre, two.centre
-        cx, cy = y - qy, qx - x
+    if isinstance(one, PlacedLine) and isinstance(two, PlacedLine):
+        return 0.0
+    (x, y), (cx, cy) = _chord(one, two)
     return 1.0 if float((at[0] - x) * cx + (at[1] - y) * cy) >= 0.0 else -1.0
+
+
+def sideways(one: PlacedLocus, two: PlacedLocus, at: Point) -> float:
+    """How far ``at`` lies toward one of the two places where loci meet, in floats."""
+    if isinstance(one, PlacedLine) and isinstance(two, PlacedLine):
+        return 0.0
+    (x, y), (cx, cy) = _chord(one, two)
+    size = math.hypot(cx, cy)
+    return abs(float((at[0] - x) * cx + (at[1] - y) * cy)) / size if size else 0.0
+
+
+def _chord(one: PlacedLocus, two: PlacedLocus) -> tuple[Point, Point]:
+    """A point halfway between the two places where loci meet, or on the line square to theirs that it is on,
+    and the direction from one to the other."""
+    if isinstance(one, PlacedLine):
+        assert isinstance(two, PlacedCircle)
+        return two.centre, one.along
+    if isinstance(two, PlacedLine):
+        return one.centre, two.along
+    (x, y), (qx, qy) = one.centre, two.centre
+    return (x, y), (y - qy, qx - x)
 
 
 # --- whether they meet, and how well ---

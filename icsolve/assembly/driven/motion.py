@@ -82,7 +82,7 @@ def closing_of(mechanism: Mechanism, drivers: list[Constraint], known: Closing |
     for constraint in constraints:
         if isinstance(constraint, Immovable):
             raise constraint.refusal
-    order = AssemblyOrder(mechanism.shape, mechanism.spots, constraints, mechanism.case.near)
+    order = AssemblyOrder(mechanism.shape, mechanism.spots, constraints, near_of(mechanism))
     while True:
         while order.advance():
             pass
@@ -90,6 +90,12 @@ def closing_of(mechanism: Mechanism, drivers: list[Constraint], known: Closing |
         if not left:
             return order.closing
         order.take(smallest(mechanism, order, left))
+
+
+def near_of(mechanism: Mechanism) -> dict[str, Point]:
+    """Where `near` has points [frame]."""
+    ox, oy, scale = mechanism.frame
+    return {name: ((x - ox) * scale, (y - oy) * scale) for name, (x, y) in mechanism.case.near.items()}
 
 
 def _again(closing: Closing, constraints: list[Constraint]) -> Closing:
@@ -243,11 +249,8 @@ class _Placing:
     def _written(self, name: str, first: PlacedLocus, second: PlacedLocus) -> Point:
         """Where a spot is as written; where its loci only touch there, where `near` would have it."""
         at = self.shape.still[name]
-        near = self.mechanism.case.near.get(name)
-        if near is None or crossing_sine(first, second, at) > TOUCHING:
-            return at
-        ox, oy, scale = self.mechanism.frame
-        return ((near[0] - ox) * scale, (near[1] - oy) * scale)
+        touches = crossing_sine(first, second, at) <= TOUCHING
+        return near_of(self.mechanism).get(name, at) if touches else at
 
     def _rotate_to_line(self, step: RotateToLine) -> None:
         line, c, moved = step.by.line, step.by, self.moved

@@ -7,7 +7,8 @@ of links that their conditions determine goes to Newton's method.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+import math
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 from icsolve.assembly.driven.constraints import (
     Constraint,
@@ -34,7 +35,7 @@ from icsolve.assembly.driven.poses import (
     scaled,
     square,
 )
-from icsolve.assembly.loci import PlacedCircle, PlacedLine, PlacedLocus, crossing_sine
+from icsolve.assembly.loci import PlacedCircle, PlacedLine, PlacedLocus, crossing_sine, sideways
 from icsolve.errors import SceneError, Status
 from icsolve.numbers import Scalar
 from icsolve.numbers.record import Record, varies
@@ -225,6 +226,9 @@ def _without(row: _Row, pivot: _Row, body: int) -> _Row:
 
 TOUCHING = 1e-7
 """Loci that cross at a smaller angle (sine) in the position as written touch."""
+ROUGH, SIDEWAYS = 2e-3, 0.05
+"""How far (normalised) to one side `near` lies at least where it tells the side, and as a part of how far it
+is off."""
 
 
 class RotateWith(NamedTuple):
@@ -287,7 +291,8 @@ class Closing(NamedTuple):
 class AssemblyOrder:
     """The steps as they are found; ``full`` bodies are placed, ``turned`` have their rotation.
 
-    A point in ``near`` may be where two loci only touch as written: `near` tells which way it goes on.
+    A point in ``near`` [frame] may be where two loci only touch as written: `near` tells which way it goes on
+    where it lies to one side.
     """
 
     def __init__(
@@ -295,9 +300,9 @@ class AssemblyOrder:
         shape: Shape,
         spots: dict[int, list[Spot]],
         constraints: list[Constraint],
-        near: Collection[str] = (),
+        near: Mapping[str, Point] | None = None,
     ) -> None:
-        self.shape, self.spots, self.constraints, self.near = shape, spots, constraints, near
+        self.shape, self.spots, self.constraints, self.near = shape, spots, constraints, near or {}
         self.full, self.turned = {shape.ground}, {shape.ground}
         self.located = {shape.one(spot) for spot in spots.get(shape.ground, ())}
         self.steps: list[AssemblyStep] = []
@@ -428,25 +433,32 @@ class AssemblyOrder:
         )
 
     def _at_intersection(self) -> Iterator[PlaceAtIntersection]:
-        """The spot whose two loci cross best."""
+        """The spot whose two loci cross best; else one at which they touch and `near` tells the side."""
         best: tuple[float, PlaceAtIntersection] | None = None
+        self.nearest = None
         for one, members in self.members.items():
             if one in self.located or any(spot[0] in self.full for spot in members):
                 continue
             loci = list(self._loci(members))
             for n, first in enumerate(loci):
                 for second in loci[n + 1 :]:
-                    found = self._crossing(one, first, second)
-                    if best is None or found > best[0]:
+                    still, at = reference(self.shape, first), reference(self.shape, second)
+                    found = crossing_sine(still, at, self.shape.still[one[1]])
+                    if found <= TOUCHING and not self._told(one[1], still, at):
+                        self.nearest = one[1]
+                    elif best is None or found > best[0]:
                         best = (found, PlaceAtIntersection(one, (first, second)))
-        if best is not None and (best[0] > TOUCHING or best[1].spot[1] in self.near):
+        if best is not None:
             yield best[1]
-        elif best is not None:
-            self.nearest = best[1].spot[1]
 
-    def _crossing(self, spot: Spot, first: By, second: By) -> float:
-        still, at = reference(self.shape, first), reference(self.shape, second)
-        return crossing_sine(still, at, self.shape.still[spot[1]])
+    def _told(self, name: str, one: PlacedLocus, two: PlacedLocus) -> bool:
+        """Whether `near` tells to which side a point goes on at which two loci touch: it is roughly where the
+        point lies, and what it is off by its digits, or along the line of both, is no side."""
+        near = self.near.get(name)
+        if near is None:
+            return False
+        off = math.dist(near, self.shape.still[name])
+        return sideways(one, two, near) > max(ROUGH, SIDEWAYS * off)
 
     def _loci(self, members: list[Spot]) -> Iterator[By]:
         for spot in members:
@@ -498,5 +510,6 @@ def touching(name: str) -> SceneError:
     return SceneError(
         Status.CHANGE_POINT,
         f"the position as written is a limit or a change point: at {name} the links are in line, and nothing "
-        "says which way it goes on. Write the case in another position.",
+        f"says which way it goes on. Write the case in another position, or put `near` of {name} well to the "
+        "side to which it goes.",
     )
