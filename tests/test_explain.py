@@ -475,6 +475,33 @@ def test_no_name_of_the_machinery_and_no_idle_step_is_told(seed: int) -> None:
             assert all(one != after for one, after in pairwise(sides)), line
 
 
+ROLLED = """
+icsolve: 1
+points: {{O: [0, {radius}], P: [0, 0], B: [{far}, {level}]}}
+joints:
+  - {{roll: [1, 2], at: P, radii: [0, {radius}]}}
+  - {{rope: [O, B], on: [2], radii: {{O: {hub}}}, wraps: {{O: {turns}}}}}
+loads:
+  M: {{torque: {far}, link: 2}}
+  F: {{force: unknown, at: B}}
+"""
+
+
+@sampled(3)
+@pytest.mark.parametrize("seed", range(12))
+def test_a_direction_along_an_axis_but_for_rounding_is_told_as_that_of_the_axis(seed: int) -> None:
+    """Of a level rope off a hub: neither as 1.6e-15 degrees nor as 360."""
+    draw = Random(f"level {seed}")
+    radius, hub, right = draw.randint(40, 90), draw.randint(10, 30), draw.choice([True, False])
+    level, turns = (radius + hub, "cw" if right else "ccw") if draw.random() < 0.5 else (
+        radius - hub, "ccw" if right else "cw"
+    )  # fmt: skip
+    numbers = {"radius": radius / 100, "hub": hub / 100, "level": level / 100}
+    text = explain(icsolve.load(ROLLED.format(far=2 if right else -2, turns=turns, **numbers)))
+    told = {angle for line in text.splitlines() for angle in re.findall(r"(?:sin|cos)\((\S+)", line)}
+    assert told <= {"0", "180"} and told
+
+
 @sampled(2)
 @pytest.mark.parametrize("seed", range(6))
 def test_a_line_load_without_a_resultant_is_told_by_its_couple(seed: int) -> None:

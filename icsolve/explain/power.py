@@ -27,7 +27,7 @@ from icsolve.report.derivation.ratios import OneMotion, Ratios, independent_moti
 from icsolve.screws import velocity
 from icsolve.statics.load_wrenches import direction
 from icsolve.tuples import NamedTuple
-from icsolve.wording import NOTHING, link_words, plain_vector
+from icsolve.wording import NOTHING, degrees_of, link_words, plain_vector
 
 
 class TermEnd(NamedTuple):
@@ -195,7 +195,7 @@ def _couple(work: Worked, load: Force, over: Stretch) -> tuple[float, list[Block
     """The couple of a line load that is as large the other way at its end, for a unit of it."""
     a, b = (work.known.points[name] for name in (over.a, over.b))
     (name,), (x, y), length = gain_names(load), direction(load, work.known.points, FLOATS), math.dist(a, b)
-    line, way = (math.degrees(math.atan2(v, u)) % 360.0 for u, v in ((b[0] - a[0], b[1] - a[1]), (x, y)))
+    line, way = degrees_of((b[0] - a[0], b[1] - a[1])), degrees_of((x, y))
     between = Sum(((1, work.number(line)), (-1, work.number(way))))
     gain = length**2 / 6.0 * turn_of(line - way)[1]
     said = words(load_name(load.name), " has no resultant; a unit of it makes the couple")
@@ -444,7 +444,7 @@ def factor_of(
     size = abs(acting.gain) * max(math.hypot(*v), NOTHING * fastest) * units
     if abs(value) <= NOTHING * size or size == 0.0:
         return 0.0, []
-    angle = work.number(math.degrees(math.atan2(dy, dx)) % 360.0)
+    angle = work.number(degrees_of((dx, dy)))
     x, y = map(work.number, v)
     along = Sum(((1, product(x, Of("cos", angle))), (1, product(y, Of("sin", angle)))))
     extra = [work.number(f) for f in (acting.gain, units) if f != 1.0]

@@ -42,7 +42,7 @@ from icsolve.numbers import turn_of
 from icsolve.report.derivation.known import Known
 from icsolve.screws import Point
 from icsolve.tuples import NamedTuple
-from icsolve.wording import NOTHING, link_words
+from icsolve.wording import NOTHING, degrees_of, link_words
 from icsolve.wording.statement import Statement
 
 MOST_DIGITS = 17
@@ -236,7 +236,7 @@ def lever(
 
     ``headings`` are the directions in which links slide, degrees.
     """
-    angle = math.degrees(math.atan2(direction[1], direction[0])) % 360.0
+    angle = degrees_of(direction)
     written = work.number(angle)
     about = work.pivot(link)
     if about is None:

@@ -86,6 +86,14 @@ def plain_vector(vector: Sequence[float], size: float | None = None) -> tuple[fl
     return x, y
 
 
+def degrees_of(vector: Sequence[float]) -> float:
+    """The direction of a vector as people are told it, degrees in [0, 360): along an axis but for rounding it
+    is that of the axis."""
+    x, y = plain_vector(vector)
+    degrees = math.degrees(math.atan2(y, x)) % 360.0
+    return degrees if degrees < 360.0 else 0.0
+
+
 def sense_of(load: Load, value: float, gain: float, degrees: float) -> str:
     """Sense of a load with this value, whose unit exerts ``gain`` in the direction ``degrees``: ``ccw``,
     ``at 210 deg``, ``toward A``, ``pull``; '' for zero.

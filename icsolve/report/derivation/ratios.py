@@ -25,7 +25,7 @@ from icsolve.screws import Triple
 from icsolve.statics.load_wrenches import reacting
 from icsolve.statics.power import is_unknown
 from icsolve.tuples import NamedTuple
-from icsolve.wording import link_words
+from icsolve.wording import degrees_of, link_words
 
 
 class Step(NamedTuple):
@@ -143,7 +143,7 @@ def _gathered(known: Known, reference: str, ratios: tuple[Ratio, ...]) -> Ratios
     for link in rates:
         if not known.turns(link):
             x, y, _ = known.twists[link]
-            headings[link] = math.degrees(math.atan2(-sign * x, sign * y)) % 360.0
+            headings[link] = degrees_of((sign * y, -sign * x))
     return Ratios(reference, ratios, rates, headings)
 
 
