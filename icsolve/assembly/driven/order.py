@@ -510,6 +510,5 @@ def touching(name: str) -> SceneError:
     return SceneError(
         Status.CHANGE_POINT,
         f"the position as written is a limit or a change point: at {name} the links are in line, and nothing "
-        f"says which way it goes on. Write the case in another position, or put `near` of {name} well to the "
-        "side to which it goes.",
+        "says which way it goes on. Write the case in another position.",
     )
