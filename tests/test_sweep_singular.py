@@ -33,7 +33,7 @@ from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.varied_numbers import numbers_of, with_numbers
 from library import FILES, sample
 from recorded import truths
-from sizes import FULL, sampled
+from sizes import FULL, few, sampled
 from test_sweep_status import FOUR_BAR, PARALLELOGRAM, SLIDER_CRANK
 
 mp.dps = 60
@@ -925,3 +925,35 @@ def test_a_link_that_all_but_stands_still_is_turned_between_its_limits() -> None
     assert swept.answers["U"][2] == pytest.approx(icsolve.solve(case).answers["U"].value, rel=1e-9)
     by = {link: with_stability(case, icsolve.solve(case), link) for link in ("2", "4")}
     assert {found.stability for found in by.values()} == {"stable"}
+
+
+INSTANT = {
+    "a slot square to the way to its pivot": "lengths: {{AB: {r}}}\nangles: {{AB: 0}}\n"
+    "joints: [{{pin: [1, 2], at: A}}, {{slot: [2, 4], at: B, along: 90}}, {{pin: [4, 1], at: D}}]\n"
+    "loads: {{M: {{torque: 10, link: 4}}, T: {{torque: unknown, link: 2}}}}\n",
+    "a rocker that is told too": "lengths: {{AB: {r}, BC: {d}, CD: {r}}}\nangles: {{AB: 0, DC: 0}}\n"
+    "near: {{C: [{c}, 0.3]}}\njoints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}},\n"
+    "  {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]\n"
+    "loads: {{T: {{torque: unknown, link: 2}}, P: {{force: 5, link: 3, at: B, angle: 33}}}}\n",
+}
+
+
+@pytest.mark.parametrize("seed", range(few(12)))
+@pytest.mark.parametrize("kind", INSTANT)
+def test_no_row_goes_on_from_a_freedom_that_is_one_for_an_instant(kind: str, seed: int) -> None:
+    """A link that can move alone to first order was held, or its datum: every row had the torque of another
+    mechanism, or did not assemble. Rows begin elsewhere, and it is said, or the position is refused."""
+    dice = Random(f"instant {kind} {seed}")
+    r, d = dice.randint(5, 15) / 10, dice.randint(20, 40) / 10
+    text = f"icsolve: 1\npoints: {{A: [0, 0], D: [{d}, 0]}}\n" + INSTANT[kind].format(r=r, d=d, c=d + r)
+    case = icsolve.load(text)
+    for link in ("2", "4"):
+        with pytest.raises(icsolve.SceneError) as refused:
+            icsolve.sweep(case, drive={link: np.array([-20.0, 0.0, 20.0])})
+        assert refused.value.status == "change-point", link
+    if "rocker" in kind:
+        return  # no other row assembles
+    rows = icsolve.sweep(case, {"angles.AB": [-50.0, 0.0, 20.0]}, want=("answers", "status"))
+    assert any("no position to start from" in note for note in rows.notes)
+    own = icsolve.solve(icsolve.load(text, {"angles.AB": "-50"}))
+    assert rows.answers["T"][0] == pytest.approx(own.answers["T"].value, rel=1e-12)

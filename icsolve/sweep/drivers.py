@@ -41,6 +41,7 @@ from icsolve.assembly.workspace import (
     POSING,
     RAY,
     Datum,
+    PlacedCase,
     X,
     Y,
     data_of,
@@ -51,7 +52,9 @@ from icsolve.assembly.workspace import (
 from icsolve.case import Case, Coordinates, Number, is_named
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
-from icsolve.numbers import Scalar
+from icsolve.kinematics.accelerations import go_on_together
+from icsolve.kinematics.motion import by_loops
+from icsolve.numbers import FLOATS, Scalar
 from icsolve.numbers.linear import Row, eliminate
 from icsolve.screws import Point
 from icsolve.sweep.varied_numbers import with_numbers
@@ -470,6 +473,7 @@ def drive_of(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str]) -
             break
     if not moving and not links:
         return Drive((), (), ())
+    _refuse_change_point(mechanism, left)
     held, left = _held(mechanism, row, left, moving)
     return Drive(tuple(moving), held, _spinning(bodies, left))
 
@@ -521,6 +525,22 @@ def _held(
             held.append(pose)
             left = taken
     return tuple(held), left
+
+
+def _refuse_change_point(mechanism: Mechanism, left: Freedoms) -> None:
+    """Refuse a position as written that leaves motions of which some are for an instant alone: what is held,
+    or spins by itself, would be so by the first order of a motion that is none."""
+    place = PlacedCase(mechanism.case, mechanism.frame, mechanism.shape.still, FLOATS)
+    try:
+        motions = by_loops(place) if left.motions else None
+    except SceneError:  # a joint tells no motion there
+        return
+    if motions and motions.redundant and go_on_together(place, motions.twists) is False:
+        raise SceneError(
+            Status.CHANGE_POINT,
+            "the position as written is a change point: its links can move for an instant in more ways than "
+            "they go on. Write the case in another position.",
+        )
 
 
 def _spinning(bodies: Sequence[int], left: Freedoms) -> tuple[int, ...]:
