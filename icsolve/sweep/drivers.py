@@ -473,9 +473,10 @@ def drive_of(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str]) -
             break
     if not moving and not links:
         return Drive((), (), ())
-    _refuse_change_point(mechanism, left)
     held, left = _held(mechanism, row, left, moving)
-    return Drive(tuple(moving), held, _spinning(bodies, left))
+    drive = Drive(tuple(moving), held, _spinning(bodies, left))
+    _refuse_change_point(mechanism, drive)
+    return drive
 
 
 def closed_drive(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str]) -> Drive | None:
@@ -527,15 +528,17 @@ def _held(
     return tuple(held), left
 
 
-def _refuse_change_point(mechanism: Mechanism, left: Freedoms) -> None:
-    """Refuse a position as written that leaves motions of which some are for an instant alone: what is held,
-    or spins by itself, would be so by the first order of a motion that is none."""
+def _refuse_change_point(mechanism: Mechanism, drive: Drive) -> None:
+    """Refuse a position as written some of whose motions are for an instant alone, where something is held
+    or spins by itself: it would be so by the first order of a motion that is none."""
+    if not (drive.held or drive.locked):
+        return
     place = PlacedCase(mechanism.case, mechanism.frame, mechanism.shape.still, FLOATS)
     try:
-        motions = by_loops(place) if left.motions else None
+        motions = by_loops(place)
     except SceneError:  # a joint tells no motion there
         return
-    if motions and motions.redundant and go_on_together(place, motions.twists) is False:
+    if motions.redundant and go_on_together(place, motions.twists) is False:
         raise SceneError(
             Status.CHANGE_POINT,
             "the position as written is a change point: its links can move for an instant in more ways than "
