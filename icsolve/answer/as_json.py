@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from icsolve.case import Case, is_named, pair_name
+from icsolve.case import Case, is_named, pair_name, spot_name
 from icsolve.errors import SceneError
 
 if TYPE_CHECKING:
@@ -126,16 +126,16 @@ def _motion(answer: Answer) -> dict[str, Any]:
         shown["rates"] = {link: _rate(rate) for link, rate in answer.rates.items()}
     if answer.velocities is not None:
         shown["velocities"] = {
-            f"{point} on {link}": _velocity(velocity)
-            for (point, link), velocity in answer.velocities.items()
-            if is_named(point)
+            spot_name(spot): _velocity(velocity)
+            for spot, velocity in answer.velocities.items()
+            if is_named(spot[0])
         }
     if answer.angular_accelerations is not None:
         rates = answer.angular_accelerations.items()
         shown["angular_accelerations"] = {link: _rate(rate) for link, rate in rates}
     if answer.accelerations is not None:
         points = answer.accelerations.items()
-        shown["accelerations"] = {f"{point} on {link}": _velocity(one) for (point, link), one in points}
+        shown["accelerations"] = {spot_name(spot): _velocity(one) for spot, one in points}
     return shown
 
 
@@ -187,18 +187,13 @@ def _errors(answer: Answer) -> dict[str, Any]:
     known = {pair_name(case, pair): c.error for pair, c in answer.centres.items() if c.error is not None}
     named = {
         kind: {
-            _spot(key): error
+            spot_name(key): error
             for key, error in by.items()
             if is_named(key if isinstance(key, str) else key[0])
         }
         for kind, by in {**answer.errors, "centres": known}.items()
     }
     return {kind: _finite(by) for kind, by in named.items() if by}
-
-
-def _spot(key: str | tuple[str, str]) -> str:
-    """What moves, as the format names it: a link, or a point on a link."""
-    return key if isinstance(key, str) else f"{key[0]} on {key[1]}"
 
 
 def _term(term: Term) -> dict[str, Any]:

@@ -194,6 +194,12 @@ class Case:
         return frozenset(out - kept)
 
     @cached_property
+    def given_places(self) -> dict[str, tuple[float, float]]:
+        """The places of the points of which the case gives both coordinates, [case length]."""
+        given = [(name, at) for name, at in self.points.items() if isinstance(at, Coordinates)]
+        return {name: (x.value, y.value) for name, (x, y) in given if x is not None and y is not None}
+
+    @cached_property
     def axes(self) -> frozenset[str]:
         """The paths of the directions of components: no file has these numbers."""
         return frozenset(f"loads.{name}.{axis}.angle" for name in self.directed for axis in "xy")
@@ -246,6 +252,11 @@ def told_links(case: Case) -> list[str]:
 def ordered_pair(case: Case, a: str, b: str) -> Pair:
     """Two links in the order in which their centre is named."""
     return (a, b) if link_order(case, a) <= link_order(case, b) else (b, a)
+
+
+def spot_name(spot: str | tuple[str, str]) -> str:
+    """What moves, as the format names it: a link, or a point on a link."""
+    return spot if isinstance(spot, str) else f"{spot[0]} on {spot[1]}"
 
 
 def pair_name(case: Case, pair: Pair) -> str:

@@ -8,7 +8,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer, Centre, Found, Term
-from icsolve.case import Case, Coordinates, Pair, Torque, Units, is_angle, is_named, link_order, pair_name
+from icsolve.case import Case, Pair, Torque, Units, is_angle, is_named, link_order, pair_name
 from icsolve.scene.parts import scene_of
 from icsolve.statics.power import has_friction
 from icsolve.tuples import replace
@@ -348,9 +348,8 @@ def _velocity_error(answer: Answer) -> float:
 
 def _points(answer: Answer, show: Format) -> list[str]:
     """The points that the figure's data, and not their coordinates, determine."""
-    coordinates = {n: data for n, data in answer.case.points.items() if isinstance(data, Coordinates)}
-    given = {name for name, data in coordinates.items() if None not in data}
-    rows = [(name, _vector(p, show)) for name, p in answer.shown_points.items() if name not in given]
+    given, found = answer.case.given_places, answer.shown_points
+    rows = [(name, _vector(p, show)) for name, p in found.items() if name not in given]
     return [f"Points found, {answer.case.units.length}", *table(rows)] if rows else []
 
 

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 from icsolve.assembly import Figure, place, placed_figure, solve_figure
 from icsolve.assembly.workspace import PlacedCase, case_places, data_of, names_of
-from icsolve.case import Case, Coordinates, is_named
+from icsolve.case import Case, is_named
 from icsolve.errors import SceneError, Status, refuse_overflow
 from icsolve.kinematics import motion, speeds
 from icsolve.numbers import FLOATS, Arithmetic, Scalar, Showing
@@ -152,10 +152,8 @@ def _measured_from(case: Case, needed: Container[str]) -> Iterable[str]:
     found: dict[str, None] = {}
     for datum in data_of(case):
         others = [p for p in datum.points if p not in needed]
-        if others and len(others) < len(datum.points):
-            places = [case.points.get(p) for p in others]
-            if all(isinstance(at, Coordinates) and None not in at for at in places):
-                found |= dict.fromkeys(others)
+        if 0 < len(others) < len(datum.points) and all(p in case.given_places for p in others):
+            found |= dict.fromkeys(others)
     return found
 
 

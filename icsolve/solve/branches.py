@@ -320,13 +320,12 @@ class Branches:
                 least, at = min((least, at), (float(there.min()), float(values[np.argmin(there)])))
                 step /= 8.0
             if meant:
-                sides = np.array([at - 8.0 * step, at + 8.0 * step, at - step, at + step])
-                there = np.nan_to_num(np.abs(along(sides) - least), nan=0.0)  # it may end
-                wide, close = there[:2], there[2:]
+                sides = (at - 8.0 * step, at + 8.0 * step, at - step, at + step)
+                there = along(np.array([*sides, plain_within(at, step)]))
+                wide, close = np.nan_to_num(np.abs(there[:4] - least), nan=0.0).reshape(2, 2)  # it may end
                 goes_on = close <= 0.5 * wide  # where its steps do not shrink a mode passes to another place
                 rough = max(rough, float(close[goes_on].max(initial=0.0)))  # it may come nearer between
-                drawn_at = float(along(np.array([plain_within(at, step)]))[0])
-                drawn += [i] if drawn_at <= DRAWN * np.nanmax(np.abs(self.places)) else []
+                drawn += [i] if there[4] <= DRAWN * np.nanmax(np.abs(self.places)) else []
             best.append(least)
         even = [i for i, d in zip(ids, best, strict=True) if EVEN * max(d, rough) <= max(min(best), rough)]
         if len(even) > 1 and len(drawn) == 1:

@@ -44,7 +44,6 @@ from icsolve.solve.refinement import (
     in_open_cells,
     in_range,
     modes_meet,
-    placed_by_coordinates,
     refined,
     vanishing,
     within_a_turn,
@@ -453,7 +452,7 @@ def _history(case: Case) -> Iterator[tuple[str, str]]:
             yield from ((f"the normal of links {pair}", link) for link in joint.links)
     yield from _history_of_loads(case)
     frame = {*welded(case, case.ground)}
-    for name in placed_by_coordinates(case):
+    for name in case.given_places:
         carriers = [link for link, names in case.carries.items() if name in names]
         if frame.isdisjoint(carriers):
             yield from ((f"point {name} by coordinates", link) for link in carriers)

@@ -11,7 +11,7 @@ from decimal import Decimal, localcontext
 import numpy as np
 
 from icsolve.answer.equilibrium import Stiffness
-from icsolve.case import Case, Coordinates, Torque, is_angle
+from icsolve.case import Case, Torque, is_angle
 from icsolve.errors import SceneError
 from icsolve.numbers import DEGREE
 from icsolve.numbers.adjoint import gradient
@@ -223,16 +223,11 @@ def scene_in(
     flat = [float(np.ravel(v)[0]) for v in found]
     pairs = zip(places, zip(flat[::2], flat[1::2], strict=False), strict=False)
     near = {name: (x / scale + ox, y / scale + oy) for name, (x, y) in pairs if math.isfinite(x + y)}
-    free = {name: at for name, at in near.items() if name not in placed_by_coordinates(case)}
+    free = {name: at for name, at in near.items() if name not in case.given_places}
     case = counted_about(case, dict(zip(springs, flat[len(nodes) :], strict=True)))
     for path, value in values.items():
         case = given_at(case, path, found_number(value, path) if isinstance(value, Decimal) else value)
     return replace(case, near=free, motion=(), expect=())
-
-
-def placed_by_coordinates(case: Case) -> set[str]:
-    places = [(name, at) for name, at in case.points.items() if isinstance(at, Coordinates)]
-    return {name for name, at in places if at.x is not None and at.y is not None}
 
 
 def balancing_torque(function: LoadFunction, value: float, on: str = "") -> float:

@@ -18,7 +18,7 @@ from icsolve.assembly.driven.motion import DrivenMotion, closing_of, set_moving
 from icsolve.assembly.steps import Meet, Polar, spare_data
 from icsolve.assembly.wheels import refuse_misfit, wheel_margins
 from icsolve.assembly.workspace import CORNER, RAY, PlacedCase, data_in, datum_at, names_of, number_of
-from icsolve.case import Case, Pair, TorsionSpring, is_angle, pair_name
+from icsolve.case import Case, Pair, TorsionSpring, is_angle, pair_name, spot_name
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import by_loops
 from icsolve.kinematics.speeds import speed_of
@@ -496,10 +496,10 @@ def _in_motion(
     if asked.rates:
         out |= {("rates", link): (rate,) for link, rate in rates(scene, found.motions).items()}
     if asked.velocities:
-        out |= {("velocities", f"{p} on {link}"): v for (p, link), v in velocities(scene, found.motions)}
+        out |= {("velocities", spot_name(spot)): v for spot, v in velocities(scene, found.motions)}
     if asked.accelerations and found.moves is not None:
         told = point_accelerations(scene, found.moves)
-        out |= {("accelerations", f"{p} on {link}"): a for (p, link), a in told}
+        out |= {("accelerations", spot_name(spot)): a for spot, a in told}
         turning = link_accelerations(scene, found.moves)
         out |= {("angular_accelerations", link): (rate,) for link, rate in turning}
     return out

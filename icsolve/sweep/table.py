@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.answer import Answer, by_load
-from icsolve.case import Case, is_named, pair_name
+from icsolve.case import Case, is_named, pair_name, spot_name
 from icsolve.errors import SceneError, Status
 from icsolve.numbers import turn_of
 from icsolve.numbers.replay import Array
@@ -297,7 +297,7 @@ class Table:
         for kind in (kind for kind in MOTION if getattr(self.asked, kind.removeprefix("angular_"))):
             errors = answer.errors.get(kind, {})
             for key, value in (getattr(answer, kind) or {}).items():
-                name = key if isinstance(key, str) else f"{key[0]} on {key[1]}"
+                name = spot_name(key)
                 if isinstance(value, str):
                     self.leave_open(kind, name, row)
                 elif is_named(name):

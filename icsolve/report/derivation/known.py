@@ -13,7 +13,6 @@ from icsolve.assembly import Frame, case_point, solve_figure
 from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import (
     Case,
-    Coordinates,
     ForceVector,
     Like,
     Load,
@@ -184,7 +183,7 @@ def _at_rest(case: Case, answer: Answer | None, refusal: SceneError | None) -> K
         row, angles = positions[0].answer.case, tuple(one for one in own.angles if one.value.path in at)
         own = replace(row, lengths=own.lengths, angles=angles, unknowns=(), expect=())
     elif positions:  # other ways in which the figure assembles at this value are not meant
-        here, placed = positions[0].answer.shown_points, given_places(own)
+        here, placed = positions[0].answer.shown_points, own.given_places
         own = replace(own, near={name: at for name, at in here.items() if name not in placed})
     known = known_of(own)
     posed = case.unknowns or tuple(map(Unknown, at))
@@ -261,14 +260,8 @@ def _points(case: Case, answer: Answer | None, scene: AnswerBuilder | None) -> d
     found = {} if answer is None else dict(answer.points)
     if scene is not None:
         found = {p: case_point(scene.figure.frame, at) for p, at in scene.figure.points.items()}
-    found.update((name, at) for name, at in given_places(case).items() if name not in found)
+    found.update((name, at) for name, at in case.given_places.items() if name not in found)
     return found if set(names) <= set(found) else {**_figure(case, names), **found}
-
-
-def given_places(case: Case) -> dict[str, Point]:
-    """Where the points are that the case gives by both coordinates."""
-    given = ((name, at) for name, at in case.points.items() if isinstance(at, Coordinates))
-    return {name: (at.x.value, at.y.value) for name, at in given if at.x is not None and at.y is not None}
 
 
 def _figure(case: Case, names: list[str]) -> dict[str, Point]:
@@ -498,7 +491,7 @@ def bars_of(answer: Answer) -> dict[str, float]:
 def _loaded(answer: Answer, link: str) -> list[Point | None]:
     """The places of the loads on a link; None of a couple, and of a load along a line."""
     points = {
-        **given_places(answer.case),
+        **answer.case.given_places,
         **answer.points,
     }  # the case alone has those of loads at coordinates
     return [place for load in answer.case.loads for place in _places(answer.case, points, load, link)]
