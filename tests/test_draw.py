@@ -258,6 +258,30 @@ def test_free_bodies_show_every_reaction_on_both_links() -> None:
     assert "F34 = 216.7 N" in texts and "F43 = 216.7 N" in texts
 
 
+@sampled(4)
+@pytest.mark.parametrize("name", [name for name in FILES if name.startswith("equilibrium/")])
+def test_free_bodies_of_a_position_of_rest_are_those_of_the_position_that_is_drawn(name: str) -> None:
+    """Drawing and worked solution have the forces that the answer has there: the first stable position."""
+    known = known_of(icsolve.load(FILES[name]), reactions=True)
+    rests = icsolve.solve(icsolve.load(FILES[name]), reactions=True).positions or ()
+    first = next((one for one in rests if one.stability == "stable"), rests[0])
+    assert first.answer.reactions
+    texts = parsed(draw(known.case, Drawing(bodies=True), known)).texts("t-reaction")
+    told = explain(known.case, "text", bodies=True, known=known)
+    for own, reaction in first.answer.reactions.items():
+        if reaction.magnitude is not None:  # else open
+            assert f"{own} = {figure_number(reaction.magnitude)} N" in texts
+        assert f"\n  {own} " in told.partition("The force of the first link on the second")[2]
+
+
+def test_where_friction_leaves_the_free_bodies_open_the_picture_says_so() -> None:
+    """Problem 13.16 without its motion: the torque holds over a range, and the reactions are open."""
+    text = FILES["ch13/13_16_slider_crank_with_friction.yaml"].read_text().replace("motion:", "# motion:")
+    assert "Free bodies: none, since the answer leaves the reactions open." in drawn(
+        icsolve.load(text.partition("expect:")[0]), bodies=True
+    ).texts("t-note")
+
+
 # --- bad input ---------------------------------------------------------------------------------------
 
 FOUR_BAR = """

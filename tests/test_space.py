@@ -768,3 +768,12 @@ def test_a_known_load_and_an_unknown_one_in_space_have_their_ratio_told(unknown:
     ratio = solve(case).answers["T"].value / 1000.0
     assert f"T / W = {ratio:.6g}" in explain(case)
     assert page_html(known_of(case))
+
+
+@pytest.mark.parametrize("asked", ["--rates", "--all-centres"])
+def test_what_is_told_of_the_plane_alone_is_not_passed_over_in_space(asked: str) -> None:
+    """Neither centres nor rates are in the answer: a note says so where they are asked for."""
+    case = load(CHAPTER / "13_22_robot_arm.yaml")
+    key = asked[2:].replace("-", "_")
+    assert any("planar cases only" in note for note in solve(case, **{key: True}).notes)
+    assert not any("planar" in note for note in solve(case).notes)

@@ -46,6 +46,9 @@ WIDEST = 10.0
 GAP = 26.0
 ROUND = 30.0
 """Room for labels around a link with its forces."""
+TO_SCALE = "Free bodies, forces to one scale"
+NONE_TOLD = "Free bodies: none, since the answer leaves the reactions open."
+"""As where friction holds the links within its limits."""
 NOTHING = 1e-9
 """A force below this, of the largest, is none."""
 
@@ -67,9 +70,9 @@ class DrawnPush(NamedTuple):
 
 def body_panels(scene: Scene, left: float, top: float, width: float) -> list[Mark]:
     """The free bodies of all moving links in rows below a corner, ``width`` wide."""
-    reactions = scene.known.answer.reactions if scene.known.answer is not None else None
-    if not reactions:
-        return []
+    answer = scene.known.answer
+    if answer is None or not answer.reactions:
+        return [] if answer is None else titled([], left, top, width, NONE_TOLD)
     view = scene.view._replace(scale=SMALLER * scene.view.scale)
     scene = scene._replace(view=view, at={name: view.at(p) for name, p in scene.known.points.items()})
     pushes = {
@@ -93,11 +96,12 @@ def support_parts(scene: Scene, solid: shapely.Geometry) -> list[Part]:
     return [part for n, push in enumerate(pushes) for part in _drawn(scene, push, largest, solid, n, solid)]
 
 
-def titled(panels: Iterable[list[Mark]], left: float, top: float, width: float) -> list[Mark]:
+def titled(
+    panels: Iterable[list[Mark]], left: float, top: float, width: float, title: str = TO_SCALE
+) -> list[Mark]:
     """Panels beside and below each other, under a title."""
-    title = (TextRun("Free bodies, forces to one scale"),)
     return [
-        TextMark((left, top + 4.0), title, "t-note", 12.5, "start"),
+        TextMark((left, top + 4.0), (TextRun(title),), "t-note", 12.5, "start"),
         *_rows(panels, left, top + 24.0, width),
     ]
 

@@ -57,7 +57,8 @@ def solve_scene(
             raise SceneError(Status.UNSUPPORTED, AT_REST)
         from icsolve.statics.space.solve import solve_space
 
-        return solve_space(case, bound)
+        found = solve_space(case, bound)
+        return replace(found, notes=(*found.notes, PLANAR)) if all_centres or rates else found
     try:
         if case.touches:
             from icsolve.cams.solving import solve_touching
@@ -120,6 +121,7 @@ def solve_by_power(case: Case, *, rates: bool = False) -> Answer:
     return _solved(case, Want(rates=rates), True, False)
 
 
+PLANAR = "instant centres and rates are told of planar cases only, and this one is in space."
 AT_REST = "a case in space is solved at rest: give the forces of inertia as loads, and leave `dynamic` out."
 NOTICED = " Noticed: "
 UNEXAMINED = "whether its contacts have to pull was not examined: "

@@ -190,6 +190,8 @@ def _at_rest(case: Case, answer: Answer | None, refusal: SceneError | None) -> K
     if answer is None or known.answer is None:
         return known._replace(answer=None, refusal=refusal or known.refusal, posed=posed, written=written)
     shown = replace(known.answer, positions=answer.positions, notes=answer.notes)
+    if positions:
+        shown = replace(shown, reactions=positions[0].answer.reactions)
     return known._replace(answer=shown, posed=posed, written=written)
 
 
