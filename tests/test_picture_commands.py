@@ -15,6 +15,7 @@ import pytest
 import icsolve
 from icsolve.draw.words import answer_sentences
 from icsolve.report.derivation.known import known_of
+from library import FILES, sample
 from pictures import parsed
 from shell import exit_status
 from sizes import sampled
@@ -150,6 +151,17 @@ def test_an_ending_that_is_not_known_is_refused_with_those_that_are(
     assert not out.exists()
 
 
+@pytest.mark.skipif(not shutil.which("pdflatex"), reason="LaTeX is not installed")
+@pytest.mark.parametrize("name", sample(FILES, 40, "lines of LaTeX"))
+def test_no_equation_is_wider_than_its_page(name: str, tmp_path: Path) -> None:
+    """Sums of many moments are broken into several lines."""
+    assert exit_status("explain", str(FILES[name]), "--bodies", "-o", str(tmp_path / "out.tex")) == 0
+    run = ["pdflatex", "-interaction=batchmode", "-halt-on-error", "out.tex"]
+    subprocess.run(run, cwd=tmp_path, check=True)
+    log = (tmp_path / "out.log").read_text(encoding="latin-1")
+    assert not re.search(r"Overfull .hbox \(\S+ too wide\) detected", log)
+
+
 @pytest.mark.parametrize("verb", ["draw", "explain"])
 def test_latex_is_written_by_its_ending(verb: str, tmp_path: Path) -> None:
     """Every group is closed, every style that is used is defined once, and no text is left to chance."""
@@ -184,6 +196,7 @@ def test_a_sheet_asks_for_the_forces_in_a_structure_and_has_them_in_its_key(
     (tmp_path / "bracket.yaml").write_text(BRACKET)
     assert exit_status("sheet", str(tmp_path / "bracket.yaml")) == 0
     question, _, key = capsys.readouterr().out.partition("\\section*{Key")
+    assert "\\section*{Exercises}\n\\subsection*{1. " in question  # no page has the heading alone
     assert "The forces and couples in the joints." in question and "8 kN" not in question
     assert "$F_{12}$ = 8 kN at 0 deg" in key and "$F_{13}$ = 10 kN at 143.1 deg" in key
 

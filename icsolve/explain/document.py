@@ -270,9 +270,17 @@ FITTED = r"""\newsavebox{\icfigure}
   \ifdim\dimexpr\ht\icfigure+\dp\icfigure\relax>#1\textheight
     \sbox{\icfigure}{\resizebox*{!}{#1\textheight}{\usebox{\icfigure}}}\fi
   \usebox{\icfigure}}
+\newcommand{\icside}[1]{\sbox{\icfigure}{$\displaystyle #1$}%
+  \ifdim\wd\icfigure>0.85\linewidth
+    \parbox[b]{0.85\linewidth}{\raggedright$\displaystyle #1$}\else\usebox{\icfigure}\fi}
 """
 """The box of a drawing, and what shrinks it to the width of the text and to a part of a page; by what TikZ
-itself loads, as small installations of LaTeX have no more."""
+itself loads, as small installations of LaTeX have no more. Of an equation the side that is too long for a
+line has several."""
+
+
+TIGHT = "\\setlength{\\itemsep}{0pt}\\setlength{\\parskip}{0pt}"
+"""No room between the lines of a list, which are short."""
 
 
 class AsTex(Layout):
@@ -313,14 +321,14 @@ class AsTex(Layout):
             case Words():
                 return f"\\noindent {self.inline(block.parts)}\\par\n"
             case Formula():
-                sides = [self.notation.side(side) for side in block.sides]
+                sides = [f"\\icside{{{self.notation.side(side)}}}" for side in block.sides]
                 lines = (f"{sides[0]} & = {sides[1]}", *sides[2:]) if sides[1:] else sides
                 broken = " \\\\\n& = ".join(lines)
                 return f"\\begin{{align*}}\n{broken}\n\\end{{align*}}\n"
             case Items():
                 kind = "enumerate" if block.numbered else "itemize"
                 entries = "".join(f"\\item {self.inline(entry)}\n" for entry in block.entries)
-                return f"\\begin{{{kind}}}\n{entries}\\end{{{kind}}}\n"
+                return f"\\begin{{{kind}}}{TIGHT}\n{entries}\\end{{{kind}}}\n"
             case ShownTable():
                 heading, *rows = (" & ".join(row) + " \\\\\n" for row in self.cells(block))
                 columns = "l" * len(block.heading)

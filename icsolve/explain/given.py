@@ -237,7 +237,8 @@ def sheet_tex(title: str, sheets: Sequence[tuple[str, Sequence[Exercise]]]) -> s
 
 
 def _question(layout: AsTex, n: int, one: Exercise) -> str:
-    """An exercise, on one page where it has room there."""
+    """An exercise, on one page where it has room there; the first on that of the heading."""
     body = "".join(map(layout.block, one.blocks))
     figure = picture_tex(one.figure, 0.34)
-    return f"\\filbreak\n\\subsection*{{{n}. {layout.text(one.title)}}}\n{figure}{body}"
+    start = "\\filbreak\n" if n > 1 else ""
+    return f"{start}\\subsection*{{{n}. {layout.text(one.title)}}}\n{figure}{body}"
