@@ -123,6 +123,7 @@ joints:
 """
 
 
+@sampled(3, "which")
 @pytest.mark.parametrize("which", ["between", "beyond", "third crank"])
 @pytest.mark.parametrize("seed", range(few(60, 20)))
 def test_a_point_in_line_with_two_pins_rests_the_same_by_its_lengths_as_by_its_angle(
@@ -193,6 +194,7 @@ def test_beyond_a_change_point_a_third_crank_rests_where_two_cranks_do(free: str
         assert one.at["angles.AB"] == pytest.approx(other.at["angles.AB"], abs=1e-12)
 
 
+@sampled(2, "lacks")
 @pytest.mark.parametrize("lacks", ["CD", "EF"])
 @pytest.mark.parametrize("seed", range(20 if FULL else 3))
 def test_a_crank_whose_length_the_figure_leaves_to_its_place_rests_where_two_cranks_do(
@@ -257,6 +259,7 @@ joints:
 """
 
 
+@sampled(3, "free")
 @pytest.mark.parametrize("free", ["unknown", "{unknown: [-360, 0]}", "{unknown: [-361.3, -3.7]}"])
 @pytest.mark.parametrize("seed", range(20 if FULL else 3))
 def test_the_crank_of_a_trammel_ends_no_branch_where_its_rod_lies_in_a_guide(free: str, seed: int) -> None:
@@ -2814,6 +2817,7 @@ def test_all_that_is_told_of_a_position_is_that_of_the_exact_one_rounded_once(se
     assert abs(alone.reactions["F12"].x) == float(k * own)
 
 
+@sampled(2, "third")
 @pytest.mark.parametrize("third", [False, True])
 @pytest.mark.parametrize("seed", range(80 if FULL else 2))
 def test_a_figure_written_at_one_place_goes_straight_on_through_its_change_points(

@@ -199,7 +199,7 @@ def test_the_range_of_a_load_that_varies_is_worked_out_once(
 OF = ("mu", "other")
 
 
-@sampled(3)
+@sampled(6)
 @pytest.mark.parametrize(
     ("kind", "of"), [(kind, of) for n, kind in enumerate(KINDS) for of in (OF if FULL else OF[n % 2 :][:1])]
 )
@@ -261,6 +261,7 @@ loads: {{W: {{weight: 300, link: 2, at: G}}, T: {{torque: {torque}, link: 2}}}}
 """
 
 
+@sampled(2)
 @pytest.mark.parametrize("torque", [20, -20, 60, 0])
 def test_ranges_about_positions_of_rest_are_found_however_narrow(torque: int) -> None:
     """Along a datum of the figure as `solve` lists them, though no place of the span falls in one:

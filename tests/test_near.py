@@ -567,6 +567,7 @@ loads:
 """
 
 
+@sampled(3, "beyond")
 @pytest.mark.parametrize("beyond", [False, True])
 @pytest.mark.parametrize("seed", range(few(60, 10)))
 def test_a_straight_ternary_link_of_a_group_may_be_written_by_three_lengths(seed: int, beyond: bool) -> None:

@@ -124,7 +124,7 @@ def test_rows_are_those_of_the_mechanism_alone(pair: tuple[str, str]) -> None:
     assert np.allclose(*(call.answers["T"] for call in calls), rtol=1e-12, atol=0.0)
 
 
-@sampled(2)
+@sampled(4)
 def test_every_command_answers(icsolve: Shell, pair: tuple[str, str]) -> None:
     value = library.solve(library.load(pair[1])).answers["T"].value
     Path("m.yaml").write_text(pair[0] + f"expect: {{T: {value:.6g}}}\n")
@@ -174,6 +174,7 @@ REACHING = {
 }
 
 
+@sampled(2, "kind")
 @pytest.mark.parametrize("kind", REACHING)
 @pytest.mark.parametrize("seed", range(few(9)))
 def test_rows_in_which_spare_links_do_not_reach_have_the_answer_of_their_scene(seed: int, kind: str) -> None:
@@ -216,6 +217,7 @@ def test_rows_in_which_spare_links_do_not_reach_have_the_answer_of_their_scene(s
         assert math.isclose(scene.answers["T"].value, found.answers["T"][row], rel_tol=1e-12)
 
 
+@sampled(2, "kind")
 @pytest.mark.parametrize("kind", REACHING)
 @pytest.mark.parametrize("seed", range(few(6)))
 def test_a_link_with_which_a_load_turns_is_needed_in_a_motion(seed: int, kind: str) -> None:

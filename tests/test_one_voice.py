@@ -373,6 +373,7 @@ def test_values_senses_and_ranges(name: str) -> None:
             assert plain(words) in plain(text), room
 
 
+@sampled(2)
 @pytest.mark.parametrize("name", WITH_PAGE)
 def test_the_page_says_in_its_written_position_what_solve_says(name: str) -> None:
     answer = solved(name)

@@ -85,7 +85,7 @@ motion: {{link: {DRIVEN.get(joints, 2)}, speed: 4}}
 """
 
 
-@sampled(4, "joints", "load")
+@sampled(8, "joints", "load")
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("load", LOADS)
 @pytest.mark.parametrize("joints", JOINTS)

@@ -114,7 +114,7 @@ LIMITED = "linkages/double_butterfly_symmetric.yaml"
 """Link 3 turns by less than half a degree one way; in the position as written several velocities are 0."""
 
 
-@sampled(3)
+@sampled(5)
 @pytest.mark.parametrize("name", sorted({*sample(FILES, 12, "motion"), LIMITED}))
 def test_what_rows_tell_of_their_motion_is_what_the_row_as_a_scene_tells(name: str) -> None:
     """Rates, velocities, centres, and the power of a unit of each load, of one freedom or several; to 1e-9 of

@@ -77,7 +77,7 @@ def followed(pivots: Array, ends: Array, pins: Array, turns: tuple[float, float]
     return np.asarray(pins[0] + pose[:2] + turned)
 
 
-@pytest.mark.parametrize("seed", range(5, 5 + few(60, 20)))
+@pytest.mark.parametrize("seed", range(5, 5 + few(60, 40)))
 def test_a_row_is_reached_where_the_straight_way_leads_to_it(seed: int) -> None:
     """Places to 1e-9 of the figure, which small steps and Newton's method without the library give."""
     text, pivots, ends, pins = drawn(seed)
