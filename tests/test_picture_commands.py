@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 import icsolve
+from icsolve.draw.tikz import escaped, escaped_in_math
 from icsolve.draw.words import answer_sentences
 from icsolve.report.derivation.known import known_of
 from library import FILES, sample
@@ -179,6 +180,37 @@ def test_latex_is_written_by_its_ending(verb: str, tmp_path: Path) -> None:
     assert r"50 \% \& more: \#1 \$x\_2\$" in text
     if shutil.which("pdflatex"):
         subprocess.run(["pdflatex", "-interaction=batchmode", out.name], cwd=tmp_path, check=True)
+
+
+@pytest.mark.skipif(not shutil.which("pdflatex"), reason="LaTeX is not installed")
+def test_latex_sets_every_character_that_a_case_may_have(tmp_path: Path) -> None:
+    """In texts and in formulas, of which the fonts have fewer letters."""
+    codes = (*range(0x20, 0x600), *range(0x1E00, 0x2400), *range(0x3000, 0x3040), *range(0xFB00, 0xFB10))
+    letters = [chr(n) for n in codes]
+    lines = [rf"{escaped(c)}\par" for c in letters]
+    lines += [f"$\\mathrm{{{escaped_in_math(c)}}}$" for c in letters if c.isalpha()]
+    packages = "\\usepackage[utf8]{inputenc}\n\\usepackage[T1]{fontenc}\n\\usepackage{amsmath,textcomp}\n"
+    body = "\n".join(lines)
+    (tmp_path / "out.tex").write_text(
+        f"\\documentclass{{article}}\n{packages}\\begin{{document}}\n{body}\n\\end{{document}}\n",
+        encoding="utf-8",
+    )
+    run = ["pdflatex", "-interaction=batchmode", "-halt-on-error", "out.tex"]
+    subprocess.run(run, cwd=tmp_path, check=True)
+    assert "Missing character" not in (tmp_path / "out.log").read_text(encoding="latin-1")
+
+
+def test_letters_of_other_alphabets_stay_what_they_are_in_latex(tmp_path: Path) -> None:
+    """Greek as symbols, in names too; of a letter that the fonts lack its own without the accent, if they
+    have that."""
+    case, out = tmp_path / "case.yaml", tmp_path / "out.tex"
+    title = "Kräfte – µ ≥ 0,2; φ → Ω/2, Łódź, Čapek, “Ș”, ở"
+    case.write_text(BRACKET.replace("icsolve: 1", f"icsolve: 1\ntitle: {title!r}").replace("W:", "W_ü:"))
+    assert exit_status("explain", str(case), "-o", str(out)) == 0
+    text = out.read_text(encoding="utf-8")
+    told = r"Kräfte – µ \ensuremath{\geq} 0,2; \ensuremath{\varphi} \ensuremath{\rightarrow} "
+    assert told + r"\ensuremath{\Omega}/2, Łódź, Čapek, “Ș”, o" in text
+    assert r"$\mathrm{W\_\textnormal{ü}}$" in text
 
 
 BRACKET = """icsolve: 1

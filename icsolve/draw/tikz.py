@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterable, Mapping
 
 from icsolve.draw.marks import ArcMark, AreaMark, Disc, Mark, MarkGroup, Stroke, TextMark, TextRun, kinds_of
@@ -23,16 +24,54 @@ _SPECIAL = {
     "∞": r"$\infty$",
     "°": r"\textdegree{}",
     "²": r"\textsuperscript{2}",
+    "′": r"$'$",
+    "″": r"$''$",
 }
 _RAISED = {c: str(n) for n, c in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")} | {"⁻": "-"}
+_MATH = dict(
+    zip(
+        "≤≥≠≈≡∠⊥∥√∂∑∆→←↑↓↔⇒φϕεϑςο",
+        "leq geq neq approx equiv angle perp parallel surd partial sum Delta rightarrow leftarrow uparrow "
+        "downarrow leftrightarrow Rightarrow varphi phi varepsilon vartheta varsigma mathrm{o}".split(),
+        strict=True,
+    )
+)
+_GREEK = frozenset(
+    "alpha beta gamma delta zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon chi psi omega "
+    "phi".split()
+)
+_ROMAN = dict(zip("ΑΒΕΖΗΙΚΜΝΟΡΤΧ", "ABEZHIKMNOPTX", strict=True))
+"""Greek capitals that LaTeX has as Roman ones only."""
+_SET_UP = frozenset(map(chr, range(0xA1, 0x180))) - {*"ĦħĸĿŀŉŦŧſ"} | {*"ȘșȚț‐‑‒–—―‘’‚“”„†‡•…‰‹›€№™"}
+"""What LaTeX sets up for its fonts (T1, with ``textcomp``); it stops at other characters."""
 
 
 def escaped(text: str) -> str:
-    """A text that stays text in LaTeX, whatever it says; what its fonts may lack is a question mark."""
+    """A text that stays text in LaTeX, whatever it says; what its fonts lack is a question mark."""
     text = re.sub(f"[{''.join(_RAISED)}]+", lambda m: f"\0{''.join(_RAISED[c] for c in m[0])}\1", text)
-    text = "".join(_SPECIAL.get(c, c if c in "\0\1" or c.isprintable() else " ") for c in text)
-    text = text.replace("\0", r"\textsuperscript{").replace("\1", "}")
-    return "".join(c if ord(c) < 0x250 else "?" for c in text)
+    text = "".join(c if c in "\0\1" else _character(c) for c in unicodedata.normalize("NFC", text))
+    return text.replace("\0", r"\textsuperscript{").replace("\1", "}")
+
+
+def escaped_in_math(formula: str) -> str:
+    """A formula whose names may have letters that the fonts of formulas lack."""
+    return re.sub(r"[^ -~\n]+", lambda m: f"\\textnormal{{{escaped(m[0])}}}", formula)
+
+
+def _character(c: str) -> str:
+    """A character; where LaTeX has it without its accents alone, so."""
+    if c in _SPECIAL or c <= "~" or c in _SET_UP or not c.isprintable():
+        return _SPECIAL.get(c, c if c.isprintable() else " ")
+    if c in _ROMAN:
+        return _ROMAN[c]
+    if c in _MATH:
+        return f"\\ensuremath{{\\{_MATH[c]}}}"
+    if letter := re.fullmatch("GREEK (SMALL|CAPITAL) LETTER ([A-Z]+)", unicodedata.name(c, "")):
+        name = letter[2].lower().replace("lamda", "lambda")
+        if name in _GREEK:
+            return f"\\ensuremath{{\\{name if letter[1] == 'SMALL' else name.capitalize()}}}"
+    plain = [d for d in unicodedata.normalize("NFKD", c) if d != c and not unicodedata.combining(d)]
+    return "".join(map(_character, plain)) or "?"
 
 
 def standalone(marks: Iterable[Mark], title: str) -> str:

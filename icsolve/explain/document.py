@@ -297,7 +297,7 @@ class AsTex(Layout):
         return re.sub(r"(?<![\w)$-])-(?=\d)", "$-$", tikz.escaped(dotted(text)))
 
     def symbol(self, expression: Expr) -> str:
-        return f"${self.notation.expression(expression)}$"
+        return f"${tikz.escaped_in_math(self.notation.expression(expression))}$"
 
     def whole(self, document: Document) -> str:
         lead = "".join(f"\\emph{{{self.text(text)}}}\\par\n" for text in document.lead)
@@ -321,7 +321,8 @@ class AsTex(Layout):
             case Words():
                 return f"\\noindent {self.inline(block.parts)}\\par\n"
             case Formula():
-                sides = [f"\\icside{{{self.notation.side(side)}}}" for side in block.sides]
+                sides = [tikz.escaped_in_math(self.notation.side(side)) for side in block.sides]
+                sides = [f"\\icside{{{side}}}" for side in sides]
                 lines = (f"{sides[0]} & = {sides[1]}", *sides[2:]) if sides[1:] else sides
                 broken = " \\\\\n& = ".join(lines)
                 return f"\\begin{{align*}}\n{broken}\n\\end{{align*}}\n"
