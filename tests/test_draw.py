@@ -250,6 +250,14 @@ def test_a_load_and_a_velocity_along_one_line_lie_apart() -> None:
     assert not [1 for load in loads for speed in speeds if load.buffer(1.0).intersects(speed)]
 
 
+def test_a_space_behind_an_index_is_kept_whatever_program_draws_it() -> None:
+    """``T12 = 4``: white space at the ends of a part of a text counts, and no text has lines of its own."""
+    picture = draw(icsolve.load(FILES["linkages/four_bar.yaml"]))
+    assert 'xml:space="preserve"' in picture.partition(">")[0]
+    assert re.search("</tspan><tspan[^>]*> = ", picture)
+    assert not any("\n" in text for text in re.findall(r"<text.*?</text>", picture, re.DOTALL))
+
+
 def test_free_bodies_show_every_reaction_on_both_links() -> None:
     """13.2: F34 = 216.7 N on link 4 is F43 on link 3."""
     picture = drawn(icsolve.load(FILES["ch13/13_02_four_bar_free_bodies.yaml"]), bodies=True)

@@ -169,8 +169,9 @@ def document(marks: Iterable[Mark], view: Box, title: str, description: str) -> 
     used = kinds_of(marks) | {"paper"}
     return "\n".join(
         (
-            f'<svg xmlns="http://www.w3.org/2000/svg" class="ic" viewBox="{box}" width="{size[0]}"'
-            f' height="{size[1]}" role="img">',
+            # some programs leave out a space behind an index, unless they are told to keep it
+            f'<svg xmlns="http://www.w3.org/2000/svg" xml:space="preserve" class="ic" viewBox="{box}"'
+            f' width="{size[0]}" height="{size[1]}" role="img">',
             f"<title>{escaped(title)}</title>",
             f"<desc>{escaped(description)}</desc>",
             f"<style>{sheet(used, painted=False)}</style>",
