@@ -25,7 +25,7 @@ from icsolve.grade.platforms.questions import (
     qti_zip,
     zipped,
 )
-from icsolve.grade.solved import SolvedCase, final_questions
+from icsolve.grade.solved import SolvedCase, questions_of
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import KEYS, VALUES, read_records
 from icsolve.grade.variants.varied import Draw, Varied
@@ -201,9 +201,7 @@ def _asked_for(order: ExportOrder, name: str) -> dict[str, str]:
     store = order.case_store
     varied = store.variation(name)
     case = store.solved(name).case if varied is None else varied.case
-    more = (question.partition(":") for question in store.course.own)
-    found = final_questions(case, case.name)
-    found |= {f"{of}:{what}": what for of, _, what in more if of == name and what}
+    found = questions_of(case, name, store.course)
     if not found:
         kind = "a case in space" if case.space is not None else NOTHING
         raise NoKeyError(f"{kind}, so no question")

@@ -18,7 +18,7 @@ from icsolve.grade.course import Person, Roster, student_named
 from icsolve.grade.keys import NumberKey, numbers_of
 from icsolve.grade.platforms.questions import asked
 from icsolve.grade.results import csv_text, safe
-from icsolve.grade.solved import SolvedCase, final_questions
+from icsolve.grade.solved import SolvedCase, questions_of
 from icsolve.grade.tables.columns import TableColumns, read_whole_table, without_apostrophe
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import Draw, VariantRecord, Varied
@@ -328,7 +328,7 @@ def key_csv(varied: Varied, found: Iterable[VariantTask]) -> str:
     """The right answers: ``student_id,variant,case,value,unit,sense,from,to``."""
     rows = []
     for person, draw in found:
-        for question in final_questions(varied.case, varied.name):
+        for question in questions_of(varied.case, varied.name, varied.course):
             for key in numbers_of(varied.solved(person.student_id).key(question)):
                 size = key.value if key.kind == "position" else abs(key.value)
                 low, high = size - key.half if size < 0.0 else max(size - key.half, 0.0), size + key.half
@@ -358,7 +358,7 @@ def sheet(varied: Varied, task: VariantTask, picture: str) -> str:
     rows = "".join(f"<tr><td>{escape(n)}</td><td>{escape(v)}</td></tr>" for n, v in Statement(case).rows())
     lines = "".join(
         f"<p>{escape(asked(solved.key(question), solved.target(question)))}</p>"
-        for question in final_questions(varied.case, varied.name)
+        for question in questions_of(varied.case, varied.name, varied.course)
     )
     return (
         f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(varied.name)}</title>'
