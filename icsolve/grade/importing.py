@@ -172,7 +172,8 @@ class Import:
             self.issues.note(self._path, s.line, f"{said}{self.roster.hint(ids)}")
         answer = s.answer if len(s.answer) <= _LONGEST else s.answer[:_LONGEST] + "..."
         time = year_first(s.time, self._order) if self._order else s.time
-        texts = [text[:_LONGEST] for text in (s.unit, s.direction, s.attempt, s.variant, time)]
+        variant = self.case_store.by_numbers(item, s.variant) if s.variant.startswith("{") else s.variant
+        texts = [text[:_LONGEST] for text in (s.unit, s.direction, s.attempt, variant, time)]
         return StoredAnswer._make((student, item, s.line, answer, *texts, trouble))
 
     def matched(self, ids: tuple[str, ...]) -> str:

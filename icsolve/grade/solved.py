@@ -70,6 +70,11 @@ def questions_of(case: Case, name: str, course: Course) -> dict[str, str]:
     return final_questions(case, name) | asked
 
 
+def folder_of(question: str) -> str:
+    """The name of a question where it is a folder, as in PrairieLearn: ``press-w4-w2``."""
+    return re.sub("[:/ ]", "-", question)
+
+
 def asked_of(case: Case, what: str) -> Target:
     """The target of ``T12``, ``I24``, ``w4/w2``; of '' the only unknown.
 

@@ -240,8 +240,9 @@ class Neighbours:
         varied = self._store.variation(question.partition(":")[0])
         found: dict[str, float] = {}
         figures: set[tuple[str, ...]] = set()
-        for student in self._students if varied is not None else ():
-            assert varied is not None
+        if varied is None:
+            return [], []
+        for student in (*self._students, *varied.by_owner):
             try:
                 draw = varied.draw(student)
                 figure = varied.figure(draw)

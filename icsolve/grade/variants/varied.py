@@ -40,6 +40,11 @@ def drawn(case: str, variables: tuple[Variable, ...], student: str, seed: str, t
     return values
 
 
+def owner_of(label: str) -> str:
+    """Who has the numbers that an answer itself says, where a student's id is asked for; no id begins so."""
+    return f"\x1f{label}"
+
+
 def label(case: str, values: Mapping[str, str]) -> str:
     """A short name of a variant: eight hexadecimal digits that follow from its values."""
     text = "\x1f".join((case, *(f"{name}={value}" for name, value in values.items())))
@@ -160,6 +165,8 @@ class Varied:
         self.case = self.read({})
         self.numbers = VariedNumbers(text, self.case)
         self.record: VariantRecord | None = None
+        self.by_owner: dict[str, Draw] = {}
+        """the numbers that answers themselves say"""
         self.first = first_values(self.case.variables)
         self._solved: Latest[tuple[str, ...], SolvedCase | None] = Latest(_KEPT)
         self._tasks: Latest[tuple[str, ...], SolvedCase] = Latest(_KEPT)
@@ -172,6 +179,8 @@ class Varied:
 
         Raises NoKeyError where none of many does.
         """
+        if student in self.by_owner:
+            return self.by_owner[student]
         if self.record is not None:
             return self._handed(student, self.record)
         if student not in self._draws:
@@ -180,6 +189,12 @@ class Varied:
             why = f"none of {TRIALS} variants of {self.name} suits ({self._why_none(student)})"
             raise NoKeyError(f"{why}: narrow the ranges of its variables")
         return self._draws[student]
+
+    def told(self, values: Texts) -> str:
+        """Take numbers that an answer itself says; their label."""
+        own = label(self.name, values)
+        self.by_owner[owner_of(own)] = Draw(own, values)
+        return own
 
     def ready(self, students: Iterable[str]) -> None:
         """Draw for many students, and solve their tasks, together."""
@@ -191,6 +206,8 @@ class Varied:
                 drawn = [self._draws[student].values for student in some if student in self._draws]
             else:
                 drawn = [self.record.handed[s].values for s in some if s in self.record.handed]
+            if not start:
+                drawn += [draw.values for draw in self.by_owner.values()]
             cases = self._new_cases(map(self._base, drawn))
             for key, answer in zip(cases, together(list(cases.values())), strict=True):
                 if answer is not None:
