@@ -248,6 +248,20 @@ def test_what_the_course_asks_by_name_stands_in_key_and_sheet(a_class: Class, lo
     assert "the key of press:w4/w2 has changed for 2 of 2 students" in ran.err
 
 
+@pytest.mark.parametrize(("asked", "why"), [("rf B", "no pin at B has friction"), ("v C on 3", "")])
+def test_what_has_no_right_answer_is_left_out_by_name(a_class: Class, asked: str, why: str) -> None:
+    """One question of the course without a key keeps no student from the others."""
+    a_class.course(f'cases: {{press: {{}}, "press:{asked}": {{}}}}\n')
+    roster = a_class.file("roster.csv", "student_id\n1\n2\n")
+    out = a_class.path("out")
+    ran = a_class.run("variants", str(a_class.path("cases")), "--roster", roster, "-o", str(out), "-q")
+    keys = list(csv.DictReader(io.StringIO((out / "press" / "key.csv").read_text())))
+    assert [row["case"] for row in keys] == ["press", *[f"press:{asked}"] * (not why)] * 2
+    assert "Find T12" in (out / "press" / "sheets" / "1.html").read_text()
+    assert ran.code == bool(why)
+    assert (f"press:{asked} is left out for 2 students (1; 2): {why}" in ran.err) == bool(why)
+
+
 def test_a_folder_without_variables_says_what_they_look_like(a_class: Class) -> None:
     a_class.path("cases/press.yaml").unlink()
     roster = a_class.file("roster.csv", "student_id\n1\n")
