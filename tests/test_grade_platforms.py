@@ -372,3 +372,18 @@ def test_what_prairielearn_was_given_comes_back_from_it(a_class: Class) -> None:
     ] * 5
     table = csv.DictReader(io.StringIO(scores.read_text()))
     assert {row["qid"] for row in table} == folders
+
+
+@pytest.mark.parametrize(
+    "spoilt", ['{"P": "12,5", "a": "1"}', '{"P": NaN, "a": 1}', '{"P": 1e999, "a": "1"}']
+)
+def test_a_row_of_prairielearn_with_numbers_that_are_none_is_for_a_person(
+    a_class: Class, spoilt: str
+) -> None:
+    a_class.case("press", PRESS)
+    cells = ["s@x.test", 1, "press", "", "", 1, spoilt, "{}", json.dumps({"answer": "5 lbf*in cw"})]
+    text = io.StringIO()
+    csv.writer(text).writerows([SUBMITTED, cells])
+    ran = a_class.grade(text.getvalue())
+    assert [row["verdict"] for row in ran.rows()] == ["review"]
+    assert "answers.csv:2: the number P of this row is " in ran.err

@@ -262,6 +262,33 @@ def test_what_has_no_right_answer_is_left_out_by_name(a_class: Class, asked: str
     assert (f"press:{asked} is left out for 2 students (1; 2): {why}" in ran.err) == bool(why)
 
 
+@pytest.mark.parametrize(
+    ("number", "spoilt"),
+    [("P", ""), ("P", "abc"), ("P", "12,5"), ("P", "nan"), ("P", "1e999"), ("P", "$P"), ("P", "9" * 6000),
+     ("a", "1,25"), ("a", "1 N"), ("a", "1, D: 3")],
+)  # fmt: skip
+def test_a_number_of_the_record_that_is_none_is_told_with_its_student(
+    a_class: Class, number: str, spoilt: str
+) -> None:
+    """A cell that a spreadsheet, or a person, has spoilt: no other number counts in its place."""
+    roster = a_class.file("roster.csv", "student_id\n1\n2\n")
+    out = a_class.path("out")
+    a_class.run(
+        "variants", str(a_class.path("cases")), "--roster", roster, "-o", str(out), "-q", "--no-figures"
+    )
+    values = out / "press" / "values.csv"
+    table = list(csv.DictReader(io.StringIO(values.read_text())))
+    table[1][number] = spoilt
+    written = io.StringIO()
+    rows = csv.DictWriter(written, list(table[0]))
+    rows.writeheader()
+    rows.writerows(table)
+    values.write_text(written.getvalue())
+    ran = a_class.grade("student_id,case,answer\n1,press,3\n2,press,3\n", "--variants", str(out))
+    assert ran.code == 2
+    assert f"values.csv: the number {number} of 2 is {spoilt[:40]!r}" in ran.err
+
+
 def test_a_folder_without_variables_says_what_they_look_like(a_class: Class) -> None:
     a_class.path("cases/press.yaml").unlink()
     roster = a_class.file("roster.csv", "student_id\n1\n")

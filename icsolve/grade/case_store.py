@@ -231,7 +231,10 @@ class CaseStore:
 
     def by_numbers(self, question: str, text: str) -> str:
         """The label of the numbers in a text of a platform, a JSON object in which each variable of the case
-        stands under its name; '' where they do not. They are those of whoever is ``owner_of`` the label."""
+        stands under its name; '' where none does. They are those of whoever is ``owner_of`` the label.
+
+        Raises ValueError for one that is missing, or with which the case can't be read.
+        """
         name = question.partition(":")[0]
         varied = self.variation(name) if name in self.paths else None
         try:
@@ -240,10 +243,12 @@ class CaseStore:
             found = None
         if varied is None or not isinstance(found, dict):
             return ""
-        values = {variable.name: found.get(variable.name) for variable in varied.case.variables}
-        if not all(isinstance(value, str | int | float) for value in values.values()):
+        names = [variable.name for variable in varied.case.variables]
+        if found.keys().isdisjoint(names):
             return ""
-        return varied.told({name: str(value) for name, value in values.items()})
+        values = {name: str(found.get(name, "")) for name in names}
+        varied.check(values, "this row")
+        return varied.told(values)
 
     def ready(self, students: Iterable[str], questions: Iterable[str]) -> None:
         """Solve the tasks of many students together, of the cases with variables among those asked."""

@@ -171,7 +171,8 @@ def _rows(
         cells = padded(row.cells, width)
         found = (identifier(cells[i]) for i in ids if cells[i].strip().lower() not in _NOBODY)
         student = tuple(dict.fromkeys(found)) or ("",)
-        attempt, time, variant = cells[tried], cells[when], "" if numbers is None else cells[numbers]
+        attempt, time = cells[tried], cells[when]
+        variant = cells[numbers] if numbers is not None and cells[numbers][:1] == "{" else ""
         return [
             _submission(row.line, student, (question, answer, "", "", attempt, variant, time), trouble or why)
             for question, answer, why in answers(cells)

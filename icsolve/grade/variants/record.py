@@ -84,6 +84,7 @@ def _read(path: str, store: CaseStore, roster: Roster | None) -> tuple[str, Vari
         values = {variable: without_apostrophe(cells[i]) for variable, i in places.items()}
         if student in handed and handed[student].values != values:
             raise ValueError(f"the student {student} stands in it twice, with other numbers")
+        varied.check(values, student)
         handed[student] = Draw(without_apostrophe(cells[label]) if label is not None else "", values)
     return name, VariantRecord(path, handed, _keys(os.path.join(os.path.dirname(path), KEYS), roster))
 

@@ -22,7 +22,7 @@ from icsolve.read import read_text
 from icsolve.read.document import Mapping as Tree
 from icsolve.read.document import Scalar, parse
 from icsolve.read.names import Problems
-from icsolve.read.variables import count, first_values, value_at
+from icsolve.read.variables import FormulaError, count, exact, first_values, value_at
 from icsolve.sweep.varied_numbers import numbers_of
 from icsolve.tuples import NamedTuple, TypeVar, cached_property
 
@@ -51,6 +51,7 @@ def label(case: str, values: Mapping[str, str]) -> str:
     return hashlib.sha256(text.encode("utf-8")).hexdigest()[:8]
 
 
+_DIGITS = 17
 DRAWING = 1e-3
 """Part of the mechanism's size by which every point may be off."""
 SWING = 0.1
@@ -61,6 +62,13 @@ APART = 0.02
 
 Mistake = tuple[str, str, str]
 """The unknown, the code, and where the mistake sits."""
+
+
+def _is_plain(text: str) -> bool:
+    """Whether a value is a bare number of no more digits than a case may have."""
+    with suppress(FormulaError):
+        return len(text) <= _DIGITS and exact(text) is not None
+    return False
 
 
 class Seen(NamedTuple):
@@ -168,6 +176,7 @@ class Varied:
         self.by_owner: dict[str, Draw] = {}
         """the numbers that answers themselves say"""
         self.first = first_values(self.case.variables)
+        self._readable = {(one.name, choice) for one in self.case.variables for choice in one.choices}
         self._solved: Latest[tuple[str, ...], SolvedCase | None] = Latest(_KEPT)
         self._tasks: Latest[tuple[str, ...], SolvedCase] = Latest(_KEPT)
         self._draws: Latest[str, Draw] = Latest(_KNOWN)
@@ -189,6 +198,18 @@ class Varied:
             why = f"none of {TRIALS} variants of {self.name} suits ({self._why_none(student)})"
             raise NoKeyError(f"{why}: narrow the ranges of its variables")
         return self._draws[student]
+
+    def check(self, values: Texts, whose: str) -> None:
+        """Raises ValueError where the case can't be read with one of the values that were handed out."""
+        for name, text in values.items():
+            if _is_plain(text) or (name, text) in self._readable:
+                continue
+            try:
+                self.read({name: text})
+                self._readable.add((name, text))
+            except CaseError:
+                said = f"the number {name} of {whose} is {text[:40]!r}, with which {self.name} can't be read"
+                raise ValueError(f"{said}: write what was handed out") from None
 
     def told(self, values: Texts) -> str:
         """Take numbers that an answer itself says; their label."""
