@@ -217,6 +217,36 @@ def test_what_makes_no_sense_is_refused(
         icsolve.evaluator(icsolve.load(FOUR_BAR), inputs)(*columns)
 
 
+@pytest.mark.parametrize("rows", [0, 1, 3, 40])
+@pytest.mark.parametrize("friction", [False, True])
+def test_rows_are_as_many_as_the_columns_have(rows: int, friction: bool) -> None:
+    """Beside numbers for all rows, and columns of one row, too: none of nothing, in the shapes of some."""
+    rough = FOUR_BAR.replace("at: D}", "at: D, mu: 0.2, radius: 0.1}") + "motion: {link: 2, turns: cw}\n"
+    case = icsolve.load(rough if friction else FOUR_BAR)
+    ask = icsolve.evaluator(case, ("angles.AB", "lengths.BC", "loads.P"), ("answers", "points"))
+    for others in ((3.5, 100.0), ([3.5], 100.0), (3.5, np.full(rows, 100.0)), ([3.5], [100.0])):
+        found = ask(np.linspace(50.0, 60.0, rows), *others)
+        assert found.status.shape == found.answers["T12"].shape == (rows,)
+        assert found.points["C"].shape == (rows, 2)
+    if rows != 1:
+        with pytest.raises(ValueError, match="rows are asked for"):
+            ask(np.linspace(50.0, 60.0, rows), [3.5, 3.6], 100.0)
+
+
+@pytest.mark.parametrize("kind", [float, int])
+def test_what_a_mask_hides_is_no_number(kind: type) -> None:
+    """A row of its own has no answer, and a sweep refuses it: the number behind a mask is no datum."""
+    case = icsolve.load(FOUR_BAR)
+    angles = np.ma.array([60, 61, 62], mask=[False, True, False], dtype=kind)
+    found = icsolve.evaluator(case, ("angles.AB",))(angles)
+    assert found.status.tolist() == ["ok", "cannot-assemble", "ok"]
+    assert np.isnan(found.answers["T12"]).tolist() == [False, True, False]
+    with pytest.raises(ValueError, match="not all finite"):
+        icsolve.sweep(case, vary={"angles.AB": angles})
+    whole = np.ma.array([60.0, 61.0, 62.0])
+    assert icsolve.sweep(case, vary={"angles.AB": whole}).status.tolist() == ["ok"] * 3
+
+
 def recorded() -> tuple[Record, list[int], dict[int, str], list[float]]:
     """Every operation of a record on two inputs, and the gradient of their sum."""
     record = Record()

@@ -656,6 +656,59 @@ def test_a_given_motion_has_its_unit_and_sense() -> None:
     assert "Point B of link 2 moves at 100 in/s, at 215 deg." in text
 
 
+PROFILED = [name for name, path in FILES.items() if "{contact: [2, 3]}" in path.read_text()]
+
+
+@pytest.mark.parametrize("name", PROFILED)
+@pytest.mark.parametrize("turns", ["cw", "ccw"])
+def test_a_rough_contact_without_a_name_is_told_without_a_place(name: str, turns: str) -> None:
+    """Whose point the profiles give: no place stood after ``at``, and a hidden point's name for it."""
+    text = FILES[name].read_text().partition("expect:")[0].replace("[2, 3]}", "[2, 3], mu: 0.05}")
+    told = explain(icsolve.load(f"{text}motion: {{link: 2, turns: {turns}}}\n"), bodies=True)
+    assert ": tan phi = 0.05" in told and ": friction along the tangent" in told
+    assert not re.search(r"(?<![\w'])@| at\s*[:,.]", told), re.findall(r".*(?<![\w'])@.*| at\s*[:,.]", told)
+
+
+BLOCKED = """\
+icsolve: 1
+points: {A: [0, 0], C: [unknown, 0.2]}
+lengths: {AB: 0.5, BC: 1.6}
+angles: {AB: 40}
+near: {C: [1.9, 0.2]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0, mu: 0.2, length: 0.3}
+loads:
+  P: {force: 300, link: 4, at: C, angle: 180}
+  M: {torque: 60, link: 4}
+  T12: {torque: unknown, link: 2}
+motion: {link: 2, turns: cw}
+"""
+POSTS = """\
+icsolve: 1
+points: {A: [0, 0], P: [0, 3], Q: [2, 3], B: [2, 0]}
+joints:
+  - {slide: [2, 1], at: A, along: 90}
+  - {rope: [A, P, Q, B], on: [2, 1, 1], radii: {P: 0.1, Q: 0.1}, wraps: {P: cw, Q: cw}, mu: {P: 0.2, Q: 0.3}}
+loads:
+  W: {weight: 100, link: 2, at: A}
+  F: {force: unknown, at: B}
+motion: {point: A, link: 2, speed: 1, angle: 90}
+"""
+
+
+@pytest.mark.parametrize("text", [BLOCKED, POSTS], ids=["block on its two ends", "rope round two posts"])
+def test_friction_at_two_places_of_a_joint_has_two_names(text: str) -> None:
+    """One symbol is one number: the ends of a block, and the posts of a rope, rub each by itself."""
+    told = explain(icsolve.load(text))
+    named = re.findall(r"^ {4}(L\S*) = ", told, re.MULTILINE)
+    assert len(named) == 2 and len(set(named)) == 2, named
+    equation = next(line for line in told.splitlines() if " = 0" in line and named[0] in line)
+    assert all(f" {name} " in equation for name in named)
+
+
 def test_forces_of_two_joints_between_one_pair_of_links_are_told_apart() -> None:
     text = explain(icsolve.load(FILES["ch13/13_21_door_linkage.yaml"]))
     assert "F12@A1,x + F12@A2,x = " in text

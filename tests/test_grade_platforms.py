@@ -4,14 +4,17 @@ question.
 
 from __future__ import annotations
 
+import csv
 import io
+import json
+import random
 import zipfile
 from pathlib import Path
 from xml.sax.saxutils import escape
 
 import pytest
 
-from grade_shell import Class, Ran
+from grade_shell import PRESS, Class, Ran
 
 
 @pytest.fixture
@@ -310,3 +313,77 @@ def test_a_title_beside_the_name_of_a_case_names_the_case(a_class: Class) -> Non
     assert marks(a_class.grade(head + row)) == {("007", "lever"): "right"}
     ran = a_class.grade("student_id,case,answer\n1,lever: w9/w2,200\n2,lever: v C on 9,200\n")
     assert {row["verdict"] for row in ran.rows()} == {"review"}
+
+
+FIVE_BAR = """\
+icsolve: 1
+variables: {F: {range: [100, 400], step: 10}}
+points: {A: [0, 0], E: [2, 0]}
+lengths: {AB: 1, BC: 1.8, CD: 1.8, DE: 1}
+angles: {AB: 110, ED: 60}
+near: {C: [1, 2.6]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 5], at: D}
+  - {pin: [5, 1], at: E}
+loads:
+  F: {force: $F, link: 3, at: C, angle: -60}
+  T2: {torque: unknown, link: 2}
+  T5: {torque: unknown, link: 5}
+"""
+SUBMITTED = (
+    "uid uin qid old_score_perc old_feedback submission_id params true_answer submitted_answer".split()
+)
+
+
+def test_what_prairielearn_was_given_comes_back_from_it(a_class: Class) -> None:
+    """Each question has its folder's name there, and each student's numbers stand in its row, drawn by
+    PrairieLearn's own seed, another for every question: these are the numbers of the answer."""
+    a_class.case("press", PRESS)
+    a_class.case("five", FIVE_BAR)
+    a_class.course('cases: {press: {}, "press:w4/w2": {}, "five:T2": {}, "five:T5": {}, lever: {}}\n')
+    out = a_class.path("questions")
+    assert "wrote" in a_class.run("export", "prairielearn", a_class.path("cases"), "-o", out).err
+    folders = {"press", "press-w4-w2", "five-T2", "five-T5", "lever"}
+    assert folders <= {folder.name for folder in out.iterdir()}
+    rng, rows = random.Random(5), []
+    for student in range(4):
+        for folder in sorted(folders):
+            scope = {"__file__": str(out / folder / "server.py")}
+            exec((out / folder / "server.py").read_text(), scope)
+            data = {"variant_seed": str(rng.randrange(10**6)), "params": {}, "correct_answers": {}}
+            scope["generate"](data)  # type: ignore[operator]
+            params = dict(sorted(data["params"].items()))  # type: ignore[attr-defined]
+            answer = data["correct_answers"]["answer"]  # type: ignore[index]
+            turned = answer if student else answer.removeprefix("-") if answer[0] == "-" else "-" + answer
+            cells = [json.dumps(params), "{}", json.dumps({"answer": turned})]
+            rows.append([f"s{student}@x.test", student, f"statics/{folder}", "", "", len(rows), *cells])
+    text = io.StringIO()
+    csv.writer(text).writerows([SUBMITTED, *rows])
+    scores = a_class.path("scores.csv")
+    ran = a_class.grade(text.getvalue(), "--write", f"prairielearn-csv={scores}")
+    assert ran.code == 0, ran.err
+    verdicts = [(row["verdict"], row["code"]) for row in ran.rows() if row["student_id"] != "s0@x.test"]
+    assert verdicts == [("right", "")] * (len(rows) - 5)
+    assert [row["code"].split()[:1] for row in ran.rows() if row["student_id"] == "s0@x.test"] == [
+        ["sign"]
+    ] * 5
+    table = csv.DictReader(io.StringIO(scores.read_text()))
+    assert {row["qid"] for row in table} == folders
+
+
+@pytest.mark.parametrize(
+    "spoilt", ['{"P": "12,5", "a": "1"}', '{"P": NaN, "a": 1}', '{"P": 1e999, "a": "1"}']
+)
+def test_a_row_of_prairielearn_with_numbers_that_are_none_is_for_a_person(
+    a_class: Class, spoilt: str
+) -> None:
+    a_class.case("press", PRESS)
+    cells = ["s@x.test", 1, "press", "", "", 1, spoilt, "{}", json.dumps({"answer": "5 lbf*in cw"})]
+    text = io.StringIO()
+    csv.writer(text).writerows([SUBMITTED, cells])
+    ran = a_class.grade(text.getvalue())
+    assert [row["verdict"] for row in ran.rows()] == ["review"]
+    assert "answers.csv:2: the number P of this row is " in ran.err

@@ -167,6 +167,41 @@ def test_a_changed_key_of_a_range_or_in_its_direction_is_told_as_one(
     assert f"1 times: {why}" in ran.out
 
 
+PARTS = "credit: {number: 60%, direction: 40%}\n"
+
+
+@pytest.mark.parametrize(
+    ("was", "now", "answer", "why"),
+    [
+        (PARTS, PARTS + "points: 2\n", "-200", "the points have changed"),
+        (PARTS, "credit: {number: 70%, direction: 30%}\n", "-200", "the credit"),
+        (PARTS, PARTS, "203", "the direction of the right answer"),
+        (PARTS, PARTS, "137", "the direction of the right answer"),
+        (
+            "malrules: {near-miss: 50%}\n",
+            "malrules: {near-miss: 50%}\ntolerance: 0.1%\n",
+            "203",
+            "the tolerance",
+        ),
+    ],
+)
+def test_why_a_wrong_answer_has_another_mark_names_what_has_changed(
+    a_class: Class, was: str, now: str, answer: str, why: str
+) -> None:
+    """The same answer, wrong before and after, under other points, another credit or tolerance, or a key
+    of the other sense: what is told has it, and speaks of points where they are others alone."""
+    answers = f"student_id,case,answer\n1,lever,{answer}\n"
+    a_class.course(was)
+    graded(a_class, answers=answers)
+    a_class.course(now)
+    if was == now:
+        a_class.case("lever", LEVER.replace("angle: -90", "angle: 90"))
+    ran = graded(a_class, "--against", str(a_class.path("results.csv")), name="new.csv", answers=answers)
+    (told,) = [line for line in ran.out.splitlines() if line.startswith("  1 times: ")]
+    assert why in told
+    assert ("points" in told) == ("points" in now)
+
+
 def test_results_to_compare_with_have_to_be_results(a_class: Class) -> None:
     ran = graded(a_class, "--against", a_class.file("old.csv", "a,b\n1,2\n"))
     assert (ran.code, "old.csv is no file of results" in ran.err) == (2, True)

@@ -224,6 +224,71 @@ def test_sheets_keys_and_figures_of_a_class(a_class: Class) -> None:
     assert a_class.run("variants", cases, "--roster", roster, "-o", str(out), "-q").code == 2
 
 
+@pytest.mark.parametrize("loads", [True, False], ids=["beside an unknown", "of a case without loads"])
+def test_what_the_course_asks_by_name_stands_in_key_and_sheet(a_class: Class, loads: bool) -> None:
+    """Each student owes an answer to it, so each is asked for it; where the case is corrected since it
+    is told that its key is another one. A centre is asked for, and has no line in the key: no number."""
+    alone = PRESS.partition("loads:")[0].replace("  P: {range: [100, 500], step: 10}\n", "")
+    text = PRESS if loads else alone
+    a_class.case("press", text)
+    a_class.course('cases: {"press:w4/w2": {points: 2}, "press:I24": {}}\n')
+    roster = a_class.file("roster.csv", "student_id\n1\n2\n")
+    cases, out = str(a_class.path("cases")), a_class.path("out")
+    assert a_class.run("variants", cases, "--roster", roster, "-o", str(out), "-q").code == 0
+    with open(out / "press" / "key.csv", newline="") as file:
+        keys = list(csv.DictReader(file))
+    assert [row["case"] for row in keys] == [*["press"] * loads, "press:w4/w2"] * 2
+    for row in keys[loads :: loads + 1]:
+        task = varied(a_class).solved(row["student_id"]).key("press:w4/w2")
+        assert isinstance(task, NumberKey) and float(row["value"]) == pytest.approx(task.value, rel=1e-11)
+    sheet = (out / "press" / "sheets" / "1.html").read_text()
+    assert "Find w4/w2." in sheet and "Where is the centre I24?" in sheet and loads == ("Find T12" in sheet)
+    a_class.case("press", text.replace("CD: 2.5", "CD: 2.6"))
+    ran = a_class.grade("student_id,case,answer\n1,press:w4/w2,0.3\n", "--variants", str(out))
+    assert "the key of press:w4/w2 has changed for 2 of 2 students" in ran.err
+
+
+@pytest.mark.parametrize(("asked", "why"), [("rf B", "no pin at B has friction"), ("v C on 3", "")])
+def test_what_has_no_right_answer_is_left_out_by_name(a_class: Class, asked: str, why: str) -> None:
+    """One question of the course without a key keeps no student from the others."""
+    a_class.course(f'cases: {{press: {{}}, "press:{asked}": {{}}}}\n')
+    roster = a_class.file("roster.csv", "student_id\n1\n2\n")
+    out = a_class.path("out")
+    ran = a_class.run("variants", str(a_class.path("cases")), "--roster", roster, "-o", str(out), "-q")
+    keys = list(csv.DictReader(io.StringIO((out / "press" / "key.csv").read_text())))
+    assert [row["case"] for row in keys] == ["press", *[f"press:{asked}"] * (not why)] * 2
+    assert "Find T12" in (out / "press" / "sheets" / "1.html").read_text()
+    assert ran.code == bool(why)
+    assert (f"press:{asked} is left out for 2 students (1; 2): {why}" in ran.err) == bool(why)
+
+
+@pytest.mark.parametrize(
+    ("number", "spoilt"),
+    [("P", ""), ("P", "abc"), ("P", "12,5"), ("P", "nan"), ("P", "1e999"), ("P", "$P"), ("P", "9" * 6000),
+     ("a", "1,25"), ("a", "1 N"), ("a", "1, D: 3")],
+)  # fmt: skip
+def test_a_number_of_the_record_that_is_none_is_told_with_its_student(
+    a_class: Class, number: str, spoilt: str
+) -> None:
+    """A cell that a spreadsheet, or a person, has spoilt: no other number counts in its place."""
+    roster = a_class.file("roster.csv", "student_id\n1\n2\n")
+    out = a_class.path("out")
+    a_class.run(
+        "variants", str(a_class.path("cases")), "--roster", roster, "-o", str(out), "-q", "--no-figures"
+    )
+    values = out / "press" / "values.csv"
+    table = list(csv.DictReader(io.StringIO(values.read_text())))
+    table[1][number] = spoilt
+    written = io.StringIO()
+    rows = csv.DictWriter(written, list(table[0]))
+    rows.writeheader()
+    rows.writerows(table)
+    values.write_text(written.getvalue())
+    ran = a_class.grade("student_id,case,answer\n1,press,3\n2,press,3\n", "--variants", str(out))
+    assert ran.code == 2
+    assert f"values.csv: the number {number} of 2 is {spoilt[:40]!r}" in ran.err
+
+
 def test_a_folder_without_variables_says_what_they_look_like(a_class: Class) -> None:
     a_class.path("cases/press.yaml").unlink()
     roster = a_class.file("roster.csv", "student_id\n1\n")

@@ -198,6 +198,39 @@ SI = {
 }
 
 
+HORSE, MERCURY = 735.49875, 133.322387415
+FOREIGN = {
+    "N": {"kp": 9.80665, "kilopond": 9.80665, "p": 9.80665e-3, "gf": 9.80665e-3, "dyn": 1e-5, "daN": 10.0,
+          "hN": 100.0, "mN": 1e-3, "GN": 1e9},
+    "Pa": {"GPa": 1e9, "hPa": 100.0, "mPa": 1e-3, "mbar": 100.0, "at": 98066.5, "kbar": 1e8,
+           "psf": 47.88025898, "ksf": 47880.25898, "mmHg": MERCURY, "Torr": MERCURY, "atm": 101325.0},
+    "m": {"dm": 0.1, "hm": 100.0, "um": 1e-6, "\u00b5m": 1e-6, "\u03bcm": 1e-6, "nm": 1e-9, "mi": 1609.344,
+          "mil": 25.4e-6, "thou": 25.4e-6},
+    "kg": {"mg": 1e-6, "Mg": 1000.0, "kt": 1e6, "stone": 6.35029318},
+    "W": {"MW": 1e6, "GW": 1e9, "mW": 1e-3, "PS": HORSE, "CV": HORSE, "ch": HORSE},
+    "rad": {"mrad": 1e-3, "gon": math.pi / 200, "arcmin": math.pi / 10800},
+    "s": {"ms": 1e-3},
+}  # fmt: skip
+"""Units of other books, in those of SI."""
+
+
+@pytest.mark.parametrize(("si", "name"), [(si, name) for si, some in FOREIGN.items() for name in some])
+def test_a_unit_that_there_is_elsewhere_is_told_with_what_it_is(si: str, name: str) -> None:
+    """Who writes what is told in its place has the same quantity: a unit of the same kind stands with its
+    ratio, but one that has other capitals alone, which may be what was slipped."""
+    with pytest.raises(UnitError) as refusal:
+        parse_unit(name)
+    _, *told = re.findall(r"'([^']+)'(?: \(1 \S+ is ([-+.e\d]+) \S+\))?", str(refusal.value))
+    target = parse_unit(si)
+    sizes = {
+        unit: float(ratio or 1.0) * factor(parse_unit(unit), target)
+        for unit, ratio in told
+        if parse_unit(unit).dims == target.dims
+    }
+    good = {unit for unit, size in sizes.items() if size == pytest.approx(FOREIGN[si][name], rel=1e-5)}
+    assert good and all(unit.lower() == name.lower() for unit in sizes if unit not in good)
+
+
 def test_every_dimension_is_told_by_its_name() -> None:
     assert {kind: kind_of(parse_unit(unit).dims) for kind, unit in SI.items()} == {
         kind: kind for kind in DIMENSIONS

@@ -100,7 +100,7 @@ def _all(
 def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force: bool, quiet: bool) -> int:
     """One case: values and key of all students, then figures and sheets."""
     from icsolve.grade.tolerance import NoKeyError
-    from icsolve.grade.variants.record import key_csv, tasks, values_csv
+    from icsolve.grade.variants.record import key_csv, tasks, values_csv, without_key
 
     paths = [os.path.join(folder, name) for name in ("values.csv", "key.csv")]
     for path in paths:
@@ -115,6 +115,9 @@ def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force
             code = NO_ANSWER
         else:
             found.append(task)
+    for told in without_key(varied, found):
+        complain(told)
+        code = NO_ANSWER
     write_whole(paths[0], values_csv(varied, found), force)
     write_whole(paths[1], key_csv(varied, found), force)
     if not quiet:

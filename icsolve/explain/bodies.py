@@ -4,6 +4,7 @@ reactions; friction, as the rule at each joint that rubs and as loads in the sum
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer.bodies import Reaction, Rubbing, SpatialReaction
@@ -18,7 +19,7 @@ from icsolve.report.derivation.spatial import InSpace, in_space
 from icsolve.screws import subtract
 from icsolve.screws.space import ZERO, Vec, size, spatial, times
 from icsolve.tuples import NamedTuple
-from icsolve.wording import listed
+from icsolve.wording import at_words, listed
 
 NOTHING = 1e-13
 ROUNDED = 2.0**-49
@@ -314,7 +315,16 @@ def rubbed(known: Known, reference: str) -> list[Rubbed]:
         what = term.words.removesuffix(" in the rope").replace("friction T ", "friction of the rope ")
         said = f"{what[:1].upper()}{what[1:]}"
         found.append(Rubbed(name, said, term.value, term.unit, rate, power))
-    return found
+    return list(_numbered(found))
+
+
+def _numbered(found: list[Rubbed]) -> Iterable[Rubbed]:
+    """Each by a name of its own: the two ends of a block, and the posts of one rope, are counted."""
+    often, met = Counter(one.name for one in found), Counter[Name]()
+    for one in found:
+        met[one.name] += 1
+        own = Name(one.name.base, f"{one.name.low},{met[one.name]}")
+        yield one._replace(name=own) if often[one.name] > 1 else one
 
 
 def friction_section(work: Worked) -> Iterable[Section]:
@@ -359,7 +369,7 @@ def _rule(work: Worked, joint: Joint) -> Iterable[Block]:
     phi = math.degrees(math.atan(friction.mu.value))
     links = listed(joint.links)
     yield words(
-        f"Links {links} at {at}: tan ", Name("phi"), " = ", mu, ", ", Name("phi"), f" = {phi:.6g} deg."
+        f"Links {links}{at_words(at)}: tan ", Name("phi"), " = ", mu, ", ", Name("phi"), f" = {phi:.6g} deg."
     )
     if joint.pivot and friction.radius is not None:
         radius = friction.radius.value
@@ -380,4 +390,4 @@ def _rubs(work: Worked, one: Rubbing) -> str:
     arm = ""
     if one.radius is not None:
         arm = f", tangent to the circle of radius {work.show(one.radius)} {units.length}"
-    return f"{one.joint}{of} at {one.where}{arm}: {what} {size} {unit}"
+    return f"{one.joint}{of}{at_words(one.where)}{arm}: {what} {size} {unit}"

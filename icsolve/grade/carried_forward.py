@@ -188,17 +188,23 @@ def carried_forward(store: CaseStore, found: list[Found]) -> list[Found]:
     """One student's answers, those that follow from a wrong intermediate one with that cause."""
     marked = {entry.item: (entry, m) for entry, m in found}
     wrong = [item for item, (_, m) in marked.items() if ":" in item and m.judged.verdict == WRONG]
-    for case in dict.fromkeys(item.partition(":")[0] for item in wrong):
+    whose = {item: entry.student for item, (entry, _) in marked.items()}  # those of other numbers are apart
+    for case, owner in dict.fromkeys((item.partition(":")[0], whose[item]) for item in wrong):
         try:
             finals = final_questions(store.read(case), case)
         except NoKeyError:
             continue
-        given = [item for item in finals if item in marked and marked[item][1].judged.value is not None]
+        own = {item: marked[item] for item in finals if whose.get(item) == owner}
+        given = [item for item, (_, m) in own.items() if m.judged.value is not None]
         last = [item for item in given if marked[item][1].judged.verdict == WRONG]
         if not last:
             continue
-        solved = store.solved(case, marked[last[0]][0].student)
-        steps = [marked[item] for item in wrong if item.startswith(f"{case}:") and item not in finals]
+        solved = store.solved(case, owner)
+        steps = [
+            marked[item]
+            for item in wrong
+            if item.startswith(f"{case}:") and item not in finals and whose[item] == owner
+        ]
         for item in last:
             marked[item] = _again(solved, marked[item], _from_steps(solved, finals[item], steps))
         last.sort(key=lambda item: not marked[item][1].judged.mistakes)

@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 
 from icsolve.case import Case
 from icsolve.errors import CaseError, SceneError
 from icsolve.files import files_of, reading, reading_text
 from icsolve.grade.course import Course
 from icsolve.grade.keys import AnyKey
-from icsolve.grade.solved import SolvedCase, asked_of, canonical, check_plane, unknowns
+from icsolve.grade.solved import (
+    SolvedCase,
+    asked_of,
+    canonical,
+    check_plane,
+    folder_of,
+    questions_of,
+    unknowns,
+)
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import VariantRecord, Varied
 from icsolve.grade.written.numerals import without_unseen
@@ -50,10 +60,22 @@ class CaseStore:
         case, colon, what = without_unseen(text).strip().partition(":")
         case = case.removesuffix(".yaml").removesuffix(".yml")
         name = case.strip() if case.strip() in self.paths else self._lower.get(case.strip().lower())
+        if name is None and not colon:
+            return self._of_folder(case.strip())
         what = what.strip()
         if name is None or not (colon and what) or self._are_words(name, what):
             return name
         return f"{name}:{what}"
+
+    def _of_folder(self, text: str) -> str | None:
+        """The question that has this name as a folder (``press-w4-w2``)."""
+        for name in self.paths:
+            if text.startswith(f"{folder_of(name)}-"):
+                with suppress(NoKeyError):
+                    for question in questions_of(self.read(name), name, self.course):
+                        if folder_of(question) == text:
+                            return question
+        return None
 
     def _are_words(self, name: str, what: str) -> bool:
         """Whether what follows a case's name is a title (``press: find T``), and nothing that is asked."""
@@ -206,6 +228,27 @@ class CaseStore:
             return varied.draw(student).label
         except NoKeyError:
             return ""
+
+    def by_numbers(self, question: str, text: str) -> str:
+        """The label of the numbers in a text of a platform, a JSON object in which each variable of the case
+        stands under its name; '' where none does. They are those of whoever is ``owner_of`` the label.
+
+        Raises ValueError for one that is missing, or with which the case can't be read.
+        """
+        name = question.partition(":")[0]
+        varied = self.variation(name) if name in self.paths else None
+        try:
+            found = json.loads(text) if varied is not None else None
+        except (ValueError, RecursionError):
+            found = None
+        if varied is None or not isinstance(found, dict):
+            return ""
+        names = [variable.name for variable in varied.case.variables]
+        if found.keys().isdisjoint(names):
+            return ""
+        values = {name: str(found.get(name, "")) for name in names}
+        varied.check(values, "this row")
+        return varied.told(values)
 
     def ready(self, students: Iterable[str], questions: Iterable[str]) -> None:
         """Solve the tasks of many students together, of the cases with variables among those asked."""

@@ -165,6 +165,12 @@ class Import:
         item, why = self._items.get(s.item) or self._item(s.item)
         unknown = self._troubles.get(ids, "this row has no student's id")
         trouble = s.trouble or why or ("" if student else unknown)
+        variant = s.variant
+        if variant.startswith("{"):
+            try:
+                variant = self.case_store.by_numbers(item, variant)
+            except ValueError as error:
+                variant, trouble = "", trouble or str(error)
         if trouble:
             self.issues.note(self._path, s.line, trouble, serious=True)
         elif self.roster is not None and student not in self.roster.people:
@@ -172,7 +178,7 @@ class Import:
             self.issues.note(self._path, s.line, f"{said}{self.roster.hint(ids)}")
         answer = s.answer if len(s.answer) <= _LONGEST else s.answer[:_LONGEST] + "..."
         time = year_first(s.time, self._order) if self._order else s.time
-        texts = [text[:_LONGEST] for text in (s.unit, s.direction, s.attempt, s.variant, time)]
+        texts = [text[:_LONGEST] for text in (s.unit, s.direction, s.attempt, variant, time)]
         return StoredAnswer._make((student, item, s.line, answer, *texts, trouble))
 
     def matched(self, ids: tuple[str, ...]) -> str:

@@ -22,6 +22,7 @@ from icsolve.grade.results import OVERRIDE, Marked, Overrides, Result
 from icsolve.grade.tables.columns import NEVER, StoredAnswer, attempt_number, readings
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import GivenValue, Neighbours
+from icsolve.grade.variants.varied import owner_of
 from icsolve.grade.written.answer import MISSING, Reader, WrittenAnswer
 from icsolve.grade.written.two_numbers import WrittenPlace, WrittenRange
 
@@ -187,12 +188,20 @@ class Marker:
         chosen = list(islice(entries, _AT_ONCE))
         if len(chosen) == _AT_ONCE:
             return self._endless(chain(chosen, entries))
+        if self.case_store.varied:
+            chosen = [self._by_its_numbers(entry) for entry in chosen]
         if student in self._groups:
             chosen = self._by_one_of_group(chosen, self._groups[student])
         if len({entry.item for entry in chosen}) < len(chosen):
             groups = groupby(chosen, key=itemgetter(1))
             chosen = [self._chosen(list(attempts)) for _, attempts in groups]
         return self._student(student, chosen)
+
+    def _by_its_numbers(self, entry: StoredAnswer) -> StoredAnswer:
+        """An answer that itself says to which numbers it is given, as of whoever has these."""
+        varied = self.case_store.variation(entry.item.partition(":")[0]) if entry.variant else None
+        owner = owner_of(entry.variant)
+        return entry._replace(student=owner) if varied is not None and owner in varied.by_owner else entry
 
     def _by_one_of_group(self, entries: list[StoredAnswer], members: tuple[str, ...]) -> list[StoredAnswer]:
         """A group hands in one solution, to the numbers of one of them: the answers to each case as of the

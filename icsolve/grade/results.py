@@ -411,7 +411,9 @@ def _why(was: ResultRow, row: ResultRow) -> str:
         return "the direction of the right answer, or how directions count, has changed"
     if was.verdict != row.verdict:
         return "the tolerance, or what is asked for, has changed"
-    return "the points or the credit have changed"
+    if was.max_score != row.max_score:
+        return "the points have changed"
+    return "the credit, the tolerance, or the direction of the right answer, has changed"
 
 
 _OF_DIRECTION = {"sign", "direction", "no-direction"}

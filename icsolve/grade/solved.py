@@ -62,6 +62,19 @@ def final_questions(case: Case, name: str) -> dict[str, str]:
     return {name if len(names) == 1 else f"{name}:{unknown}": unknown for unknown in names}
 
 
+def questions_of(case: Case, name: str, course: Course) -> dict[str, str]:
+    """What each student is asked of a case, by the names of the questions: its unknowns, and what else the
+    course asks by name."""
+    more = (question.partition(":") for question in course.own)
+    asked = {f"{of}:{what}": what for of, _, what in more if of == name and what}
+    return final_questions(case, name) | asked
+
+
+def folder_of(question: str) -> str:
+    """The name of a question where it is a folder, as in PrairieLearn: ``press-w4-w2``."""
+    return re.sub("[:/ ]", "-", question)
+
+
 def asked_of(case: Case, what: str) -> Target:
     """The target of ``T12``, ``I24``, ``w4/w2``; of '' the only unknown.
 

@@ -254,6 +254,21 @@ _MEANT = {
     "tons": "'tonf' (2000 lbf) or 't' (1000 kg)",
     "lbm's": "'lbm'",
     "atm": "'bar' (1 atm is 1.01325 bar)",
+    "at": "'bar' (1 at is 0.980665 bar)",
+    **{name: f"'kPa' (1 {name} is 0.133322 kPa)" for name in ("mmHg", "Torr")},
+    "psf": "'lbf/ft^2'",
+    "ksf": "'kip/ft^2'",
+    **dict.fromkeys(("kp", "kilopond"), "'kgf'"),
+    **{name: f"'kgf' (1 {name} is 0.001 kgf)" for name in ("p", "gf")},
+    "dyn": "'N' (1 dyn is 0.00001 N)",
+    **{name: f"'kW' (1 {name} is 0.73549875 kW)" for name in ("PS", "CV", "ch")},
+    "mi": "'ft' (1 mi is 5280 ft)",
+    **{name: f"'in' (1 {name} is 0.001 in)" for name in ("mil", "thou")},
+    "stone": "'lbm' (1 stone is 14 lbm)",
+    "gon": "'deg' (1 gon is 0.9 deg)",
+    "arcmin": "'deg' (1 arcmin is 0.0166667 deg)",
+    **dict.fromkeys(("U", "Umdr"), "'rev'"),
+    **dict.fromkeys(("Hz", "rps"), "'rev/s'"),
     "K": "'kip' or 'kN'",
     "k": "'kip' or 'kN'",
     **{f"{prefix}J": f"'{prefix}N*m'" for prefix in ("", "k", "M")},
@@ -261,17 +276,30 @@ _MEANT = {
 }
 
 
+"""What stands for a unit that there is elsewhere, with its ratio where it is another."""
+_PREFIXES = {"da": "10", "d": "0.1", "h": "100", "k": "1000", "M": "1000000", "G": "1000000000", "c": "0.01"}
+_PREFIXES |= {"m": "0.001", "n": "0.000000001", **dict.fromkeys("u\u00b5\u03bc", "0.000001")}
+_PREFIXED = ("m", "g", "N", "Pa", "W", "bar", "t", "rad", "s")
+
+
 def _unknown(name: str, whole: str) -> str:
     if not name:
         return f"'{whole}' is not a unit"
-    meant = _MEANT.get(name)
-    if meant is None:
-        from difflib import get_close_matches
-
-        by_case = [u for u in UNITS if u.lower() == name.lower()]
-        near = by_case or get_close_matches(name, list(UNITS), 1, 0.6)
-        meant = f"'{near[0]}'" if near else ""
+    meant = _MEANT.get(name) or " or ".join(_like(name))
     return f"there is no unit '{name}'" + (f"; did you mean {meant}?" if meant else "")
+
+
+def _like(name: str) -> list[str]:
+    """Units of which one may be meant: with other capitals, the unit that a prefix multiplies, one much like
+    it."""
+    from difflib import get_close_matches
+
+    found = [f"'{unit}'" for unit in UNITS if unit.lower() == name.lower()][:1]
+    for unit in _PREFIXED:
+        many = _PREFIXES.get(name.removesuffix(unit))
+        if name.endswith(unit) and many is not None:
+            return [*found, f"'{unit}' (1 {name} is {many} {unit})"]
+    return found or [f"'{unit}'" for unit in get_close_matches(name, list(UNITS), 1, 0.6)]
 
 
 _MOST_DIGITS = 320

@@ -422,14 +422,19 @@ def _is_section(node: Node, of_links: bool) -> bool:
 
 
 def _uncut(before: str, after: str) -> str:
-    """How a number that a comma cuts is to be written; three digits after it may be thousands."""
+    """How a number that a comma cuts is to be written, or two; three digits after a comma or a point may be
+    thousands."""
+    thousands = re.match(r"\d{3}(?!\d)", after)
+    if "." in before and not re.fullmatch(r"-?\d+(\.\d{3})+", before):
+        return f"write square brackets, [{before}, {after}]"
     if "." in before:
         return f"write a decimal point and no other, {before.replace('.', '')}.{after}"
-    thousands = re.match(r"\d{3}(?!\d)", after)
     if thousands and "." in after:
         return f"write no comma, {before}{after}"
     meant = f"write a decimal point, {before}.{after}"
-    return f"{meant}, or for thousands no comma, {before}{after}" if thousands else meant
+    meant += f", or for thousands no comma, {before}{after}" if thousands else ""
+    two = re.fullmatch(r"-?\d+", before) and re.fullmatch(r"\d+", after)
+    return f"{meant}, or if these are two, square brackets, [{before}, {after}]" if two else meant
 
 
 def _mark(event: Any) -> Mark:

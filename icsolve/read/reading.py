@@ -366,6 +366,8 @@ def _wrong(reading: Reading, text: str, unit: Unit, dimension: str) -> str:
         return f"{wanted}; for a weight given by its mass write 'mass' in place of the force"
     if dimension == "torque" and given == "power":
         return f"{wanted}; for a power at a speed write 'power' and 'speed' in place of 'torque'"
+    if dimension == "angular speed" and unit.dims == (0, 0, -1, 0):
+        return f"{wanted}; write 'rpm', 'rev/min' or 'rev/s' for revolutions"
     if dimension == "stiffness" and given == "torsional stiffness":
         return f"{wanted}; a torsion spring has its angle, 'corner', in place of 'at' and 'to'"
     return wanted

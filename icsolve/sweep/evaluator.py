@@ -293,7 +293,7 @@ def _one_by_one(case: Case) -> bool:
 def _columns(names: Sequence[str], columns: Sequence[npt.ArrayLike]) -> tuple[list[Array], int]:
     """The columns as arrays, and how many rows they make."""
     given = [array_of(name, values) for name, values in zip(names, columns, strict=True)]
-    rows = max(len(c) if c.ndim else 1 for c in given)
+    rows = max((len(c) for c in given if c.ndim and len(c) != 1), default=1)  # none of nothing
     for name, values in zip(names, given, strict=True):
         if values.ndim > 1 or (values.ndim and len(values) not in (1, rows)):
             raise RequestError(f"{name} has the shape {values.shape} where {rows} rows are asked for")

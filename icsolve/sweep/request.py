@@ -128,11 +128,12 @@ def _path(case: Case, name: str) -> str:
 
 
 def array_of(name: str, values: npt.ArrayLike) -> Array:
-    """Values as an array. Raises RequestError where they are no numbers."""
+    """Values as an array, not a number where a mask hides one. Raises RequestError for what is no number."""
     try:
         if np.iscomplexobj(values):
             raise TypeError
-        return np.asarray(values, dtype=np.float64)
+        found = np.asarray(values, dtype=np.float64)
+        return np.where(np.ma.getmaskarray(values), np.nan, found) if np.ma.isMA(values) else found
     except (TypeError, ValueError):
         raise RequestError(
             f"the values of {shown(name)} should be numbers, in the units of the case"

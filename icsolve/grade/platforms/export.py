@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import re
 import shlex
 import uuid
 from collections.abc import Callable, Iterator
@@ -25,7 +24,7 @@ from icsolve.grade.platforms.questions import (
     qti_zip,
     zipped,
 )
-from icsolve.grade.solved import SolvedCase, final_questions
+from icsolve.grade.solved import SolvedCase, folder_of, questions_of
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import KEYS, VALUES, read_records
 from icsolve.grade.variants.varied import Draw, Varied
@@ -201,9 +200,7 @@ def _asked_for(order: ExportOrder, name: str) -> dict[str, str]:
     store = order.case_store
     varied = store.variation(name)
     case = store.solved(name).case if varied is None else varied.case
-    more = (question.partition(":") for question in store.course.own)
-    found = final_questions(case, case.name)
-    found |= {f"{of}:{what}": what for of, _, what in more if of == name and what}
+    found = questions_of(case, name, store.course)
     if not found:
         kind = "a case in space" if case.space is not None else NOTHING
         raise NoKeyError(f"{kind}, so no question")
@@ -278,7 +275,7 @@ def _elements(order: ExportOrder, complain: Complain) -> int:
     course = _text(order.course) if order.course else ""
     for question in found:
         case = question.key.question.partition(":")[0]
-        folder = os.path.join(order.path, re.sub("[:/ ]", "-", question.key.question))
+        folder = os.path.join(order.path, folder_of(question.key.question))
         varied = order.case_store.variation(case) is not None
         for name, text in element(question, order.case_store.text(case), course, varied).items():
             write_whole(os.path.join(folder, name), text, order.force)

@@ -22,6 +22,7 @@ from icsolve.grade.platforms.gradebooks import (
     moodle_worksheet,
 )
 from icsolve.grade.results import ResultRow, by_student, csv_text, marks_of, read_results
+from icsolve.grade.solved import folder_of
 from icsolve.grade.tables.text import encoding_of
 from icsolve.grade.variants.record import file_name
 from icsolve.tuples import NamedTuple
@@ -213,7 +214,7 @@ def prairielearn_scores(students: Iterable[tuple[str, list[ResultRow]]]) -> str:
         for row in rows:
             if student and row.score is not None:
                 percent = 100.0 * row.score / row.max_score if row.max_score else 0.0
-                lines.append((student, "1", row.case, f"{percent:.6g}", row.feedback))
+                lines.append((student, "1", folder_of(row.case), f"{percent:.6g}", row.feedback))
     return csv_text(("uid", "instance", "qid", "score_perc", "feedback"), lines)
 
 

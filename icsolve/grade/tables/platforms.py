@@ -153,9 +153,14 @@ def _wide(columns: TableColumns, kind: str) -> TableLayout:
 
 
 def _rows(
-    columns: TableColumns, kind: str, ids: list[int], answers: Callable[[list[str]], Iterable[Asked]]
+    columns: TableColumns,
+    kind: str,
+    ids: list[int],
+    answers: Callable[[list[str]], Iterable[Asked]],
+    numbers: int | None = None,
 ) -> Callable[[TableRow], Sequence[Submission]]:
-    """Reads a row a student, by the ``answers`` that its cells hold."""
+    """Reads a row a student, by the ``answers`` that its cells hold; ``numbers`` is the column of those that
+    the student was given."""
     width, skipped = len(columns.header), _SKIPPED.get(kind, _no_row)
     tried, when = (width if (i := columns.field(name)) is None else i for name in ("attempt", "submitted_at"))
 
@@ -167,8 +172,9 @@ def _rows(
         found = (identifier(cells[i]) for i in ids if cells[i].strip().lower() not in _NOBODY)
         student = tuple(dict.fromkeys(found)) or ("",)
         attempt, time = cells[tried], cells[when]
+        variant = cells[numbers] if numbers is not None and cells[numbers][:1] == "{" else ""
         return [
-            _submission(row.line, student, (question, answer, "", "", attempt, "", time), trouble or why)
+            _submission(row.line, student, (question, answer, "", "", attempt, variant, time), trouble or why)
             for question, answer, why in answers(cells)
         ]
 
@@ -242,7 +248,8 @@ def _prairielearn(columns: TableColumns, kind: str) -> TableLayout:
 
     if "attempt" not in columns.fields and columns.has("submission_id"):
         columns.fields["attempt"] = columns.names.index("submission_id")
-    return TableLayout(kind, _rows(columns, kind, _ids(columns, kind), answered))
+    numbers = columns.names.index("params") if columns.has("params") else None
+    return TableLayout(kind, _rows(columns, kind, _ids(columns, kind), answered, numbers))
 
 
 def _json_answers(text: str) -> Iterator[tuple[str, str, str]]:

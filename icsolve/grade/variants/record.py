@@ -15,16 +15,16 @@ from html import escape
 from icsolve.files import is_plain
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Person, Roster, student_named
-from icsolve.grade.keys import NumberKey, numbers_of
+from icsolve.grade.keys import AnyKey, NumberKey, numbers_of
 from icsolve.grade.platforms.questions import asked
 from icsolve.grade.results import csv_text, safe
-from icsolve.grade.solved import SolvedCase, final_questions
+from icsolve.grade.solved import SolvedCase, questions_of
 from icsolve.grade.tables.columns import TableColumns, read_whole_table, without_apostrophe
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import Draw, VariantRecord, Varied
 from icsolve.grade.written.numerals import figures
 from icsolve.tuples import NamedTuple
-from icsolve.wording import direction_words
+from icsolve.wording import direction_words, plural
 from icsolve.wording.statement import Statement
 
 VALUES, KEYS = "values.csv", "key.csv"
@@ -84,6 +84,7 @@ def _read(path: str, store: CaseStore, roster: Roster | None) -> tuple[str, Vari
         values = {variable: without_apostrophe(cells[i]) for variable, i in places.items()}
         if student in handed and handed[student].values != values:
             raise ValueError(f"the student {student} stands in it twice, with other numbers")
+        varied.check(values, student)
         handed[student] = Draw(without_apostrophe(cells[label]) if label is not None else "", values)
     return name, VariantRecord(path, handed, _keys(os.path.join(os.path.dirname(path), KEYS), roster))
 
@@ -240,8 +241,9 @@ class Neighbours:
         varied = self._store.variation(question.partition(":")[0])
         found: dict[str, float] = {}
         figures: set[tuple[str, ...]] = set()
-        for student in self._students if varied is not None else ():
-            assert varied is not None
+        if varied is None:
+            return [], []
+        for student in (*self._students, *varied.by_owner):
             try:
                 draw = varied.draw(student)
                 figure = varied.figure(draw)
@@ -328,13 +330,36 @@ def key_csv(varied: Varied, found: Iterable[VariantTask]) -> str:
     """The right answers: ``student_id,variant,case,value,unit,sense,from,to``."""
     rows = []
     for person, draw in found:
-        for question in final_questions(varied.case, varied.name):
-            for key in numbers_of(varied.solved(person.student_id).key(question)):
+        for question, right in _asked(varied, person.student_id).items():
+            for key in numbers_of(right) if not isinstance(right, NoKeyError) else ():
                 size = key.value if key.kind == "position" else abs(key.value)
                 low, high = size - key.half if size < 0.0 else max(size - key.half, 0.0), size + key.half
                 cells = (draw.label, question, f"{key.value:.12g}", key.unit_name, sense(varied, draw, key))
                 rows.append([safe(person.student_id), *cells, f"{low:.10g}", f"{high:.10g}"])
     return csv_text(["student_id", "variant", "case", "value", "unit", "sense", "from", "to"], rows)
+
+
+def _asked(varied: Varied, student: str) -> dict[str, AnyKey | NoKeyError]:
+    """What a student is asked, each question with its right answer, or why it has none."""
+    solved = varied.solved(student)
+    found: dict[str, AnyKey | NoKeyError] = {}
+    for question in questions_of(varied.case, varied.name, varied.course):
+        try:
+            found[question] = solved.key(question)
+        except NoKeyError as error:
+            found[question] = error
+    return found
+
+
+def without_key(varied: Varied, found: Iterable[VariantTask]) -> Iterator[str]:
+    """What the course asks of students for whom it has no right answer; their key and sheet are without."""
+    whose: dict[tuple[str, str], list[str]] = {}
+    for person, _ in found:
+        for question, right in _asked(varied, person.student_id).items():
+            if isinstance(right, NoKeyError):
+                whose.setdefault((question, str(right)), []).append(person.student_id)
+    for (question, why), students in whose.items():
+        yield f"{question} is left out for {plural(len(students), 'student')} ({_some(students)}): {why}"
 
 
 def sense(varied: Varied, draw: Draw, key: NumberKey) -> str:
@@ -357,8 +382,9 @@ def sheet(varied: Varied, task: VariantTask, picture: str) -> str:
     who = " ".join(part for part in (task.person.first_name, task.person.last_name) if part)
     rows = "".join(f"<tr><td>{escape(n)}</td><td>{escape(v)}</td></tr>" for n, v in Statement(case).rows())
     lines = "".join(
-        f"<p>{escape(asked(solved.key(question), solved.target(question)))}</p>"
-        for question in final_questions(varied.case, varied.name)
+        f"<p>{escape(asked(key, solved.target(question)))}</p>"
+        for question, key in _asked(varied, task.person.student_id).items()
+        if not isinstance(key, NoKeyError)
     )
     return (
         f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(varied.name)}</title>'

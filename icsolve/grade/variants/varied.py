@@ -22,7 +22,7 @@ from icsolve.read import read_text
 from icsolve.read.document import Mapping as Tree
 from icsolve.read.document import Scalar, parse
 from icsolve.read.names import Problems
-from icsolve.read.variables import count, first_values, value_at
+from icsolve.read.variables import FormulaError, count, exact, first_values, value_at
 from icsolve.sweep.varied_numbers import numbers_of
 from icsolve.tuples import NamedTuple, TypeVar, cached_property
 
@@ -40,12 +40,18 @@ def drawn(case: str, variables: tuple[Variable, ...], student: str, seed: str, t
     return values
 
 
+def owner_of(label: str) -> str:
+    """Who has the numbers that an answer itself says, where a student's id is asked for; no id begins so."""
+    return f"\x1f{label}"
+
+
 def label(case: str, values: Mapping[str, str]) -> str:
     """A short name of a variant: eight hexadecimal digits that follow from its values."""
     text = "\x1f".join((case, *(f"{name}={value}" for name, value in values.items())))
     return hashlib.sha256(text.encode("utf-8")).hexdigest()[:8]
 
 
+_DIGITS = 17
 DRAWING = 1e-3
 """Part of the mechanism's size by which every point may be off."""
 SWING = 0.1
@@ -56,6 +62,13 @@ APART = 0.02
 
 Mistake = tuple[str, str, str]
 """The unknown, the code, and where the mistake sits."""
+
+
+def _is_plain(text: str) -> bool:
+    """Whether a value is a bare number of no more digits than a case may have."""
+    with suppress(FormulaError):
+        return len(text) <= _DIGITS and exact(text) is not None
+    return False
 
 
 class Seen(NamedTuple):
@@ -160,7 +173,10 @@ class Varied:
         self.case = self.read({})
         self.numbers = VariedNumbers(text, self.case)
         self.record: VariantRecord | None = None
+        self.by_owner: dict[str, Draw] = {}
+        """the numbers that answers themselves say"""
         self.first = first_values(self.case.variables)
+        self._readable = {(one.name, choice) for one in self.case.variables for choice in one.choices}
         self._solved: Latest[tuple[str, ...], SolvedCase | None] = Latest(_KEPT)
         self._tasks: Latest[tuple[str, ...], SolvedCase] = Latest(_KEPT)
         self._draws: Latest[str, Draw] = Latest(_KNOWN)
@@ -172,6 +188,8 @@ class Varied:
 
         Raises NoKeyError where none of many does.
         """
+        if student in self.by_owner:
+            return self.by_owner[student]
         if self.record is not None:
             return self._handed(student, self.record)
         if student not in self._draws:
@@ -180,6 +198,24 @@ class Varied:
             why = f"none of {TRIALS} variants of {self.name} suits ({self._why_none(student)})"
             raise NoKeyError(f"{why}: narrow the ranges of its variables")
         return self._draws[student]
+
+    def check(self, values: Texts, whose: str) -> None:
+        """Raises ValueError where the case can't be read with one of the values that were handed out."""
+        for name, text in values.items():
+            if _is_plain(text) or (name, text) in self._readable:
+                continue
+            try:
+                self.read({name: text})
+                self._readable.add((name, text))
+            except CaseError:
+                said = f"the number {name} of {whose} is {text[:40]!r}, with which {self.name} can't be read"
+                raise ValueError(f"{said}: write what was handed out") from None
+
+    def told(self, values: Texts) -> str:
+        """Take numbers that an answer itself says; their label."""
+        own = label(self.name, values)
+        self.by_owner[owner_of(own)] = Draw(own, values)
+        return own
 
     def ready(self, students: Iterable[str]) -> None:
         """Draw for many students, and solve their tasks, together."""
@@ -191,6 +227,8 @@ class Varied:
                 drawn = [self._draws[student].values for student in some if student in self._draws]
             else:
                 drawn = [self.record.handed[s].values for s in some if s in self.record.handed]
+            if not start:
+                drawn += [draw.values for draw in self.by_owner.values()]
             cases = self._new_cases(map(self._base, drawn))
             for key, answer in zip(cases, together(list(cases.values())), strict=True):
                 if answer is not None:
