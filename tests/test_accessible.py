@@ -1,9 +1,13 @@
 """What a screen reader and a keyboard need of worked solutions, pages and galleries: names, headings in
-order, headers of tables; all that axe-core finds, where AXE_CORE is its axe.min.js (npm install axe-core)."""
+order, headers of tables; all that axe-core finds, where AXE_CORE is its axe.min.js (npm install axe-core).
+HTML as its standard has it; all that the Nu checker finds, where VNU_JAR is its vnu.jar (npm install
+vnu-jar)."""
 
 from __future__ import annotations
 
+import json
 import os
+import subprocess
 from functools import cache
 from html.parser import HTMLParser
 from pathlib import Path
@@ -20,6 +24,9 @@ from shell import exit_status
 
 CASES = Path(__file__).parent.parent / "cases"
 AXE = os.environ.get("AXE_CORE", "")
+VNU = os.environ.get("VNU_JAR", "")
+UNKNOWN_TO_IT = ("paint-order", "vector-effect")
+"""Properties of SVG that the Nu checker does not have among those of CSS."""
 VOID = {"br", "hr", "img", "input", "link", "meta"}
 
 
@@ -32,6 +39,7 @@ class Outline(HTMLParser):
         self.ids: list[str] = []
         self.labelled: set[str] = set()
         self.nameless: list[str] = []
+        self.values: list[str] = []
         self.open: list[tuple[str, list[str]]] = []
         self.language = ""
 
@@ -44,6 +52,7 @@ class Outline(HTMLParser):
             self.levels.append(int(tag[1]))
         named = given.get("aria-label") or given.get("aria-labelledby") or given.get("alt") is not None
         inside = any(name == "label" for name, _ in self.open)
+        self.values += ["of a label"] if tag == "output" and inside else []
         hidden = given.get("type") == "hidden" or given.get("aria-hidden") == "true"
         if tag in ("img", "input", "select") and not (hidden or inside or named):
             self.nameless.append(given.get("id") or tag)
@@ -88,22 +97,34 @@ def documents() -> dict[str, str]:
         "explain": explain(four, "html", bodies=True),
         "rope": explain(rope, "html"),
         "page": page_html(four),
+        "gears": page_html(icsolve.load(CASES / "ch13" / "13_23_spur_gears.yaml")),
         "gallery": index_html(
             [exhibit(one, one.name, "a.yaml", exercise=True) for one in (four, rope)], "Week 3"
         ),
     }
 
 
-@pytest.mark.parametrize("name", ["summary", "student", "explain", "rope", "page", "gallery"])
+@pytest.mark.parametrize("name", ["summary", "student", "explain", "rope", "page", "gears", "gallery"])
 def test_all_has_a_name_and_headings_come_in_order(name: str) -> None:
     outline = Outline()
     outline.feed(documents()[name])
     fields = [one for one in outline.nameless if one not in outline.labelled]
     assert outline.language == "en" and not fields
     assert len(outline.ids) == len(set(outline.ids))
+    assert not any(" " in own for own in outline.ids) and not outline.values
     assert outline.levels[0] == 1 and all(
         b <= a + 1 for a, b in zip(outline.levels, outline.levels[1:], strict=False)
     )
+
+
+@pytest.mark.skipif(not VNU, reason="no VNU_JAR")
+def test_the_nu_checker_finds_no_error(tmp_path: Path) -> None:
+    for name, html in documents().items():
+        (tmp_path / f"{name}.html").write_text(html, encoding="utf-8")
+    words = ["java", "-jar", VNU, "--format", "json", "--errors-only", "--exit-zero-always", str(tmp_path)]
+    run = subprocess.run([*words, "--skip-non-html"], capture_output=True, text=True, check=True)
+    found = [f"{one['url']}: {one['message']}" for one in json.loads(run.stderr)["messages"]]
+    assert [told for told in found if not any(name in told for name in UNKNOWN_TO_IT)] == []
 
 
 @pytest.mark.skipif(not AXE, reason="no AXE_CORE")

@@ -382,8 +382,8 @@ def _controls(parts: PageParts) -> str:
     keys = '<span class="k-dead">dead centre</span>' if motion["dead"] else ""
     keys += f'<span class="k-gap">{motion["ends"]}</span>' if gap else ""
     return (
-        f'<label class="turn" for="turn">Link {driver} {motion["verb"]}: '
-        '<output id="angle">as written</output></label>\n'
+        f'<p class="turn"><label for="turn">Link {driver} {motion["verb"]}:</label> '
+        '<output id="angle" for="turn">as written</output></p>\n'
         f'<div class="slider"><input type="range" id="turn" min="{motion["low"]}" max="{motion["high"]}"'
         f' step="{motion["step"]}" value="0" autocomplete="off">{track_svg(motion)}</div>\n'
         + (f'<p class="key">{keys}</p>\n' if keys else "")

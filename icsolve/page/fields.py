@@ -274,11 +274,11 @@ def _line(one: FieldLine) -> str:
 
 
 def _input(field: Field) -> str:
-    name = escape(field.path)
+    name, own = escape(field.path), escape(f"number-{field.path.replace(' ', '-')}")
     unit = f' <span class="unit">{escape(field.unit)}</span>' if field.unit else ""
     return (
-        f'<span class="number"><label for="number-{name}">{escape(field.before)}</label> '
-        f'<input type="text" inputmode="decimal" autocomplete="off" spellcheck="false" id="number-{name}" '
+        f'<span class="number"><label for="{own}">{escape(field.before)}</label> '
+        f'<input type="text" inputmode="decimal" autocomplete="off" spellcheck="false" id="{own}" '
         f'data-path="{name}" data-bound="{field.bound}" size="{max(len(field.text), 4) + 1}" '
         f'aria-label="{escape(field.said)}" value="{escape(field.text)}">{unit}</span>'
     )

@@ -1,5 +1,5 @@
 /* Fields of the numbers, handles of the points, and the case written with the numbers as they are. */
-const fieldOf = (n) => byId(`number-${live.paths[n]}`);
+const fieldOf = (n) => byId(`number-${live.paths[n].replaceAll(" ", "-")}`);
 const liveHint = byId("live-hint");
 const halfOf = (text) => {
   const [digits, power] = text.toLowerCase().split("e");
@@ -110,7 +110,7 @@ function inputs() {
     for (const link of live.turning) select.append(new Option(link, link, false, link === live.input));
     select.addEventListener("change", () => {
       live.input = select.value;
-      document.querySelector("label.turn").firstChild.data = `Link ${live.input} turned: `;
+      document.querySelector(".turn label").textContent = `Link ${live.input} turned:`;
       changed(true, false, null, !lab.isTyped());
     });
     label("Input: link", select);
