@@ -77,6 +77,16 @@ def rest(stiffness: float, weight: float = 8.0) -> float:
     return math.degrees(low)
 
 
+def test_a_torque_to_the_right_may_turn_to_the_right(a_class: Class) -> None:
+    """`rechts` is short for clockwise; up and down, or at an angle, no torque is."""
+    a_class.case("four", (CASES / "ch13" / "13_08_four_bar.yaml").read_text())
+    sideways = ("29.67 rechts", "29.67 (rechts)", "29.67 N m, links", "29.67 to the left", "29.67 right")
+    given = (*sideways, "29.67 up", "29.67 at 0 deg", "29.67 rechtsdrehend", "29.67 linksdrehend")
+    judged = ["review"] * len(sideways) + ["wrong", "wrong"]
+    found = a_class.verdicts(*given, case="four")
+    assert found[: len(judged)] == judged and sorted(found[len(judged) :]) == ["right", "wrong"]
+
+
 TWO = CASES / "equilibrium" / "two_springs_on_a_crank.yaml"
 
 

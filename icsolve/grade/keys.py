@@ -73,6 +73,10 @@ Places = tuple[Place | None, Mapping[str, Place]]
 WITH, AGAINST, NEITHER = 1, -1, 0
 
 
+SIDEWAYS = (0.0, 180.0)
+"""To the right and to the left, in degrees."""
+
+
 class ExpectedDirection(NamedTuple):
     """What a positive value means in words.
 
@@ -118,8 +122,9 @@ class ExpectedDirection(NamedTuple):
         if words.kind == "axial":
             return None if self.heading is not None or self.turn else NEITHER
         degrees = self._degrees(words)
-        if self.heading is None:
-            return NEITHER
+        if self.heading is None:  # a torque to the right may be one that turns to the right
+            sideways = words.kind == "line" and not words.measured and words.value in SIDEWAYS
+            return None if self.turn and sideways else NEITHER
         if degrees is None:
             return None
         found = _compared(degrees - self.heading, DEGREE if self.asked else within)
