@@ -1,5 +1,5 @@
 """Where a figure assembles over stretches of its free datum alone, however narrow these or the gaps between
-them are: positions of equilibrium in all of them."""
+them are: positions of equilibrium in all of them, and those that no motion reaches."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import pytest
 
 import icsolve
 from icsolve.errors import SceneError
+from icsolve.solve.positions import find_along
 from sizes import FULL
 
 Guide = tuple[float, float, float]
@@ -67,3 +68,39 @@ def test_what_assembles_between_two_samples_alone_rests_at_its_limits(kind: str,
     each = 2 if kind == "corner" else 1
     assert [sort for _, sort in found] == [sort for _, sort in ends for _ in range(each)]
     assert [at for at, _ in found] == pytest.approx([at for at, _ in ends for _ in range(each)], abs=1e-7)
+
+
+@pytest.mark.parametrize("tie", ["rod", "rope"])
+@pytest.mark.parametrize("seed", range(100 if FULL else 2))
+def test_a_datum_to_find_is_searched_where_rows_of_a_sweep_go(tie: str, seed: int) -> None:
+    """Two cranks, tied by a rod or by a rope over a pulley, rest in the same positions where the angle of one
+    is to find from where the figure is written and where a sweep looks for them: beyond the limits too, and
+    in a part of the range alone as in the whole."""
+    dice = Random(f"written {tie} {seed}")
+    start, crank, rocker = dice.uniform(-170, 170), dice.uniform(0.5, 2), dice.uniform(0.5, 2)
+    base, turned = complex(dice.uniform(1, 3), dice.uniform(-1, 1)), math.radians(dice.uniform(0, 360))
+    end = base + rocker * complex(math.cos(turned), math.sin(turned))
+    tied = "{pin: [2, 4], at: B}\n  - {pin: [4, 3], at: E}"
+    if tie == "rope":
+        tied = "{rope: [B, P, E], on: [2, 1, 3]}"
+    angle = "{unknown: [%r, %r], from: %r}"
+    text = f"""icsolve: 1
+points: {{A: [0, 0], P: [1.5, 4], D: [{base.real!r}, {base.imag!r}], E: [{end.real!r}, {end.imag!r}]}}
+lengths: {{AB: {crank!r}}}
+angles: {{AB: ANGLE}}
+links: {{1: [P]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [1, 3], at: D}}
+  - {tied}
+loads:
+  T: {{torque: {dice.uniform(-9, 9)!r}, link: 2}}
+  W: {{weight: {dice.uniform(1, 9)!r}, link: 3, at: E}}
+"""
+    low = start - dice.choice([20, 90, 150])
+    for span in ((low, low + 330.0), (start + 40.0, low + 330.0), (low - 60.0, start - 5.0)):
+        case = icsolve.load(text.replace("ANGLE", repr(start)))
+        swept = [(one.value, str(one.stability)) for one in find_along(case, "angles.AB", *span)[0]]
+        found = rests(text.replace("ANGLE", angle % (*span, start)))
+        assert [sort for _, sort in found] == [sort for _, sort in swept]
+        assert [at for at, _ in found] == pytest.approx([at for at, _ in swept], abs=1e-7)
