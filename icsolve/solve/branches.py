@@ -1,5 +1,8 @@
 """Branches: the modes of a figure followed along the free datum, straight on through change points.
 
+They are sampled evenly, and once more wherever between two samples a mode assembles at which it does not, or
+ends and begins again.
+
 Zeros of the power of the loads over the whole range of it are enclosed in intervals first, then closed in on:
 the range is cut into cells. A cell on which the figure nowhere assembles, or whose enclosure of the power
 does not hold zero, has no position; one on which the figure assembles and the power's derivative keeps its
@@ -46,10 +49,11 @@ class Branches:
 
     def __init__(self, functions: Sequence[LoadFunction], low: float, high: float) -> None:
         self.functions, self.low, self.high = functions, low, high
-        self.values = np.linspace(low, high, SAMPLES + 1)
         self.names = [name for name in functions[0].places if all(name in f.places for f in functions)]
         self.slack = 1e-9 * (high - low)
         self.open = open_by(functions[0].compiled.scene.case, functions[0].compiled.scene.frame.scale)
+        even = np.linspace(low, high, SAMPLES + 1)
+        self.values = np.unique([*even, *self._turned_over(even)])
         beside = np.append(self.values[:-1] + self.slack, high - self.slack)  # where loci coincide none meet
         self.places = np.array([self._places(f, beside) for f in functions])  # (mode, sample, 2 points)
         self.whole, self.untold = self._assemble(self.values)  # (modes, samples)
@@ -59,6 +63,17 @@ class Branches:
         self.ids = self._followed()
         if functions[0].compiled.motion is None:
             self._leave_out_contrary()
+
+    def _turned_over(self, even: Array) -> list[float]:
+        """Values between two of the even ones at both of which a mode assembles, and there it does not, or
+        the other way round."""
+        whole, _ = self._assemble(even)
+        extreme = [(n, x) for n, f in enumerate(self.functions) for x in _extremes(f, even, whole[n])]
+        if not extreme:
+            return []
+        there, _ = self._assemble(np.array([x for _, x in extreme]))
+        before = np.searchsorted(even, [x for _, x in extreme]) - 1
+        return [x for k, (n, x) in enumerate(extreme) if there[n, k] != whole[n, before[k]]]
 
     def _leave_out_contrary(self) -> None:
         """Mark the branches that contradict data which no step needs, but for places where they pass through
@@ -138,7 +153,9 @@ class Branches:
         """Between which samples, (samples - 1,), no other mode lies where one is heading: all keep to their
         branches there, if they did before."""
         here, there = self.places[:, :-1], self.places[:, 1:]
-        ahead = np.concatenate([here[:, :1], 2.0 * here[:, 1:] - here[:, :-1]], axis=1)
+        steps = np.diff(self.values)
+        grown = (steps[1:] / steps[:-1])[:, np.newaxis]
+        ahead = np.concatenate([here[:, :1], here[:, 1:] + grown * (here[:, 1:] - here[:, :-1])], axis=1)
         stays = (self.whole[:, 1:] == self.whole[:, :-1]).all(axis=0)
         for m in range(len(ahead)):
             with np.errstate(invalid="ignore"):  # of modes that do not assemble
@@ -152,7 +169,10 @@ class Branches:
         if k < 2:
             return np.asarray(here)
         before = np.flatnonzero(ids[:, k - 2] == ids[m, k - 1])
-        return np.asarray(2.0 * here - self.places[before[0], k - 2] if before.size else here)
+        if not before.size:
+            return np.asarray(here)
+        steps = np.diff(self.values, append=self.values[-1] + self.values[1] - self.values[0])
+        return np.asarray(here + steps[k - 1] / steps[k - 2] * (here - self.places[before[0], k - 2]))
 
     def _meets(self, m: int, n: int, k: int, ahead: Array) -> int:
         """Between two samples: 0 where a branch passes from one mode to another that it meets there, 1 where
@@ -221,7 +241,7 @@ class Branches:
         if self.high - self.low != 360.0 or not self.functions[0].turns_links or not self._comes_round():
             return ids
         for m in np.flatnonzero(ids[:, -1] >= 0).tolist():
-            ahead = self._ahead(ids, m, SAMPLES + 1)
+            ahead = self._ahead(ids, m, len(self.values))
             off = np.where(self.whole[:, 1], np.abs(self.places[:, 1] - ahead).max(axis=1), np.inf)
             n = int(np.argmin(off))
             margin = self._margin(m, 1) if n != m and self.whole[m, 0] and np.isfinite(off[n]) else 0
@@ -251,7 +271,7 @@ class Branches:
         if not without & set(self.ids[m].tolist()):
             return [(self.low - self.slack, self.high + self.slack)]
         left = [int(i) in without for i in self.ids[m]]
-        cuts = [k for k in range(SAMPLES) if left[k] != left[k + 1]]
+        cuts = [k for k in range(len(left) - 1) if left[k] != left[k + 1]]
         ends = [self.low, *(self._change_point(m, k, left[k]) for k in cuts), self.high]
         return [(a, b) for n, (a, b) in enumerate(pairwise(ends)) if left[0] == bool(n % 2) and a < b]
 
@@ -280,7 +300,7 @@ class Branches:
 
     def on(self, m: int, value: float) -> int:
         """The branch of a mode at a value."""
-        k = int(np.clip(np.searchsorted(self.values, value, side="right") - 1, 0, SAMPLES - 1))
+        k = int(np.clip(np.searchsorted(self.values, value, side="right") - 1, 0, len(self.values) - 2))
         one, two = int(self.ids[m, k]), int(self.ids[m, k + 1])
         if one == two == CONTRARY:
             return one
@@ -307,7 +327,7 @@ class Branches:
         best, drawn, rough = [], [], 0.0
         for i in ids:
             best_one = int(np.argmin(np.where(self.ids == i, sampled, np.inf)))
-            m, k = divmod(best_one, SAMPLES + 1)
+            m, k = divmod(best_one, len(self.values))
             least, at, step = float(sampled[m, k]), float(self.values[k]), (self.high - self.low) / SAMPLES
 
             def along(values: Array, i: int = i, m: int = m) -> Array:
@@ -347,6 +367,34 @@ def _exactly(function: LoadFunction, node: int, value: Decimal) -> Decimal:
         )
         return found
     return Decimal("NaN")
+
+
+def _extremes(function: LoadFunction, values: Array, whole: npt.NDArray[np.bool_]) -> list[float]:
+    """Where between some values the least of a mode's margins is extreme, and has another sign than at the
+    two about it."""
+
+    def level(at: Array, side: Array) -> Array:
+        found = Code(function.record, function.margins).run(function.given(at.ravel()), at.size)
+        margins = [np.broadcast_to(margin, at.size).reshape(at.shape) for margin in found]
+        return np.asarray(np.nan_to_num(side * np.fmin.reduce(margins), nan=-np.inf))
+
+    if not function.margins:
+        return []
+    side = np.where(whole, -1.0, 1.0)
+    off = np.append(level(values, side), -np.inf)  # also of what is before the first
+    same = np.append(whole[1:] == whole[:-1], False)  # as the next one
+    k = np.arange(len(values))
+    before, after = (np.where(on, off[at], -np.inf) for on, at in ((same[k - 1], k - 1), (same, k + 1)))
+    k = np.flatnonzero((off[:-1] > before) & (off[:-1] >= after))
+    low, high, side = values[k - same[k - 1]], values[k + same[k]], side[k]
+    here = values[k]
+    for _ in range(ZOOMS if k.size else 0):
+        places = np.linspace(low, high, 33)
+        top = np.argmax(level(places, side), axis=0)
+        low, here, high = (
+            np.take_along_axis(places, np.clip(top + n, 0, 32)[np.newaxis], axis=0)[0] for n in (-1, 0, 1)
+        )
+    return here[level(here, side) > 0.0].tolist() if k.size else []
 
 
 CELLS = 256

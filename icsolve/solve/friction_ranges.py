@@ -60,7 +60,7 @@ def find_ranges(case: Case, path: str, span: tuple[float, float] | None, start: 
         "ranges in which friction alone is enough."
     ]
     try:
-        modes = _in_modes(smooth(case), path, (low, high), start, even, span is None)
+        modes = _in_modes(smooth(case), path, (low, high), start, even, span is None, notes)
     except TogetherError:
         modes, complete = _in_driven_modes(smooth(case), path, (low, high), start, even, span is None)
         notes += [] if complete else [NOT_ALL]
@@ -72,10 +72,16 @@ def find_ranges(case: Case, path: str, span: tuple[float, float] | None, start: 
 
 
 def _in_modes(
-    case: Case, path: str, span: tuple[float, float], start: float | None, even: list[float], whole: bool
+    case: Case,
+    path: str,
+    span: tuple[float, float],
+    start: float | None,
+    even: list[float],
+    whole: bool,
+    notes: list[str],
 ) -> list[RoughMode]:
     """The modes of a figure whose points have places one by one."""
-    functions, _, branches, kept = modes_and_branches(case, path, span, start, not whole)
+    functions, _, branches, kept = modes_and_branches(case, path, span, start, not whole, notes)
     search = search_modes(functions, branches, kept, whole)
     modes = []
     for n, function in enumerate(functions):

@@ -30,6 +30,7 @@ from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.intervals import Interval
 from icsolve.numbers.record import Record, varies
 from icsolve.numbers.replay import Array, Code, Mask
+from icsolve.numbers.roots import below_zero, last_that_holds
 from icsolve.scene import refusals
 from icsolve.screws import velocity
 from icsolve.statics import load_wrenches, power
@@ -37,6 +38,7 @@ from icsolve.structure import topology
 from icsolve.sweep.branches import may_vanish
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.program import (
+    CLOSER,
     CompiledSweep,
     RowRequest,
     Setting,
@@ -289,11 +291,23 @@ def _assembling(
     case: Case, path: str, order: Order, steps: Steps, values: list[float], *, every: bool
 ) -> list[float]:
     """Of the sampled values at which a mode assembles, those farthest from its limits first: of few, or of
-    ``every`` one, as where it assembles at none of the few."""
+    ``every`` one, as where it assembles at none of the few; where at none at all, some of a stretch between
+    them over which it does, where it comes nearest to it."""
+
+    def short(value: float) -> float:
+        return -clearance(given_at(case, path, value), order, steps)
+
+    off: list[float] = []
     for some in (values,) if every else (values[COARSE // 2 :: COARSE], values):
-        clear = [(clearance(given_at(case, path, value), order, steps), value) for value in some]
-        if found := [value for least, value in sorted(clear, reverse=True) if least > 0.0]:
+        off = [short(value) for value in some]
+        if found := [value for least, value in sorted(zip(off, some, strict=True)) if least < 0.0]:
             return found
+    near = [k for k in range(1, len(off) - 1) if off[k - 1] > off[k] <= off[k + 1]]
+    for k in near:
+        value = below_zero(short, values[k - 1], values[k + 1])
+        if value is not None:
+            a, b = (last_that_holds(lambda x: short(x) < 0.0, value, values[n])[0] for n in (k - 1, k + 1))
+            return [a + part * (b - a) for part in PARTS]
     return []
 
 
@@ -344,9 +358,20 @@ class RecordedMode(NamedTuple):
 
 
 def read_anew(case: Case, paths: Sequence[str], figure: Figure, order: Order) -> RecordedMode:
-    """A mode of a figure that is read anew at all values of some numbers."""
+    """A mode of a figure that is read anew at all values of some numbers; recorded where it assembles, also
+    where it does so over a narrow stretch alone."""
     setting = Setting(case, topology(case), figure, tuple(paths), (), Drive((), (), ()))
-    compiled = compile_sweep(setting, RowRequest(answers=False))
+    usual = _recorded(setting, order)
+    if all(usual.compiled.record.nodes[margin].value > 0.0 for margin in usual.margins):
+        return usual
+    closer = (_recorded(setting, order, away) for away in CLOSER)
+    inside = (m for m in closer if all(m.compiled.record.nodes[n].value > 0.0 for n in m.margins))
+    return next(inside, usual)
+
+
+def _recorded(setting: Setting, order: Order, away: float | None = None) -> RecordedMode:
+    case, figure = setting.case, setting.figure
+    compiled = compile_sweep(setting, RowRequest(answers=False), away=away)
     placed, margins = placed_with_margins(figure, order, case, compiled.record)
     nodes = [compiled.record.lifted(margin).index for margin in margins if varies(margin)]
     return RecordedMode(compiled, nodes, tuple(_spare(figure, order, case, placed, compiled.record)))

@@ -105,10 +105,10 @@ def _find_in_modes(
     """The positions in all modes of a figure whose points have places one by one; raises TogetherError where
     it is to be ``whole`` and has too many."""
     low, high = span or whole_range(case, path)
-    functions, complete, branches, kept = modes_and_branches(
-        case, path, (low, high), start, span is not None, whole
-    )
     notes: list[str] = []
+    functions, complete, branches, kept = modes_and_branches(
+        case, path, (low, high), start, span is not None, notes, whole
+    )
     meant = frozenset(branches.ids[branches.ids >= 0].tolist()) if kept is None else kept
     states = {branch: _balances_everywhere(functions, branches.samples(branch)) for branch in sorted(meant)}
     for state in states.values():
@@ -178,10 +178,12 @@ def modes_and_branches(
     span: tuple[float, float],
     start: float | None,
     bounded: bool,
+    notes: list[str],
     whole: bool = False,
 ) -> tuple[list[LoadFunction], bool, Branches, frozenset[int] | None]:
     """The modes of the figure, whether these are all, the branches that they are on, and which of these are
-    meant (None: all): with ``start`` those on which the figure as written there is."""
+    meant (None: all): with ``start`` those on which the figure as written there is, or that `near` picks of
+    them, and where no motion leads from there those of the same modes, as ``notes`` then say."""
     if start is not None:
         functions, complete, own = _moving_from(case, path, start, span)
     else:
@@ -193,21 +195,34 @@ def modes_and_branches(
         refuse_unwritten(case, path, functions[0].links, bounded)
         refuse_unposed(functions[0])
     branches = Branches(functions, *span)
-    written = _through(branches, own, start) if start is not None else None
-    return functions, complete, branches, branches.nearest(case, written) if case.near else written
+    if start is None:
+        return functions, complete, branches, branches.nearest(case) if case.near else None
+    led, beyond = _through(branches, own, start)
+    if case.near:
+        return functions, complete, branches, branches.nearest(case, led or beyond or None)
+    notes += [ISLANDS.format(along=path)] if beyond else []
+    return functions, complete, branches, led | beyond or None
 
 
-def _through(branches: Branches, own: Sequence[int], start: float) -> frozenset[int] | None:
-    """The branches on which some modes are at a value, which may lie outside of the range; None where none
-    leads from there into it."""
+def _through(branches: Branches, own: Sequence[int], start: float) -> tuple[frozenset[int], frozenset[int]]:
+    """The branches on which some modes are at a value, which may lie outside of the range, and those on which
+    they are where no motion leads from there."""
     low, high = branches.low, branches.high
-    if low <= start <= high:
-        return frozenset(branches.on(m, start) for m in own) - {-1} or None
-    wide = Branches(branches.functions, min(low, start), max(high, start))
-    meant = frozenset(wide.on(m, start) for m in own) - {-1}
-    end, at = (0, low) if start < low else (-1, high)
-    there = enumerate(branches.ids[:, end].tolist())
-    return frozenset(i for m, i in there if i >= 0 and wide.on(m, at) in meant) or None
+    inside = low <= start <= high
+    wide = branches if inside else Branches(branches.functions, min(low, start), max(high, start))
+    at = {(m, wide.on(m, start)) for m in own}
+    led = frozenset(branch for _, branch in at) - {-1}
+    beyond = frozenset[int]().union(*(wide.islands(m, branch) for m, branch in at if branch >= 0)) - led
+    if inside:
+        return led, beyond
+    some = {
+        branch: branches.samples(branch) for branch in np.unique(branches.ids[branches.ids >= 0]).tolist()
+    }
+    on = {branch: wide.on(*pairs[len(pairs) // 2]) for branch, pairs in some.items()}
+    return (
+        frozenset(branch for branch, there in on.items() if there in led),
+        frozenset(branch for branch, there in on.items() if there in beyond),
+    )
 
 
 def _find_followed(
