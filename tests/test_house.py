@@ -6,6 +6,7 @@ Imports are read with `ast`, those inside functions and those for the type check
 from __future__ import annotations
 
 import ast
+import subprocess
 from collections import Counter
 from functools import cache
 from pathlib import Path
@@ -72,6 +73,16 @@ def arrows() -> set[tuple[str, str]]:
             if other.startswith("icsolve.") and room_of(other) != room_of(name):
                 pairs.add((room_of(name), room_of(other)))
     return pairs
+
+
+def test_nothing_else_lies_beside_the_rooms() -> None:
+    """What the project has at its top, dot-files aside: what a tool left behind there is not committed."""
+    listed = ["git", "ls-tree", "--name-only", "HEAD"]
+    run = subprocess.run(listed, check=False, cwd=PACKAGE.parent, capture_output=True, text=True)
+    if run.returncode:
+        pytest.skip("not a checkout")
+    top = {name for name in run.stdout.split("\n") if name and not name.startswith(".")}
+    assert top == {"pyproject.toml", "icsolve", "cases", "tests", "README.md", "LICENSE", "MANIFEST.in"}
 
 
 def test_rooms_lean_one_way() -> None:
