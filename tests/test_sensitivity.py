@@ -213,6 +213,29 @@ loads:
 """
 
 
+def test_where_a_force_of_unknown_direction_is_zero_all_others_have_their_slopes() -> None:
+    """A bar under a weight, and a carriage of two slides that nothing loads: T = W x, by x and by W."""
+    answer = icsolve.solve(
+        icsolve.load("""icsolve: 1
+points: {A: [0, 0], B: [2, 0], P: [0, 2]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {slide: [3, 1], at: P, along: 0}
+  - {slide: [4, 3], at: P, along: 90}
+loads:
+  W: {weight: 10, link: 2, at: B}
+  T: {torque: unknown, link: 2}
+  R: {force: [unknown, unknown], link: 4, at: P}
+""")
+    )
+    told = entries(answer, True, 0.01)
+    assert {one["path"]: one["per_unit"] for one in told["sensitivity"]["T"]} == {
+        "points.B.x": 10.0, "loads.W": 2.0, "points.A.x": -10.0,
+    }  # fmt: skip
+    assert told["sensitivity"]["R"] is None and told["band"] == {"T": pytest.approx(0.2), "R": None}
+    assert "R is zero and has no direction" in text(answer, True, 0.01, 6)
+
+
 def test_the_size_of_a_force_hangs_on_its_own_place_too() -> None:
     """Its coordinates `[x, y]` are numbers of the drawing: the band holds what each of all moves it by."""
     case, step, reach = icsolve.load(FIVE_BAR), 1e-4, 0.0

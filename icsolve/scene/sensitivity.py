@@ -37,10 +37,14 @@ def _slopes(answer: Answer, load: str) -> Mapping[str, float]:
         raise SceneError(
             Status.NEAR_SINGULAR,
             f"how {load} depends on the numbers of the case can't be told: the position is too close to a "
-            "singular one"
-            + (", or the force is zero, and has no direction." if load in answer.case.directed else "."),
+            "singular one.",
         )
     return answer.sensitivities[load]
+
+
+def _has_slopes(answer: Answer, load: str) -> bool:
+    """The size of a force of unknown direction grows whichever way it comes out of zero."""
+    return answer.answers[load].components != (0.0, 0.0)
 
 
 def influences(answer: Answer, load: str) -> list[Influence]:
@@ -76,14 +80,19 @@ def band(answer: Answer, load: str, tolerance: float) -> float:
 
 
 def entries(answer: Answer, influence: bool, tolerance: float | None) -> dict[str, Any]:
-    """What ``--json`` adds: ``sensitivity`` by load, the strongest first, and the ``band`` of a drawing."""
+    """What ``--json`` adds: ``sensitivity`` by load, the strongest first, and the ``band`` of a drawing; None
+    of a force of unknown direction that is zero."""
     shown: dict[str, Any] = {}
     if influence:
         shown["sensitivity"] = {
-            load: [i._asdict() for i in influences(answer, load)] for load in answer.answers
+            load: [i._asdict() for i in influences(answer, load)] if _has_slopes(answer, load) else None
+            for load in answer.answers
         }
     if tolerance is not None:
-        shown["band"] = {load: band(answer, load, tolerance) for load in answer.answers}
+        shown["band"] = {
+            load: band(answer, load, tolerance) if _has_slopes(answer, load) else None
+            for load in answer.answers
+        }
     return shown
 
 
@@ -91,6 +100,9 @@ def text(answer: Answer, influence: bool, tolerance: float | None, digits: int) 
     """The same as lines."""
     lines = [] if answer.answers else [NONE_ASKED]
     for load, found in answer.answers.items():
+        if not _has_slopes(answer, load):
+            lines.append(NO_SIZE.format(load=load))
+            continue
         if tolerance is not None:
             reach = format(band(answer, load, tolerance), ".2g")
             unit = answer.case.units.length
@@ -102,6 +114,7 @@ def text(answer: Answer, influence: bool, tolerance: float | None, digits: int) 
     return "\n".join(lines)
 
 
+NO_SIZE = "{load} is zero and has no direction: it grows whichever way a number is moved."
 NONE_ASKED = "Sensitivities and tolerance bands are those of unknown loads, of which this case has none."
 
 
