@@ -23,6 +23,7 @@ from icsolve.errors import CaseError, SceneError
 from icsolve.manual import template
 from icsolve.numbers import linear
 from icsolve.numbers.balls import Ball
+from icsolve.scene.sensitivity import band
 from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.varied_numbers import find_number, with_numbers
 from reference import MANY, many, motions, points_of
@@ -427,6 +428,44 @@ def test_slopes_with_inertia_forces_are_the_differences_of_the_answer() -> None:
             for h in (-1e-4, 1e-4)
         ]
         assert found[path] == pytest.approx((sides[1] - sides[0]) / 2e-4, rel=1e-5), path
+
+
+IDLE = {
+    "a dyad": """  - {pin: [3, 5], at: C}
+  - {pin: [5, 6], at: E}
+  - {pin: [6, 1], at: K}
+""",
+    "a wheel": """  - {pin: [1, 5], at: K}
+  - {gears: [2, 5], teeth: [20, 37], carrier: 1}
+""",
+    "a block on a rod": """  - {pin: [3, 5], at: C}
+  - {slide: [5, 6], at: C, along: [K, C]}
+  - {pin: [6, 1], at: K}
+""",
+}
+
+
+@pytest.mark.parametrize(
+    "unknown", ["{torque: unknown, link: 2}", "{force: unknown, link: 4, at: C, angle: 15}"]
+)
+@pytest.mark.parametrize("idle", IDLE.values(), ids=IDLE)
+def test_links_without_a_load_leave_the_slopes_with_inertia_forces_as_they_are(
+    idle: str, unknown: str
+) -> None:
+    """The accelerations are found of all links together, also of those that no load is on."""
+    text = FOUR_BAR.replace("{torque: unknown, link: 2}", unknown).replace(
+        "speed: 10", "speed: 10, acceleration: 3"
+    )
+    alone = solved(text)
+    more = text.replace("D: [4, 0],", "D: [4, 0], E: [2.5, 4.5], K: [-1, 3],").replace(
+        "motion:", idle + "motion:"
+    )
+    with_idle, slopes = solved(more), alone.sensitivities["T"]
+    assert {"links.3.mass", "motion.speed"} <= slopes.keys()
+    for own in (with_idle.sensitivities["T"], icsolve.solve(with_idle.case).sensitivities["T"]):
+        for path in own.keys() | slopes.keys():
+            assert own.get(path, 0.0) == pytest.approx(slopes.get(path, 0.0), rel=1e-9, abs=1e-9), path
+    assert band(with_idle, "T", 0.01) == pytest.approx(band(alone, "T", 0.01), rel=1e-9)
 
 
 @sampled(2, "gravity", "bar")

@@ -7,7 +7,7 @@ import json
 import pytest
 
 import icsolve
-from icsolve.answer import Centre, Found, Term
+from icsolve.answer import Centre, Deferred, Found, Term
 from icsolve.answer.as_json import pair_name, refusal_dict, to_dict
 from icsolve.case import Coordinates, Motion, Torque, Units
 from icsolve.errors import SceneError, Status
@@ -309,3 +309,14 @@ def test_a_force_of_unknown_direction_is_as_sure_as_its_components(unproven: str
     assert (found.value, found.components) == (5.0, (3.0, 4.0))
     assert found.why == ("so" if unproven else "")
     assert found.error is None if unproven else 1.4e-9 < found.error < 1.5e-9
+
+
+def test_a_fault_in_what_is_put_off_is_no_key_that_is_missing() -> None:
+    """A mapping that fails to be made is not told as one that lacks what is asked for."""
+
+    def fails() -> dict[str, float]:
+        return {"T": {"2": 1.0}["5"]}
+
+    for ask in (lambda put_off: "T" in put_off, lambda put_off: put_off.get("T"), dict):
+        with pytest.raises(RuntimeError, match="5"):
+            ask(Deferred(fails))

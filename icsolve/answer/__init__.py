@@ -113,7 +113,10 @@ class Deferred(Mapping[K, V]):
 
     @cached_property
     def _made(self) -> Mapping[K, V]:
-        return self._make()
+        try:
+            return self._make()
+        except KeyError as fault:  # which `in` and `get` would take for a key that is not there
+            raise RuntimeError(f"what was put off failed: {fault!r}") from fault
 
     def __getitem__(self, key: K) -> V:
         return self._made[key]

@@ -80,6 +80,8 @@ def prepare(case: Case, want: Want) -> Program:
     """
     top = topology(case)
     refusals.refuse_loose(case)
+    if case.dynamic and load_wrenches.is_loaded(case):  # accelerations are those of all links together
+        want = want._replace(rates=True)
     wanted = _wanted_bodies(case, top, want)
     plan = make_plan(top, wanted)
     if plan is not None and (case.ropes or not plan.closed):
