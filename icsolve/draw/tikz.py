@@ -30,15 +30,13 @@ _SPECIAL = {
 _RAISED = {c: str(n) for n, c in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")} | {"⁻": "-"}
 _MATH = dict(
     zip(
-        "≤≥≠≈≡∠⊥∥√∂∑∆→←↑↓↔⇒φϕεϑςο",
+        "≤≥≠≈≡∠⊥∥√∂∑∆→←↑↓↔⇒ϕϑςαβγδεζηθικλμνξοπρστυφχψωΓΔΘΛΞΠΣΥΦΨΩ",
         "leq geq neq approx equiv angle perp parallel surd partial sum Delta rightarrow leftarrow uparrow "
-        "downarrow leftrightarrow Rightarrow varphi phi varepsilon vartheta varsigma mathrm{o}".split(),
+        "downarrow leftrightarrow Rightarrow phi vartheta varsigma alpha beta gamma delta varepsilon zeta "
+        "eta theta iota kappa lambda mu nu xi mathrm{o} pi rho sigma tau upsilon varphi chi psi omega "
+        "Gamma Delta Theta Lambda Xi Pi Sigma Upsilon Phi Psi Omega".split(),
         strict=True,
     )
-)
-_GREEK = frozenset(
-    "alpha beta gamma delta zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon chi psi omega "
-    "phi".split()
 )
 _ROMAN = dict(zip("ΑΒΕΖΗΙΚΜΝΟΡΤΧ", "ABEZHIKMNOPTX", strict=True))
 """Greek capitals that LaTeX has as Roman ones only."""
@@ -66,10 +64,6 @@ def _character(c: str) -> str:
         return _ROMAN[c]
     if c in _MATH:
         return f"\\ensuremath{{\\{_MATH[c]}}}"
-    if letter := re.fullmatch("GREEK (SMALL|CAPITAL) LETTER ([A-Z]+)", unicodedata.name(c, "")):
-        name = letter[2].lower().replace("lamda", "lambda")
-        if name in _GREEK:
-            return f"\\ensuremath{{\\{name if letter[1] == 'SMALL' else name.capitalize()}}}"
     plain = [d for d in unicodedata.normalize("NFKD", c) if d != c and not unicodedata.combining(d)]
     return "".join(map(_character, plain)) or "?"
 

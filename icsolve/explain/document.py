@@ -321,8 +321,8 @@ class AsTex(Layout):
             case Words():
                 return f"\\noindent {self.inline(block.parts)}\\par\n"
             case Formula():
-                sides = [tikz.escaped_in_math(self.notation.side(side)) for side in block.sides]
-                sides = [f"\\icside{{{side}}}" for side in sides]
+                texts = (tikz.escaped_in_math(self.notation.side(side)) for side in block.sides)
+                sides = [f"\\icside{{{text}}}" for text in texts]
                 lines = (f"{sides[0]} & = {sides[1]}", *sides[2:]) if sides[1:] else sides
                 broken = " \\\\\n& = ".join(lines)
                 return f"\\begin{{align*}}\n{broken}\n\\end{{align*}}\n"

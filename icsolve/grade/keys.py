@@ -71,8 +71,6 @@ _KINDS: dict[type, str] = {
 Places = tuple[Place | None, Mapping[str, Place]]
 
 WITH, AGAINST, NEITHER = 1, -1, 0
-
-
 SIDEWAYS = (0.0, 180.0)
 """To the right and to the left, in degrees."""
 

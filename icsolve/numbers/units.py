@@ -274,8 +274,6 @@ _MEANT = {
     **{f"{prefix}J": f"'{prefix}N*m'" for prefix in ("", "k", "M")},
     **dict.fromkeys(("d", "o", "Grad", "grad"), "'deg'"),
 }
-
-
 """What stands for a unit that there is elsewhere, with its ratio where it is another."""
 _PREFIXES = {"da": "10", "d": "0.1", "h": "100", "k": "1000", "M": "1000000", "G": "1000000000", "c": "0.01"}
 _PREFIXES |= {"m": "0.001", "n": "0.000000001", **dict.fromkeys("u\u00b5\u03bc", "0.000001")}

@@ -373,28 +373,33 @@ def _extremes(function: LoadFunction, values: Array, whole: npt.NDArray[np.bool_
     """Where between some values the least of a mode's margins is extreme, and has another sign than at the
     two about it."""
 
+    if not function.margins:
+        return []
+    code = Code(function.record, function.margins)
+
     def level(at: Array, side: Array) -> Array:
-        found = Code(function.record, function.margins).run(function.given(at.ravel()), at.size)
+        found = code.run(function.given(at.ravel()), at.size)
         margins = [np.broadcast_to(margin, at.size).reshape(at.shape) for margin in found]
         return np.asarray(np.nan_to_num(side * np.fmin.reduce(margins), nan=-np.inf))
 
-    if not function.margins:
-        return []
     side = np.where(whole, -1.0, 1.0)
     off = np.append(level(values, side), -np.inf)  # also of what is before the first
     same = np.append(whole[1:] == whole[:-1], False)  # as the next one
     k = np.arange(len(values))
     before, after = (np.where(on, off[at], -np.inf) for on, at in ((same[k - 1], k - 1), (same, k + 1)))
     k = np.flatnonzero((off[:-1] > before) & (off[:-1] >= after))
+    if not k.size:
+        return []
     low, high, side = values[k - same[k - 1]], values[k + same[k]], side[k]
     here = values[k]
-    for _ in range(ZOOMS if k.size else 0):
+    for _ in range(ZOOMS):
         places = np.linspace(low, high, 33)
         top = np.argmax(level(places, side), axis=0)
         low, here, high = (
             np.take_along_axis(places, np.clip(top + n, 0, 32)[np.newaxis], axis=0)[0] for n in (-1, 0, 1)
         )
-    return here[level(here, side) > 0.0].tolist() if k.size else []
+    found: list[float] = here[level(here, side) > 0.0].tolist()
+    return found
 
 
 CELLS = 256

@@ -356,17 +356,19 @@ class RecordedMode(NamedTuple):
     margins: list[int]
     checks: tuple[int, ...]
 
+    @property
+    def assembles(self) -> bool:
+        """Whether it does where the record was made."""
+        return all(self.compiled.record.nodes[margin].value > 0.0 for margin in self.margins)
+
 
 def read_anew(case: Case, paths: Sequence[str], figure: Figure, order: Order) -> RecordedMode:
     """A mode of a figure that is read anew at all values of some numbers; recorded where it assembles, also
     where it does so over a narrow stretch alone."""
     setting = Setting(case, topology(case), figure, tuple(paths), (), Drive((), (), ()))
     usual = _recorded(setting, order)
-    if all(usual.compiled.record.nodes[margin].value > 0.0 for margin in usual.margins):
-        return usual
     closer = (_recorded(setting, order, away) for away in CLOSER)
-    inside = (m for m in closer if all(m.compiled.record.nodes[n].value > 0.0 for n in m.margins))
-    return next(inside, usual)
+    return next((mode for mode in itertools.chain([usual], closer) if mode.assembles), usual)
 
 
 def _recorded(setting: Setting, order: Order, away: float | None = None) -> RecordedMode:

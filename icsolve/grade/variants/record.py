@@ -330,8 +330,8 @@ def key_csv(varied: Varied, found: Iterable[VariantTask]) -> str:
     """The right answers: ``student_id,variant,case,value,unit,sense,from,to``."""
     rows = []
     for person, draw in found:
-        for question, right in _asked(varied, person.student_id).items():
-            for key in numbers_of(right) if not isinstance(right, NoKeyError) else ():
+        for question, right in _asked(varied, person.student_id)[0].items():
+            for key in numbers_of(right):
                 size = key.value if key.kind == "position" else abs(key.value)
                 low, high = size - key.half if size < 0.0 else max(size - key.half, 0.0), size + key.half
                 cells = (draw.label, question, f"{key.value:.12g}", key.unit_name, sense(varied, draw, key))
@@ -339,25 +339,24 @@ def key_csv(varied: Varied, found: Iterable[VariantTask]) -> str:
     return csv_text(["student_id", "variant", "case", "value", "unit", "sense", "from", "to"], rows)
 
 
-def _asked(varied: Varied, student: str) -> dict[str, AnyKey | NoKeyError]:
-    """What a student is asked, each question with its right answer, or why it has none."""
+def _asked(varied: Varied, student: str) -> tuple[dict[str, AnyKey], dict[str, str]]:
+    """What a student is asked, each question with its right answer; and why others have none."""
     solved = varied.solved(student)
-    found: dict[str, AnyKey | NoKeyError] = {}
+    found, none = dict[str, AnyKey](), dict[str, str]()
     for question in questions_of(varied.case, varied.name, varied.course):
         try:
             found[question] = solved.key(question)
         except NoKeyError as error:
-            found[question] = error
-    return found
+            none[question] = str(error)
+    return found, none
 
 
 def without_key(varied: Varied, found: Iterable[VariantTask]) -> Iterator[str]:
     """What the course asks of students for whom it has no right answer; their key and sheet are without."""
     whose: dict[tuple[str, str], list[str]] = {}
     for person, _ in found:
-        for question, right in _asked(varied, person.student_id).items():
-            if isinstance(right, NoKeyError):
-                whose.setdefault((question, str(right)), []).append(person.student_id)
+        for left_out in _asked(varied, person.student_id)[1].items():
+            whose.setdefault(left_out, []).append(person.student_id)
     for (question, why), students in whose.items():
         yield f"{question} is left out for {plural(len(students), 'student')} ({_some(students)}): {why}"
 
@@ -383,8 +382,7 @@ def sheet(varied: Varied, task: VariantTask, picture: str) -> str:
     rows = "".join(f"<tr><td>{escape(n)}</td><td>{escape(v)}</td></tr>" for n, v in Statement(case).rows())
     lines = "".join(
         f"<p>{escape(asked(key, solved.target(question)))}</p>"
-        for question, key in _asked(varied, task.person.student_id).items()
-        if not isinstance(key, NoKeyError)
+        for question, key in _asked(varied, task.person.student_id)[0].items()
     )
     return (
         f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(varied.name)}</title>'
