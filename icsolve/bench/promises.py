@@ -50,6 +50,8 @@ from icsolve.tuples import NamedTuple
 
 FEW_ROWS = 36
 """Of a sweep of which the set-up is measured."""
+ROUNDS = 4
+"""Fresh cases of each size, of which the quickest counts."""
 
 
 class Growing(NamedTuple):
@@ -83,7 +85,8 @@ def growth(kept: Kept, quick: bool, full: bool) -> str:
     rows, fresh, turns = [], [], _fresh_sweeps()
     for one in series:
         sizes = one.quick if quick else one.full if full else one.usual
-        times = [min(once(one.made(n)) for _ in range(2)) for n in sizes]
+        found = [[once(one.made(n)) for n in sizes] for _ in range(ROUNDS)]  # in turn: processors change speed
+        times = [min(of_size) for of_size in zip(*found, strict=True)]
         power = exponent(sizes, times)
         kept.gates.append(Gate(f"{one.what}: exponent of growth", power, one.limit))
         shown = ", ".join(f"{n}: {1e3 * t:.3g}" for n, t in zip(sizes, times, strict=True))
