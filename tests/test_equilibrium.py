@@ -1252,6 +1252,55 @@ loads:
         icsolve.solve(icsolve.load(text.format(torque=3, carried="[B]")))
 
 
+STRUCTURES = {
+    "scissors on a block": """icsolve: 1
+points: {A: [0, 0], B: [unknown, 0]}
+lengths: {AC: 1, CD: 1, BC: 1, CE: 1}
+angles: {ACD: 180, BCE: 180, AD: ASKED}
+near: {B: [1.4, 0], E: [0, 1.4]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {slide: [3, 1], at: B, along: 0}
+  - {pin: [2, 3], at: C}
+  - {pin: [2, 4], at: D}
+  - {slot: [3, 4], at: E, along: [D, E]}
+loads:
+  W: {weight: 500, link: 4, at: D}
+  S: {spring: 2000, free: 1, link: 2, at: A, against: 3, to: B}
+""",
+    "rod on a block": """icsolve: 1
+points: {A: [0, 0], C: [unknown, 0]}
+lengths: {AB: 1, BC: 2}
+angles: {AB: ASKED}
+near: {C: [2, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {slide: [3, 1], at: C, along: 0}
+loads:
+  W: {weight: 500, link: 3, at: B}
+  S: {spring: 2000, free: 1, link: 3, at: C, against: 1, to: A}
+""",
+    "truss": """icsolve: 1
+points: {A: [0, 0], C: [2, 0]}
+lengths: {AB: 1.5}
+angles: {AB: ASKED}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 1], at: C}]
+loads: {W: {weight: 500, link: 2, at: B}}
+""",
+}
+
+
+@pytest.mark.parametrize("asked", ["unknown", "{unknown: [10, 80]}", "{unknown: [10, 80], from: 45}"])
+@pytest.mark.parametrize("name", STRUCTURES)
+def test_a_structure_has_no_position_of_rest_however_it_is_asked(name: str, asked: str) -> None:
+    """Its datum takes any value, and none moves a link. That is told, whatever else the figure folds into
+    where its points have places in several ways."""
+    with pytest.raises(SceneError, match="the links form a structure") as refused:
+        icsolve.solve(icsolve.load(STRUCTURES[name].replace("ASKED", asked)))
+    assert refused.value.status == "structure"
+
+
 @pytest.mark.parametrize("given", ["lengths.OB", "points.B.x"])
 def test_where_the_weight_of_a_steelyard_stands_is_asked_by_a_sweep(given: str) -> None:
     """Its arm shapes the beam and poses nothing: the refusal names the sweep that finds it. A coordinate may

@@ -85,7 +85,7 @@ def growth(kept: Kept, quick: bool, full: bool) -> str:
     rows, fresh, turns = [], [], _fresh_sweeps()
     for one in series:
         sizes = one.quick if quick else one.full if full else one.usual
-        found = [[once(one.made(n)) for n in sizes] for _ in range(ROUNDS)]  # in turn: processors change speed
+        found = [[once(one.made(n)) for n in sizes] for _ in range(ROUNDS)]  # in turn: speeds change
         times = [min(of_size) for of_size in zip(*found, strict=True)]
         power = exponent(sizes, times)
         kept.gates.append(Gate(f"{one.what}: exponent of growth", power, one.limit))

@@ -175,7 +175,7 @@ def load_functions(
     """
     refusals.refuse_loose(case)
     values = [low + (high - low) * (k + 0.37) / SAMPLES for k in range(SAMPLES)]
-    refusal: SceneError | None = None
+    refused: list[SceneError] = []
     found: list[LoadFunction] = []
     order = order_of_all(given_at(case, path, low + part * (high - low)) for part in PARTS)
     refuse_together(order)
@@ -197,11 +197,13 @@ def load_functions(
             try:
                 found.append(_function(written, path, figure_in(written, order, steps), order, span))
             except (SceneError, ZeroDivisionError) as error:
-                refusal = error if isinstance(error, SceneError) else refusal
+                refused += [error] if isinstance(error, SceneError) else []
                 continue
             break
+    if not found and refused:  # last for points that coincide, as in a mode that nobody means
+        raise min(refused, key=lambda error: error.status == Status.INCONSISTENT)
     if not found:
-        raise refusal or SceneError(
+        raise SceneError(
             Status.CANNOT_ASSEMBLE,
             f"the figure assembles for no value of {path} between {low:g} and {high:g}.",
         )
@@ -422,6 +424,11 @@ def moving_function(
     """
     setting = setting_of(case, (path,) if path else (), (link,) if link else (), posing=posing)
     if path and not setting.moves:
+        try:
+            motions_of(moved(setting).compiled.scene)
+        except SceneError as error:
+            if error.status == Status.STRUCTURE:  # tells which joints hold all
+                raise StillError(error.status, error.message, error.more) from None
         held = next((joint for joint in case.joints if not joint.stays_known), None)
         moves_nothing = sentences.poses_nothing(path)
         raise StillError(Status.UNSUPPORTED, why_not_moved(held) if held is not None else moves_nothing)
@@ -480,6 +487,8 @@ def _on_record(mode: RecordedMode, path: str, span: tuple[float, float] | None) 
     compiled, margins, checks = mode
     record, scene, given = compiled.record, compiled.scene, compiled.inputs[path]
     record.follows = True  # also where each position is read anew: turns count from one of them
+    recorded = {p: (record.lifted(x).value, record.lifted(y).value) for p, (x, y) in scene.points.items()}
+    refusals.refuse_no_direction(refusals.directions(compiled.setting.case), recorded, FLOATS)
     motions = motions_of(scene)
     if motions.mobility != 1:
         raise SceneError(
@@ -487,8 +496,6 @@ def _on_record(mode: RecordedMode, path: str, span: tuple[float, float] | None) 
             f"the mechanism has {motions.mobility} degrees of freedom, and one datum is unknown: "
             f"write 'unknown' for {motions.mobility - 1} more of its angles or lengths.",
         )
-    recorded = {p: (record.lifted(x).value, record.lifted(y).value) for p, (x, y) in scene.points.items()}
-    refusals.refuse_no_direction(refusals.directions(compiled.setting.case), recorded, FLOATS)
     wrenches = load_wrenches.wrenches(scene.place, vectors=True)
     balance = power.balance(wrenches, motions.twists, 1)
     total = power.known_power(balance, 0, record)
