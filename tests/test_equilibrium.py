@@ -1301,6 +1301,41 @@ def test_a_structure_has_no_position_of_rest_however_it_is_asked(name: str, aske
     assert refused.value.status == "structure"
 
 
+GIVEN_BY_OTHERS = {
+    "lengths.BC": ("lengths: {AB: 1, BC: ASKED}", "angles: {AB: 40}", "0.5, 4", 2.517348),
+    "angles.AB": ("lengths: {AB: 1, BC: 2.5}", "angles: {AB: ASKED}", "5, 170", 38.76797),
+    "angles.BC": ("lengths: {AB: 1}", "angles: {AB: 40, BC: ASKED}", "-60, 60", -14.795),
+}
+
+
+@pytest.mark.parametrize("asked", ["unknown", "{unknown: [SPAN]}", "{unknown: [SPAN], from: THERE}"])
+@pytest.mark.parametrize("path", GIVEN_BY_OTHERS)
+def test_a_datum_that_the_others_give_is_not_to_find(path: str, asked: str) -> None:
+    """Of a slider-crank that is written in one position: no length or angle of it is open, and the datum has
+    no other value in which the loads could balance. From there it may move, and an angle with it."""
+    lengths, angles, span, there = GIVEN_BY_OTHERS[path]
+    text = f"""icsolve: 1
+points: {{A: [0, 0], C: [3.2, 0]}}
+{lengths}
+{angles}
+near: {{B: [0.77, 0.64]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{slide: [4, 1], at: C, along: 0}}
+loads: {{M: {{torque: 50, link: 2}}, F: {{force: 10, link: 4, at: C, angle: 180}}}}
+"""
+    asked = asked.replace("SPAN", span).replace("THERE", repr(there))
+    case = icsolve.load(text.replace("ASKED", asked))
+    if "from" in asked:
+        with pytest.raises(SceneError, match=f"no value of {path}|{path} does not pose the figure"):
+            icsolve.solve(case)
+        return
+    with pytest.raises(SceneError, match=f"{path} is not to find: the other data place . and . without it"):
+        icsolve.solve(case)
+
+
 @pytest.mark.parametrize("given", ["lengths.OB", "points.B.x"])
 def test_where_the_weight_of_a_steelyard_stands_is_asked_by_a_sweep(given: str) -> None:
     """Its arm shapes the beam and poses nothing: the refusal names the sweep that finds it. A coordinate may

@@ -200,10 +200,8 @@ def value_of(answer: Answer, path: str) -> float:
     return heads[0] - sum(heads[1:])
 
 
-def exchanged(case: Case, path: str) -> Iterator[tuple[Case, str]]:
-    """The case with another datum in place of the one at ``path``, directions of lengths one after the other,
-    each with its path: with some of them the points may have places one by one.
-    """
+def without(case: Case, path: str) -> Case:
+    """The case with nothing in place of the datum at ``path``."""
     section, name, *part = path.split(".")
     lengths = tuple(one for one in case.lengths if one.value.path != path)
     angles = tuple(one for one in case.angles if one.value.path != path)
@@ -211,13 +209,22 @@ def exchanged(case: Case, path: str) -> Iterator[tuple[Case, str]]:
     at = points.get(name)
     if section == "points" and isinstance(at, Coordinates):
         points[name] = at._replace(x=None) if part == ["x"] else at._replace(y=None)
+    return replace(case, points=points, lengths=lengths, angles=angles)
+
+
+def exchanged(case: Case, path: str) -> Iterator[tuple[Case, str]]:
+    """The case with another datum in place of the one at ``path``, directions of lengths one after the other,
+    each with its path: with some of them the points may have places one by one.
+    """
+    bare = without(case, path)
+    points = bare.points
     known = {one.value.path for one in case.angles}
-    for length in lengths:
+    for length in bare.lengths:
         a, b = (length.a, length.b) if length.a in points else (length.b, length.a)
         other = f"angles.{a}-{b}"
         if a in points and b not in points and not known & {other, f"angles.{a}{b}"}:
             turned = Direction(a, b, Number(0.0, 0.0, other, "0"))
-            yield replace(case, points=points, lengths=lengths, angles=(*angles, turned), near={}), other
+            yield replace(bare, angles=(*bare.angles, turned), near={}), other
 
 
 def converted(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from contextlib import suppress
 
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import EquilibriumPosition
@@ -12,6 +13,7 @@ from icsolve.case import Case, Coordinates, Unknown
 from icsolve.errors import SceneError, Status
 from icsolve.scene import solve_scene
 from icsolve.scene.needed_part import by_needed_part
+from icsolve.solve.driven_search import without
 from icsolve.solve.friction_ranges import find_ranges
 from icsolve.solve.known_loads import smooth
 from icsolve.solve.load_function import given_at, naming_uncarried
@@ -26,7 +28,9 @@ from icsolve.solve.rest_position import with_scene
 from icsolve.solve.two_data import find_pairs
 from icsolve.statics.power import has_friction, is_unknown
 from icsolve.sweep.program import wanted_points
+from icsolve.sweep.varied_numbers import points_of
 from icsolve.tuples import replace
+from icsolve.wording import sentences
 
 
 def solve_positions(case: Case, **asked: bool) -> Answer:
@@ -38,10 +42,27 @@ def solve_positions(case: Case, **asked: bool) -> Answer:
     """
     refuse_motion(case)
     refuse_profiles(case)
-    case = case if case.unknowns else replace(case, unknowns=(free_coordinate(case) or Unknown(""),))
+    told = case.unknowns
+    case = case if told else replace(case, unknowns=(free_coordinate(case) or Unknown(""),))
     with naming_uncarried(case, [one.path for one in case.unknowns]):
-        answer, left_out = by_needed_part(case, lambda part: _answered(part, asked), bodies=True)
+        try:
+            answer, left_out = by_needed_part(case, lambda part: _answered(part, asked), bodies=True)
+        except SceneError:
+            _refuse_placed(replace(case, unknowns=told))
+            raise
         return replace(answer, notes=(*answer.notes, left_out)) if left_out else answer
+
+
+def _refuse_placed(case: Case) -> None:
+    """Refuse a datum to find between points that the other data place: it has the value that these give,
+    unless the mechanism moves from there."""
+    for unknown in case.unknowns:
+        names, placed = points_of(unknown.path), False
+        with suppress(SceneError):
+            solve_figure(without(_written(case), unknown.path), names)
+            placed = unknown.start is None
+        if placed:
+            raise SceneError(Status.UNSUPPORTED, sentences.placed_without(unknown.path, names))
 
 
 def _answered(case: Case, asked: Mapping[str, bool]) -> Answer:

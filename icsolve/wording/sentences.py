@@ -204,6 +204,14 @@ def poses_nothing(path: str, moves: bool = False, sought: bool = True) -> str:
     )
 
 
+def placed_without(path: str, names: Sequence[str]) -> str:
+    """A datum that is to find between points that the others place."""
+    return (
+        f"{path} is not to find: the other data place {listed(names)} without it. Leave it out; in place of a "
+        "datum that the motion changes write 'unknown' to ask where the loads balance."
+    )
+
+
 def left_out(at: str, slack: str) -> str:
     """A position that is not told as it is asked for one, with the refusal of what it would ask of a rope."""
     return f"left out is {at}, where {slack.partition('. ')[0]}."
