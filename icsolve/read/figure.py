@@ -232,8 +232,8 @@ def check_unknowns(reading: Reading, loads: tuple[Load, ...]) -> None:
     for unknown in reading.unknowns:
         idle = next((load.name for load in loads if getattr(load, "value", 0) is None), None)
         if idle is not None and not unknown.path.startswith("points."):
-            said = f"load {idle} is to find too, and a position is asked only where every load is known; what "
-            said += "the other data of the figure give is left out"
+            said = f"load {idle} is to find too, and a position is asked only where every load is known; "
+            said += "what the other data of the figure give is left out"
             reading.refuse(unknown.mark, f"'unknown' cannot stand here: {said}")
 
 

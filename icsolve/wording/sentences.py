@@ -207,8 +207,8 @@ def poses_nothing(path: str, moves: bool = False, sought: bool = True) -> str:
 def placed_without(path: str, names: Sequence[str]) -> str:
     """A datum that is to find between points that the others place."""
     return (
-        f"{path} is not to find: the other data place {listed(names)} without it. Leave it out; in place of a "
-        "datum that the motion changes write 'unknown' to ask where the loads balance."
+        f"{path} is not to find: the other data place {listed(names)} without it. Leave it out; in place of "
+        "a datum that the motion changes write 'unknown' to ask where the loads balance."
     )
 
 
