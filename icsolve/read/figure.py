@@ -391,7 +391,7 @@ def _never_given(reading: Reading, name: str, given: set[str]) -> str:
     if name == "unknown":
         return (
             "a place is no unknown: give it as [x, y], and ask for where it is to be by `icsolve sweep CASE "
-            "--vary loads.P.at.x=FROM:TO:STEP --find hold`, or `--find` of an answer"
+            "--vary loads.LOAD.at.x=FROM:TO:STEP --find hold`, or `--find` of an answer"
         )
     likely = _likely(reading, name, given)
     said = f"point {name} is named here, but nothing gives it: no coordinates, length, angle or guide{likely}"
