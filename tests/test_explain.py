@@ -1018,6 +1018,22 @@ loads:
     assert "U = -18 N*m" in told
 
 
+@pytest.mark.parametrize("form", ["md", "html", "tex"])
+def test_units_have_one_spelling_in_headings_and_below_them(form: str) -> None:
+    """A range of torques has its ends in the headings of what is about to begin there."""
+    told = explain(
+        icsolve.load("""icsolve: 1
+points: {A: [0, 0], B: [0.3, 0]}
+joints: [{pin: [1, 2], at: A, mu: 0.2, radius: 0.05}]
+loads: {W: {weight: 100, link: 2, at: B}, T: {torque: unknown, link: 2}}
+"""),
+        form,
+        bodies=True,
+    )
+    assert "N*m" not in told.replace(r"\*", "*")
+    assert len(re.findall(r"where T.*N(?:·|\$\\cdot\$)m", told)) > 3
+
+
 @sampled(3)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("seed", range(12 if FULL else 1))

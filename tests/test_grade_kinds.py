@@ -49,6 +49,17 @@ loads:
   P: {force: [unknown, unknown], link: 3, at: C}
 """
 """C = (1, -1): about B px = 3; about A 3 - 3 + py - 10 + 4 = 0, py = 6."""
+HINGED = """\
+icsolve: 1
+points: {A: [0, 0], G: {centroid: [A, B]}, H: {centroid: [B, C]}}
+lengths: {AB: 1, BC: 1}
+angles: {AB: {unknown: [-180, 180]}, BC: {unknown: [-180, 180]}}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}]
+loads:
+  W2: {weight: 40, link: 2, at: G}
+  W3: {weight: 40, link: 3, at: H}
+  P: {force: 20, link: 3, at: C, angle: 0}
+"""
 LOADED = """\
 icsolve: 1
 points: {{A: [0, 0], E: [2, -6]}}
@@ -126,6 +137,17 @@ def test_a_list_of_positions_is_read_as_a_list_where_the_last_has_the_unit(a_cla
         one.append(f"{rest(0.2 * 180.0 / math.pi):.4g}{join}20{unit}")
     assert dict(zip(both, a_class.verdicts(*both, case="two"), strict=True)) == both
     assert set(a_class.verdicts(*one, case="bar")) == {"review"}
+
+
+def test_a_value_that_several_positions_share_is_accepted_once(a_class: Class) -> None:
+    """Of two hinged bars each rests along the pull at it or against it, however the other does."""
+    a_class.case("bars", HINGED)
+    first, second = (math.degrees(math.atan2(-w, 20.0)) for w in (60.0, 20.0))
+    for path, rest_at in (("AB", first), ("BC", second)):
+        either = f"{rest_at:.5g} deg, {rest_at + 180.0:.5g} deg"
+        rows = a_class.judge(f"{rest_at:.5g}", either, case=f"bars:angles.{path}")
+        assert [row["verdict"] for row in rows] == ["right", "right"]
+        assert rows[0]["feedback"].count(" to ") == 2
 
 
 def test_mistakes_with_a_position_are_named(a_class: Class) -> None:

@@ -898,6 +898,11 @@ PULL = "{force: unknown, at: B}"
         ("{rope: [C], on: [2]}", "{force: unknown, link: 2, at: C, angle: 3}", "two points or more"),
         ("{rope: [C, P, B], on: [2, 1]}", "{torque: unknown, link: 2}", "no load pulls it"),
         ("{rope: [C, P, B], on: [2, 1]}", "{force: unknown, at: B, angle: 30}", "take out 'angle'"),
+        (
+            "{rope: [C, P, B], on: [2, 1]}",
+            "{force: unknown, at: B, against: 2}",
+            "take out 'against'; where it is a link that pulls, as a man in the chair that the rope bears",
+        ),
         ("{rope: [C, P, B], on: [2, 1]}", "{force: unknown, at: D, angle: 30}", "needs 'link'"),
         ("{rope: [C, P, B], on: [2, 1]}, {rope: [C, D, B], on: [2, 1]}", PULL, "one free end, B"),
         ("{ropes: [C, P, B], on: [2, 1]}", "{torque: unknown, link: 2}", "did you mean 'rope'"),
@@ -907,6 +912,27 @@ def test_slips_are_told_with_what_mends_them(rope: str, load: str, said: str) ->
     with pytest.raises(CaseError) as caught:
         icsolve.load("icsolve: 1\n" + ROPED % (rope, load))
     assert said in str(caught.value)
+
+
+@pytest.mark.parametrize("above", [1, 2, 3])
+def test_a_man_in_the_chair_that_he_draws_up_pulls_less(above: int) -> None:
+    """The end that he holds is one more part that bears the chair: of all of them each bears one share."""
+    points = "points: {C: [0, 0], B: [0, 2], P: [0, 5], Q: [0, 1]}"
+    rounds = ["C", *["P", "Q"] * (above - 1), "P"]
+    on = [2, *[1, 2] * (above - 1), 1]
+    chair = """
+{points}
+joints: [{{slide: [2, 1], at: C, along: 90}}, {{rope: [{rope}, B], on: [{on}]}}]
+loads: {{W: {{weight: 800, link: 2, at: C}}{pull}}}
+"""
+    told = {"points": points, "rope": ", ".join(rounds), "on": ", ".join(map(str, on))}
+    helped = solved(chair.format(**told, pull=", F: {force: unknown, at: B}"))
+    assert helped.answers["F"].value == pytest.approx(800 / (2 * above - 1))
+    told["on"] += ", 2"
+    alone = solved(chair.format(**told, pull=""))
+    assert alone.to_dict()["reactions"][f"T {'-'.join(rounds)}-B"]["tension"] == pytest.approx(
+        800 / (2 * above)
+    )
 
 
 def test_a_weight_at_a_free_end_has_to_hang() -> None:
@@ -939,6 +965,18 @@ def test_parts_without_a_length_are_refused() -> None:
     error = refused(ROPED % (rope, PULL))
     assert error.status == "inconsistent"
     assert "no straight part from P to D: they are 2.23607 apart" in error.message  # sqrt(1 + 4)
+
+
+def test_an_end_on_the_rim_of_its_drum_is_asked_to_hang_farther_down() -> None:
+    rim = ROPED.replace("C: [3, 0]", "C: [1, 0]") % (
+        "{rope: [A, C], on: [2], radii: {A: 1}, wraps: {A: cw}}",
+        "{weight: unknown, at: C}",
+    )
+    message = refused(
+        rim.replace("W: {weight: 10, link: 2, at: C}", "W: {weight: 10, link: 2, at: B}")
+    ).message
+    assert "they are 1 apart, which is no more than their radii need" in message
+    assert "put one of the points farther along the rope" in message
 
 
 def test_a_lever_pushed_through_its_pivot_draws_no_band() -> None:

@@ -680,7 +680,29 @@ REFUSED = {
         "weight: 100, link: 4, at: E, angle: 270",
         14,
         36,
-        "is a weight, which has no 'angle'; it takes link, at",
+        "is a weight, which has no 'angle'; it takes link, at. Weights pull as gravity does: along another "
+        "line write 'force' in place of 'weight'",
+    ),
+    "a mass's direction": (
+        "force: 100, link: 4, at: E, angle: 180",
+        "mass: 10 kg, link: 4, at: E, toward: A",
+        14,
+        36,
+        "along another line write 'force' in place of 'mass', the mass times g",
+    ),
+    "a mass of other books": (
+        "loads:",
+        "links: {2: {mass: 0.02 blob, centre: B}}\nloads:",
+        13,
+        19,
+        "there is no unit 'blob'; did you mean 'lbf*s^2/in'?",
+    ),
+    "a guide as a pair": (
+        "{pin: [4, 1], at: D}",
+        "{slide: [4, 1], at: D, along: A-B'}",
+        12,
+        35,
+        "two points of the guide stand in brackets, as in [A, B']",
     ),
     "a spring of no length": (
         "force: 100, link: 4, at: E, angle: 180",
@@ -897,6 +919,45 @@ loads:
   T3: {torque: unknown, link: 3, against: 2}
 """
     assert not icsolve.load(arm).noticed
+
+
+# What poses a bar that is pinned to the frame at A, beside its length AB: points, lengths, angles, links,
+# joints.
+POSED_ARMS = {
+    "an angle": ("", "", "AB: 30, ", "", ""),
+    "a length from a point of the frame": (", S: [1, 2]", ", SB: 1.5", "", "links: {1: [S]}", ""),
+    "a length from another pivot": (", S: [1, 2]", ", SB: 1.5", "", "", ", {pin: [1, 3], at: S}"),
+    "a length from a block on a guide": (
+        ", S: [1, 2]",
+        ", SB: 1.5",
+        "",
+        "",
+        ", {slide: [3, 1], at: S, along: 0}",
+    ),
+}
+
+
+@pytest.mark.parametrize(("point", "place"), [("B", 1.0), ("G", 0.5), ("H", 0.25), ("K", 1.25)])
+@pytest.mark.parametrize("posed", POSED_ARMS)
+def test_what_is_fixed_to_the_end_of_an_arm_belongs_to_the_arm(posed: str, point: str, place: float) -> None:
+    """As the end itself does: the middle of the arm, the middle of its half, and a point beyond its end."""
+    points, lengths, angles, links, joints = POSED_ARMS[posed]
+    arm = f"""\
+icsolve: 1
+points: {{A: [0, 0]{points}, G: {{centroid: [A, B]}}, H: {{centroid: [A, G]}}}}
+lengths: {{AB: 1.2{lengths}, BK: 0.3}}
+angles: {{{angles}ABK: 180}}
+near: {{B: [1.1, 0.5]}}
+{links}
+joints: [{{pin: [1, 2], at: A}}{joints}]
+loads:
+  W: {{mass: 10 kg, link: 2, at: {point}}}
+  T: {{torque: unknown, link: 2}}
+"""
+    case = icsolve.load(arm)
+    assert not case.noticed
+    answer = icsolve.solve(case)
+    assert answer.answers["T"].value == pytest.approx(98.1 * place * answer.points["B"][0])
 
 
 TIED = {

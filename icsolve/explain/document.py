@@ -170,7 +170,7 @@ class AsMarkdown(Layout):
     def whole(self, document: Document) -> str:
         parts = [f"# {self.plain(document.title)}", *(f"*{self.plain(text)}*" for text in document.lead)]
         for section in document.sections:
-            parts += [f"## {self.plain(section.title)}", *map(self._block, section.blocks)]
+            parts += [f"## {self.text(section.title)}", *map(self._block, section.blocks)]
         return "\n\n".join(parts) + "\n"
 
     def _block(self, block: Block) -> str:
@@ -236,8 +236,8 @@ class AsHtml(Layout):
         """The sections alone, to stand in another page; where a formula is wider than the window its section
         scrolls, by the keyboard too."""
         return "".join(
-            f'<section tabindex="0" role="group" aria-label="{escaped(section.title)}">'
-            f"<h2>{escaped(section.title)}</h2>\n{''.join(map(self._block, section.blocks))}"
+            f'<section tabindex="0" role="group" aria-label="{self.text(section.title)}">'
+            f"<h2>{self.text(section.title)}</h2>\n{''.join(map(self._block, section.blocks))}"
             "</section>\n"
             for section in document.sections
         )

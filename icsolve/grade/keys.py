@@ -489,7 +489,8 @@ def position_key(
     """
     _not_drawn(policy, "a position of rest")
     width = own_width(policy.tolerance, target, answer, drawn=False)
-    others = len(answer.positions or ()) - 1
+    poses = {one.at[target.path]: one.answer for one in reversed(answer.positions or ())}
+    others = len(poses) - 1  # several positions may share the datum: another tells them apart
 
     period = 360.0 if is_angle(target.path) else 0.0
 
@@ -506,12 +507,11 @@ def position_key(
         return replace(found, wrongs=Wrongs(within_a_turn, value, found.half, period, others))
 
     keys: list[NumberKey | RangeKey] = []
-    for position in answer.positions or ():
-        held = position.at[target.path]
+    for held, pose in reversed(poses.items()):
         if isinstance(held, float):
-            keys.append(key(held, position.answer))
+            keys.append(key(held, pose))
         else:
-            low, high = (end(value, position.answer) for value in held)
+            low, high = (end(value, pose) for value in held)
             keys.append(RangeKey(question, low, high, low.unit_name, policy))
     return keys[0] if len(keys) == 1 else ChoiceKey(question, tuple(keys), keys[0].unit_name, policy)
 

@@ -256,6 +256,7 @@ _MEANT = {
     "atm": "'bar' (1 atm is 1.01325 bar)",
     "at": "'bar' (1 at is 0.980665 bar)",
     **{name: f"'kPa' (1 {name} is 0.133322 kPa)" for name in ("mmHg", "Torr")},
+    **dict.fromkeys(("blob", "blobs", "slinch"), "'lbf*s^2/in'"),
     "psf": "'lbf/ft^2'",
     "ksf": "'kip/ft^2'",
     **dict.fromkeys(("kp", "kilopond"), "'kgf'"),

@@ -278,11 +278,18 @@ class _Owners:
         if by_joints or point not in self.dimensioned:
             return by_joints, False
         others = [other for other in self.own if point in self._fixed_to(other)]
-        arms = (length for length in self.figure.lengths if {length.a, length.b} - own == {point})
         posed = others == [self.ground] or not self._has_ends(own)
-        if link != self.ground and posed and any(arms):
-            return [], True  # an arm's end: its length says whose it is, its angle poses the arm
+        if link != self.ground and posed and point in self._closed(own | self._arms(own)):
+            return (
+                [],
+                True,
+            )  # an arm's end, or fixed to it: its length says whose it is, the rest poses the arm
         return others, True
+
+    def _arms(self, own: set[str]) -> set[str]:
+        """The ends of the arms of a link: points a length away from one of its own."""
+        ends = [{length.a, length.b} for length in self.figure.lengths]
+        return {point for pair in ends if len(pair - own) == 1 for point in pair - own}
 
     def _has_ends(self, own: set[str]) -> bool:
         """Whether two points of a link say how it lies, so that none of its arms need do so."""
@@ -293,11 +300,13 @@ class _Owners:
     def _fixed_to(self, link: str) -> set[str]:
         """The points of a link, and those that two dimensions each fix to these."""
         if link not in self.fixed:
-            found = set(self.own.get(link, ()))
-            while more := set(_tied(self.figure, found)) - found:
-                found |= more
-            self.fixed[link] = found
+            self.fixed[link] = self._closed(set(self.own.get(link, ())))
         return self.fixed[link]
+
+    def _closed(self, found: set[str]) -> set[str]:
+        while more := set(_tied(self.figure, found)) - found:
+            found |= more
+        return found
 
 
 def _on_joints(joints: Iterable[Joint]) -> Iterator[tuple[str, str]]:

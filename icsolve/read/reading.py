@@ -442,8 +442,8 @@ def _meant(text: str, dimension: str, path: str) -> str:
     may_be_open = _is_of_load(path, dimension) or path.startswith(("points.", "lengths.", "angles."))
     if may_be_open and (is_name(text.lstrip("-")) or not text.strip("?")):
         return "; write a number, or 'unknown' for what is to find"
-    if path.endswith(".along") and is_name(text):
-        two = text if len(text) == 2 else ("B" if text == "A" else "A") + text[:1]
+    if path.endswith(".along") and all(map(is_name, ends := text.split("-"))):
+        two = ends if len(ends) == 2 else text if len(text) == 2 else ("B" if text == "A" else "A") + text[:1]
         return f"; two points of the guide stand in brackets, as in [{two[0]}, {two[1]}]"
     share = re.fullmatch(r"(-?)(\d*)\s*\*?\s*(?:pi|π)\s*(?:/\s*(\d+))?", text)
     if dimension == "angle" and share:

@@ -140,6 +140,12 @@ def _check_wraps(entry: Entry, points: tuple[str, ...], links: int) -> None:
         entry.refuse(entry.mark("radii"), said)
 
 
+HELD_BY_A_LINK = (
+    "; where it is a link that pulls, as a man in the chair that the rope bears, fix the end to that link: "
+    "name it last in 'on', give the load up, and the rope's tension is the pull"
+)
+
+
 def read_pull(entry: Entry, name: str, kind: str) -> Load | None:
     """A load without a link, which pulls the free end of a rope; None where one of the two can't be read."""
     rope = entry.reading.ends[entry.text("at")]
@@ -148,7 +154,8 @@ def read_pull(entry: Entry, name: str, kind: str) -> Load | None:
     if rope is not None:
         said = f"{entry.what} pulls the free end of the rope {rope.name}, along it: take out"
         for key in others:
-            entry.refuse(entry.mark(key), f"{said} '{key}'")
+            held = HELD_BY_A_LINK if key == "against" else ""
+            entry.refuse(entry.mark(key), f"{said} '{key}'{held}")
     value = entry.read(*others)[kind]
     if rope is None or not entry.whole:
         return None

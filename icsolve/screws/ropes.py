@@ -129,7 +129,8 @@ def _no_part(rope: Rope, k: int, apart: float, scale: float) -> str:
         )
     return (
         f"the rope {rope.name} has no straight part from {a} to {b}: they are {apart / scale:.6g} apart, "
-        "which is less than their radii need. Correct the `radii` or the `wraps`."
+        "which is no more than their radii need. Correct the `radii` or the `wraps`, or put one of the "
+        "points farther along the rope."
     )
 
 

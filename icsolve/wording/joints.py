@@ -181,7 +181,8 @@ def why_not_moved(joint: Joint) -> str:
         )
     return (
         f"the contact of links {names} at {joint.at} cannot be moved: its profile is not known beyond "
-        "the position as written. Vary a load, or put joints in its place that describe the profile."
+        "the position as written. Vary a load, or put joints in its place that describe the profile, as a "
+        "slot where a point of one slides along a line of the other."
     )
 
 
