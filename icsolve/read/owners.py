@@ -280,10 +280,7 @@ class _Owners:
         others = [other for other in self.own if point in self._fixed_to(other)]
         posed = others == [self.ground] or not self._has_ends(own)
         if link != self.ground and posed and point in self._closed(own | self._arms(own)):
-            return (
-                [],
-                True,
-            )  # an arm's end, or fixed to it: its length says whose it is, the rest poses the arm
+            return [], True  # an arm's end, or fixed to it: lengths say whose it is, an angle poses the arm
         return others, True
 
     def _arms(self, own: set[str]) -> set[str]:
