@@ -30,7 +30,7 @@ from icsolve.numbers.balls import INEXACT, Ball, Balls
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.jets import BallArray, Jet
 from icsolve.numbers.record import Record
-from icsolve.numbers.tape import Tape
+from icsolve.numbers.tape import LONG, Tape
 from icsolve.statics.load_wrenches import at_one_place
 
 many = mp.clone()
@@ -229,6 +229,24 @@ def test_a_decimal_has_half_an_ulp_and_with_the_factor_of_its_unit_three(
         assert tape.converted == ({} if factor == 1.0 else {"a": noise})
     assert tape.bound(tape.ratio((1, 3, 0))) == HALF_ULP / 3.0
     assert tape.bound(tape.ratio((3, 3, 0))) == 0.0
+
+
+def test_a_long_tape_is_swept_as_a_short_one_is() -> None:
+    """Of a long one only the values that lead to the result are swept: it has the bound and the derivatives
+    to the last bit that it has where nothing else was recorded between them."""
+    swept = []
+    for idle in (0, 2 * LONG):
+        tape = Tape()
+        x, y = (tape.given(Number(v, 0.0, path, repr(v))) for path, v in (("x", 0.7), ("y", 1.9)))
+        value: Any = x
+        for _ in range(9):
+            value = (value * y + x) / (value + 0.3)
+            for _ in range(idle // 9):
+                y * 0.1
+        swept.append((len(tape.nodes) > LONG, tape.bound(value), tape.back(value).by_path))
+    (short, *plain), (long, *sparse) = swept
+    assert long and not short
+    assert plain == sparse
 
 
 def test_a_number_on_a_tape_is_equal_to_its_value() -> None:
