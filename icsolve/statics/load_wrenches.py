@@ -102,7 +102,7 @@ def wrenches(place: PlacedCase, *, vectors: bool = False) -> tuple[Wrench, ...]:
             unit, gain = force_wrench((bx - ax, by - ay), (ax, ay)), 1.0 / frame.scale
         else:
             unit, gain = _unit_wrench(load, place)
-        measure = frame.scale if isinstance(load, Torque | TorsionSpring) else 1.0
+        measure = frame.scale if isinstance(load, (Torque, TorsionSpring)) else 1.0
         result.append(acting(load, by_name, case, unit, gain, measure, arithmetic))
     return tuple(result)
 

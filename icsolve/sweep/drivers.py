@@ -489,7 +489,7 @@ def closed_drive(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str
     drivers: list[Constraint] = [turning(mechanism, link, 0.0) for link in links]
     drivers += [condition(mechanism, pose, value_of(mechanism.case, pose.datum)) for pose in poses.values()]
     constraints = [*drivers, *mechanism.constraints]
-    if any(isinstance(c, Immovable | Roped) for c in constraints):
+    if any(isinstance(c, (Immovable, Roped)) for c in constraints):
         return None
     order = AssemblyOrder(mechanism.shape, mechanism.spots, constraints)
     while len(order.full) < len(mechanism.spots):
@@ -505,7 +505,7 @@ def _is_regular(step: AssemblyStep) -> bool:
         by = step.by
         own = [float(f) for body, f in by.terms if body == step.body] if isinstance(by, Turning) else []
         return step.instead is None and (isinstance(by, Pointed) or sum(own) != 0.0)
-    return isinstance(step, PlaceByPoint | PlaceByTwoPoints | PlaceAtIntersection)
+    return isinstance(step, (PlaceByPoint, PlaceByTwoPoints, PlaceAtIntersection))
 
 
 def _held(

@@ -294,7 +294,7 @@ def _poses(case: Case, figure: Figure, scratch: Mechanism, path: str) -> bool:
     held = {joint.at for joint in case.joints}
     held |= {p for rope in case.ropes for p, _ in zip(rope.points, rope.links, strict=False)}
     own = datum_at(case, path)
-    if any(isinstance(s, Polar | Meet) and s.target in held and own in data_in(s) for s in figure.steps):
+    if any(isinstance(s, (Polar, Meet)) and s.target in held and own in data_in(s) for s in figure.steps):
         return True
     written = number_at(case, path).value
     before, after = place(figure, case).points, {}

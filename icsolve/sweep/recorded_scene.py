@@ -196,7 +196,7 @@ class _Writer:
         ground = self.mechanism.case.ground
         if isinstance(load, TorsionSpring):
             return load._replace(corner=self._corner(load, load.against or ground))
-        if not isinstance(load, Force | ForceVector | Weight | Spring):
+        if not isinstance(load, (Force, ForceVector, Weight, Spring)):
             return load
         if load.link not in self.body_of:
             rope = next(rope for rope in self.ropes if rope.end == load.link)

@@ -373,7 +373,7 @@ class AssemblyOrder:
 
     def _rotations(self) -> Iterator[RotateWith]:
         for c in self.constraints:
-            if not isinstance(c, Spinning | Pointed) or id(c) in self.used:
+            if id(c) in self.used or not isinstance(c, (Spinning, Pointed)):
                 continue
             wheels = {c.body} if isinstance(c, Pointed) else {body for body, _ in c.terms}
             left = [body for body in wheels if body not in self.turned]
