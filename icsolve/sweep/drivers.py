@@ -33,7 +33,7 @@ from icsolve.assembly.driven.order import (
     PlaceByTwoPoints,
     RotateWith,
 )
-from icsolve.assembly.driven.poses import Arm, Rotation, Spot, minus, product
+from icsolve.assembly.driven.poses import Arm, Spot, minus, product
 from icsolve.assembly.driven.poses import Places as Still
 from icsolve.assembly.workspace import (
     CORNER,
@@ -314,9 +314,7 @@ def _pointed(mechanism: Mechanism, spots: Sequence[Spot], number: Number, value:
     off = math.remainder(found - number.value, 360.0)
     written = shape.record.written(number)
     written = written if abs(off) <= ALIGNED else written + off
-    arm = Arm(p, q, length)
-    rotation = Rotation(_turned(mechanism, value), arm, value - written, arm)
-    return Pointed(p[0], rotation)
+    return Pointed(p[0], Arm(p, q, length), value, written)
 
 
 def _arms(mechanism: Mechanism, datum: Datum) -> tuple[int, int] | None:
