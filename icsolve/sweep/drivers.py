@@ -411,6 +411,7 @@ class Drive(NamedTuple):
     locked : bodies that only spin, which are kept from it
     closing : how the links close with all these as drivers, where that showed it; its conditions are
         those of the turned links, of the numbers, and of the mechanism
+    poses : by path the data of ``moving``, where that showed it
     """
 
     moving: tuple[str, ...]
@@ -418,6 +419,7 @@ class Drive(NamedTuple):
     locked: tuple[int, ...]
     """bodies that only spin, which are kept from it"""
     closing: Closing | None = None
+    poses: Mapping[str, Pose] = {}
 
 
 def drive_of(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str]) -> Drive:
@@ -493,7 +495,7 @@ def closed_drive(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str
     while len(order.full) < len(mechanism.spots):
         if not order.advance() or not _is_regular(order.steps[-1]):
             return None
-    return Drive(tuple(poses), (), (), order.closing)
+    return Drive(tuple(poses), (), (), order.closing, poses)
 
 
 def _is_regular(step: AssemblyStep) -> bool:

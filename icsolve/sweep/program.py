@@ -457,6 +457,7 @@ def _motion(
     """The mechanism driven by the inputs."""
     case, drive = setting.case, setting.drive
     record = held.shape.record
+    known = drive.poses if drive.moving == setting.paths else {}
     drivers: list[Constraint] = []
     posed: list[tuple[Pose, Scalar]] = []
     for link in setting.links:
@@ -467,7 +468,7 @@ def _motion(
         size = 180.0 if is_angle(path) else 1.0 / setting.figure.frame.scale
         node = record.input(path, number_at(case, path).value + size * _apart(nudge, inputs))
         record.vary[path], inputs[path] = node, node.index
-        pose = pose_of(held, path)
+        pose = known.get(path) or pose_of(held, path)
         if pose is None:
             raise _not_together(path, setting.paths)
         posed.append((pose, node))
