@@ -59,13 +59,14 @@ def directions(case: Case) -> Directions:
 
 def directions_of_joints(case: Case) -> Directions:
     """Those of guides and wheels."""
-    lines: list[tuple[str, tuple[str, str] | None]] = []
+    lines: list[tuple[str, tuple[str, str]]] = []
     for bond in topology(case).bonds:
-        names = listed(bond.links)
         guide = bond.joint.guide
-        lines.append((f"the guide of links {names}", guide.ends if guide is not None else None))
-        lines.append((f"the wheels {names}", bond.pivots or None))
-    return tuple([(what, ends) for what, ends in lines if ends is not None])
+        if guide is not None and guide.ends is not None:
+            lines.append((f"the guide of links {listed(bond.links)}", guide.ends))
+        if bond.pivots:
+            lines.append((f"the wheels {listed(bond.links)}", bond.pivots))
+    return tuple(lines)
 
 
 def refuse_no_direction(lines: Directions, points: Points, arithmetic: Arithmetic) -> None:
