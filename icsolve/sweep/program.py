@@ -17,7 +17,7 @@ from icsolve.assembly.driven.mechanism import Mechanism, mechanism, placed_late
 from icsolve.assembly.driven.motion import DrivenMotion, closing_of, set_moving
 from icsolve.assembly.steps import Meet, Polar, spare_data
 from icsolve.assembly.wheels import refuse_misfit, wheel_margins
-from icsolve.assembly.workspace import CORNER, RAY, PlacedCase, data_in, datum_at, names_of, number_of
+from icsolve.assembly.workspace import CORNER, RAY, PlacedCase, data_in, datum_at, number_of
 from icsolve.case import Case, Pair, TorsionSpring, is_angle, pair_name, spot_name
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import by_loops
@@ -257,12 +257,10 @@ def wanted_points(case: Case) -> tuple[list[str], list[str]]:
     loads and motions need."""
     carried = [p for points in case.carries.values() for p in points]
     used = [joint.at for joint in case.joints if joint.at is not None]
-    given = [name for name in names_of(case) if name in case.points]
     loads = [getattr(getattr(load, "heading", None), "point", None) for load in case.loads]
     ends = [rope.points[-1] for rope in case.ropes]
-    wanted = [
-        p for p in dict.fromkeys((*carried, *used, *given, *ends, *loads)) if p and p not in case.left_out
-    ]
+    named = dict.fromkeys((*carried, *used, *case.points, *ends, *loads))
+    wanted = [p for p in named if p and p not in case.left_out]
     guides = [joint.guide for joint in case.joints if joint.guide is not None]
     needed = {*used, *(p for guide in guides for p in (*(guide.ends or ()), guide.through))}
     needed |= {p for load in case.loads for p in points_of(load)} | {m.point for m in case.motion}
