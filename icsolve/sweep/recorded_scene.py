@@ -522,11 +522,13 @@ def motion_fits(
     Raises SceneError where the given motions can be in no row.
     """
     given, motions = scene.case.motion, found.motions
+    if not given:
+        return ()
     speeds_of_rows = {path: number_at(scene.case, path).value for path in paths if path.startswith("motion.")}
     place = scene.place._replace(case=with_numbers(scene.case, speeds_of_rows))
     margins = list(speeds.motion_margins(place, motions.twists, sense=sense))
     still = any(not varies(m) and float(m) <= 0.0 for m in margins)
-    if given and (still or motions.mobility > 1):
+    if still or motions.mobility > 1:
         speeds.speed_of(scene.place, motions.twists)
     return tuple(m.index for m in margins if varies(m))
 
