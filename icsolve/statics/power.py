@@ -315,10 +315,11 @@ def known_terms(
     and so do the terms of a spring's stretch."""
     left = size = 0.0
     for w, factor in zip(b.wrenches, b.factors[motion], strict=True):
-        relative = map(sub, twists[w.load.link][motion], twists[w.against][motion])
-        terms = sum(abs(float(u) * float(v)) for u, v in zip(w.unit, relative, strict=True))
-        left += power_of(w, float(factor))
-        size += abs(power_of(w, w.reach * terms))
+        if w.number:
+            relative = map(sub, twists[w.load.link][motion], twists[w.against][motion])
+            terms = sum(abs(float(u) * float(v)) for u, v in zip(w.unit, relative, strict=True))
+            left += power_of(w, float(factor))
+            size += abs(power_of(w, w.reach * terms))
     return left, size
 
 
