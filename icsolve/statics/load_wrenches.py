@@ -320,13 +320,15 @@ def spring_angle(load: TorsionSpring, points: Points, arithmetic: Arithmetic) ->
 
 def counted_about(case: Case, angles: Mapping[str, float]) -> Case:
     """The case with its torsion springs' turns counted about angles, by load [degrees]."""
+    if not angles:
+        return case
     loads = [
         load._replace(about=angles[load.name])
         if isinstance(load, TorsionSpring) and load.name in angles
         else load
         for load in case.loads
     ]
-    return replace(case, loads=tuple(loads)) if angles else case
+    return replace(case, loads=tuple(loads))
 
 
 def direction(load: Force, points: Points, arithmetic: Arithmetic) -> Point:

@@ -191,6 +191,8 @@ def living_checks(compiled: CompiledSweep, behind: Sequence[int]) -> list[int]:
     """The checks of links that bear on what is asked: they share more with what is behind it than a varied
     number, such as a place that a group found."""
     checks = compiled.motion.checks if compiled.motion is not None else ()
+    if not checks:
+        return []
     known = {*behind} - {*compiled.inputs.values()}
     return [k for k in checks if known.intersection(live(compiled.record.nodes, [k]))]
 
