@@ -84,8 +84,6 @@ class Code:
                 count += 1
             if not in_place:
                 free += gone
-            if own not in last and own not in keep:
-                free.append(place[own])
         return place, count
 
     def bound(self, rows: int) -> tuple[list[Step], Array]:
