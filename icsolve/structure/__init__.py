@@ -157,7 +157,7 @@ def topology(case: Case, *, as_ties: bool = False) -> Topology:
         )
         raise SceneError(Status.UNSUPPORTED, said)
     body_of, members = _bodies(case)
-    pins = _pinned_at(case, body_of)
+    pins = _pinned_at(case, body_of) if any(isinstance(joint, Mesh) for joint in case.joints) else {}
     needed = {case.ground, *(load.link for load in case.loads), *(given.link for given in case.motion)}
     bonds = tuple(_bonds(case, body_of, pins, None if as_ties else needed))
     at: list[list[int]] = [[] for _ in members]
