@@ -123,7 +123,7 @@ def hanging_margins(case: Case, points: Points, scale: float, a: Arithmetic) -> 
 
 def rubs(case: Case) -> bool:
     """Whether friction has a part in the answer: a joint rubs, and a load is unknown."""
-    return any(power.is_unknown(load) for load in case.loads) and power.has_friction(case)
+    return any(map(power.is_unknown, case.loads)) and power.has_friction(case)
 
 
 def may_hold(outcome: power.Outcome) -> bool:

@@ -194,7 +194,7 @@ def friction_of(joint: Joint) -> Friction | None:
 def has_friction(case: Case) -> bool:
     """Whether a joint, a rope or a screw has friction."""
     ropes = any(rope.slips for rope in case.ropes) or any(screw.rubs for screw in case.screws)
-    return ropes or any(friction_of(joint) is not None for joint in case.joints)
+    return ropes or any(map(friction_of, case.joints))
 
 
 def force_scale(b: PowerFactors[L]) -> float:

@@ -398,7 +398,7 @@ def statics(scene: RecordedScene, everything: bool, dynamic: bool = False) -> Re
     """Unknown loads and twists of the scene on the record; with ``everything`` the twist of every link,
     ``dynamic`` with the inertia forces of the given motion."""
     case, top, place = scene.case, scene.top, scene.place
-    unknown = any(power.is_unknown(load) for load in case.loads)
+    unknown = any(map(power.is_unknown, case.loads))
     some = unknown and not (everything or dynamic or case.ropes or case.screws)
     wanted = frozenset(top.body_of[link] for link in load_wrenches.moving_links(case)) if some else None
     motions = motions_of(scene, wanted)

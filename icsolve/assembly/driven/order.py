@@ -304,7 +304,7 @@ class AssemblyOrder:
     ) -> None:
         self.shape, self.spots, self.constraints, self.near = shape, spots, constraints, near or {}
         self.full, self.turned = {shape.ground}, {shape.ground}
-        self.located = {shape.one(spot) for spot in spots.get(shape.ground, ())}
+        self.located = {*map(shape.one, spots.get(shape.ground, ()))}
         self.steps: list[AssemblyStep] = []
         self.used: set[int] = set()
         self.nearest: str | None = None
@@ -360,7 +360,7 @@ class AssemblyOrder:
         for body in bodies:
             self.full.add(body)
             self.turned.add(body)
-            self.located.update(self.shape.one(spot) for spot in self.spots[body])
+            self.located.update(map(self.shape.one, self.spots[body]))
 
     def known(self, spot: Spot) -> bool:
         """Whether the place of a spot is known."""
