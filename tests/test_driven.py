@@ -118,7 +118,7 @@ def test_a_drive_whose_links_close_is_that_of_the_derivatives(source: str) -> No
                 closed = closed_drive(held, *drivers)
                 if closed is not None:
                     met += 1
-                    assert closed._replace(closing=None) == drive_of(held, *drivers)
+                    assert closed._replace(closing=None, poses={}) == drive_of(held, *drivers)
     assert met > 20
 
 

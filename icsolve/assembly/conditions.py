@@ -69,8 +69,8 @@ def on_line(p: Point, through: Point, along: Point, offset: Scalar = 0.0) -> Con
 
 
 def _length(workspace: Workspace, datum: Datum, part: int) -> Condition:
-    p, q = (workspace.points[name] for name in datum.points)
-    return at_distance(p, q, workspace.length(datum))
+    p, q = datum.points
+    return at_distance(workspace.points[p], workspace.points[q], workspace.length(datum))
 
 
 def _along(workspace: Workspace, datum: Datum, part: int) -> Condition:

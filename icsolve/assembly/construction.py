@@ -122,7 +122,7 @@ def _figure(walk: Walk, mode: Mode) -> Figure | Miss:
     turned = [
         step
         for step in mode.steps
-        if isinstance(step, Polar | Meet | Turned) and step.target in walk.near and _turns(step)
+        if isinstance(step, (Polar, Meet, Turned)) and step.target in walk.near and _turns(step)
     ]
     if turned:
         miss = refusals.mirrored(workspace, turned, walk.near, size_of(workspace, order.points))

@@ -338,7 +338,7 @@ def needs(step: Step) -> tuple[Key, ...]:
 def aims(step: Step) -> list[tuple[Key, Key]]:
     """The pairs of points whose direction a step goes by."""
     pairs = [step.shape[:2]] if isinstance(step, Turned) else []
-    directions = [step.direction] if isinstance(step, Polar | Turned) else []
+    directions = [step.direction] if isinstance(step, (Polar, Turned)) else []
     for locus in (step.first, step.second) if isinstance(step, Meet) else ():
         directions += directions_of(locus)
     return pairs + [(h.root.a, h.root.b) for h in directions if isinstance(h.root, Apart)]

@@ -271,7 +271,7 @@ def by_lu(scene: RivalFigure) -> float:
     if rows.shape[0] + 1 != rows.shape[1]:
         raise Failed("not as many conditions as unknowns")
     k = next(k for k in top.at[top.ground] if top.bonds[k].freedom == 1)
-    basis, body = pose.bases[k][0], top.bonds[k].bare.other(top.ground)
+    basis, body = pose.bases[k][0], top.bonds[k].other(top.ground)
     drive = np.zeros(rows.shape[1])
     place = _columns(pose)[body]
     drive[place : place + 3] = (0.0, 0.0, 1.0) if basis[2] else basis

@@ -143,7 +143,8 @@ def run(
     pool.put({entry.a: (ORIGIN, o), entry.b: (basis_at(o, bases[plan.entry][0]), o)})
     closures = []
     for group in plan.groups:
-        closure, found = _close(group, top, bases, arithmetic, pool)
+        last = group is plan.groups[-1]  # of which nothing hangs on what is not wanted
+        closure, found = _close(group, top, bases, arithmetic, pool, wanted if last else None)
         if len(plan.groups) > LONG:
             closure, found = _rescaled(closure, found, pool)
         closures.append(closure)
@@ -173,9 +174,16 @@ def _rescaled(closure: Closure, found: dict[int, Seen], pool: _Pool) -> Closed:
     return Closure(closure.group, scale * closure.factor, numerators, columns), scaled
 
 
-def _close(group: Group, top: Topology, bases: Bases, arithmetic: Arithmetic, pool: _Pool) -> Closed:
+def _close(
+    group: Group,
+    top: Topology,
+    bases: Bases,
+    arithmetic: Arithmetic,
+    pool: _Pool,
+    wanted: Collection[int] | None,
+) -> Closed:
     if group.kind == "dyad":
-        return _dyad(group, bases, pool)
+        return _dyad(group, bases, pool, group.bodies if wanted is None else wanted)
     if group.kind == "monad":
         mesh = top.bonds[group.bonds[1]]
         if mesh.pivots and _on_carrier(group, top):
@@ -228,14 +236,15 @@ def _wheel(group: Group, mesh: Bond, bases: Bases, weights: tuple[Scalar, Scalar
     return Closure(group, d, (s,)), {body: (blend(d, ta, s, here), o)}
 
 
-def _dyad(group: Group, bases: Bases, pool: _Pool) -> Closed:
+def _dyad(group: Group, bases: Bases, pool: _Pool, wanted: Collection[int]) -> Closed:
     (u, v), (outer_u, inner, outer_v), (a, c) = group.bodies, group.bonds, group.ends
     b1, b3, b2 = bases[outer_u][0], bases[inner][0], bases[outer_v][0]
     o = _origin(b3, b1, b2)  # the inner pin is in every determinant: each is of differences then
     ta, tc = pool.now(a, o), pool.now(c, o)
     columns = (basis_at(o, b1), basis_at(o, b3), basis_at(o, b2), subtract(tc, ta))
     d, s1, s2 = dyad_twists(*columns)
-    found = {u: _hung(pool, a, b1, (d, s1), o), v: _hung(pool, c, b2, (d, s2), o)}
+    hung = ((u, a, b1, s1), (v, c, b2, s2))
+    found = {body: _hung(pool, root, b, (d, s), o) for body, root, b, s in hung if body in wanted}
     return Closure(group, d, (s1, s2), columns), found
 
 

@@ -435,7 +435,7 @@ def lined_up(closure: Closure, top: Topology, body: int, arithmetic: Arithmetic)
         return ()
     kept = (bonds[1], bonds[2 if n == 0 else 0]) if closure.group.kind == "dyad" else bonds[1:]
     ends = closure.group.ends
-    shared = (k for k in top.at[ends[0]] if top.bonds[k].bare.other(ends[0]) == ends[1])
+    shared = (k for k in top.at[ends[0]] if top.bonds[k].other(ends[0]) == ends[1])
     driver = next((k for k in shared if top.bonds[k].freedom == 1), None)
     return () if driver is None else tuple(sorted((driver, *kept)))
 

@@ -476,19 +476,16 @@ def live(nodes: Sequence[Traced], wanted: Iterable[int], given: Container[int] =
 
     Nodes that are the same in every row are left out: their values stand in the record.
     """
-    marked = bytearray(len(nodes))
-    for k in wanted:
-        marked[k] = nodes[k].row
-    found, k = [], marked.rfind(1)
-    while k >= 0:  # operands stand before what is made of them
-        found.append(k)
+    found = {k for k in wanted if nodes[k].row}
+    waiting = [*found]
+    while waiting:
+        k = waiting.pop()
         if k not in given:
             for n in nodes[k].of:
-                if not marked[n]:
-                    marked[n] = nodes[n].row
-        k = marked.rfind(1, 0, k)
-    found.reverse()
-    return found
+                if n not in found and nodes[n].row:
+                    found.add(n)
+                    waiting.append(n)
+    return sorted(found)  # operands stand before what is made of them
 
 
 def terms_of(nodes: Sequence[Traced], k: int) -> float:

@@ -84,8 +84,6 @@ class Code:
                 count += 1
             if not in_place:
                 free += gone
-            if own not in last and own not in keep:
-                free.append(place[own])
         return place, count
 
     def bound(self, rows: int) -> tuple[list[Step], Array]:
@@ -105,35 +103,33 @@ class Code:
     def _steps(self, buffers: Array) -> Iterable[Step]:
         nodes, rows = self.nodes, list(buffers)
         held = {k: rows[place] for k, place in self.place.items()}
-
-        def value(k: int) -> Array:
-            return held[k] if k in held else np.array(nodes[k].value)
-
+        for n in (n for k in self.order for n in nodes[k].of if n not in held):
+            held[n] = np.array(nodes[n].value)
         sines = {nodes[k].b: k for k in self.order if nodes[k].op == Op.SIN}
         done: set[int] = set()
         for k in self.order:
             node, out = nodes[k], held[k]
             operation = BINARY.get(node.op)
             if operation is not None:
-                yield operation, (value(node.a), value(node.b), out)
+                yield operation, (held[node.a], held[node.b], out)
             elif k in done:
                 continue
             elif node.op == Op.NEG:
-                yield np.negative, (value(node.a), out)
+                yield np.negative, (held[node.a], out)
             elif node.op == Op.SQRT:
-                yield partial(np.maximum, out=out), (value(node.a), 0.0)  # but for rounding
+                yield partial(np.maximum, out=out), (held[node.a], 0.0)  # but for rounding
                 yield np.sqrt, (out, out)
             elif node.op == Op.ANGLE:
-                yield np.arctan2, (value(node.b), value(node.a), out)
+                yield np.arctan2, (held[node.b], held[node.a], out)
                 yield np.degrees, (out, out)
             elif node.op == Op.NEAREST:
-                yield np.rint, (value(node.a), out)
+                yield np.rint, (held[node.a], out)
             else:
                 sine = k if node.op == Op.SIN else sines.get(k)
                 cosine = k if node.op == Op.COS else None
                 done.update(() if sine is None else (sine,))
                 outs = [None if n is None else held[n] for n in (cosine, sine)]
-                yield turn, (value(node.a), *outs, *rows[-SCRATCH:])
+                yield turn, (held[node.a], *outs, *rows[-SCRATCH:])
 
     def held(self, k: int, buffers: Array) -> Array:
         """The whole buffer of a node, (room,), among those of `bound`; () where it does not vary."""

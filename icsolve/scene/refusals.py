@@ -59,13 +59,14 @@ def directions(case: Case) -> Directions:
 
 def directions_of_joints(case: Case) -> Directions:
     """Those of guides and wheels."""
-    lines: list[tuple[str, tuple[str, str] | None]] = []
+    lines: list[tuple[str, tuple[str, str]]] = []
     for bond in topology(case).bonds:
-        names = listed(bond.links)
         guide = bond.joint.guide
-        lines.append((f"the guide of links {names}", guide.ends if guide is not None else None))
-        lines.append((f"the wheels {names}", bond.pivots or None))
-    return tuple([(what, ends) for what, ends in lines if ends is not None])
+        if guide is not None and guide.ends is not None:
+            lines.append((f"the guide of links {listed(bond.links)}", guide.ends))
+        if bond.pivots:
+            lines.append((f"the wheels {listed(bond.links)}", bond.pivots))
+    return tuple(lines)
 
 
 def refuse_no_direction(lines: Directions, points: Points, arithmetic: Arithmetic) -> None:
@@ -122,7 +123,7 @@ def hanging_margins(case: Case, points: Points, scale: float, a: Arithmetic) -> 
 
 def rubs(case: Case) -> bool:
     """Whether friction has a part in the answer: a joint rubs, and a load is unknown."""
-    return any(power.is_unknown(load) for load in case.loads) and power.has_friction(case)
+    return any(map(power.is_unknown, case.loads)) and power.has_friction(case)
 
 
 def may_hold(outcome: power.Outcome) -> bool:

@@ -102,7 +102,7 @@ def wrenches(place: PlacedCase, *, vectors: bool = False) -> tuple[Wrench, ...]:
             unit, gain = force_wrench((bx - ax, by - ay), (ax, ay)), 1.0 / frame.scale
         else:
             unit, gain = _unit_wrench(load, place)
-        measure = frame.scale if isinstance(load, Torque | TorsionSpring) else 1.0
+        measure = frame.scale if isinstance(load, (Torque, TorsionSpring)) else 1.0
         result.append(acting(load, by_name, case, unit, gain, measure, arithmetic))
     return tuple(result)
 
@@ -320,13 +320,15 @@ def spring_angle(load: TorsionSpring, points: Points, arithmetic: Arithmetic) ->
 
 def counted_about(case: Case, angles: Mapping[str, float]) -> Case:
     """The case with its torsion springs' turns counted about angles, by load [degrees]."""
+    if not angles:
+        return case
     loads = [
         load._replace(about=angles[load.name])
         if isinstance(load, TorsionSpring) and load.name in angles
         else load
         for load in case.loads
     ]
-    return replace(case, loads=tuple(loads)) if angles else case
+    return replace(case, loads=tuple(loads))
 
 
 def direction(load: Force, points: Points, arithmetic: Arithmetic) -> Point:

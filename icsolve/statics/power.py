@@ -194,7 +194,7 @@ def friction_of(joint: Joint) -> Friction | None:
 def has_friction(case: Case) -> bool:
     """Whether a joint, a rope or a screw has friction."""
     ropes = any(rope.slips for rope in case.ropes) or any(screw.rubs for screw in case.screws)
-    return ropes or any(friction_of(joint) is not None for joint in case.joints)
+    return ropes or any(map(friction_of, case.joints))
 
 
 def force_scale(b: PowerFactors[L]) -> float:
@@ -315,10 +315,11 @@ def known_terms(
     and so do the terms of a spring's stretch."""
     left = size = 0.0
     for w, factor in zip(b.wrenches, b.factors[motion], strict=True):
-        relative = map(sub, twists[w.load.link][motion], twists[w.against][motion])
-        terms = sum(abs(float(u) * float(v)) for u, v in zip(w.unit, relative, strict=True))
-        left += power_of(w, float(factor))
-        size += abs(power_of(w, w.reach * terms))
+        if w.number:
+            relative = map(sub, twists[w.load.link][motion], twists[w.against][motion])
+            terms = sum(abs(float(u) * float(v)) for u, v in zip(w.unit, relative, strict=True))
+            left += power_of(w, float(factor))
+            size += abs(power_of(w, w.reach * terms))
     return left, size
 
 

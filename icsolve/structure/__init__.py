@@ -49,10 +49,9 @@ class Bond(NamedTuple):
     carrier: int = -1
     """of gears and belts: the body to which both are pinned"""
 
-    @property
-    def bare(self) -> BareBond:
-        """The bond without what the joint is."""
-        return BareBond(self.a, self.b, self.freedom)
+    def other(self, body: int) -> int:
+        """The body at the other end."""
+        return self.b if body == self.a else self.a
 
 
 class Skeleton(NamedTuple):
@@ -109,7 +108,7 @@ class Topology(NamedTuple):
     @property
     def constraints(self) -> int:
         """What the joints and ropes take."""
-        return sum(bond.bare.constraints for bond in self.bonds) + len(self.ropes)
+        return sum(3 - bond.freedom for bond in self.bonds) + len(self.ropes)
 
     @property
     def afloat(self) -> tuple[tuple[int, ...], ...]:
@@ -124,7 +123,7 @@ class Topology(NamedTuple):
 
     def beside(self, body: int) -> list[int]:
         """The bodies that joints tie to this one."""
-        return [self.bonds[k].bare.other(body) for k in self.at[body]]
+        return [self.bonds[k].other(body) for k in self.at[body]]
 
 
 def reached(first: Iterable[T], following: Callable[[T], Iterable[T]]) -> dict[T, None]:
@@ -158,7 +157,7 @@ def topology(case: Case, *, as_ties: bool = False) -> Topology:
         )
         raise SceneError(Status.UNSUPPORTED, said)
     body_of, members = _bodies(case)
-    pins = _pinned_at(case, body_of)
+    pins = _pinned_at(case, body_of) if any(isinstance(joint, Mesh) for joint in case.joints) else {}
     needed = {case.ground, *(load.link for load in case.loads), *(given.link for given in case.motion)}
     bonds = tuple(_bonds(case, body_of, pins, None if as_ties else needed))
     at: list[list[int]] = [[] for _ in members]

@@ -33,7 +33,7 @@ from icsolve.assembly.driven.order import (
     PlaceByTwoPoints,
     RotateWith,
 )
-from icsolve.assembly.driven.poses import Arm, Rotation, Spot, minus, product
+from icsolve.assembly.driven.poses import Arm, Spot, minus, product
 from icsolve.assembly.driven.poses import Places as Still
 from icsolve.assembly.workspace import (
     CORNER,
@@ -314,9 +314,7 @@ def _pointed(mechanism: Mechanism, spots: Sequence[Spot], number: Number, value:
     off = math.remainder(found - number.value, 360.0)
     written = shape.record.written(number)
     written = written if abs(off) <= ALIGNED else written + off
-    arm = Arm(p, q, length)
-    rotation = Rotation(_turned(mechanism, value), arm, value - written, arm)
-    return Pointed(p[0], rotation)
+    return Pointed(p[0], Arm(p, q, length), value, written)
 
 
 def _arms(mechanism: Mechanism, datum: Datum) -> tuple[int, int] | None:
@@ -413,6 +411,7 @@ class Drive(NamedTuple):
     locked : bodies that only spin, which are kept from it
     closing : how the links close with all these as drivers, where that showed it; its conditions are
         those of the turned links, of the numbers, and of the mechanism
+    poses : by path the data of ``moving``, where that showed it
     """
 
     moving: tuple[str, ...]
@@ -420,6 +419,7 @@ class Drive(NamedTuple):
     locked: tuple[int, ...]
     """bodies that only spin, which are kept from it"""
     closing: Closing | None = None
+    poses: Mapping[str, Pose] = {}
 
 
 def drive_of(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str]) -> Drive:
@@ -489,13 +489,13 @@ def closed_drive(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str
     drivers: list[Constraint] = [turning(mechanism, link, 0.0) for link in links]
     drivers += [condition(mechanism, pose, value_of(mechanism.case, pose.datum)) for pose in poses.values()]
     constraints = [*drivers, *mechanism.constraints]
-    if any(isinstance(c, Immovable | Roped) for c in constraints):
+    if any(isinstance(c, (Immovable, Roped)) for c in constraints):
         return None
     order = AssemblyOrder(mechanism.shape, mechanism.spots, constraints)
     while len(order.full) < len(mechanism.spots):
         if not order.advance() or not _is_regular(order.steps[-1]):
             return None
-    return Drive(tuple(poses), (), (), order.closing)
+    return Drive(tuple(poses), (), (), order.closing, poses)
 
 
 def _is_regular(step: AssemblyStep) -> bool:
@@ -505,7 +505,7 @@ def _is_regular(step: AssemblyStep) -> bool:
         by = step.by
         own = [float(f) for body, f in by.terms if body == step.body] if isinstance(by, Turning) else []
         return step.instead is None and (isinstance(by, Pointed) or sum(own) != 0.0)
-    return isinstance(step, PlaceByPoint | PlaceByTwoPoints | PlaceAtIntersection)
+    return isinstance(step, (PlaceByPoint, PlaceByTwoPoints, PlaceAtIntersection))
 
 
 def _held(

@@ -17,7 +17,7 @@ from icsolve.assembly.driven.mechanism import Mechanism, mechanism, placed_late
 from icsolve.assembly.driven.motion import DrivenMotion, closing_of, set_moving
 from icsolve.assembly.steps import Meet, Polar, spare_data
 from icsolve.assembly.wheels import refuse_misfit, wheel_margins
-from icsolve.assembly.workspace import CORNER, RAY, PlacedCase, data_in, datum_at, names_of, number_of
+from icsolve.assembly.workspace import CORNER, RAY, PlacedCase, data_in, datum_at, number_of
 from icsolve.case import Case, Pair, TorsionSpring, is_angle, pair_name, spot_name
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import by_loops
@@ -191,6 +191,8 @@ def living_checks(compiled: CompiledSweep, behind: Sequence[int]) -> list[int]:
     """The checks of links that bear on what is asked: they share more with what is behind it than a varied
     number, such as a place that a group found."""
     checks = compiled.motion.checks if compiled.motion is not None else ()
+    if not checks:
+        return []
     known = {*behind} - {*compiled.inputs.values()}
     return [k for k in checks if known.intersection(live(compiled.record.nodes, [k]))]
 
@@ -257,12 +259,10 @@ def wanted_points(case: Case) -> tuple[list[str], list[str]]:
     loads and motions need."""
     carried = [p for points in case.carries.values() for p in points]
     used = [joint.at for joint in case.joints if joint.at is not None]
-    given = [name for name in names_of(case) if name in case.points]
     loads = [getattr(getattr(load, "heading", None), "point", None) for load in case.loads]
     ends = [rope.points[-1] for rope in case.ropes]
-    wanted = [
-        p for p in dict.fromkeys((*carried, *used, *given, *ends, *loads)) if p and p not in case.left_out
-    ]
+    named = dict.fromkeys((*carried, *used, *case.points, *ends, *loads))
+    wanted = [p for p in named if p and p not in case.left_out]
     guides = [joint.guide for joint in case.joints if joint.guide is not None]
     needed = {*used, *(p for guide in guides for p in (*(guide.ends or ()), guide.through))}
     needed |= {p for load in case.loads for p in points_of(load)} | {m.point for m in case.motion}
@@ -294,7 +294,7 @@ def _poses(case: Case, figure: Figure, scratch: Mechanism, path: str) -> bool:
     held = {joint.at for joint in case.joints}
     held |= {p for rope in case.ropes for p, _ in zip(rope.points, rope.links, strict=False)}
     own = datum_at(case, path)
-    if any(isinstance(s, Polar | Meet) and s.target in held and own in data_in(s) for s in figure.steps):
+    if any(isinstance(s, (Polar, Meet)) and s.target in held and own in data_in(s) for s in figure.steps):
         return True
     written = number_at(case, path).value
     before, after = place(figure, case).points, {}
@@ -457,6 +457,7 @@ def _motion(
     """The mechanism driven by the inputs."""
     case, drive = setting.case, setting.drive
     record = held.shape.record
+    known = drive.poses if drive.moving == setting.paths else {}
     drivers: list[Constraint] = []
     posed: list[tuple[Pose, Scalar]] = []
     for link in setting.links:
@@ -467,7 +468,7 @@ def _motion(
         size = 180.0 if is_angle(path) else 1.0 / setting.figure.frame.scale
         node = record.input(path, number_at(case, path).value + size * _apart(nudge, inputs))
         record.vary[path], inputs[path] = node, node.index
-        pose = pose_of(held, path)
+        pose = known.get(path) or pose_of(held, path)
         if pose is None:
             raise _not_together(path, setting.paths)
         posed.append((pose, node))

@@ -77,7 +77,6 @@ class Runner:
         self.rubs = compiled.rubbing.nodes if compiled.rubbing is not None else []
         nodes = record.nodes
         behind = live(record.nodes, [*wanted, *self.rubs])
-        alive = [k for k in behind if nodes[k].op != Op.INPUT]
         answers = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
         standing = live(nodes, [*wanted, *self.rubs, *compiled.loaded]) if compiled.loaded else behind
         checks = living_checks(compiled, standing)
@@ -86,7 +85,7 @@ class Runner:
         shallow, divisor = (STEEP * STEEP, STEEP) if compiled.dynamic else (SHALLOW, SMALL)
         self.watched = [
             *(Watched(root.radicand, shallow * _size_of(record, root)) for root in self.roots),
-            *(Watched(k, divisor * terms_of(nodes, k), sized=True) for k in _divisors(nodes, alive)),
+            *(Watched(k, divisor * terms_of(nodes, k), sized=True) for k in _divisors(nodes, behind)),
             *(Watched(k, CLOSE) for k in (*compiled.margins, *compiled.fits)),
             *(Watched(k, -math.inf, AGREED, True) for k in checks),
         ]

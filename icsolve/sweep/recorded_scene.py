@@ -196,7 +196,7 @@ class _Writer:
         ground = self.mechanism.case.ground
         if isinstance(load, TorsionSpring):
             return load._replace(corner=self._corner(load, load.against or ground))
-        if not isinstance(load, Force | ForceVector | Weight | Spring):
+        if not isinstance(load, (Force, ForceVector, Weight, Spring)):
             return load
         if load.link not in self.body_of:
             rope = next(rope for rope in self.ropes if rope.end == load.link)
@@ -398,7 +398,7 @@ def statics(scene: RecordedScene, everything: bool, dynamic: bool = False) -> Re
     """Unknown loads and twists of the scene on the record; with ``everything`` the twist of every link,
     ``dynamic`` with the inertia forces of the given motion."""
     case, top, place = scene.case, scene.top, scene.place
-    unknown = any(power.is_unknown(load) for load in case.loads)
+    unknown = any(map(power.is_unknown, case.loads))
     some = unknown and not (everything or dynamic or case.ropes or case.screws)
     wanted = frozenset(top.body_of[link] for link in load_wrenches.moving_links(case)) if some else None
     motions = motions_of(scene, wanted)
@@ -522,11 +522,13 @@ def motion_fits(
     Raises SceneError where the given motions can be in no row.
     """
     given, motions = scene.case.motion, found.motions
+    if not given:
+        return ()
     speeds_of_rows = {path: number_at(scene.case, path).value for path in paths if path.startswith("motion.")}
     place = scene.place._replace(case=with_numbers(scene.case, speeds_of_rows))
     margins = list(speeds.motion_margins(place, motions.twists, sense=sense))
     still = any(not varies(m) and float(m) <= 0.0 for m in margins)
-    if given and (still or motions.mobility > 1):
+    if still or motions.mobility > 1:
         speeds.speed_of(scene.place, motions.twists)
     return tuple(m.index for m in margins if varies(m))
 

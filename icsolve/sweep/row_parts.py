@@ -78,7 +78,9 @@ class SweepParts:
 
     def __init__(self, start: Start, columns: Columns) -> None:
         self.start, self.columns = start, columns
-        self.arrays = columns.arrays
+        self.arrays, self.runner = columns.arrays, start.runner()
+        self.bearing = [name for name in self.runner.bearing if name in self.arrays]
+        """the varied inputs on which branches, groups and counted turns hang"""
 
     def given(self, part: SweepPart) -> tuple[dict[int, Array], Mask]:
         """The inputs of a part's rows.
@@ -98,13 +100,12 @@ class SweepParts:
 
     def all(self) -> Iterator[SweepPart]:
         """Every row in some part."""
-        runner = self.start.runner()
-        compiled, rows = runner.compiled, np.arange(self.columns.rows)
-        bearing = self.bearing
-        if not bearing:
+        runner, rows = self.runner, np.arange(self.columns.rows)
+        compiled = runner.compiled
+        if not self.bearing:
             yield SweepPart(runner, rows, ordered=True)
             return
-        main, others = self._main(bearing)
+        main, others = self._main(self.bearing)
         at_once, left = (None, rows) if runner.sequential else self._at_once(runner, rows, main, others)
         if at_once is not None:
             yield at_once
@@ -117,15 +118,10 @@ class SweepParts:
         main = next(name for name in (*moving, *bearing) if name in bearing)
         return main, [name for name in bearing if name != main]
 
-    @property
-    def bearing(self) -> list[str]:
-        """The varied inputs on which branches, groups and counted turns hang."""
-        return [name for name in self.start.runner().bearing if name in self.arrays]
-
     def straight(self, row: int) -> SweepPart | None:
         """A row that is reached with all inputs going to its values at once; None where groups do not lead
         there so."""
-        compiled = self.start.runner().compiled
+        compiled = self.runner.compiled
         main, others = self._main(self.bearing)
         here = {name: float(self.arrays[name][row]) for name in (main, *others)}
         found = self._all_at_once(compiled, here, written_state(compiled))
@@ -137,7 +133,7 @@ class SweepParts:
 
     def whole(self) -> SweepPart:
         """All rows in one part, along their line, where one number varies."""
-        runner = self.start.runner()
+        runner = self.runner
         bearing, rows = self.bearing, np.arange(self.columns.rows)
         if not bearing:
             return SweepPart(runner, rows)
@@ -264,7 +260,7 @@ class SweepParts:
 
     def _on(self, line: InputLine, state: State, rows: Rows, places: Array) -> SweepPart:
         """Rows at places of a line of the main input, from a state."""
-        changed = _changed(self.start.runner().compiled, state)
+        changed = _changed(self.runner.compiled, state)
         followed = follow(self.start.compiled, self.start.compiled(changed), line, state, places)
         return SweepPart(self.start.runner(signs_of(followed.compiled)), rows, followed, places)
 

@@ -11,7 +11,18 @@ from collections.abc import Callable, Iterable
 from itertools import pairwise
 
 from icsolve.assembly.conditions import FigureEquation, at_distance, on_line
-from icsolve.assembly.driven.poses import Places, Rotation, Shape, Spot, dot, minus, plus, scaled, square
+from icsolve.assembly.driven.poses import (
+    Arm,
+    Places,
+    Rotation,
+    Shape,
+    Spot,
+    dot,
+    minus,
+    plus,
+    scaled,
+    square,
+)
 from icsolve.assembly.workspace import Datum, Workspace
 from icsolve.case import Rope
 from icsolve.errors import SceneError, Status
@@ -91,10 +102,17 @@ class Turning(NamedTuple):
 
 
 class Pointed(NamedTuple):
-    """A body has the rotation of a driver: the direction of two of its spots is given."""
+    """A body has the rotation of a driver: an arm of it is to point at so many degrees; ``written`` are those
+    in the position as written."""
 
     body: int
-    rotation: Rotation
+    arm: Arm
+    degrees: Scalar
+    written: Scalar
+
+    def rotation(self, record: Record) -> Rotation:
+        """How the body has turned."""
+        return Rotation(record.turned(self.degrees), self.arm, self.degrees - self.written, self.arm)
 
 
 class RolledStraight(NamedTuple):
@@ -274,9 +292,9 @@ class ConditionRows:
                     return ConditionRow(self._left(c), by)
                 a, b = (self.places.vector(body, (1.0, 0.0)) for body, _ in c.terms)
                 return ConditionRow(dot(square(b), a), by)
-            case Pointed(body, rotation):
-                z = self.places.vector(body, self.shape.vector(rotation.ref))
-                return ConditionRow(dot(square(rotation.z), z), {(body, 2): dot(rotation.z, z)})
+            case Pointed(body, arm, degrees):
+                z, along = self.places.vector(body, self.shape.vector(arm)), self.shape.record.turned(degrees)
+                return ConditionRow(dot(square(along), z), {(body, 2): dot(along, z)})
             case Immovable():
                 return ConditionRow(0.0, self._power(constraint))
         value, pushes = self._pushing(constraint)

@@ -219,7 +219,7 @@ class _Placing:
     def _rotation(self, body: int, by: Spinning | Pointed) -> Rotation:
         """That of a driver, of a body that turns alike, or what a sum of angles leaves to a body."""
         if isinstance(by, Pointed):
-            return by.rotation
+            return by.rotation(self.record)
         if isinstance(by, Turning) and by.alike:
             (other,) = (other for other, _ in by.terms if other != body)
             return self.moved.rotations[other]._replace(unit=None)

@@ -304,7 +304,7 @@ class AssemblyOrder:
     ) -> None:
         self.shape, self.spots, self.constraints, self.near = shape, spots, constraints, near or {}
         self.full, self.turned = {shape.ground}, {shape.ground}
-        self.located = {shape.one(spot) for spot in spots.get(shape.ground, ())}
+        self.located = {*map(shape.one, spots.get(shape.ground, ()))}
         self.steps: list[AssemblyStep] = []
         self.used: set[int] = set()
         self.nearest: str | None = None
@@ -360,7 +360,7 @@ class AssemblyOrder:
         for body in bodies:
             self.full.add(body)
             self.turned.add(body)
-            self.located.update(self.shape.one(spot) for spot in self.spots[body])
+            self.located.update(map(self.shape.one, self.spots[body]))
 
     def known(self, spot: Spot) -> bool:
         """Whether the place of a spot is known."""
@@ -373,7 +373,7 @@ class AssemblyOrder:
 
     def _rotations(self) -> Iterator[RotateWith]:
         for c in self.constraints:
-            if not isinstance(c, Spinning | Pointed) or id(c) in self.used:
+            if id(c) in self.used or not isinstance(c, (Spinning, Pointed)):
                 continue
             wheels = {c.body} if isinstance(c, Pointed) else {body for body, _ in c.terms}
             left = [body for body in wheels if body not in self.turned]
