@@ -63,6 +63,12 @@ SWAPS: dict[type, list[type]] = {
     ast.NotIn: [ast.In],
 }
 EQUIVALENT: dict[str, str] = {
+    "icsolve/assembly/driven/mechanism.py _as_guided #1: abs(float(dot(guide, contact))) > OFF_RADIUS -> "
+    "abs(float(dot(guide, contact))) >= OFF_RADIUS": "no contact misses by just that",
+    "icsolve/statics/power.py _solved_many #18: not whole.basis or not roots -> "
+    "not whole.basis and (not roots)": (
+        "known loads that no unknown could hold are told before, and without unknowns the loop makes nothing"
+    ),
     "icsolve/numbers/tape.py Taped.__truediv__ #18: 0.0 -> 1.0": "of an operand that is not there",
     "icsolve/statics/friction/solutions.py _moved #13: off <= NEAR -> off < NEAR": "two half steps instead",
     "icsolve/numbers/quadratics.py _Exclusion._refined #0: 6 -> 7": "six steps of Newton find all digits",

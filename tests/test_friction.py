@@ -365,6 +365,23 @@ loads:
     assert refused(text + down.replace("270", "90")).status == "no-value"
 
 
+@pytest.mark.parametrize(("angle", "other"), [(-60, -1), (120, 1)])
+@pytest.mark.parametrize("mu", [0.2, 0.35, 0.5])
+def test_force_that_presses_a_block_to_either_side_of_its_slope(mu: float, angle: int, other: int) -> None:
+    """Square to a guide at 30 degrees: mu N >= W sin 30 holds it, where N is P + W cos 30 on the flank below
+    it, P - W cos 30 on the one above."""
+    text = f"""
+points: {{A: [0, 0]}}
+joints:
+  - {{slide: [2, 1], at: A, along: 30, mu: {mu}}}
+loads:
+  W: {{weight: 100, link: 2, at: A}}
+  P: {{force: unknown, link: 2, at: A, angle: {angle}}}
+"""
+    least = 50.0 / mu + other * 50.0 * math.sqrt(3.0)
+    assert held(text, "P").holds == (exactly(least), math.inf)
+
+
 @pytest.mark.parametrize(("rough", "said"), [("", "and no friction does"), (", mu: 0.3", "that it makes")])
 def test_an_unknown_that_does_no_work_where_nothing_rubs_or_what_rubs_does_not_balance(
     rough: str, said: str

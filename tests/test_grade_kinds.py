@@ -501,3 +501,25 @@ def test_a_vector_is_right_by_its_two_components_and_they_are_never_taken_for_si
         wanted += [(text, "review") for text in others]
         texts = [text for text, _ in wanted]
         assert list(zip(texts, a_class.verdicts(*texts, case=question), strict=True)) == wanted
+
+
+def test_pounds_of_a_mass_wait_for_a_person(a_class: Class) -> None:
+    """They are a force here, and many write them for a mass: 1440 lbf at half the arm carry 720 lbm, as a
+    mass or as what it weighs. What is no such mass is wrong, and so is its weight in newtons."""
+    a_class.case(
+        "lever",
+        """icsolve: 1
+units: {length: ft, force: lbf}
+points: {A: [0, 0], B: [2, 0], C: [-1, 0]}
+joints: [{pin: [1, 2], at: A}]
+loads:
+  M: {mass: unknown, link: 2, at: B}
+  F: {force: 1440, link: 2, at: C, angle: 270}
+""",
+    )
+    wanted = {
+        **dict.fromkeys(("720 lb", "M = 720 pounds", "720 lbs"), "review"),
+        **dict.fromkeys(("720 lbm", "326.6 kg", "22.38 slug"), "right"),
+        **dict.fromkeys(("360 lb", "1440 pounds", "3203 N", "720 kg"), "wrong"),
+    }
+    assert dict(zip(wanted, a_class.verdicts(*wanted, case="lever"), strict=True)) == wanted

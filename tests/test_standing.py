@@ -407,6 +407,18 @@ def test_a_crate_on_a_crate_slides_at_the_last_digit(push: float, holds: bool) -
     assert any(said in note for note in answer.notes)
 
 
+@pytest.mark.parametrize(("angle", "holds"), [(0, (-20.0, 20.0)), (270, (-80.0, math.inf))])
+def test_a_push_on_two_crates_locks_them_and_a_weight_on_them_does_not(
+    angle: int, holds: tuple[float, float]
+) -> None:
+    """No power drives them where a push does work, up to a quarter of 80: they lock themselves. What only
+    presses the upper one does none, whatever it is, until it lifts it off."""
+    text = STACK.replace("K: [0.2, 0.6]", "K: [0.5, 0.6]").replace("PUSH", "unknown")
+    found = icsolve.solve(icsolve.load(text.replace("angle: 0", f"angle: {angle}"))).answers["P"]
+    assert found.holds == pytest.approx(holds, rel=1e-15)
+    assert found.self_locking is (angle == 0)
+
+
 @pytest.mark.parametrize("seed", range(few(60, 6)))
 def test_of_two_crates_that_are_pushed_one_or_both_slide_or_tip(seed: int) -> None:
     """The upper at its friction or about an edge of what it stands on, or both at that of the lower or about

@@ -45,6 +45,7 @@ from icsolve.grade.written.two_numbers import (
 )
 from icsolve.grade.written.words import (
     AMBIGUOUS_DIRECTION,
+    AMBIGUOUS_UNIT,
     CASE,
     ENERGY,
     WrittenDirection,
@@ -52,6 +53,7 @@ from icsolve.grade.written.words import (
     unit_word,
 )
 from icsolve.grade.written.words import direction as direction_of
+from icsolve.numbers.units import UNITS
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording import listed
 
@@ -299,6 +301,8 @@ def _in_full(key: NumberKey, written: WrittenAnswer) -> Judgement:
         return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, why)
     if number and _may_be_component(key, written):
         return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, AMBIGUOUS_DIRECTION)
+    if not number and factor is None and _is_mass_in_pounds(key, written):
+        return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, AMBIGUOUS_UNIT)
     direction = _direction_is_right(key, written, value, sign)
     if number and not direction and written.unsigned == SIZE and value > 0.0 > key.value:
         return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, SIZE_ALONE)
@@ -309,6 +313,12 @@ def _in_full(key: NumberKey, written: WrittenAnswer) -> Judgement:
         return _wrong_size(key, value, unit, direction, written)
     parts = (number, unit, direction)
     return _wrong(key, parts, _seen(key, written, value, parts, sign), value, off)
+
+
+def _is_mass_in_pounds(key: NumberKey, written: WrittenAnswer) -> bool:
+    """Whether pounds, which are a force here, are the right mass where they are meant so."""
+    pounds = key.factor(unit_word("lbm")) if written.unit and written.unit.unit == UNITS["lbf"] else None
+    return pounds is not None and _has_size(key, written.number * pounds)
 
 
 def _may_be_component(key: NumberKey, written: WrittenAnswer) -> bool:
