@@ -27,7 +27,7 @@ def structure(top: Topology) -> str:
     if not bodies:
         return (
             "no link moves: all of them are welded to the frame, or locked. Let a joint turn or slide; or "
-            "give every load a number, and its reactions are found by statics."
+            "give every load and every datum a number, and its reactions are found by statics."
         )
     held = [
         f"The slide at {bond.joint.at} keeps links {listed(bond.links)} from turning against each other: "
@@ -39,8 +39,8 @@ def structure(top: Topology) -> str:
     return (
         f"the links form a structure: 3 x {bodies} freedoms of {plural(bodies, 'link')} beside the frame, of "
         f"which the joints take {top.constraints}. Nothing moves, so power gives no equation. "
-        f"{''.join(held)}Take out a joint or a link to make it move; or give every load a number, and its "
-        "reactions are found by statics."
+        f"{''.join(held)}Take out a joint or a link to make it move; or give every load and every "
+        "datum a number, and its reactions are found by statics."
     )
 
 
