@@ -147,10 +147,8 @@ def _explain_keys(entry: Entry, sort: str, forms: Forms[T]) -> list[str]:
             kind = "distributed load" if sort == "distributed" else sort
             said = f"is a {kind}, which has no '{key}'; it takes {', '.join(forms.kinds[sort].keys)}"
             if sort in ("weight", "mass") and key in forms.kinds["force"].keys:
-                said += (
-                    f". Weights pull as gravity does: along another line write 'force' in place of '{sort}'"
-                )
-                said += ", the mass times g" if sort == "mass" else ""
+                said += ". Weights pull as gravity does: along another line write 'force' in place of "
+                said += "'mass', the mass times g" if sort == "mass" else "'weight'"
         else:
             said = f"has no '{key}': {forms.elsewhere[key]}"
             entry.ties = tuple(tie for tie in entry.ties if tie.kind != "direction")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from contextlib import suppress
 
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import EquilibriumPosition
@@ -56,13 +55,13 @@ def solve_positions(case: Case, **asked: bool) -> Answer:
 def _refuse_placed(case: Case) -> None:
     """Refuse a datum to find between points that the other data place: it has the value that these give,
     unless the mechanism moves from there."""
-    for unknown in case.unknowns:
-        names, placed = points_of(unknown.path), False
-        with suppress(SceneError):
-            solve_figure(without(_written(case), unknown.path), names)
-            placed = unknown.start is None
-        if placed:
-            raise SceneError(Status.UNSUPPORTED, sentences.placed_without(unknown.path, names))
+    for path in [unknown.path for unknown in case.unknowns if unknown.start is None]:
+        names = points_of(path)
+        try:
+            solve_figure(without(_written(case), path), names)
+        except SceneError:
+            continue
+        raise SceneError(Status.UNSUPPORTED, sentences.placed_without(path, names))
 
 
 def _answered(case: Case, asked: Mapping[str, bool]) -> Answer:
