@@ -592,6 +592,7 @@ REFUSED = {
         32,
         "CD reads as two points",
     ),
+    "a letter struck twice": ("link: 4, at: E", "link: 4, at: EE", 14, 32, "did you mean 'E'?"),
     "a corner of one arm": (
         "{force: 100, link: 4, at: E, angle: 180}",
         "{spring: 20, corner: DCD, free: 90, link: 4, against: 3}",

@@ -403,7 +403,7 @@ def _never_given(reading: Reading, name: str, given: set[str]) -> str:
 
 def _likely(reading: Reading, name: str, given: set[str]) -> str:
     """What a point that nothing gives may be: another one, a link, the middle of two points."""
-    if len(name) == 2 and {*name} <= given:
+    if len(name) == len({*name}) == 2 and {*name} <= given:
         return f"; {name} reads as two points, and one of them is wanted here, {name[0]} or {name[1]}"
     cased = next((point for point in sorted(given) if point.lower() == name.lower()), "")
     likely = len(name) > 1 or not name.isascii()
