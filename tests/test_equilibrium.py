@@ -723,6 +723,48 @@ def test_at_a_limit_a_position_is_stable_by_the_motion_that_is_left(
     ]
 
 
+PASSING_BLOCK = """
+icsolve: 1
+points: {{A: [0, 0], B: [{x!r}, {y!r}]}}
+lengths: {{AC: {free}}}
+joints:
+  - {{slide: [2, 1], at: C, along: {along!r}, through: B}}
+loads:
+  F: {{force: {force!r}, link: 2, at: C, angle: {along!r}}}
+  S: {{spring: {rate!r}, free: {own!r}, link: 2, at: C, to: A}}
+"""
+"""a block on a guide that passes A at the distance AB, on a spring from A"""
+
+
+@sampled(12)
+@pytest.mark.parametrize("free", ["unknown", "{{unknown: [{low!r}, {high!r}]}}"])
+@pytest.mark.parametrize("seed", range(24))
+def test_where_nothing_turns_a_limit_is_a_position_as_any_other(seed: int, free: str) -> None:
+    """The spring is shortest where the block passes A, and a block without a force may rest there: of the two
+    ways along the guide the energy says which are stable."""
+    draw = random.Random(f"blocks {seed}")
+    along, away = draw.choice([0.0, 90.0, 37.5, 123.25]), round(draw.uniform(0.2, 0.6), 2)
+    turn = math.radians(along)
+    x, y = -away * math.sin(turn), away * math.cos(turn)
+    rate, own = round(draw.uniform(20.0, 60.0), 1), round(away * draw.choice([0.5, 1.5, 3.0]), 2)
+    force = draw.choice([0.0, 0.0, round(draw.uniform(-9.0, 9.0), 1)])
+
+    def load(s: float) -> float:
+        length = math.hypot(away, s)
+        return force - rate * (length - own) * s / length
+
+    stations = [k * 2e-4 + 1e-4 for k in range(-15000, 15000)]
+    expected = []
+    for low, high in pairwise(stations):
+        if load(low) * load(high) < 0.0:
+            at = float(mpmath.findroot(load, (low, high), solver="anderson"))
+            expected.append((math.hypot(away, at), "stable" if load(low) > 0.0 else "unstable"))
+    span = free.format(low=away / 2.0, high=4.0)
+    found = positions(PASSING_BLOCK.format(x=x, y=y, along=along, free=span, force=force, rate=rate, own=own))
+    told = [(one.at["lengths.AC"], one.stability) for one in found]
+    assert sorted(told) == [(pytest.approx(at, abs=1e-8), kind) for at, kind in sorted(expected)]
+
+
 @sampled(3)
 @pytest.mark.parametrize(
     ("free", "limits"),

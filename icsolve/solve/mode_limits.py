@@ -8,15 +8,17 @@ from collections.abc import Sequence
 import numpy as np
 
 from icsolve.answer import Answer
+from icsolve.case import Force, Torque
 from icsolve.errors import SceneError
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.replay import Code
 from icsolve.numbers.roots import last_that_holds
+from icsolve.numbers.units import Number
 from icsolve.scene import solve_scene
 from icsolve.solve.branches import Branches
 from icsolve.solve.load_function import LoadFunction
 from icsolve.solve.refinement import balancing_torque, plain_within, scene_at, told
-from icsolve.solve.rest_position import AT_LIMIT, RestPosition
+from icsolve.solve.rest_position import AT_LIMIT, PROBE, RestPosition, probes
 from icsolve.tuples import NamedTuple
 
 
@@ -101,15 +103,15 @@ def _rest_at_limit(one: LoadFunction, two: LoadFunction, limit: Limit) -> list[R
         size = max((abs(c) for at in a.points.values() for c in at), default=1.0)
         if any(math.dist(at, b.points[name]) > 0.02 * size for name, at in a.points.items()):
             return []
-        link = _fastest(a, one.links)  # of the motion there: the link that is driven stands still
+        load = _fastest(a, one)  # of the motion there: the link that is driven stands still
         last = limit.value - limit.side * 4.0 * limit.error
-        p, q = balancing_torque(one, last, link), balancing_torque(two, last, link)
+        p, q = balancing_torque(one, last, load), balancing_torque(two, last, load)
         if (p > 0.0) == (q > 0.0) and p != 0.0 and q != 0.0:
             return []
-        far, away = balancing_torque(one, here, link), balancing_torque(two, here, link)
+        far, away = balancing_torque(one, here, load), balancing_torque(two, here, load)
         if abs(p - q) > abs(far - away) * (abs(limit.value - last) / step) ** 0.25:
             return []  # one position, but not one motion: a corner, as where a rope runs out
-        way = _swing(one, two, link, here)
+        way = _swing(one, two, load, here)
     except SceneError:
         return []
     rises = (away - far) * way
@@ -122,16 +124,34 @@ def _rest_at_limit(one: LoadFunction, two: LoadFunction, limit: Limit) -> list[R
         return [told(one, value, error, stability, None, AT_LIMIT, last)]
 
 
-def _fastest(answer: Answer, links: Sequence[str]) -> str:
-    """The link that turns fastest in a solved scene."""
-    rates = {link: rate for link, rate in (answer.rates or {}).items() if isinstance(rate, float)}
-    return max(links, key=lambda link: abs(rates.get(link, 0.0)))
+def _fastest(answer: Answer, function: LoadFunction) -> Torque | Force:
+    """The unknown load on what moves fastest in a solved scene: a torque on a link, where none turns a force
+    along an axis on a point."""
+    if function.links:
+        rates = {link: rate for link, rate in (answer.rates or {}).items() if isinstance(rate, float)}
+        return Torque(PROBE, max(function.links, key=lambda link: abs(rates.get(link, 0.0))), None)
+    speeds = answer.velocities or {}
+    forces = [load for load in probes(function.case, [], 1) if isinstance(load, Force)]
+
+    def speed(force: Force) -> float:
+        known = speeds.get((force.at, force.link), "")
+        return 0.0 if isinstance(known, str) else abs(known[_axis(force)])
+
+    return max(forces, key=speed)
 
 
-def _swing(one: LoadFunction, two: LoadFunction, link: str, value: float) -> float:
-    """The sense in which a link turns from one mode to the other through the limit."""
-    carried = [p for p in one.case.carries[link] if p in one.places]
+def _axis(force: Force) -> int:
+    """The axis along which a force on what moves acts."""
+    assert isinstance(force.heading, Number)
+    return 1 if force.heading.value else 0
+
+
+def _swing(one: LoadFunction, two: LoadFunction, load: Torque | Force, value: float) -> float:
+    """The sense in which what a load moves goes from one mode to the other through the limit."""
     first, second = solve_scene(scene_at(one, value)).points, solve_scene(scene_at(two, value)).points
+    if isinstance(load, Force):
+        return second[load.at][_axis(load)] - first[load.at][_axis(load)]
+    carried = [p for p in one.case.carries[load.link] if p in one.places]
     a, b = max(
         ((p, q) for p in carried for q in carried if p != q),
         key=lambda pair: math.dist(first[pair[0]], first[pair[1]]),

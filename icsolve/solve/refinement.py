@@ -10,8 +10,9 @@ from decimal import Decimal, localcontext
 
 import numpy as np
 
+from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
-from icsolve.case import Case, Torque, is_angle
+from icsolve.case import Case, Force, Torque, is_angle
 from icsolve.errors import SceneError
 from icsolve.numbers import DEGREE
 from icsolve.numbers.adjoint import gradient
@@ -230,9 +231,14 @@ def scene_in(
     return replace(case, near=free, motion=(), expect=())
 
 
-def balancing_torque(function: LoadFunction, value: float, on: str = "") -> float:
-    """The torque on a link that would balance the loads, as `icsolve.solve` finds it by power."""
-    answer = held(scene_at(function, value), [on] if on else function.links, solve=solve_by_power)
+def balancing_torque(function: LoadFunction, value: float, by: Torque | Force | None = None) -> float:
+    """The torque on a link, or where none turns the force on a point, that would balance the loads, as
+    `icsolve.solve` finds it by power; ``by`` this unknown load, where it is given."""
+    case = scene_at(function, value)
+    if by is not None:
+        answer: Answer | None = solve_by_power(replace(case, loads=(*case.loads, by)))
+    else:
+        answer = held(case, function.links, solve=solve_by_power)
     assert answer is not None
     torque: float = answer.answers[PROBE].value
     return torque
