@@ -56,14 +56,14 @@ def holds(parts: AnswerBuilder) -> bool:
     case = parts.case
     if case.motion or not has_friction(case) or any(map(is_unknown, case.loads)):
         return False
-    held = _friction_holds(parts.scene)
+    held = _stands(parts.scene)
     if held is False:
         raise SceneError(Status.UNBALANCED, SLIPS)
     return bool(held)
 
 
-def _friction_holds(scene: EvaluatedScene) -> bool | None:
-    """Whether friction holds loads that are all known; None where a rope or a screw turns, and where it hangs
+def _stands(scene: EvaluatedScene) -> bool | None:
+    """Whether loads that are all known are held; None where a rope or a screw turns, and where it hangs
     on how hard the fit of the joints presses them together."""
     case = scene.program.case
     if any(rope.slips for rope in case.ropes) or any(screw.rubs for screw in case.screws):
@@ -174,8 +174,8 @@ def structure(program: Program, bound: bool, refusal: SceneError) -> Answer:
         said += " Friction is left out: a structure needs none."
     if rubs and parting:
         bare = EvaluatedScene(prepare(smooth(case), program.want), bound, run=evaluate_still)
-        if standing(bare).depth < 0.0:
-            held = _friction_holds(scene)
+        if _stands(bare) is False:
+            held = _stands(scene)
             said = LETS_GO[held]
     notes = (*figure.notes, *case.noticed, said)
     answer = Answer(
