@@ -114,6 +114,31 @@ def barred(dice: Random) -> str:
     return _text(points, joints, loads)
 
 
+def cornered(dice: Random) -> str:
+    """A crate on two feet that a third joint keeps from sliding, a wall, a post that leans or a rod, perhaps
+    with another crate on it at a wall of its own: a structure, which lifts off some of them if it can."""
+    points, joints, loads = dict[str, tuple[float, float]](), [], []
+    for k in range(dice.randint(1, 2)):
+        by, on, high = k + 1 if k else 1, k + 2, 0.6 * k
+        for foot, x in (("A", 0.0), ("B", 1.0)):
+            points[f"{foot}{k}"] = (round(x + dice.uniform(-0.1, 0.1), 3), high)
+            joints.append(f"contact: [{by}, {on}], at: {foot}{k}, normal: 90, {_mu(dice)}")
+        points[f"C{k}"] = (0.0, round(high + dice.uniform(0.1, 0.6), 3))
+        if dice.random() < 0.3:
+            points[f"D{k}"] = (-1.0, round(high + dice.uniform(0.0, 1.0), 3))
+            joints += [f"pin: [{on}, {k + 5}], at: C{k}", f"pin: [1, {k + 5}], at: D{k}"]
+        else:
+            normal = dice.choice([0, 0, dice.randint(-40, 40)])
+            joints.append(f"contact: [1, {on}], at: C{k}, normal: {normal}, {_mu(dice)}")
+        points[f"G{k}"] = (round(dice.uniform(0.1, 0.9), 3), high + 0.3)
+        points[f"P{k}"] = (1.0, round(high + dice.uniform(0.0, 0.6), 3))
+        loads.append(f"weight: {dice.randint(20, 200)}, link: {on}, at: G{k}")
+        loads.append(
+            f"force: {dice.uniform(1, 90):.1f}, link: {on}, at: P{k}, angle: {dice.randint(-60, 60)}"
+        )
+    return _text(points, joints, loads)
+
+
 def joined(dice: Random) -> str:
     """Two blocks on slopes, joined by a bar on smooth pins; a third may stand on one of them."""
     points, joints, loads = {"A": (0.0, 0.0)}, [], []

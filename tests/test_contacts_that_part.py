@@ -15,9 +15,12 @@ import pytest
 from mpmath import cos, matrix, mp, mpf, pi, sin
 
 import icsolve
-from icsolve.solve.stability import holding_values
+import standing
+from icsolve.explain import explain
+from icsolve.solve.stability import holding_values, is_still
 from icsolve.sweep.varied_numbers import with_numbers
 from sizes import FULL, few
+from test_standing import NEAR
 
 DIGITS = 50
 
@@ -164,3 +167,92 @@ loads: {W: {weight: 300, link: 2, at: G}, P: {force: unknown, link: 2, at: H, an
         low, high = (mpf(repr(weight)) * mpf(arm) / mpf("1.3") for arm in ("-0.5", "0.6"))
         assert abs(found.holds[0] - low) <= math.ulp(found.holds[0])
         assert abs(found.holds[1] - high) <= math.ulp(found.holds[1])
+
+
+@pytest.mark.parametrize("part", range(10 if FULL else 1))
+def test_a_structure_that_lifts_off_holds_where_friction_keeps_the_rest(part: int) -> None:
+    """Where no contact would have to pull without friction, statics alone says what each carries. Else it
+    holds where friction within its limits balances the loads, and carries what equilibrium says then (to
+    1e-9); or it parts. So it does for `--find hold`."""
+    dice, seen = Random(f"cornered {part}"), set()
+    for _ in range(few(36)):
+        text = standing.cornered(dice)
+        case = icsolve.load(text)
+        smooth, more, less = (standing.off(case, grown) <= 1e-9 for grown in (0.0, 1.0 + NEAR, 1.0 - NEAR))
+        if more != less:
+            continue
+        answer = icsolve.solve(case)
+        told = None if smooth else more
+        assert answer.holds_still is told, text
+        assert any("The links part there" in note for note in answer.notes) is (told is False), text
+        assert is_still(case, "loads.L0", case.loads[0].value.value) is more
+        seen.add(told)
+        if not told:
+            continue
+        assert answer.reactions is not None
+        forces = standing.carried(case)
+        largest = max([abs(f) for both in forces for f in both if f is not None], default=1.0)
+        for reaction, joint, both in zip(answer.reactions.values(), case.joints, forces, strict=True):
+            sign = 1.0 if joint.links[0] == reaction.by else -1.0
+            for own, other in zip((reaction.x, reaction.y), both, strict=True):
+                right = None if other is None else pytest.approx(sign * other, abs=1e-9 * largest)
+                assert own == right, text
+    assert seen == {None, True, False}
+
+
+ROPED = """icsolve: 1
+points: {A: [0, 0], B: [1, 0], C: [1, 0.5], D: [3, 0.5], G: [0.5, 0.4]}
+joints:
+  - {contact: [1, 2], at: A, normal: 90, mu: 0.3}
+  - {contact: [1, 2], at: B, normal: 90, mu: 0.3}
+  - {rope: [C, D], on: [2, 1]}
+loads:
+  W: {weight: 100, link: 2, at: G}
+  P: {force: 10, link: 2, at: C, angle: 0}
+"""
+
+
+@pytest.mark.parametrize(
+    ("pull", "holds"), [(-500, None), (-1, None), (10, True), (29.9, True), (30.1, False)]
+)
+def test_a_crate_whose_rope_goes_slack_stands_by_its_friction(pull: float, holds: bool | None) -> None:
+    """Up to 0.3 of its weight."""
+    text = ROPED.replace("force: 10", f"force: {pull}")
+    if holds is False:
+        with pytest.raises(icsolve.SceneError, match="goes slack") as refusal:
+            icsolve.solve(icsolve.load(text))
+        assert refusal.value.status == "slack"
+    else:
+        assert icsolve.solve(icsolve.load(text)).holds_still is holds
+
+
+@pytest.mark.parametrize("unknown", ["P", "W"])
+def test_no_value_is_promised_to_a_structure_that_can_part(unknown: str) -> None:
+    """Contacts only push: not any value of an unknown load is carried."""
+    text = ROPED.replace(
+        *(("force: 10", "force: unknown") if unknown == "P" else ("weight: 100", "weight: unknown"))
+    )
+    with pytest.raises(icsolve.SceneError, match=r"contacts only push .* `--find hold` along it"):
+        icsolve.solve(icsolve.load(text), reactions=True)
+
+
+TWICE = """icsolve: 1
+points: {A: [0, 3], B: [0, 1], C: [1, 3], D: [1, 1], E: [2, 3], F: [2, 1], G: [1, 0.5]}
+joints:
+  - {slide: [2, 1], at: B, along: 90}
+  - {rope: [A, B], on: [1, 2]}
+  - {rope: [C, D], on: [1, 2]}
+  - {rope: [E, F], on: [1, 2]}
+loads:
+  W: {weight: 90, link: 2, at: G}
+"""
+
+
+@pytest.mark.parametrize("text", [ROPED, TWICE], ids=["by friction", "by redundant ropes"])
+def test_no_equation_is_promised_for_a_tension_that_equilibrium_leaves_open(text: str) -> None:
+    answer = icsolve.solve(icsolve.load(text), reactions=True)
+    assert answer.tensions
+    assert all(pull.tension is None for pull in answer.tensions)
+    told = explain(answer.case)
+    assert "does not determine the tension of" in told
+    assert "give the tension of" not in told

@@ -244,3 +244,47 @@ def test_a_knife_edge_that_just_passes_a_corner_has_no_answer_there() -> None:
             (true,) = (one for _, one in tips_on(corners, 111.48582, 88.0, row) if abs(one - value) < 30.0)
             assert abs(value - true) <= math.ulp(value)
     assert told
+
+
+FRAMED = """icsolve: 1
+units: {length: mm, force: N, torque: N*mm}
+points: {A: [0, 0], G: [0, HIGH]}
+lengths: {AC: 12, UG: 20, LG: 80}
+angles: {AC: 70, GU: -90, GL: -90}
+profile:
+  2: {circle: C, radius: 30}
+  3: {flat: U, along: 0}
+  4: {flat: L, along: 0}
+joints:
+  - {pin: [1, 2], at: A}
+  - {contact: [2, 3]}
+  - {contact: [2, 4]}
+  - {weld: [3, 4], at: G}
+  - {slide: [3, 1], at: G, along: 90, through: A}
+loads:
+  F: {force: 300, link: 3, at: G, angle: -90}
+  T: {torque: unknown, link: 2}
+"""
+
+
+@pytest.mark.parametrize("high", ["61.276", "61.27631144943", "61.27631144943016"])
+@pytest.mark.parametrize("by", ["angles.AC", "2"])
+def test_an_eccentric_in_a_frame_drives_it_by_both_faces(high: str, by: str) -> None:
+    """The two faces are one body: T = F e cos of its angle in every row, however many decimals the frame's
+    place has."""
+    case = load(FRAMED.replace("HIGH", high))
+    turned = np.arange(-70.0, 290.0, 60.0)
+    if by == "2":
+        swept = sweep(case, drive={by: turned}, want=("answers", "status"))
+    else:
+        swept = sweep(case, vary={by: 70.0 + turned}, want=("answers", "status"))
+    assert set(swept.status) == {"ok"}
+    assert swept.answers["T"] == pytest.approx(3600.0 * np.cos(np.radians(70.0 + turned)), rel=1e-9, abs=1e-6)
+
+
+def test_an_oval_in_a_frame_binds_wherever_it_is_narrower_or_wider() -> None:
+    """A cam whose breadth is not constant: it turns in its frame in no position but the one as written."""
+    oval = "{about: C, zero: 0, radii: {0: 36, 90: 30, 180: 36, 270: 30}}"
+    text = FRAMED.replace("{circle: C, radius: 30}", oval).replace("HIGH", "62").replace("AC: 70", "AC: 90")
+    swept = sweep(load(text), vary={"angles.AC": [80.0, 90.0, 91.0, 150.0]})
+    assert [status == "ok" for status in swept.status] == [False, True, False, False]

@@ -131,7 +131,10 @@ def ropes_section(
     for rope in work.case.ropes:
         if rope.slips:
             blocks += _drawn(work, rope, found)
-    missing = [rope.name for rope in work.case.ropes if rope.name not in found]
+    left_open = [pull.rope for pull in work.answer.tensions if pull.tension is None and not pull.parts]
+    if left_open:
+        blocks.append(words(f"Equilibrium alone does not determine the tension of {listed(left_open)}."))
+    missing = [rope.name for rope in work.case.ropes if rope.name not in {*found, *left_open}]
     if missing:
         blocks.append(words(f"The equations of equilibrium (below) give the tension of {listed(missing)}."))
     title = "Ropes" if len(work.case.ropes) > 1 else "The rope"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -18,9 +19,10 @@ from icsolve.scene.program import (
     evaluate_still,
     plain,
     points_shown,
+    prepare,
 )
 from icsolve.statics.free_bodies import FreeBodies, Reach, free_bodies
-from icsolve.statics.power import Balance, Value, has_friction, is_unknown
+from icsolve.statics.power import Balance, Value, has_friction, is_unknown, smooth
 from icsolve.statics.reaction_basis import Position, rope_ties
 from icsolve.tuples import TypeVar
 
@@ -52,16 +54,23 @@ def holds(parts: AnswerBuilder) -> bool:
     Raises SceneError where it does not.
     """
     case = parts.case
-    turning = any(rope.slips for rope in case.ropes) or any(screw.rubs for screw in case.screws)
-    if case.motion or turning or not has_friction(case) or any(map(is_unknown, case.loads)):
+    if case.motion or not has_friction(case) or any(map(is_unknown, case.loads)):
         return False
-    try:
-        held = standing(parts.scene).depth >= 0.0
-    except SceneError:  # it hangs on how hard the fit of the joints presses them together
-        return False
-    if not held:
+    held = _stands(parts.scene)
+    if held is False:
         raise SceneError(Status.UNBALANCED, SLIPS)
-    return True
+    return bool(held)
+
+
+def _stands(scene: EvaluatedScene) -> bool | None:
+    """Whether loads that are all known are held; None where a rope or a screw turns, and where it hangs
+    on how hard the fit of the joints presses them together."""
+    case = scene.program.case
+    if any(rope.slips for rope in case.ropes) or any(screw.rubs for screw in case.screws):
+        return None
+    with suppress(SceneError):
+        return standing(scene).depth >= 0.0
+    return None
 
 
 SLIPS = (
@@ -149,22 +158,54 @@ def _position(found: Evaluation) -> Position:
 
 
 def structure(program: Program, bound: bool, refusal: SceneError) -> Answer:
-    """A structure by statics alone: its reactions.
+    """A structure by statics alone: its reactions, without friction if it stands so.
 
     Raises the refusal of power where there is an unknown load: nothing would determine it.
     """
     case, figure = program.case, program.figure
+    parting = bool(case.ropes) or any(joint.only_pushes for joint in case.joints)
     if any(is_unknown(load) for load in case.loads):
         said = str(refusal).partition(" Take out")[0]
-        remedy = "Any value of the unknown load is carried: give it a number, or take out a joint or a link."
-        raise SceneError(refusal.status, f"{said} {remedy}")
+        raise SceneError(refusal.status, f"{said} {CARRIED_WHERE if parting else CARRIED}")
     scene = EvaluatedScene(program, bound, run=evaluate_still)
     points, errors = scene.ask(points_shown)
-    said = "the links form a structure: nothing moves, and statics alone gives the reactions."
-    if has_friction(case):
+    said, held = "the links form a structure: nothing moves, and statics alone gives the reactions.", None
+    if rubs := has_friction(case):
         said += " Friction is left out: a structure needs none."
+    if rubs and parting:
+        bare = EvaluatedScene(prepare(smooth(case), program.want), bound, run=evaluate_still)
+        if _stands(bare) is False:
+            held = _stands(scene)
+            said = LETS_GO[held]
     notes = (*figure.notes, *case.noticed, said)
     answer = Answer(
-        case, points=points, mobility=0, notes=notes, skipped=figure.skipped, errors={"points": errors}
+        case,
+        points=points,
+        mobility=0,
+        notes=notes,
+        skipped=figure.skipped,
+        errors={"points": errors},
+        holds_still=held,
     )
+    if held:
+        from icsolve.statics.friction.standing import held_bodies
+
+        return scene.ask(
+            lambda one: held_bodies(_position(one), one.outcome.balance, one.arithmetic)
+        ).added_to(answer)
     return scene.ask(lambda found: _bodies(found, {})).added_to(answer)
+
+
+CARRIED = "Any value of the unknown load is carried: give it a number, or take out a joint or a link."
+CARRIED_WHERE = (
+    "Its contacts only push and its ropes only pull: give the unknown load a number, and `icsolve sweep` "
+    "with `--find hold` along it tells which values are carried; or take out a joint or a link."
+)
+LETS_GO = {
+    held: f"the links form a structure, but without friction a contact or a rope of it would let go. {said}"
+    for held, said in (
+        (True, "Friction is enough: under the known loads it holds still."),
+        (False, "Friction is not enough: under the known loads it moves. The reactions leave it out."),
+        (None, "Whether friction is enough is open. The reactions leave it out."),
+    )
+}

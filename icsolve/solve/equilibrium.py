@@ -14,7 +14,6 @@ from icsolve.scene import solve_scene
 from icsolve.scene.needed_part import by_needed_part
 from icsolve.solve.driven_search import without
 from icsolve.solve.friction_ranges import find_ranges
-from icsolve.solve.known_loads import smooth
 from icsolve.solve.load_function import given_at, naming_uncarried
 from icsolve.solve.positions import (
     Search,
@@ -25,7 +24,7 @@ from icsolve.solve.positions import (
 )
 from icsolve.solve.rest_position import with_scene
 from icsolve.solve.two_data import find_pairs
-from icsolve.statics.power import has_friction, is_unknown
+from icsolve.statics.power import has_friction, is_unknown, smooth
 from icsolve.sweep.program import wanted_points
 from icsolve.sweep.varied_numbers import points_of
 from icsolve.tuples import replace

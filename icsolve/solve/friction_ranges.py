@@ -15,10 +15,11 @@ from icsolve.case.joints import with_friction
 from icsolve.errors import SceneError
 from icsolve.numbers.roots import last_that_holds, zero_between
 from icsolve.solve.driven_search import NOT_ALL, driven_mechanisms
-from icsolve.solve.known_loads import Spare, moving_loads, smooth, spare_friction
+from icsolve.solve.known_loads import Spare, moving_loads, spare_friction
 from icsolve.solve.load_function import TogetherError
 from icsolve.solve.positions import modes_and_branches, refuse_unwritten, search_modes, whole_range
 from icsolve.solve.refinement import scene_at
+from icsolve.statics.power import smooth
 from icsolve.tuples import NamedTuple, replace
 
 SAMPLES = 120

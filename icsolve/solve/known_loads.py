@@ -10,7 +10,6 @@ from functools import lru_cache
 
 from icsolve.answer import Answer
 from icsolve.case import Case, Force, ForceVector, Load, Number, Stretch, Torque
-from icsolve.case.joints import without_friction
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers import largest_of
@@ -18,6 +17,7 @@ from icsolve.scene import jammed, solve_scene, standing
 from icsolve.scene.program import HeldAt
 from icsolve.solve.rest_position import PROBE, holding, probes
 from icsolve.statics.friction import AS_SHARED, SharedError
+from icsolve.statics.power import smooth
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording import reach_of, unit_of
 
@@ -248,12 +248,6 @@ def _of_all(case: Case) -> Held:
             raise
         return NOWHERE
     return Held(-depth, depth, error)
-
-
-def smooth(case: Case) -> Case:
-    """The case without friction."""
-    ropes = tuple(rope._replace(mu=(None,) * len(rope.mu)) for rope in case.ropes)
-    return replace(case, joints=tuple(map(without_friction, case.joints)), ropes=ropes)
 
 
 # --- what is said of it ---------------------------------------------------------------------------

@@ -18,7 +18,7 @@ from icsolve.scene import solve_scene
 from icsolve.scene.needed_part import by_needed_part
 from icsolve.solve.positions import driven_rest, find_along, moved_by, refuse_motion, refuse_profiles, rest_of
 from icsolve.solve.rest_position import RestPosition, balances, holding
-from icsolve.statics.power import has_friction
+from icsolve.statics.power import has_friction, smooth
 from icsolve.sweep.varied_numbers import find_number, refuse_space, with_numbers
 from icsolve.tuples import NamedTuple, replace
 
@@ -243,8 +243,6 @@ def holding_values(case: Case, path: str, low: float, high: float) -> list[Turni
 def _rests(case: Case, path: str, low: float, high: float) -> list[float]:
     """The values of a number at which a mechanism under known loads rests without friction, and so holds
     still with it; none of one that does not pose the figure."""
-    from icsolve.solve.known_loads import smooth
-
     if not path.startswith(("angles.", "lengths.", "points.")):
         return []
     try:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from icsolve.assembly.workspace import PlacedCase
 from icsolve.case import Case, ForceVector, Friction, Joint, Like, Load, Number
+from icsolve.case.joints import without_friction
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import Motions
 from icsolve.numbers import (
@@ -28,7 +29,7 @@ from icsolve.numbers import (
     zero_of,
 )
 from icsolve.statics.load_wrenches import L, Points, UnitWrench, number_of, number_taken, vector_size
-from icsolve.tuples import Generic, LateModule, NamedTuple
+from icsolve.tuples import Generic, LateModule, NamedTuple, replace
 
 if TYPE_CHECKING:
     from icsolve.case.space import Load as SpatialLoad
@@ -195,6 +196,12 @@ def has_friction(case: Case) -> bool:
     """Whether a joint, a rope or a screw has friction."""
     ropes = any(rope.slips for rope in case.ropes) or any(screw.rubs for screw in case.screws)
     return ropes or any(map(friction_of, case.joints))
+
+
+def smooth(case: Case) -> Case:
+    """The case without friction."""
+    ropes = tuple(rope._replace(mu=(None,) * len(rope.mu)) for rope in case.ropes)
+    return replace(case, joints=tuple(map(without_friction, case.joints)), ropes=ropes)
 
 
 def force_scale(b: PowerFactors[L]) -> float:

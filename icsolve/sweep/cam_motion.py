@@ -42,6 +42,7 @@ from icsolve.numbers.balls import Balls
 from icsolve.numbers.decimals import CONTEXT, as_written
 from icsolve.numbers.replay import Array, Mask
 from icsolve.scene.refusals import rubs
+from icsolve.structure import welded
 from icsolve.sweep.branches import signs_of
 from icsolve.sweep.exact_record import hides
 from icsolve.sweep.first_contact import FirstContact, FirstContacts, radius_ratio
@@ -56,6 +57,9 @@ from icsolve.tuples import NamedTuple, replace
 
 FAR = 4.0
 """Where the way of a sliding follower is measured from, in sizes of the figure: it stays positive."""
+
+APART = 1e-9
+"""By so much of a cam's size no rounding moves a contact."""
 
 MARKERS = ("@pose.", "@origin.", "@follower.", "@profile.")
 """Hidden points that tell where links are; no part of a row's figure."""
@@ -99,6 +103,11 @@ class Follow(NamedTuple):
         """Where the follower meets the cam first, in this pose of the cam; as the cam sees it."""
         body, freedom = pose.body_back(self.body), pose.freedom_back(self.freedom)
         return outermost(self.curve, body, freedom, self.side, self.sense)
+
+    def as_written(self) -> float:
+        """The driver's value where the follower meets the cam of the position as written."""
+        met = self.met(pose_of(self.written, self.written))
+        return float(self.driven(np.array(0.0 if met is None else met.by)))
 
     def rested(self, first: Array, second: Array) -> FirstContacts:
         """Where the follower meets the cam in every row.
@@ -180,7 +189,9 @@ class CamMotion:
         carries = {link: tuple(n for n in ns if n not in hidden) for link, ns in self.whole.carries.items()}
         bare = replace(self.whole, joints=joints, profiles=None, expect=())
         self.open = replace(bare, points=points, carries=carries)
-        self.follows = [self._follow(k) for k in range(len(self.touching))]
+        self.follows: list[Follow] = []
+        for k in range(len(self.touching)):
+            self.follows.append(self._follow(k))
 
     def _follow(self, k: int) -> Follow:
         """One follower as written; what moves it is added to the open case."""
@@ -201,7 +212,12 @@ class CamMotion:
         along, across = x * normal[0] + y * normal[1], y * normal[0] - x * normal[1]
         sense, lean = math.copysign(1.0, along), math.copysign(1.0, along * across)
         frame, written = self._frame(seeking.cam, own[0])
-        driver, start = self._driver(seeking.guided, body.at, guide)
+        as_one = welded(self.whole, seeking.guided)  # in a frame about a cam two faces move by one freedom
+        other = next((one for one in self.follows if one.seeking.guided in as_one), None)
+        if other is None:
+            driver, start = self._driver(seeking.guided, body.at, guide)
+        else:
+            driver, start = other.driver, other.start
         turns = guided(self.whole, seeking.cam)
         pivot = (math.nan, math.nan)
         if turns is not None and turns.against == self.whole.ground and isinstance(turns.freedom, Turn):
@@ -297,7 +313,13 @@ class Rows:
                 self.codes[row] = CODE[Status.CANNOT_ASSEMBLE]
             rested.by[row] = one[1].by if one is not None else 0.0
         by = np.where(turned & placed & np.isfinite(rested.by), rested.by, 0.0)
-        self.drivers[follow.driver] = follow.driven(by)
+        moved = follow.driven(by)
+        others = self.course.follows[: len(self.rested) - 1]
+        other = next((one for one in others if one.driver == follow.driver), None)
+        if other is not None:  # it binds where one face would leave the cam, or enter it
+            off = np.abs(moved - self.drivers[follow.driver]) - abs(follow.as_written() - other.as_written())
+            self.codes[turned & placed & (off > APART * follow.curve.size)] = CODE[Status.CANNOT_ASSEMBLE]
+        self.drivers[follow.driver] = moved
 
     def _contact(self, k: int, row: int) -> tuple[LinkPose, Candidate] | None:
         """Where a follower meets its cam in a row, with every rule of a single scene."""
@@ -327,6 +349,8 @@ class Rows:
             sure, (rows,):
             the others are to be solved one by one.
         """
+        if len(self.drivers) < len(self.course.follows):  # contacts of one freedom are redundant
+            return {}, np.zeros(self.columns.rows, dtype=bool)
         sure = np.logical_and.reduce([one.sure & one.within for one in self.rested]) & (self.codes == 0)
         if asked.dynamic:
             sure &= np.logical_and.reduce([np.isfinite(one.radius).all(axis=1) for one in self.rested])
@@ -398,7 +422,8 @@ class Rows:
                 n = at.index(seeking.touch)
                 at[n] = at[n]._replace(shown=False)
             else:
-                exact[follow.driver] = CONTEXT.add(as_written(self.drivers[follow.driver][row]), short)
+                known = exact.get(follow.driver, as_written(self.drivers[follow.driver][row]))
+                exact[follow.driver] = CONTEXT.add(known, short)
         case = self.work.case_of(row, exact)
         carries = {
             link: tuple(name for name in names if not name.startswith(MARKERS))

@@ -108,7 +108,8 @@ def _moving(course: CamMotion, columns: Columns) -> set[str]:
     turned = [follow.driver for follow in course.follows if isinstance(follow.freedom, Turn)]
     slid = [follow.driver for follow in course.follows if not isinstance(follow.freedom, Turn)]
     own = [path for path in columns.paths if not path.startswith("profile.")]
-    setting = setting_of(course.open, [*own, *slid], [*columns.links, *turned])
+    paths, links = dict.fromkeys((*own, *slid)), dict.fromkeys((*columns.links, *turned))
+    setting = setting_of(course.open, [*paths], [*links])
     return {path for path in setting.drive.moving if path in columns.paths}
 
 
