@@ -40,7 +40,9 @@ from icsolve.numbers.roots import zero_between
 from icsolve.report import answer_text
 from icsolve.report.derivation.known import known_of
 from icsolve.scene import solve_scene
+from icsolve.solve import branches as branches_room
 from icsolve.solve import mode_limits as limits_room
+from icsolve.solve.load_function import LoadFunction
 from icsolve.solve.rest_position import AT_LIMIT
 from icsolve.solve.stability import holding_values, neutral_values, with_stability
 from icsolve.sweep.varied_numbers import numbers_of
@@ -608,6 +610,26 @@ def test_positions_close_to_a_change_point_stay_on_their_branch(torque: float, f
     tip = math.degrees(math.asin(-torque / 40.0)) / 2.0
     expected = within(free, [tip, 90.0 - tip, 180.0 + tip, 270.0 - tip], 360.0)
     assert places(text) == pytest.approx(expected, abs=1e-9)
+
+
+@pytest.mark.parametrize(("torque", "load"), [(0.2, 20), (-0.03, 35), (1.1, 12)])
+def test_a_search_ends_where_rounding_is_all_that_halving_shows(
+    torque: float, load: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """At a change point and a limit no cell is ever decided: thousands were halved, each as open as the
+    others and as open. The 256 of the first look are the most."""
+    looked: list[int] = []
+
+    def counted(function: LoadFunction, cells: Interval) -> Any:
+        looked.append(cells.low.size)
+        return look_into(function, cells)
+
+    look_into = branches_room.look_into
+    monkeypatch.setattr(branches_room, "look_into", counted)
+    loads = f"S: {{spring: {load}, free: 0, link: 4, at: C, to: A}}, M: {{torque: {torque}, link: 2}}"
+    angle, near = "{unknown: [0, 359]}", "near: {C: [1.8, 0]}"
+    assert places(BALANCED_ISOSCELES.format(crank=1, rod=1, angle=angle, load=loads, near=near))
+    assert max(looked) == 256
 
 
 @sampled(2)

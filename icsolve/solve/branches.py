@@ -429,11 +429,14 @@ def isolate(function: LoadFunction, low: float, high: float) -> Enclosed:
     cells = Interval(edges[:-1].copy(), edges[1:].copy())
     brackets: list[tuple[float, float]] = []
     complete = True
+    level: list[Interval] = []
     crowds: list[tuple[float, float]] = []
     changes: list[tuple[float, float]] = []
     for _ in range(HALVINGS):
-        cells, found = _pass(function, cells)
-        brackets += found
+        look = look_into(function, cells)
+        cells = look.left
+        brackets += look.brackets
+        level.append(look.level)
         if cells.low.size > MOST_CELLS:
             complete &= float(np.sum(cells.high - cells.low)) <= POINTLIKE * (high - low)
             cells, crowded = _without_crowds(cells)
@@ -449,8 +452,11 @@ def isolate(function: LoadFunction, low: float, high: float) -> Enclosed:
             np.concatenate([cells.low, middle[inside]]),
             np.concatenate([np.where(inside, middle, cells.high), cells.high[inside]]),
         )
-    open_cells = sorted([*_clusters(*_in_order(cells)), *crowds])
-    return Enclosed(sorted(brackets), open_cells, complete, sorted(changes))
+    complete &= sum(float(np.sum(one.high - one.low)) for one in level) <= POINTLIKE * (high - low)
+    open_cells = _clusters(
+        *_in_order(Interval(*(np.concatenate(ends) for ends in zip(cells, *level, strict=True))))
+    )
+    return Enclosed(sorted(brackets), sorted([*open_cells, *crowds]), complete, sorted(changes))
 
 
 def _without_crowds(cells: Interval) -> tuple[Interval, Interval]:
@@ -479,37 +485,56 @@ def _in_order(cells: Interval) -> tuple[Array, Array]:
     return cells.low[order], cells.high[order]
 
 
-def _pass(function: LoadFunction, cells: Interval) -> tuple[Interval, list[tuple[float, float]]]:
-    """The cells that stay open, and brackets."""
-    record = function.record
+class Look(NamedTuple):
+    """Of the cells that were looked into: those to halve, brackets, and those that stay open if halved."""
+
+    left: Interval
+    brackets: list[tuple[float, float]]
+    level: Interval
+
+
+def look_into(function: LoadFunction, cells: Interval) -> Look:
+    """One look into cells, and at the middle and the ends of each. A cell is level where rounding makes the
+    power and the margins that leave it open."""
     middle = 0.5 * (cells.low + cells.high)
-    wanted = [function.power, function.slope, *function.margins]
-    value, slope, *margins = enclose(record, wanted, function.enclosed(cells))
-    shape = cells.low.shape
-    apart, whole = np.zeros(shape, dtype=bool), np.ones(shape, dtype=bool)
-    for margin in margins:
-        apart |= np.broadcast_to(margin.high < 0.0, shape)
-        whole &= np.broadcast_to(margin.low > 0.0, shape)
-    places = np.concatenate([middle, cells.low, cells.high])
-    (power,) = enclose(record, [function.power], function.enclosed(Interval(places, places)))
-    centre, at_low, at_high = (
-        Interval(*ends)
-        for ends in zip(*(np.split(np.broadcast_to(side, places.shape), 3) for side in power), strict=True)
+    low, high = (np.concatenate([end, middle, *cells]) for end in cells)
+    asked = [function.power, function.slope, *function.margins]
+    value, slope, *margins = (
+        Interval(*(np.broadcast_to(end, low.shape).reshape(4, -1) for end in one))
+        for one in enclose(function.record, asked, function.enclosed(Interval(low, high)))
     )
+    apart, whole = np.zeros(middle.shape, dtype=bool), np.ones(middle.shape, dtype=bool)
+    for margin in margins:
+        apart |= margin.high[0] < 0.0
+        whole &= margin.low[0] > 0.0
     with np.errstate(all="ignore"):
         half = np.nextafter(0.5 * (cells.high - cells.low), np.inf) * (1.0 + 1e-15)
-        reach = half * np.maximum(np.abs(slope.low), np.abs(slope.high))
+        reach = half * np.maximum(np.abs(slope.low[0]), np.abs(slope.high[0]))
         reach = np.where(np.isnan(reach), np.inf, reach)
-        low = np.maximum(value.low, np.where(whole, np.nextafter(centre.low - reach, -np.inf), -np.inf))
-        high = np.minimum(value.high, np.where(whole, np.nextafter(centre.high + reach, np.inf), np.inf))
-    possible = ~apart & ~(low > 0.0) & ~(high < 0.0)
-    steady = whole & np.broadcast_to((slope.low > 0.0) | (slope.high < 0.0), shape)
-    before, after = _signs(at_low), _signs(at_high)
+        least, most = np.nextafter(value.low[1] - reach, -np.inf), np.nextafter(value.high[1] + reach, np.inf)
+        least = np.maximum(value.low[0], np.where(whole, least, -np.inf))
+        most = np.minimum(value.high[0], np.where(whole, most, np.inf))
+    possible = ~apart & ~(least > 0.0) & ~(most < 0.0)
+    steady = whole & ((slope.low[0] > 0.0) | (slope.high[0] < 0.0))
+    _, before, after = _signs(value)[1:]
     decided = possible & steady & (before != 0) & (after != 0)
     crossing = decided & (before != after)
     found = list(zip(cells.low[crossing].tolist(), cells.high[crossing].tolist(), strict=True))
     left = possible & ~decided
-    return Interval(cells.low[left], cells.high[left]), found
+    level = left & _is_rounding(value)
+    for margin in margins:
+        level &= (margin.low[0] > 0.0) | _is_rounding(margin)
+    left &= ~level
+    return Look(
+        Interval(cells.low[left], cells.high[left]), found, Interval(cells.low[level], cells.high[level])
+    )
+
+
+def _is_rounding(value: Interval) -> npt.NDArray[np.bool_]:
+    """Where a cell's enclosure is at most twice as wide as those at its middle and its ends."""
+    with np.errstate(invalid="ignore"):
+        width = value.high - value.low
+    return np.asarray(width[0] <= 2.0 * width[1:].min(axis=0))
 
 
 def _signs(value: Interval) -> npt.NDArray[np.int64]:
