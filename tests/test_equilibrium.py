@@ -756,6 +756,16 @@ loads:
   S: {{spring: {rate!r}, free: {own!r}, link: 2, at: C, to: A}}
 """
 """a block on a guide that passes A at the distance AB, on a spring from A"""
+OVER_ITS_ANCHOR = """icsolve: 1
+points: {{A: [0, 0], B: {beside}}}
+lengths: {{AC: {free}}}
+joints:
+  - {{slide: [2, 1], at: C, along: {along!r}, through: A}}
+loads:
+  F: {{force: {force!r}, link: 2, at: C, angle: {along!r}}}
+  S: {{spring: {rate!r}, free: {own!r}, link: 2, at: C, to: B}}
+"""
+"""a block on a guide through A, on a spring from B beside it"""
 
 
 @sampled(12)
@@ -785,6 +795,35 @@ def test_where_nothing_turns_a_limit_is_a_position_as_any_other(seed: int, free:
     found = positions(PASSING_BLOCK.format(x=x, y=y, along=along, free=span, force=force, rate=rate, own=own))
     told = [(one.at["lengths.AC"], one.stability) for one in found]
     assert sorted(told) == [(pytest.approx(at, abs=1e-8), kind) for at, kind in sorted(expected)]
+
+
+@sampled(12)
+@pytest.mark.parametrize("free", ["unknown", "{{unknown: [0, {high!r}]}}"])
+@pytest.mark.parametrize("seed", range(24))
+def test_where_nothing_turns_a_length_of_nothing_is_a_position_as_any_other(seed: int, free: str) -> None:
+    """A block passes the point on its guide from which it is measured, on a spring from a point beside: it
+    rests there where the loads balance, and elsewhere at either side."""
+    draw = random.Random(f"blocks over a point {seed}")
+    along, away = draw.choice([0.0, 90.0, 37.5, 123.25]), round(draw.uniform(0.2, 0.6), 2)
+    turn = math.radians(along)
+    beside = [round(-away * math.sin(turn), 6), round(away * math.cos(turn), 6)]
+    rate, own = round(draw.uniform(20.0, 60.0), 1), round(away * draw.choice([0.5, 1.5, 3.0]), 2)
+    force = draw.choice([0.0, 0.0, round(draw.uniform(-9.0, 9.0), 1)])
+
+    def load(s: float) -> float:
+        length = math.hypot(away, s)
+        return force - rate * (length - own) * s / length
+
+    stations = [k * 2e-4 + 1e-4 for k in range(-15000, 15000)]
+    expected = []
+    for low, high in pairwise(stations):
+        if load(low) * load(high) < 0.0:
+            at = float(mpmath.findroot(load, (low, high), solver="anderson"))
+            expected.append((abs(at), "stable" if load(low) > 0.0 else "unstable"))
+    span = free.format(high=4.0)
+    text = OVER_ITS_ANCHOR.format(beside=beside, along=along, free=span, force=force, rate=rate, own=own)
+    told = [(one.at["lengths.AC"], one.stability) for one in positions(text)]
+    assert sorted(told) == [(pytest.approx(at, abs=1e-5), kind) for at, kind in sorted(expected)]
 
 
 @sampled(3)

@@ -104,7 +104,7 @@ def _rest_at_limit(one: LoadFunction, two: LoadFunction, limit: Limit) -> list[R
         if any(math.dist(at, b.points[name]) > 0.02 * size for name, at in a.points.items()):
             return []
         load = _fastest(a, one)  # of the motion there: the link that is driven stands still
-        last = limit.value - limit.side * 4.0 * limit.error
+        last = limit.value - limit.side * max(4.0 * limit.error, 1e-9 * step)  # a length of 0 has no ulp
         p, q = balancing_torque(one, last, load), balancing_torque(two, last, load)
         if (p > 0.0) == (q > 0.0) and p != 0.0 and q != 0.0:
             return []
