@@ -141,7 +141,19 @@ def test_a_tolerance_of_the_case(text: str, tolerance: Tolerance) -> None:
 
 @pytest.mark.parametrize(
     "text",
-    ["100%", "0%", "many", "{drawing: 0.02 N}", "{relative: 5}", "{width: 1}", "[1]", "-1%", "0 sf", "99 sf"],
+    [
+        "100%",
+        "0%",
+        "many",
+        "{drawing: 0.02 N}",
+        "{relative: 5}",
+        "{width: 1}",
+        "[1]",
+        "-1%",
+        "0 sf",
+        "99 sf",
+        "3 s",
+    ],
 )
 def test_what_is_no_tolerance(text: str) -> None:
     with pytest.raises(CaseError, match="'tolerance'"):

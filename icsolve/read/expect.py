@@ -516,9 +516,11 @@ def parse_tolerance(text: str) -> Tolerance:
         raise ValueError(f"write a decimal point, {text.replace(',', '.', 1)}")
     if width:
         try:
-            parse_unit(width.group(2) or "m")
+            unit = parse_unit(width.group(2) or "m")
         except UnitError as error:
             raise ValueError(f"{shown(text)}: {error}") from None
+        if unit.dims == DIMENSIONS["time"]:
+            raise ValueError(f"{shown(text)} is a time, which no answer is: {_FORM}")
         return _limited(Tolerance(absolute=float(width.group(1)), unit=width.group(2) or ""))
     raise ValueError(f"{shown(text)} is not a tolerance: {_FORM}")
 
