@@ -795,7 +795,7 @@ loads:
 @sampled(2)
 @pytest.mark.parametrize("seed", range(8))
 def test_a_load_in_space_is_drawn_as_it_acts(seed: int) -> None:
-    """A spring that is shorter than free pushes; in a free body a spring and a mass are told by their force."""
+    """A spring shorter than free pushes; in a free body it and a mass are told by their force."""
     random = Random(f"loads of space {seed}")
     at, to = ([random.randint(-5, 5), random.randint(1, 5), random.randint(-5, 5)] for _ in range(2))
     to[0] += 6  # apart, and not along the line of sight
