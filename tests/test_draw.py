@@ -31,6 +31,7 @@ from icsolve.draw import Drawing, draw
 from icsolve.draw.figure import scene_of
 from icsolve.draw.links import body_of
 from icsolve.draw.scene import geneva_of
+from icsolve.draw.space import flat
 from icsolve.draw.words import figure_number
 from icsolve.errors import SceneError
 from icsolve.explain import explain
@@ -789,3 +790,33 @@ loads:
     texts = drawn(case, bodies=True).texts("t-known")
     assert f"k = {figure_number(50.0 * math.radians(free))} N·m" in texts
     assert f"q = {figure_number(number * 300.0**2 / 6.0 / 1000.0)} N·m" in texts
+
+
+@sampled(2)
+@pytest.mark.parametrize("seed", range(8))
+def test_a_load_in_space_is_drawn_as_it_acts(seed: int) -> None:
+    """A spring shorter than free pushes; in a free body it and a mass are told by their force."""
+    random = Random(f"loads of space {seed}")
+    at, to = ([random.randint(-5, 5), random.randint(1, 5), random.randint(-5, 5)] for _ in range(2))
+    to[0] += 6  # apart, and not along the line of sight
+    free, stiffness = random.uniform(0.1, 2.0) * math.dist(at, to), random.uniform(1.0, 9.0)
+    case = icsolve.load(f"""icsolve: 1
+gravity: {{along: x}}
+points: {{A: [0, 0, 0], B: {at}, C: {to}}}
+joints: [{{weld: [1, 2], at: A}}]
+loads:
+  k: {{spring: {stiffness}, free: {free}, link: 2, at: B, to: C}}
+  m: {{mass: {stiffness} kg, link: 2, at: B}}
+  p: {{force: -3, link: 2, at: C, along: x}}
+""")
+    way = [b - a for a, b in zip(at, to, strict=True)]
+    stretch = math.dist(at, to) - free
+    picture, bodies = drawn(case), drawn(case, bodies=True)
+    ways = {"k": [stretch * part for part in way], "m": [1.0, 0.0, 0.0], "p": [-1.0, 0.0, 0.0]}
+    for name, toward in ways.items():
+        ((tail, tip),) = arrows_of(picture, name)
+        seen = complex(*flat((toward[0], toward[1], toward[2])))
+        assert abs((tip - tail) / abs(tip - tail) - seen / abs(seen)) < 1e-2
+    words = bodies.texts("t-known")
+    assert f"k = {figure_number(stiffness * abs(stretch))} N" in words
+    assert f"m = {figure_number(stiffness * 9.81)} N" in words

@@ -391,6 +391,37 @@ def test_a_contact_tells_what_was_found_of_it() -> None:
     assert set(contact) >= {"at", "normal", "on", "pressure_angle", "force", "lost"}
 
 
+@pytest.mark.parametrize("names", [("2", "3"), ("cam", "rod")])
+@pytest.mark.parametrize(("mu", "angle"), [("", -90), ("", 90), (", mu: 0.15", -90)])
+@pytest.mark.parametrize("follower", ["{flat: B, along: 10}", "{roller: B, radius: 10}", "{knife: B}"])
+def test_a_contact_may_name_its_links_either_way_round(
+    follower: str, mu: str, angle: int, names: tuple[str, str]
+) -> None:
+    """Its force, whether it is lost and its pressure angle are the same, among the reactions too."""
+    cam, rod = names
+    told = []
+    for links in (f"{cam}, {rod}", f"{rod}, {cam}"):
+        text = (
+            f"{HEAD}motion: {{link: {cam}, turns: ccw}}\npoints: {{A: [0, 0], B: [4, unknown]}}\n"
+            "lengths: {AC: 20}\nangles: {AC: 40}\nnear: {B: [4, 60]}\n"
+            f"profile:\n  {cam}: {CIRCLE}\n  {rod}: {follower}\n"
+            f"joints:\n  - {{pin: [1, {cam}], at: A}}\n  - {{contact: [{links}]{mu}}}\n"
+            f"  - {{slide: [{rod}, 1], at: B, along: 90}}\n"
+            f"loads:\n  P: {{force: 100, link: {rod}, at: B, angle: {angle}}}\n"
+            f"  T12: {{torque: unknown, link: {cam}}}\n"
+        )
+        for reactions in (False, True):
+            answer = solve(load(text), reactions=reactions)
+            (touching,) = answer.touching
+            assert touching.force is not None and touching.lost == (touching.force < 0.0) == (angle > 0)
+            told.append((touching.force, touching.pressure_angle))
+            if answer.reactions is not None:
+                (shares,) = (s for r in answer.reactions.values() if "pressure angle" in (s := dict(r.parts)))
+                told.append((shares["normal"], shares["pressure angle"]))
+    for one in told[1:]:
+        assert one == pytest.approx(told[0], rel=1e-12)
+
+
 def test_roller_that_is_a_link_of_its_own_is_a_passive_freedom() -> None:
     alone = sliding(CIRCLE, "{roller: B, radius: 10}")
     text = (

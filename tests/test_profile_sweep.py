@@ -257,6 +257,27 @@ def test_friction_of_a_contact_is_solved_in_every_row() -> None:
     np.testing.assert_allclose(found.answers["T12"], expected, atol=1e-9)
 
 
+@pytest.mark.parametrize("links", ["2, 3", "3, 2"])
+@pytest.mark.parametrize("path", ["joints.2-3.mu", "joints.3-2.mu"])
+def test_friction_of_a_contact_is_varied_alone_and_with_the_motion(path: str, links: str) -> None:
+    """By its links in either order, as `--set` changes it; it moves nothing."""
+    text = (
+        f"{HEAD}motion: {{link: 2, turns: ccw}}\npoints: {{A: [0, 0], B: [4, unknown]}}\n"
+        "lengths: {AC: 20}\nangles: {AC: 40}\nnear: {B: [4, 60]}\n"
+        f"profile:\n  2: {CIRCLE}\n  3: {{roller: B, radius: 10}}\n"
+        f"joints:\n  - {{pin: [1, 2], at: A}}\n  - {{contact: [{links}], mu: 0.1}}\n"
+        "  - {slide: [3, 1], at: B, along: 90}\n"
+        "loads:\n  P: {force: 100, link: 3, at: B, angle: -90}\n  T12: {torque: unknown, link: 2}\n"
+    )
+    rubs, by = np.array([0.05, 0.1, 0.3]), np.array([40.0, 40.0, 75.0])
+    alone, moved = sweep(load(text), {path: rubs}), sweep(load(text), {path: rubs, "angles.AC": by})
+    for k, mu in enumerate(rubs.tolist()):
+        one = solve(load(text, settings={path: repr(mu)}))
+        assert float(alone.answers["T12"][k]) == pytest.approx(one.answers["T12"].value, rel=1e-14)
+        both = solve(load(text, settings={path: repr(mu), "angles.AC": repr(by.tolist()[k])}))
+        assert float(moved.answers["T12"][k]) == pytest.approx(both.answers["T12"].value, rel=1e-12)
+
+
 def refused(case: Case, **drive: float) -> SceneError:
     with pytest.raises(SceneError) as found:
         sweep(case, drive={link[1:]: np.array([by]) for link, by in drive.items()})

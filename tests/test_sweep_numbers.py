@@ -329,3 +329,41 @@ def test_centres_are_those_of_one_scene() -> None:
             else:
                 assert w == 0.0
                 assert np.degrees(np.arctan2(y, x)) % 180.0 == pytest.approx(centre.place[0])
+
+
+TEETH = """icsolve: 1
+units: {length: mm, force: N}
+points: {A: [0, 0], B: [60, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: B}
+  - {gears: [2, 3], teeth: [20, 40], normal pressure angle: 20, helix angle: 25, %s}
+loads:
+  M: {torque: 3, link: 3}
+  T: {torque: unknown, link: 2}
+"""
+SECTIONS = {  # 60 teeth on 60 mm: a module of 2 in the plane of the wheels, of 2 cos 25 square to the teeth
+    "normal module": 1.8126155740733,
+    "transverse module": 2.0,
+    "normal diametral pitch": 0.55168896,
+    "transverse diametral pitch": 0.5,
+}
+
+
+@pytest.mark.parametrize("size", SECTIONS)
+def test_the_size_of_helical_teeth_is_that_of_their_section_in_every_row(size: str) -> None:
+    """Varied itself, and with the helix angle, which turns one section into the other: a row has the status
+    of the case as if written so."""
+    text = TEETH % f"{size}: {SECTIONS[size]}"
+    for path, values in (
+        (f"joints.2-3.{size}", [1.0 / 1.8126155740733, 0.5, SECTIONS[size], 2.0, 1.79]),
+        ("joints.2-3.helix angle", [0.0, 24.9, 25.0, 26.0]),
+    ):
+        found = icsolve.sweep(icsolve.load(text), {path: np.array(values)})
+        for value, status in zip(values, found.status.tolist(), strict=True):
+            try:
+                as_if_written(text, {path: value})
+                expected = "ok"
+            except icsolve.SceneError as refused:
+                expected = str(refused.status)
+            assert status == expected, (path, value)

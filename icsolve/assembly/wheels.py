@@ -28,12 +28,21 @@ MOST_FORGOTTEN, FEW = 3, 12
 """So many signs at most are taken as forgotten, of so many meshes; of more than these one."""
 
 
-def _pitched(case: Case, points: Points) -> Iterator[tuple[Bond, Mesh, float]]:
-    """The meshes of a given pitch whose pivots are among the points, and the module that this is."""
+def _pitched(case: Case, points: Points, a: Arithmetic = FLOATS) -> Iterator[tuple[Bond, Mesh, Scalar]]:
+    """The meshes of a given pitch whose pivots are among the points, and their module in the plane of the
+    wheels."""
     for bond in topology(case).bonds:
         joint = bond.joint
-        if isinstance(joint, Mesh) and joint.pitch is not None and {*bond.pivots} <= points.keys():
-            yield bond, joint, joint.pitch
+        if isinstance(joint, Mesh) and {*bond.pivots} <= points.keys():
+            if joint.module is not None:
+                module = a.given(joint.module)
+            elif joint.diametral_pitch is not None:
+                module = 1.0 / a.given(joint.diametral_pitch)
+            else:
+                continue
+            if (helix := joint.helix) is not None and helix.normal_pitch:
+                module = module / a.turn(helix.angle)[0]
+            yield bond, joint, module
 
 
 def refuse_misfit(case: Case, points: Points, scale: float) -> None:
@@ -44,7 +53,7 @@ def refuse_misfit(case: Case, points: Points, scale: float) -> None:
         line, _ = case.marks.get(f"joints.{a}-{b}", (0, 0))
         what = f"gears {a} and {b}" + (f" (line {line})" if line else "")
         ends = (*bond.pivots, "pivots")
-        refuse_unfit(what, joint.sizes, module, apart, ends, f" {case.units.length}")
+        refuse_unfit(what, joint.sizes, float(module), apart, ends, f" {case.units.length}")
     for rolls, pairs in _held(case, points):
         if all(float(min(_rolling(rolls, pair, points, scale, FLOATS), default=0.0)) < 0.0 for pair in pairs):
             _refuse_radii(case, rolls, pairs[0], points, scale)
@@ -221,15 +230,10 @@ def wheel_margins(
     for rolls, pairs in _held(case, points):
         margins = [list(_rolling(rolls, pair, points, scale, a)) for pair in pairs]
         yield from max(margins, key=lambda some: float(min(map(float, some), default=0.0)))
-    for bond, joint, _ in _pitched(case, points):
+    for bond, joint, module in _pitched(case, points, a):
         (ax, ay), (bx, by) = (points[p] for p in bond.pivots)
-        module, inverse = joint.module, joint.diametral_pitch
         first, second = map(a.given, joint.sizes)
-        fit = (first + second) * (0.5 * scale)
-        if module is not None:
-            fit = fit * a.given(module)
-        elif inverse is not None:
-            fit = fit / a.given(inverse)
+        fit = (first + second) * (0.5 * scale) * module
         off = ((bx - ax) * (bx - ax) + (by - ay) * (by - ay)) / (fit * fit) - 1.0
         yield (2.0 * MISFIT * (1.0 - MISFIT)) ** 2 - off * off
 

@@ -85,9 +85,11 @@ def pressed(one: Touching, case: Case, reactions: Reactions | None) -> Touching:
 
 
 def _name(one: Touching, case: Case, reactions: Reactions) -> str | None:
-    """The name of the force in a contact, None where there is none."""
+    """The name of the force in a contact, of whichever link on the other; None where there is none."""
     hidden = next(joint.at or "" for joint in case.joints if joint.only_pushes and joint.links == one.links)
-    return next((name for name in names_of(*one.links, hidden) if name in reactions), None)
+    a, b = one.links
+    names = (*names_of(a, b, hidden), *names_of(b, a, hidden))
+    return next((name for name in names if name in reactions), None)
 
 
 def _with_pressure_angles(

@@ -252,13 +252,6 @@ class Mesh(JointKind):
         raise NotImplementedError
 
     @property
-    def pitch(self) -> float | None:
-        """Pitch diameter for each tooth, case lengths, where the case gives it."""
-        if self.module is not None:
-            return self.module.value
-        return None if self.diametral_pitch is None else 1.0 / self.diametral_pitch.value
-
-    @property
     def module(self) -> Number | None:
         """Pitch diameter for each tooth."""
         return None
@@ -407,12 +400,14 @@ class Roll(_Roll, Rolling):
 class Helix(NamedTuple):
     """Helical teeth: their angle with the axis; the span of each shaft's bearings, where it is given.
 
-    With ``normal`` the mesh has its pressure angle square to the teeth, not in the plane of the wheels.
+    With ``normal`` the mesh has its pressure angle square to the teeth, not in the plane of the wheels; with
+    ``normal_pitch`` its pitch or module.
     """
 
     angle: Number
     span: Number | None = None
     normal: bool = False
+    normal_pitch: bool = False
 
 
 class _Gears(NamedTuple):
@@ -428,7 +423,7 @@ class _Gears(NamedTuple):
 class Gears(_Gears, Mesh):
     """A mesh; negative ``teeth`` are internal. The pivots are pins to one carrier.
 
-    Pitch and module are those in the plane of the wheels; the pressure angle too, but for that of a helix.
+    Pitch, module and pressure angle are those in the plane of the wheels, or as the helix says.
     """
 
     @property

@@ -189,7 +189,7 @@ def _seen(direction: Vec) -> Point:
 
 def _load(sketch: Sketch, push: Push, solid: shapely.Geometry) -> Part:
     kind, runs, at = _kind(push), _load_runs(push), _acts_at(sketch, push)
-    sign = -1.0 if (push.value or 0.0) < 0.0 else 1.0
+    sign = -1.0 if dot(add(push.force, push.couple), push.direction) < 0.0 else 1.0
     marks, far = vector(at, times(sign, push.direction), ARROW, kind, solid, double=push.at is None)
     soft = (along_arrow(at, far),)
     label = Label(f"label-{push.name}", runs, f"t-{kind}", 14.0, (far, at), 7.0)
@@ -203,6 +203,11 @@ def _kind(push: Push) -> str:
 def _load_runs(push: Push) -> tuple[TextRun, ...]:
     value = "?" if push.value is None else quantity(abs(push.value), push.unit)
     return (*name_runs(push.name), TextRun(f" = {value}"))
+
+
+def acting_of(push: Push, unit: str) -> Push:
+    """A load as the force that it is: of a spring not its stiffness, of a mass its weight."""
+    return push if push.value is None else push._replace(value=size(push.force), unit=unit)
 
 
 def along_arrow(at: Point, far: Point) -> Soft:
@@ -315,7 +320,8 @@ def _pushes(sketch: Sketch, known: Known, link: str) -> Iterable[On]:
             sign = 1.0 if link == push.link else -1.0
             place = push.at or next(iter(sketch.scene.carried(link)), ZERO)
             force, couple = times(sign, push.force), times(sign, push.couple)
-            yield f"body-load-{push.name}-on-{link}", _load_runs(push), force, couple, (_kind(push), place)
+            runs = _load_runs(push if push.at is None else acting_of(push, units.force))
+            yield f"body-load-{push.name}-on-{link}", runs, force, couple, (_kind(push), place)
 
 
 def _panel(sketch: Sketch, link: str, pushes: Sequence[On], largest: float) -> list[Mark]:

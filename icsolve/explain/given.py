@@ -3,10 +3,11 @@ has no more than that: figures and questions, with the key behind them."""
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from typing import TypeGuard
 
-from icsolve.case import Centroid, Coordinates, is_named, told_links
+from icsolve.case import Centroid, Coordinates, Like, Spring, Toward, is_named, told_links
+from icsolve.case.space import GearPair, SpatialForceVector, SpatialPoint, TorqueVector
 from icsolve.draw import tikz
 from icsolve.draw.figure import ASKED, drawn
 from icsolve.draw.marks import Mark, kinds_of
@@ -15,13 +16,14 @@ from icsolve.explain.document import AsTex, Block, Inline, Items, Section, Shown
 from icsolve.explain.worked import Worked, load_name, worked
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.spatial import Push, in_space
-from icsolve.screws.space import size
+from icsolve.screws.space import Vec, size
 from icsolve.statics.power import has_friction
-from icsolve.statics.space.reaction_basis import SpatialTie
-from icsolve.statics.space.reactions import direction_words
+from icsolve.statics.space.reaction_basis import SpatialTie, in_case
+from icsolve.statics.space.reactions import direction_words, heading_words
 from icsolve.structure import welded
 from icsolve.tuples import NamedTuple
 from icsolve.wording import at_words, listed
+from icsolve.wording.joints import form_of_teeth
 from icsolve.wording.sentences import provenance
 from icsolve.wording.statement import Row, Statement
 
@@ -41,6 +43,7 @@ def given_section(work: Worked) -> Section:
     known_loads = [*told.loads(unknown=False)]
     if known_loads:
         blocks += [words("Loads:"), _loads(known_loads)]
+    blocks += _gravity(told)
     blocks += [words(f"{told.moving(one)} {told.motion(one)}.") for one in case.motion]
     return Section("Given", tuple(blocks))
 
@@ -59,6 +62,10 @@ def _frame_and_others(work: Worked) -> str:
 
 def _items(rows: Iterable[Row]) -> Items:
     return Items(tuple((f"{name}: {value}" if value else name,) for name, value in rows))
+
+
+def _gravity(told: Statement) -> list[Block]:
+    return [words(f"{name.capitalize()} is {value}.") for name, value in told.gravity()]
 
 
 def _loads(rows: Iterable[Row]) -> Items:
@@ -142,14 +149,15 @@ def _given_in_space(work: Worked) -> Section:
     scene, case = in_space(work.known), work.case
     others = [link for link in told_links(case) if link != case.ground]
     said = words(f"The frame is link {case.ground}; the links that it holds: {listed(others)}.")
-    blocks: list[Block] = [said, Items(tuple((_joint(tie),) for tie in scene.ties))]
+    blocks: list[Block] = [said, Items(tuple((_joint(work, tie),) for tie in scene.ties))]
     named = [(name, place) for name, place in scene.places.items() if is_named(name)]
-    rows = tuple(((name,), *((work.length(c).digits,) for c in place)) for name, place in named)
+    rows = tuple(((name,), *_coordinates(work, name, place)) for name, place in named)
     if rows:
         blocks.append(ShownTable(("point", *(f"{axis}, {work.units.length}" for axis in "xyz")), rows))
     loads = [push for push in scene.loads if not push.unknown]
     if loads:
         blocks += [words("Loads:"), Items(tuple(_load(work, push) for push in loads))]
+    blocks += _gravity(work.statement())
     return Section("Given", tuple(blocks))
 
 
@@ -161,10 +169,45 @@ def _asked_in_space(work: Worked) -> Section:
     return Section("Asked", (said, Items(tuple(_load(work, push) for push in unknown))))
 
 
-def _joint(tie: SpatialTie) -> str:
+def _joint(work: Worked, tie: SpatialTie) -> str:
     axis = f" along {direction_words(tie.axis)}" if size(tie.axis) > 0.5 else ""
     kind = KINDS.get(tie.joint_kind, tie.joint_kind)
-    return f"a {kind} of links {tie.by} and {tie.on}{at_words(tie.where)}{axis}"
+    form = _teeth(work, tie.joint) if isinstance(tie.joint, GearPair) else ()
+    place = _place(work, "at", tie.where)
+    return ", ".join((f"a {kind} of links {tie.by} and {tie.on}{place}{axis}", *form))
+
+
+def _teeth(work: Worked, gears: GearPair) -> Iterator[str]:
+    show, teeth = work.statement().show, gears.teeth
+    counts = zip(gears.links, gears.counts, gears.centres, strict=False)
+    for link, count, centre in counts:
+        inside = "internal " if count.value < 0.0 else ""
+        yield f"{show(count).lstrip('-')} {inside}teeth on link {link} about {centre}"
+    form = (teeth.pressure_angle, teeth.helix_angle, teeth.diametral_pitch, teeth.module)
+    yield from form_of_teeth(form, (teeth.normal_angle, teeth.normal_pitch), work.units.length, show)
+    if teeth.helix_angle is not None:
+        yield f"link {gears.links[0]} {teeth.hand}-handed"
+    if gears.toward is not None:
+        mate = gears.toward
+        way = f"toward {mate.point if isinstance(mate, Toward) else heading_words(mate, forth=True)}"
+        yield f"its mate {way}"
+
+
+def _coordinates(work: Worked, name: str, place: Vec) -> Iterator[tuple[str]]:
+    """Of a point: as they are given, or as they follow."""
+    given, show = in_case(work.case).points[name], work.statement().show
+    if isinstance(given, SpatialPoint):
+        yield from ((show(c),) for c in given)
+    else:
+        yield from ((work.length(c).digits,) for c in place)
+
+
+def _place(work: Worked, word: str, name: str) -> str:
+    """A point by its name, or by its coordinates where it has none."""
+    p = in_case(work.case).points.get(name)
+    if is_named(name) or not isinstance(p, SpatialPoint):
+        return at_words(name).replace(" at ", f" {word} ")
+    return f" {word} ({', '.join(map(work.statement().show, p))}) {work.units.length}"
 
 
 KINDS = {
@@ -176,9 +219,21 @@ KINDS = {
 
 
 def _load(work: Worked, push: Push) -> tuple[Inline, ...]:
-    value = "" if push.value is None else f" of {work.show(push.value)} {push.unit}"
-    what = f"a {'couple' if push.at is None else 'load'}{'' if push.unknown else value}"
-    return load_name(push.name), f": {what} on link {push.link}{at_words(push.where)}, {push.way}"
+    told = work.statement()
+    (load,) = (load for load in in_case(work.case).loads if load.name == push.name)
+    what, way = f"a {'couple' if push.at is None else 'load'}", f", {push.way}"
+    if isinstance(load, Spring):
+        what, unit = "a spring", work.units.length
+        way = f"{_place(work, 'to', load.to)}, free length {told.show(load.free)} {unit}"
+    if isinstance(load, SpatialForceVector | TorqueVector):
+        what, way = f"{what} of ({', '.join(map(told.show, load.parts))}) {push.unit}", ""
+    elif isinstance(load.value, Like):
+        what += told.like(load.value)
+    elif load.value is not None:
+        what += f" of {told.show(load.value)} {push.unit}"
+    against = "" if push.against == work.case.ground else f" against link {push.against}"
+    place = _place(work, "at", push.where)
+    return load_name(push.name), f": {what} on link {push.link}{place}{against}{way}"
 
 
 # --- exercises ------------------------------------------------------------------------------------------

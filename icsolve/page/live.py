@@ -566,13 +566,18 @@ class _ProgramWriter:
         return (ends for ends in found if ends is not None)
 
     def _mesh(self, bond: Bond, place: Mapping[Key, int]) -> Iterable[list[Any]]:
-        """Pivots, teeth, and module or diametral pitch of gears: whether they fit has to be seen."""
+        """Pivots, teeth, and module or diametral pitch of gears, with the helix angle where it is that of the
+        normal section: whether they fit has to be seen."""
         joint = bond.joint
         if isinstance(joint, Mesh) and set(bond.pivots) <= place.keys():
             size = joint.module or joint.diametral_pitch
             if size is not None:
                 numbers = [self.paths.index(number.path) for number in (*joint.sizes, size)]
-                yield [*(place[p] for p in bond.pivots), *numbers, joint.module is not None]
+                helix = joint.helix
+                angle = None
+                if helix is not None and helix.normal_pitch:
+                    angle = self.paths.index(helix.angle.path)
+                yield [*(place[p] for p in bond.pivots), *numbers, joint.module is not None, angle]
 
     def _motion(self, given: Motion, place: Mapping[Key, int]) -> dict[str, Any]:
         """What the case says of a speed; numbers by their place among the inputs."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Callable, Container
 from collections.abc import Mapping as Table
@@ -478,12 +477,9 @@ def _helical(entry: Entry, links: Pair, v: Values) -> Gears | None:
     teeth = read_teeth(entry, v, False)
     if teeth is None or teeth.helix_angle is None:
         return None
-    helix = Helix(teeth.helix_angle, v["bearing span"], teeth.normal_angle)
-    cosine = math.cos(math.radians(teeth.helix_angle.value)) if teeth.normal_pitch else 1.0
-    pitch, module = teeth.diametral_pitch, teeth.module
-    pitch = pitch and pitch._replace(value=pitch.value * cosine, half=pitch.half * cosine)
-    module = module and module._replace(value=module.value / cosine, half=module.half / cosine)
-    return Gears(links, v["teeth"], v["carrier"], teeth.pressure_angle, pitch, module, helix)
+    helix = Helix(teeth.helix_angle, v["bearing span"], teeth.normal_angle, teeth.normal_pitch)
+    size = (teeth.diametral_pitch, teeth.module)
+    return Gears(links, v["teeth"], v["carrier"], teeth.pressure_angle, *size, helix)
 
 
 def read_teeth(entry: Entry, values: Values, pitch_needed: bool) -> Teeth | None:

@@ -17,6 +17,7 @@ from icsolve.case.joints import Mesh
 from icsolve.case.profiles import Flat, Knife, Roller
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array, Mask
+from icsolve.scene.sensitivity import parts_of
 from icsolve.structure import welded
 from icsolve.sweep.cam_motion import CamMotion, Rows, cam_motion
 from icsolve.sweep.program import RowRequest, setting_of
@@ -61,7 +62,7 @@ def sweep_touching(case: Case, columns: Columns, wanted: SweepRequest, progress:
         at = int(np.flatnonzero(part.rows == row)[0])
         return part.run.case_of(at) if part.run else _written(part.case, columns, row)
 
-    for part in _parts(case, columns, _moving(first, columns), table):
+    for part in _parts(case, columns, _moving(case, first, columns), table):
         parts.append(part)
         left = part.rows[~_together(table, part, wanted.error)]
         left = left[table.codes[left] == 0]
@@ -95,8 +96,8 @@ def _notes(case: Case, columns: Columns, table: Table) -> Iterator[str]:
             yield lost_rows(links, len(lost), where(int(lost[0])))
 
 
-def _moving(course: CamMotion, columns: Columns) -> set[str]:
-    """The varied paths that move the mechanism.
+def _moving(case: Case, course: CamMotion, columns: Columns) -> set[str]:
+    """The varied paths that move the mechanism; those of its profiles and contacts do not.
 
     Raises SceneError where a follower is to be turned, or a link cannot be.
     """
@@ -107,7 +108,8 @@ def _moving(course: CamMotion, columns: Columns) -> set[str]:
             raise SceneError(Status.MOBILITY, follower_driven(driven[0], cams))
     turned = [follow.driver for follow in course.follows if isinstance(follow.freedom, Turn)]
     slid = [follow.driver for follow in course.follows if not isinstance(follow.freedom, Turn)]
-    own = [path for path in columns.paths if not path.startswith("profile.")]
+    shapes = parts_of(case)["profiles"]
+    own = [path for path in columns.paths if path not in shapes]
     paths, links = dict.fromkeys((*own, *slid)), dict.fromkeys((*columns.links, *turned))
     setting = setting_of(course.open, [*paths], [*links])
     return {path for path in setting.drive.moving if path in columns.paths}

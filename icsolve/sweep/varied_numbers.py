@@ -104,7 +104,8 @@ def _means(case: Case, own: str, section: str, rest: str) -> bool:
     if section == "joints":
         (name, _, key), (label, _, own_key) = rest.partition("."), tail.partition(".")
         plain = label.partition("#")[0]
-        names = (joint_names(joint.links, joint.at) for joint in case.joints)
+        names = [joint_names(joint.links, joint.at) for joint in case.joints]
+        names += [joint_names(touch.links, None) for touch in case.touches]
         return key == own_key and any(plain in called and name in called for called in names)
     return False
 

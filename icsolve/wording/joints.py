@@ -101,13 +101,31 @@ def _teeth(gears: Gears, length: str, show: Callable[[Number], str]) -> Iterator
     yield f"{' and '.join(show(number).lstrip('-') for number in gears.teeth)} teeth"
     if any(number.value < 0.0 for number in gears.teeth):
         yield "one of them internal"
-    if gears.pressure_angle is not None:
-        normal = "normal " if gears.helix is not None and gears.helix.normal else ""
-        yield f"{normal}pressure angle {show(gears.pressure_angle)} deg"
-    if gears.diametral_pitch is not None:
-        yield f"diametral pitch {show(gears.diametral_pitch)} a {length}"
-    if gears.module is not None:
-        yield f"module {show(gears.module)} {length}"
+    helix = gears.helix
+    angle, *normal = (
+        (None, False, False) if helix is None else (helix.angle, helix.normal, helix.normal_pitch)
+    )
+    form = (gears.pressure_angle, angle, gears.diametral_pitch, gears.module)
+    yield from form_of_teeth(form, normal, length, show)
+    if helix is not None and helix.span is not None:
+        yield f"bearing span {show(helix.span)} {length}"
+
+
+def form_of_teeth(
+    form: Sequence[Number | None], normal: Sequence[bool], length: str, show: Callable[[Number], str]
+) -> Iterator[str]:
+    """Pressure angle, helix angle, diametral pitch and module of teeth, where they are given; of a helix with
+    their section: whether that of the angle and that of the pitch or module is ``normal``."""
+    pressure, helix, pitch, module = form
+    angle, size = ("" if helix is None else "normal " if is_normal else "transverse " for is_normal in normal)
+    if pressure is not None:
+        yield f"{angle}pressure angle {show(pressure)} deg"
+    if helix is not None:
+        yield f"helix angle {show(helix)} deg"
+    if pitch is not None:
+        yield f"{size}diametral pitch {show(pitch)} a {length}"
+    if module is not None:
+        yield f"{size}module {show(module)} {length}"
 
 
 def thread_data(thread: Thread, length: str, show: Callable[[Number], str]) -> Iterator[str]:

@@ -72,8 +72,7 @@ class Statement(NamedTuple):
         rows += [(f"link {link}", self.mass(inertia)) for link, inertia in case.inertia.items()]
         rows += self.loads()
         rows += [(self.moving(motion), self.motion(motion)) for motion in case.motion]
-        if any(isinstance(load, Weight) and load.mass for load in case.loads):
-            rows.append(("gravity", f"{self.show(case.gravity)} m/s^2"))
+        rows += self.gravity()
         if case.reconstructed:
             rows.append((RECONSTRUCTED, case.reconstructed))
         return rows
@@ -207,6 +206,12 @@ class Statement(NamedTuple):
         )
         return ", ".join(parts)
 
+    def gravity(self) -> Iterator[Row]:
+        """How fast things fall, where a load is the weight of a mass."""
+        loads = self.case.loads if self.case.space is None else self.case.space.loads
+        if any(isinstance(load, Weight) and load.mass for load in loads):
+            yield "gravity", f"{self.show(self.case.gravity)} m/s^2"
+
     # --- loads ------------------------------------------------------------------------------------
 
     def loads(self, unknown: bool | None = None) -> Iterator[Row]:
@@ -229,8 +234,7 @@ class Statement(NamedTuple):
         if isinstance(load, ForceVector):
             kind += f" ({self.show(load.x)}, {self.show(load.y)}) {case.units.force}"
         elif isinstance(size, Like):
-            times = f"{self.show(size.times)} times " if size.times is not None else ""
-            kind += f", {times}as large as {size.load},"
+            kind += self.like(size)
         elif isinstance(size, Number):
             kind += f" of {self.show(size)} {unit}"
         else:
@@ -247,6 +251,11 @@ class Statement(NamedTuple):
         elif (at := getattr(load, "at", "")) and not isinstance(load, TorsionSpring):
             on += f" at {self.place(at)}"
         return f"{kind} {on}{self._way(load)}"
+
+    def like(self, size: Like) -> str:
+        """Which other load it is as large as."""
+        times = f"{self.show(size.times)} times " if size.times is not None else ""
+        return f", {times}as large as {size.load},"
 
     def _area(self, over: Area) -> str:
         """What a pressure acts on: `` on an area of 0.05 m^2``."""

@@ -727,9 +727,9 @@ function normal(told, twists, still) {
 function refuseMisfit(told, x, points) {
   for (const [a, b] of told.aims)
     if (points[a].every((p, n) => isNothing(points[b][n] - p, of(1) + abs(p)))) refuse("inconsistent", "two points that give a direction lie at one place");
-  for (const [a, b, one, two, size, module] of told.meshes) {
-    const pitch = plainly(x[size]);
-    const fit = (abs(plainly(x[one] + x[two])) * (module ? pitch : 1 / pitch)) / 2;
+  for (const [a, b, one, two, size, module, helix] of told.meshes) {
+    const pitch = plainly(x[size]), slant = helix === null ? 1 : Math.cos((plainly(x[helix]) * Math.PI) / 180);
+    const fit = (abs(plainly(x[one] + x[two])) * (module ? pitch : 1 / pitch)) / slant / 2;
     if (abs(apart(plainly(points[a]), plainly(points[b])) / told.frame[2] - fit) > 2e-3 * fit)
       refuse("inconsistent", "the teeth do not fit the distance of the pivots");
   }

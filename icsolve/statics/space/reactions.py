@@ -65,9 +65,9 @@ def sense_of(w: SpatialWrench, value: float) -> str:
         case Weight():
             return "down" if forth else "up"
         case SpatialTorque(heading=Along() | Vector() | FromTo() as heading):
-            return f"about {_heading_words(heading, forth)}"
+            return f"about {heading_words(heading, forth)}"
         case SpatialForce(heading=Along() | Vector() | FromTo() as heading):
-            return f"along {_heading_words(heading, forth)}"
+            return f"along {heading_words(heading, forth)}"
         case SpatialForce(heading=Toward() as toward):
             drawn = forth != toward.away
             if w.load.against is not None:
@@ -76,7 +76,7 @@ def sense_of(w: SpatialWrench, value: float) -> str:
     return ""
 
 
-def _heading_words(heading: Along | Vector | FromTo, forth: bool) -> str:
+def heading_words(heading: Along | Vector | FromTo, forth: bool) -> str:
     """``-z``; ``A to B``; the components of the unit vector."""
     match heading:
         case Along(word):
