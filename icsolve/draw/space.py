@@ -312,7 +312,7 @@ def _pushes(sketch: Sketch, known: Known, link: str) -> Iterable[On]:
     for name, r in known.answer.spatial.reactions.of_link(link):
         words = "?" if r.magnitude is None else quantity(r.magnitude, units.force)
         words += f", M = {quantity(r.moment, units.torque)}" if r.moment else ""
-        runs = (*force_runs(name, r.by, r.on, r.where), TextRun(f" = {words}"))
+        runs: tuple[TextRun, ...] = (*force_runs(name, r.by, r.on, r.where), TextRun(f" = {words}"))
         force, couple = ((x or 0.0, y or 0.0, z or 0.0) for x, y, z in (r.force, r.couple))
         yield f"reaction-{name}-on-{r.on}", runs, force, couple, ("reaction", r.at)
     for push in sketch.scene.loads:
