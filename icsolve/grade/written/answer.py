@@ -99,6 +99,13 @@ _ASIDE = re.compile(
 """Words that say nothing about the value, and a unit in brackets that is none."""
 _BRACKETED_MINUS = re.compile(r"\( ?- ?\)")
 """Alone the unit of a ratio; beside a unit or a direction, or of what has a unit, perhaps the sign."""
+_MINUS_APART = re.compile(r"\( ?-(?:ve)? ?\)|- ?[.;]?$|(?<=\w)- ?[=:]|- [ijk]-hat")
+"""A minus that stands by itself: in brackets, at the end, behind a name, before a unit vector."""
+_MINUS_SAID = re.compile(
+    r"(?<!\w)(?:(?:minus|neg(?:ative?|ativo|atief)?\.?|négatif|moins|menos|meno) ?[:=]|min\.? (?=[\d.,]))",
+    re.IGNORECASE,
+)
+"""A word for it that may be a name, or a limit: ``minus: 12``; Dutch ``min 12``."""
 _SIZE = re.compile(r"\|[^|]+\||(?<!\w)(?:magnitude|size|absolute value|modulus|abs)(?!\w)", re.IGNORECASE)
 """What says that a number is a size, whatever its sense: ``|T12| = 41``, ``magnitude 41``."""
 _VECTOR_FIRST = re.compile(r"(?<!\w)([ij]|[ijk]-hat) (.+)")
@@ -160,20 +167,21 @@ class Reader:
                 return self.slowly(text)
             digits, rest = quick.groups()
             after = self._rests.get(rest) or self._remember(rest)
-        _, word, said, _, flag, note, _ = after
+        _, word, said, _, flag, note, unsigned = after
         try:
             number = float(digits)
         except ValueError:
             return self.slowly(text)
         if flag or (number < 0.0 and said is not None) or number - number != 0.0:
             return self.slowly(text)
-        return _made((number, word, said, digits, "", note, ""))
+        return _made((number, word, said, digits, "", note, unsigned))
 
     def _remember(self, rest: str) -> WrittenAnswer:
         if len(self._rests) >= _MOST:
             self._rests.clear()
         found = tail(plain(rest), WrittenAnswer(0.0, None, None))
-        found = self._rests[rest] = found._replace(direction=_toward(found.direction))
+        found = _with_minus(found._replace(direction=_toward(found.direction)), rest)
+        self._rests[rest] = found
         return found
 
     def slowly(self, text: str) -> WrittenAnswer:
@@ -202,19 +210,27 @@ def words_of(text: str) -> tuple[str, str]:
 
 def _answer(text: str, decimal: str) -> WrittenAnswer:
     whole = text
+    if _MINUS_SAID.search(whole) and holds_digits(whole):
+        return flagged(AMBIGUOUS_DIRECTION)
     text, asides = unwrapped(text)
     read = _behind_name(text, decimal)
     if read.number >= 0.0 and read.direction is None and not read.flag:
         first = _NUMBER.search(whole)
         said_size = first is not None and _SIZE.search(whole, 0, first.start())
-        behind = _BRACKETED_MINUS.search(text)
-        read = read._replace(unsigned=MINUS if behind else SIZE if said_size else "")
+        read = read._replace(unsigned=SIZE if said_size else "")
+    read = _with_minus(read, whole)
     for aside in filter(None, asides):
         if aside == "t":  # T(t) = ...: a function of time
             continue
         is_unit = unit_word(aside) is not None
         read = _with_columns(read, aside if is_unit else "", "" if is_unit or not direction(aside) else aside)
     return read
+
+
+def _with_minus(read: WrittenAnswer, text: str) -> WrittenAnswer:
+    """With a minus that stands by itself, as far as the number has none."""
+    apart = read.number >= 0.0 and not read.flag and _MINUS_APART.search(text)
+    return read._replace(unsigned=MINUS) if apart else read
 
 
 def _behind_name(text: str, decimal: str) -> WrittenAnswer:
