@@ -190,6 +190,37 @@ expect: {{Q: "20 %s"}}
         assert row.verdict == (AGREES if sense in same else "disagrees"), sense
 
 
+UNKNOWNS = {
+    "force: unknown, at: C, along: -z": ("", "along -z", "along z"),
+    "force: unknown, at: C, toward: D": ("", "toward D", "away from D"),
+    "force: unknown, at: C, away: D, against: 3": ("", "push", "pull"),
+    "weight: unknown, at: C": ("", "down", "up"),
+    "mass: unknown, at: C": (" kg", "down", "up"),
+    "spring: unknown, free: 1, at: C, to: D": ("", "pull", "push"),
+    "spring: unknown, free: 9, at: C, to: D": ("", "push", "pull"),
+    "torque: unknown, along: -y": ("", "about -y", "about y"),
+}
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("entry", UNKNOWNS)
+def test_a_load_in_space_is_expected_with_the_sense_that_it_is_told_with(entry: str, sign: int) -> None:
+    unit, forth, back = UNKNOWNS[entry]
+    text = f"""icsolve: 1
+points: {{A: [0, 0, 0], C: [3, 0, 2], D: [3, 0, -4]}}
+joints: [{{hinge: [1, 2], at: A, axis: y}}, {{weld: [1, 3], at: D}}]
+loads:
+  Q: {{{entry}, link: 2}}
+  P: {{torque: {sign * 7}, link: 2, along: y}}
+"""
+    found = solve(load(text)).answers["Q"]
+    assert found.sense in (forth, back) and (found.sense == forth) == (found.value > 0.0)
+    for sense in (forth, back):
+        said = f"{abs(found.value):.6g}{unit} {sense}"
+        (row,) = compare(solve(load(f'{text}expect: {{Q: "{said}"}}')))
+        assert row.verdict == (AGREES if sense == found.sense else "disagrees"), row
+
+
 SHAFT = """\
 icsolve: 1
 units: {length: mm, force: N, torque: N*m}

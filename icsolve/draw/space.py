@@ -320,8 +320,8 @@ def _pushes(sketch: Sketch, known: Known, link: str) -> Iterable[On]:
             sign = 1.0 if link == push.link else -1.0
             place = push.at or next(iter(sketch.scene.carried(link)), ZERO)
             force, couple = times(sign, push.force), times(sign, push.couple)
-            runs = _load_runs(push if push.at is None else acting_of(push, units.force))
-            yield f"body-load-{push.name}-on-{link}", runs, force, couple, (_kind(push), place)
+            told = _load_runs(push if push.at is None else acting_of(push, units.force))
+            yield f"body-load-{push.name}-on-{link}", told, force, couple, (_kind(push), place)
 
 
 def _panel(sketch: Sketch, link: str, pushes: Sequence[On], largest: float) -> list[Mark]:

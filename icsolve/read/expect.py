@@ -419,7 +419,7 @@ def _fits_space(sense: str, dimension: str) -> bool:
     lead = sense.partition(" ")[0]
     if dimension == "torque":
         return lead == "about"
-    return dimension == "force" and (lead in ("along", "toward", "away") or sense in _LINES[2:])
+    return dimension in _ALONG and (lead in ("along", "toward", "away") or sense in _LINES[2:])
 
 
 _WITHOUT = "it is a number without a sense"
