@@ -617,7 +617,7 @@ def test_a_search_ends_where_rounding_is_all_that_halving_shows(
     torque: float, load: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """At a change point and a limit no cell is ever decided: thousands were halved, each as open as the
-    others and as open. The 256 of the first look are the most."""
+    others. The 256 of the first look are the most."""
     looked: list[int] = []
 
     def counted(function: LoadFunction, cells: Interval) -> Any:
@@ -745,27 +745,17 @@ def test_at_a_limit_a_position_is_stable_by_the_motion_that_is_left(
     ]
 
 
-PASSING_BLOCK = """
+GUIDED_BLOCK = """
 icsolve: 1
 points: {{A: [0, 0], B: [{x!r}, {y!r}]}}
 lengths: {{AC: {free}}}
 joints:
-  - {{slide: [2, 1], at: C, along: {along!r}, through: B}}
+  - {{slide: [2, 1], at: C, along: {along!r}, through: {through}}}
 loads:
   F: {{force: {force!r}, link: 2, at: C, angle: {along!r}}}
-  S: {{spring: {rate!r}, free: {own!r}, link: 2, at: C, to: A}}
+  S: {{spring: {rate!r}, free: {own!r}, link: 2, at: C, to: {to}}}
 """
-"""a block on a guide that passes A at the distance AB, on a spring from A"""
-OVER_ITS_ANCHOR = """icsolve: 1
-points: {{A: [0, 0], B: {beside}}}
-lengths: {{AC: {free}}}
-joints:
-  - {{slide: [2, 1], at: C, along: {along!r}, through: A}}
-loads:
-  F: {{force: {force!r}, link: 2, at: C, angle: {along!r}}}
-  S: {{spring: {rate!r}, free: {own!r}, link: 2, at: C, to: B}}
-"""
-"""a block on a guide through A, on a spring from B beside it"""
+"""a block on a guide through one of two points side by side, on a spring from the other"""
 
 
 def rests_along(load: Callable[[float], float]) -> list[tuple[float, str]]:
@@ -782,50 +772,30 @@ def rests_along(load: Callable[[float], float]) -> list[tuple[float, str]]:
 
 @sampled(12)
 @pytest.mark.parametrize("free", ["unknown", "{{unknown: [{low!r}, {high!r}]}}"])
+@pytest.mark.parametrize("through", ["A", "B"])
 @pytest.mark.parametrize("seed", range(24))
-def test_where_nothing_turns_a_limit_is_a_position_as_any_other(seed: int, free: str) -> None:
-    """The spring is shortest where the block passes A, and a block without a force may rest there: of the two
-    ways along the guide the energy says which are stable."""
+def test_where_nothing_turns_a_limit_is_a_position_as_any_other(seed: int, through: str, free: str) -> None:
+    """The length AC is least, and may be nothing, where the block passes A; without a force it may rest
+    there. Of the two ways along the guide the energy says which are stable."""
     draw = random.Random(f"blocks {seed}")
     along, away = draw.choice([0.0, 90.0, 37.5, 123.25]), round(draw.uniform(0.2, 0.6), 2)
-    turn = math.radians(along)
-    x, y = -away * math.sin(turn), away * math.cos(turn)
+    cosine, sine = math.cos(math.radians(along)), math.sin(math.radians(along))
+    x, y = round(-away * sine, 6), round(away * cosine, 6)
     rate, own = round(draw.uniform(20.0, 60.0), 1), round(away * draw.choice([0.5, 1.5, 3.0]), 2)
     force = draw.choice([0.0, 0.0, round(draw.uniform(-9.0, 9.0), 1)])
+    beside, ahead = abs(x * sine - y * cosine), x * cosine + y * sine  # B from A, across the guide and along
 
     def load(s: float) -> float:
-        length = math.hypot(away, s)
+        length = math.hypot(beside, s)
         return force - rate * (length - own) * s / length
 
-    expected = [(math.hypot(away, at), kind) for at, kind in rests_along(load)]
-    span = free.format(low=away / 2.0, high=4.0)
-    found = positions(PASSING_BLOCK.format(x=x, y=y, along=along, free=span, force=force, rate=rate, own=own))
+    to, least, off = ("A", beside, 0.0) if through == "B" else ("B", 0.0, ahead)
+    expected = [(math.hypot(least, at + off), kind) for at, kind in rests_along(load)]
+    span = free.format(low=least / 2.0, high=4.0)
+    numbers = {"x": x, "y": y, "along": along, "force": force, "rate": rate, "own": own}
+    found = positions(GUIDED_BLOCK.format(through=through, to=to, free=span, **numbers))
     told = [(one.at["lengths.AC"], one.stability) for one in found]
     assert sorted(told) == [(pytest.approx(at, abs=1e-8), kind) for at, kind in sorted(expected)]
-
-
-@sampled(12)
-@pytest.mark.parametrize("free", ["unknown", "{{unknown: [0, {high!r}]}}"])
-@pytest.mark.parametrize("seed", range(24))
-def test_where_nothing_turns_a_length_of_nothing_is_a_position_as_any_other(seed: int, free: str) -> None:
-    """A block passes the point on its guide from which it is measured, on a spring from a point beside: it
-    rests there where the loads balance, and elsewhere at either side."""
-    draw = random.Random(f"blocks over a point {seed}")
-    along, away = draw.choice([0.0, 90.0, 37.5, 123.25]), round(draw.uniform(0.2, 0.6), 2)
-    turn = math.radians(along)
-    beside = [round(-away * math.sin(turn), 6), round(away * math.cos(turn), 6)]
-    rate, own = round(draw.uniform(20.0, 60.0), 1), round(away * draw.choice([0.5, 1.5, 3.0]), 2)
-    force = draw.choice([0.0, 0.0, round(draw.uniform(-9.0, 9.0), 1)])
-
-    def load(s: float) -> float:
-        length = math.hypot(away, s)
-        return force - rate * (length - own) * s / length
-
-    expected = [(abs(at), kind) for at, kind in rests_along(load)]
-    span = free.format(high=4.0)
-    text = OVER_ITS_ANCHOR.format(beside=beside, along=along, free=span, force=force, rate=rate, own=own)
-    told = [(one.at["lengths.AC"], one.stability) for one in positions(text)]
-    assert sorted(told) == [(pytest.approx(at, abs=1e-5), kind) for at, kind in sorted(expected)]
 
 
 @sampled(3)

@@ -205,7 +205,7 @@ def _load_runs(push: Push) -> tuple[TextRun, ...]:
     return (*name_runs(push.name), TextRun(f" = {value}"))
 
 
-def acting_of(push: Push, unit: str) -> Push:
+def _acting(push: Push, unit: str) -> Push:
     """A load as the force that it is: of a spring not its stiffness, of a mass its weight."""
     return push if push.value is None else push._replace(value=size(push.force), unit=unit)
 
@@ -320,7 +320,7 @@ def _pushes(sketch: Sketch, known: Known, link: str) -> Iterable[On]:
             sign = 1.0 if link == push.link else -1.0
             place = push.at or next(iter(sketch.scene.carried(link)), ZERO)
             force, couple = times(sign, push.force), times(sign, push.couple)
-            told = _load_runs(push if push.at is None else acting_of(push, units.force))
+            told = _load_runs(push if push.at is None else _acting(push, units.force))
             yield f"body-load-{push.name}-on-{link}", told, force, couple, (_kind(push), place)
 
 

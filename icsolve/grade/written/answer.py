@@ -97,9 +97,9 @@ _ASIDE = re.compile(
     re.IGNORECASE,
 )
 """Words that say nothing about the value, and a unit in brackets that is none."""
-_BRACKETED_MINUS = re.compile(r"\( ?- ?\)")
+_BRACKETED_MINUS = re.compile(r"\( ?-(?:ve)? ?\)")
 """Alone the unit of a ratio; beside a unit or a direction, or of what has a unit, perhaps the sign."""
-_MINUS_APART = re.compile(r"\( ?-(?:ve)? ?\)|- ?[.;]?$|(?<=\w)- ?[=:]|- [ijk]-hat")
+_MINUS_APART = re.compile(rf"{_BRACKETED_MINUS.pattern}|- ?[.;]?$|(?<=\w)- ?[=:]|- [ijk]-hat")
 """A minus that stands by itself: in brackets, at the end, behind a name, before a unit vector."""
 _MINUS_SAID = re.compile(
     r"(?<!\w)(?:(?:minus|neg(?:ative?|ativo|atief)?\.?|négatif|moins|menos|meno) ?[:=]|min\.? (?=[\d.,]))",
@@ -179,8 +179,9 @@ class Reader:
     def _remember(self, rest: str) -> WrittenAnswer:
         if len(self._rests) >= _MOST:
             self._rests.clear()
-        found = tail(plain(rest), WrittenAnswer(0.0, None, None))
-        found = _with_minus(found._replace(direction=_toward(found.direction)), rest)
+        words = plain(rest)
+        found = tail(words, WrittenAnswer(0.0, None, None))
+        found = _with_minus(found._replace(direction=_toward(found.direction)), words)
         self._rests[rest] = found
         return found
 
