@@ -94,6 +94,7 @@ class Kennedy:
         self.missing: set[BodyPair] = set()
         self.lines: dict[BodyPair, list[CentreLine]] = {}
         self.heap: list[tuple[float, int, BodyPair, LocatedCentre]] = []
+        self.offered: dict[BodyPair, float] = {}
         self.partners: dict[int, frozenset[int]] | None = None
         self.joined: dict[int, set[int]] = {body: set() for body in self.bodies}
         self.settled: dict[int, set[int]] = {body: set() for body in self.bodies}
@@ -161,33 +162,38 @@ class Kennedy:
 
     def _join(self, target: BodyPair, one: BodyPair, two: BodyPair) -> None:
         p, q = self.known[one], self.known[two]
-        line, sine = _meet(p.point, q.point)
         error = p.error + q.error
+        lines: Sequence[CentreLine] = self.lines.get(target, ())
+        worst = lines[-1].error if len(lines) >= ENOUGH else math.inf
+        if ROUNDING + error >= worst:  # so is that of their line, whatever the sine
+            return
+        line = cross(p.point, q.point)
+        sine = math.hypot(*line)
         if sine <= SAME + error:
             point = p if p.error <= q.error else q
             through = CentreLine((one, two), point.point, error)
             self._offer(target, LocatedCentre(point.point, error, "construction", (through,)))
-            return
-        error = ROUNDING + error / sine
-        lines = self.lines.get(target)
-        if not lines or len(lines) < ENOUGH or error < lines[-1].error:
-            self._draw(target, CentreLine((one, two), line, error))
+        elif (error := ROUNDING + error / sine) < worst:
+            self._draw(target, CentreLine((one, two), unit(line), error))
 
     def _draw(self, pair: BodyPair, line: CentreLine) -> None:
         lines = self.lines.setdefault(pair, [])
         del lines[ENOUGH - 1 :]
         for other in lines:
-            point, sine = _meet(line.line, other.line)
             error = line.error + other.error
+            if ROUNDING + error >= self.offered.get(pair, math.inf):
+                continue
+            point = cross(line.line, other.line)
+            sine = math.hypot(*point)
             if sine > SAME + error:
-                self._offer(
-                    pair, LocatedCentre(point, ROUNDING + error / sine, "construction", (other, line))
-                )
+                error = ROUNDING + error / sine
+                self._offer(pair, LocatedCentre(unit(point), error, "construction", (other, line)))
         lines.append(line)
         lines.sort(key=_error)
 
     def _offer(self, pair: BodyPair, known: LocatedCentre) -> None:
-        if pair not in self.known:
+        if known.error < self.offered.get(pair, math.inf):
+            self.offered[pair] = known.error
             heapq.heappush(self.heap, (known.error, len(self.heap), pair, known))
 
 
@@ -211,16 +217,9 @@ def unit(a: Triple) -> Triple:
     return (a[0] / length, a[1] / length, a[2] / length)
 
 
-def _meet(a: Triple, b: Triple) -> tuple[Triple, float]:
-    """Cross product of unit triples, made unit, and its length: the sine between them."""
-    c = cross(a, b)
-    sine = math.sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2])
-    return (c if sine == 0.0 else (c[0] / sine, c[1] / sine, c[2] / sine)), sine
-
-
 def sine_between(a: Triple, b: Triple) -> float:
     """Sine of the angle between two homogeneous vectors, of any length."""
-    return _meet(unit(a), unit(b))[1]
+    return math.hypot(*cross(unit(a), unit(b)))
 
 
 LinkTwists = Mapping[str, Sequence[Triple]]
