@@ -495,7 +495,7 @@ class Look(NamedTuple):
 
 def look_into(function: LoadFunction, cells: Interval) -> Look:
     """One look into cells, and at the middle and the ends of each. A cell is level where rounding makes the
-    power and the margins that leave it open."""
+    power and the margins that leave it open, or leaves the power without bound at all three places."""
     middle = 0.5 * (cells.low + cells.high)
     low, high = (np.concatenate([end, middle, *cells]) for end in cells)
     asked = [function.power, function.slope, *function.margins]
@@ -522,8 +522,11 @@ def look_into(function: LoadFunction, cells: Interval) -> Look:
     found = list(zip(cells.low[crossing].tolist(), cells.high[crossing].tolist(), strict=True))
     left = possible & ~decided
     level = left & _is_rounding(value)
+    unbounded = left & np.isinf(value.high - value.low)[1:].all(axis=0)
     for margin in margins:
         level &= (margin.low[0] > 0.0) | _is_rounding(margin)
+        unbounded &= (margin.high[1:] >= 0.0).all(axis=0)
+    level |= unbounded
     left &= ~level
     return Look(
         Interval(cells.low[left], cells.high[left]), found, Interval(cells.low[level], cells.high[level])
