@@ -12,6 +12,7 @@ from types import MappingProxyType
 
 from icsolve.case import Case, Joint, Spring
 from icsolve.case.joints import Guided, Mesh, Rolling, Sliding
+from icsolve.case.loads import aim_of
 from icsolve.case.profiles import Circle, Flat, Knife, Roller, points_of
 from icsolve.draw.marks import Box, Mark, MarkGroup, Point, View, along
 from icsolve.draw.place import Label, Placer, Soft
@@ -414,8 +415,7 @@ def fixed_springs(case: Case) -> list[Spring]:
 def aims(case: Case) -> tuple[str, ...]:
     """The points toward which loads act, or away from which."""
     loads = case.loads if case.space is None else case.space.loads
-    found = (getattr(getattr(load, "heading", None), "point", None) for load in loads)
-    return tuple(name for name in found if name)
+    return tuple(name for name in map(aim_of, loads) if name)
 
 
 class Part(NamedTuple):
