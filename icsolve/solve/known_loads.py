@@ -16,7 +16,7 @@ from icsolve.numbers import largest_of
 from icsolve.scene import jammed, solve_scene, standing
 from icsolve.scene.program import HeldAt
 from icsolve.solve.rest_position import PROBE, holding, probes
-from icsolve.statics.friction import AS_SHARED, SharedError
+from icsolve.statics.friction import AS_SHARED, PROVEN, SharedError
 from icsolve.statics.power import smooth
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording import reach_of, unit_of
@@ -26,7 +26,8 @@ Range = tuple[float, float]
 
 class Held(NamedTuple):
     """From what to what value of a load it holds still, turned about where nowhere; how far off these may be;
-    where it may hold as friction was left, and where it holds again; whether joints share what they carry."""
+    where it may hold as friction was left, and where it holds again; whether joints share what they carry;
+    and whether it is proven that friction holds no other value."""
 
     low: float
     high: float
@@ -34,6 +35,7 @@ class Held(NamedTuple):
     possible: tuple[Range, ...] = ()
     again: tuple[Range, ...] = ()
     shared: bool = False
+    proven: bool = False
 
 
 NOWHERE = Held(math.inf, -math.inf)
@@ -79,7 +81,7 @@ def asked_of(case: Case, path: str = "", here: bool = False) -> AskedLoad | None
             said = SaidCase(one)
             alone = HeldAt(value) if here and not varied else not varied
             held = _about(_held(said, load.name, alone), value)
-            if alone and not held.low <= value <= held.high and _may_hold(case):
+            if alone and not (held.low <= value <= held.high or held.proven) and _may_hold(case):
                 held = _about(_held(said, load.name, False), value)
         except SharedError:  # of joints, whichever load is asked
             raise
@@ -230,10 +232,11 @@ def _held(said: SaidCase, load: str, alone: bool | HeldAt) -> Held:
         return NOWHERE if parts else Held(found.value, found.value, found.error or 0.0)
     largest = largest_of([end for end in found.holds if math.isfinite(end)])
     error = UNPROVEN * largest if found.error is None else found.error
+    proven = friction is not None and friction.unique == PROVEN
     if friction is None or friction.possible is None:
-        return Held(*found.holds, error)
+        return Held(*found.holds, error, proven=proven)
     again = friction.again if friction.grown is None else friction.grown
-    return Held(*found.holds, error, (friction.possible, *friction.again), again, friction.shared)
+    return Held(*found.holds, error, (friction.possible, *friction.again), again, friction.shared, proven)
 
 
 def _of_all(case: Case) -> Held:

@@ -112,6 +112,8 @@ def _rate(position: Position, tie: Tie, rub: Rub, motion: int) -> Scalar:
 
 AS_SHARED = "as its joints share the load, which equilibrium leaves open, in one way at least."
 """How it holds where some of the ways in which joints that rub share the load balance it."""
+PROVEN = "proven: no friction within its limits holds more"
+"""How it is known where a range ends."""
 
 
 class SharedError(SceneError):

@@ -16,6 +16,7 @@ from functools import partial
 from icsolve.errors import SceneError
 from icsolve.numbers import Showing, largest_of
 from icsolve.numbers.inequalities import Form, deepest, region
+from icsolve.statics.friction import PROVEN
 from icsolve.statics.friction.pushing import (
     ROUNDED,
     FrictionLimits,
@@ -46,7 +47,6 @@ POINT = 2.0**-48
 """An inequality over its largest number keeps its sign but for so much."""
 NEAR = 1e-7
 """What is left of an inequality, as a fraction of its terms, where it is an equation but for rounding."""
-PROVEN = "proven: no friction within its limits holds more"
 UNFINISHED = "what friction within its limits can hold was not looked at to the end: it may hold more"
 
 

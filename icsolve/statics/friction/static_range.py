@@ -22,6 +22,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers import largest_of
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.free_bodies import carrying
+from icsolve.statics.friction import PROVEN
 from icsolve.statics.friction.equations import (
     NOTHING,
     Reduced,
@@ -47,7 +48,6 @@ if TYPE_CHECKING:
 else:  # where one is not proven to be the only one
     every = LateModule("icsolve.statics.friction.solutions")
 
-PROVEN = "proven: no friction within its limits holds more"
 IMPENDING = "only impending motion was looked at"
 
 
@@ -138,10 +138,10 @@ def static_range(
     parts = parts or bool(shared_normals(statics))
     if parts or _nothing_presses(statics, senses):
         return of_limits(statics, senses, within(), alone, ends)
-    if alone and all(math.isfinite(end.value) for end in ends):
-        return range_of(ends)
     if all(_is_proven(end.statics or statics, senses) for end in ends):
         return range_of(ends)._replace(how=PROVEN)
+    if alone and all(math.isfinite(end.value) for end in ends):
+        return range_of(ends)
     found = within()
     if not all(_is_held(found, end) for end in ends):  # doubles have lost the range of one about to move
         return range_of(ends)
