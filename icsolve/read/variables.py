@@ -61,6 +61,11 @@ def names_in(text: str) -> list[str]:
     return [first or second for first, second in _NAME.findall(text)]
 
 
+def named(text: str) -> str:
+    """A text with the name of each variable in the place of its value."""
+    return _NAME.sub(lambda name: name[1] or name[2], text)
+
+
 def replaced(text: str, values: Named[str, str]) -> tuple[str, Fraction | None]:
     """A quantity with its arithmetic worked out and its unit kept; and the exact number, where that is no
     decimal of few digits.

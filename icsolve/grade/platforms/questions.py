@@ -232,7 +232,7 @@ def _gift_question(question: Question) -> str:
     title = f"{question.title.rstrip('. ')}. " if question.title else ""
     text = _gift(f"{title}Given: {values}. {question.asked}")
     told = _gift(f"Right: {question.accepted} is accepted.")
-    rows = [f"=%100%{number(right)}:{number(own.half)}#{told}" for own, right in rights(question)]
+    rows = [f"=%100%{number(right)}:{number(_half(own))}#{told}" for own, right in rights(question)]
     for wrong, share, reach in wrong_rows(key):
         said = _gift(message(wrong.code, wrong.where, key.kind))
         rows.append(f"=%{share:.7g}%{number(wrong.value)}:{number(reach)}#{said}")
@@ -263,8 +263,8 @@ def rights(question: Question) -> Iterator[tuple[NumberKey, float]]:
 
 
 def _half(key: NumberKey) -> float:
-    """Half the accepted band, as large a part of the answer as it is shown as of the answer itself."""
-    return key.half * abs(float(sensible(key)) / key.value) if key.value else key.half
+    """Half the band about the right answer as it is shown, so that it holds all that `grade` takes."""
+    return key.half + abs(float(sensible(key)) - key.value)
 
 
 def sensible(key: NumberKey) -> str:

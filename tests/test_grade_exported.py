@@ -1,0 +1,89 @@
+"""What stands in exported questions, read as the platforms read it: the bands of their right answers are
+those by which `grade` judges, and their titles are the case's own."""
+
+from __future__ import annotations
+
+import json
+import re
+import zipfile
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from grade_shell import Class
+from icsolve.grade.course import read_course
+from icsolve.grade.one import Task
+from sizes import few
+
+QTI = "{http://www.imsglobal.org/xsd/ims_qtiasiv1p2}"
+ROD = """\
+icsolve: 1
+title: Rod
+variables:
+  P: {range: [3, 900], step: 0.0137}
+points: {A: [0, 0], B: [1.3, 0.7]}
+joints: [{pin: [1, 2], at: A}]
+loads:
+  P: {force: $P, link: 2, at: B, angle: 33}
+  T: {torque: unknown, link: 2}
+"""
+ENDINGS = {"moodle-xml": ".xml", "gift": ".gift", "qti": ".zip"}
+
+
+@pytest.fixture
+def a_class(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Class:
+    return Class(tmp_path, capsys)
+
+
+def bands(kind: str, path: Path) -> list[tuple[float, float]]:
+    """What a platform accepts as right, in the order of the questions, each of which has one band."""
+    if kind == "gift":
+        rows = re.findall(r"=%100%([^:]+):([^#]+)#", path.read_text())
+    elif kind == "moodle-xml":
+        answers = ElementTree.parse(path).getroot().iter("answer")
+        right = [a for a in answers if a.get("fraction") == "100"]
+        rows = [(a.findtext("text") or "", a.findtext("tolerance") or "") for a in right]
+    else:
+        with zipfile.ZipFile(path) as archive:
+            (name,) = [n for n in archive.namelist() if re.fullmatch(r"(quiz_\w+)/\1\.xml", n)]
+            root = ElementTree.fromstring(archive.read(name))
+        ends = [[float(e.text or 0) for e in root.iter(f"{QTI}{tag}")] for tag in ("vargte", "varlte")]
+        return list(zip(*ends, strict=True))
+    return [(float(value) - float(half), float(value) + float(half)) for value, half in rows]
+
+
+@pytest.mark.parametrize("tolerance", ["1%", "0.2%", "3 sf", "0.01 N*m"])
+@pytest.mark.parametrize("kind", ENDINGS)
+def test_a_platform_takes_what_grade_takes(kind: str, tolerance: str, a_class: Class) -> None:
+    """Both ends of the band of `grade`, and no more beyond them than the shown answer is rounded by."""
+    count = few(90)
+    a_class.case("rod", ROD)
+    a_class.course(f"tolerance: {tolerance}\n")
+    path, out = a_class.path("cases/rod.yaml"), a_class.path(f"quiz{ENDINGS[kind]}")
+    a_class.run("export", kind, path, "-o", out, "--no-figures", "--count", str(count))
+    course = read_course(a_class.path("cases/course.yaml"))
+    found = bands(kind, out)
+    assert len(found) == count
+    for n, (low, high) in enumerate(found, 1):
+        task = Task(path, str(n), course)
+        key = task._key("")
+        half = key.half - 1e-10 * abs(key.value)  # exported numbers have twelve digits
+        ends = key.value - half, key.value + half
+        assert [task.grade("", f"{end!r}")["verdict"] for end in ends] == ["right", "right"]
+        assert low <= ends[0] and ends[1] <= high
+        assert high - low <= 2.0 * (key.half + 1e-5 * abs(key.value))
+
+
+TITLES = ["Rod of US$100, P = $P N", "Rod (P = $P)", "Rod at ${P}deg", "Rod,P=$P,and no more", "$P"]
+
+
+@pytest.mark.parametrize("title", TITLES)
+def test_a_title_keeps_its_words_and_names_its_variables(title: str, a_class: Class) -> None:
+    """As the solver's own title, but that a variable's name stands for its number."""
+    a_class.case("rod", ROD.replace("title: Rod", f"title: '{title}'"))
+    a_class.run("export", "prairielearn", a_class.path("cases/rod.yaml"), "-o", a_class.path("out"))
+    told = json.loads((a_class.path("out") / "rod" / "info.json").read_text())["title"]
+    solved = a_class.run("solve", a_class.path("cases/rod.yaml"), "--set", "variables.P=20", "--json").out
+    assert told == title.replace("${P}", "P").replace("$P", "P")
+    assert json.loads(solved)["title"] == title.replace("${P}", "20").replace("$P", "20") + " (P = 20)"
