@@ -202,6 +202,18 @@ def test_why_a_wrong_answer_has_another_mark_names_what_has_changed(
     assert ("points" in told) == ("points" in now)
 
 
+def test_other_points_alone_are_told_of_every_answer(a_class: Class) -> None:
+    """Right, wrong, missing, and what waits for a person before and after."""
+    graded(a_class)
+    a_class.course("points: 3\n")
+    old, changes = str(a_class.path("results.csv")), str(a_class.path("changes.csv"))
+    graded(a_class, "--against", old, "--changes", changes, name="new.csv")
+    found = rows(a_class, "changes.csv")
+    assert len(found) == len(rows(a_class, "results.csv"))
+    assert {change["old_verdict"] for change in found} == {"right", "wrong", "review", "invalid", "missing"}
+    assert {change["why"] for change in found} == {"the points have changed"}
+
+
 def test_results_to_compare_with_have_to_be_results(a_class: Class) -> None:
     ran = graded(a_class, "--against", a_class.file("old.csv", "a,b\n1,2\n"))
     assert (ran.code, "old.csv is no file of results" in ran.err) == (2, True)

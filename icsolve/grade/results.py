@@ -403,7 +403,8 @@ def _why(was: ResultRow, row: ResultRow) -> str:
         return "another answer counts"
     if was.variant != row.variant:
         return "other numbers were given out"
-    if (was.value, was.unit, was.direction) != (row.value, row.unit, row.direction) or was.score is None:
+    before, now = ((one.value, one.unit, one.direction, one.score is None) for one in (was, row))
+    if before != now:
         return "the answer is read otherwise"
     if was.rel_error != row.rel_error:
         return "the key has changed"
