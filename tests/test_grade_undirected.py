@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from icsolve.grade.course import Course
+from icsolve.grade.course import Course, Credit
 from icsolve.grade.one import Task
 from sizes import sampled
 
@@ -76,3 +76,21 @@ def test_words_beside_what_has_no_direction(of: str, words: str, tmp_path: Path)
         assert verdict(right, direction) == "right"
         assert verdict(wrong, direction) == "wrong"
     assert verdict(f"{right} {words}", "ignored") == "right"
+
+
+CREDIT = Credit(number=0.6, unit=0.2, direction=0.2)
+
+
+@pytest.mark.parametrize("of", OF)
+def test_a_part_that_a_question_has_not_is_one_of_its_number(of: str, tmp_path: Path) -> None:
+    """The sign of a mass, or a unit beside a ratio: where it is wrong the number is, and earns nothing."""
+    text, what, right = OF[of]
+    (tmp_path / "own.yaml").write_text(text)
+    course = Course()
+    course = course._replace(policy=course.policy._replace(credit=CREDIT))
+    task = Task(tmp_path / "own.yaml", "1", course)
+    number, _, unit = right.partition(" ")
+    marks = [task.grade(what, answer) for answer in (right, f"-{right}", f"{number} kPa")]
+    assert [mark["verdict"] for mark in marks] == ["right", "wrong", "wrong"]
+    scores = [1.0, 0.25, 0.75] if unit else [1.0, 0.0, 0.0]
+    assert [mark["score"] for mark in marks] == pytest.approx(scores)

@@ -404,14 +404,15 @@ def _direction_code(key: NumberKey, written: WrittenAnswer, sign: int | None) ->
 
 def share_of(key: AnyKey, parts: tuple[bool, bool, bool], mistakes: tuple[Wrong, ...]) -> float:
     """The share of the mark: for the right ones of the parts that the question has, or for the known mistake,
-    whichever is more."""
+    whichever is more. Of a part that it has not, as the sign of a ratio, what is wrong is the number."""
     policy = key.policy
     if policy.credit is None and not policy.mistakes:
         return 0.0
     asked, earned = _asked_parts(key), 0.0
     whole = sum(share for share, has in zip(policy.credit or (), asked, strict=False) if has)
     if policy.credit is not None and whole:
-        good = (part and has for part, has in zip(parts, asked, strict=True))
+        number = parts[0] and all(part or has for part, has in zip(parts, asked, strict=True))
+        good = (part and has for part, has in zip((number, *parts[1:]), asked, strict=True))
         earned = sum(share for share, right in zip(policy.credit, good, strict=True) if right) / whole
     return min(1.0, max([earned, *(policy.mistakes.get(mistake.code, 0.0) for mistake in mistakes[:1])]))
 
