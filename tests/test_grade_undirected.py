@@ -1,5 +1,5 @@
-"""Words of direction beside what has none of its own, a mass, a stiffness, a ratio or a distance: the way
-that the mass or the spring acts may be said with it, and of anything else a person decides."""
+"""Words of direction beside what has none of its own, a mass, a stiffness, a pressure, a ratio or a
+distance: the way that the first three act may be said with them, and of anything else a person decides."""
 
 from __future__ import annotations
 
@@ -41,6 +41,12 @@ OF = {
         FRAME + FORCE.replace("ANGLE", "-90") + "  k: {spring: unknown, corner: AB, free: 90, link: 2}\n",
         "", "229.183 N*m/rad",
     ),
+    "pressure": (
+        "icsolve: 1\npoints: {A: [0, 0]}\njoints: [{slide: [2, 1], at: A, along: 0}]\nloads:\n"
+        "  F: {force: 90, link: 2, at: A, angle: 180}\n"
+        "  p: {pressure: unknown, area: 20 mm^2, link: 2, at: A, angle: 0}\n",
+        "", "4.5 MPa",
+    ),
     "ratio": (GEARED, "w3/w2", "0.4"),
     "distance": (GEARED, "I12-B", "4 m"),
 }  # fmt: skip
@@ -49,8 +55,10 @@ ACTS = {
     "pulling": ("pull", "in tension"),
     "pushing": ("push", "in compression"),
     "turning": ("ccw", "counterclockwise"),
+    "pressure": ("to the right", "at 30 deg"),
 }
-"""What a mass that hangs, a spring longer or shorter than when free, and one that is to turn up a bar, do."""
+"""What a mass that hangs, a spring longer or shorter than when free, one that is to turn up a bar, and a
+piston do."""
 WORDS = (
     *("down", "downwards", "at -90 deg", "at 300 deg", "pull", "in tension", "push", "in compression"),
     *("ccw", "counterclockwise", "cw", "up", "left", "to the right", "at 30 deg"),

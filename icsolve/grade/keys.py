@@ -9,6 +9,7 @@ from decimal import ROUND_FLOOR
 from icsolve.answer import Answer
 from icsolve.case import (
     AlongRope,
+    Area,
     Force,
     ForceVector,
     Load,
@@ -98,7 +99,7 @@ class ExpectedDirection(NamedTuple):
     size: bool = False
     """Whether the value is a size: a minus on it may be that of a component."""
     acts: ExpectedDirection | None = None
-    """The way that a mass or a spring acts, whose value has no direction of its own."""
+    """The way that a mass, a spring or a pressure acts, whose value has no direction of its own."""
 
     @property
     def is_minus_of_axis(self) -> bool:
@@ -203,9 +204,11 @@ def _of_load(load: Load, answer: Answer) -> ExpectedDirection:
         axial, given = -1.0 if away else 1.0, f"{'away from' if away else 'toward'} {point}"
     elif isinstance(load, Force) and isinstance(load.heading, AlongRope):
         axial, heading = 1.0, heading_in(answer, load.name)
-    return ExpectedDirection(
+    way = ExpectedDirection(
         0.0, heading, axial, lambda: (place_of(load.at, answer), answer.points), vector=True, given=given
     )
+    pressure = isinstance(load, Force) and isinstance(load.over, Area)
+    return ExpectedDirection(acts=way) if pressure and not answer.answers[load.name].value < 0.0 else way
 
 
 def _acting(words: WrittenDirection | None, value: float) -> ExpectedDirection:
