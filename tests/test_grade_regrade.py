@@ -143,6 +143,14 @@ loads:
   W: {force: 100, link: 3, at: B, angle: -60}
   P: {force: [unknown, unknown], link: 3, at: B}
 """
+LEANING = """\
+icsolve: 1
+points: {A: [0, 0], B: [0, 1]}
+joints: [{slide: [2, 1], at: A, along: [A, B]}]
+loads:
+  W: {force: 100, link: 2, at: A, away: B}
+  P: {force: unknown, link: 2, at: A, toward: B}
+"""
 TURNED = "the direction of the right answer, or how directions count"
 
 
@@ -154,6 +162,8 @@ TURNED = "the direction of the right answer, or how directions count"
         (PINNED, "-60", "-70", "100 N at 120 deg", TURNED),
         (PINNED, "100", "110", "100 N at 120 deg", "the key has changed"),
         (LEVER, "angle: -90", "angle: 90", "200", TURNED),
+        (LEANING, "B: [0, 1]", "B: [1, 0]", "100 N up", TURNED),
+        (LEVER, "loads:", "lengths: {AB: 3}\nloads:", "200", "it can't be graded now"),
     ],
 )
 def test_a_changed_key_of_a_range_or_in_its_direction_is_told_as_one(
@@ -165,6 +175,10 @@ def test_a_changed_key_of_a_range_or_in_its_direction_is_told_as_one(
     a_class.case("own", text.replace(was, now))
     ran = graded(a_class, "--against", str(a_class.path("results.csv")), name="new.csv", answers=answers)
     assert f"1 times: {why}" in ran.out
+    a_class.case("own", text)
+    back = graded(a_class, "--against", str(a_class.path("new.csv")), name="back.csv", answers=answers)
+    said = why.replace("can't be graded now", "could not be graded before")
+    assert f"1 times: {said}" in back.out
 
 
 PARTS = "credit: {number: 60%, direction: 40%}\n"
