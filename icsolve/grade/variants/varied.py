@@ -21,7 +21,7 @@ from icsolve.read import read_text
 from icsolve.read.document import Mapping as Tree
 from icsolve.read.document import Scalar, parse
 from icsolve.read.names import Problems
-from icsolve.read.variables import FormulaError, count, exact, first_values, named, value_at
+from icsolve.read.variables import FormulaError, count, exact, first_values, named, value_at, values_told
 from icsolve.sweep.varied_numbers import numbers_of
 from icsolve.tuples import NamedTuple, TypeVar, cached_property
 
@@ -303,7 +303,7 @@ class Varied:
         base = self._base(values)
         found = self._exactly(base)
         if found is None:
-            raise NoKeyError(f"{self.name} can't be solved with {values}")
+            raise NoKeyError(f"{self.name} can't be solved with {values_told(values)}")
         return found if base is values else found.scaled(self.numbers.factor(base, values) or 1.0)
 
     def _base(self, values: Texts) -> Texts:
