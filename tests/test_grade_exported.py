@@ -87,3 +87,45 @@ def test_a_title_keeps_its_words_and_names_its_variables(title: str, a_class: Cl
     solved = a_class.run("solve", a_class.path("cases/rod.yaml"), "--set", "variables.P=20", "--json").out
     assert told == title.replace("${P}", "P").replace("$P", "P")
     assert json.loads(solved)["title"] == title.replace("${P}", "20").replace("$P", "20") + " (P = 20)"
+
+
+UNITS = {
+    "force": ("F: {force: unknown, link: 2, at: B, angle: 90}", "N kN lbf kip"),
+    "torque": ("T: {torque: unknown, link: 2}", "N*m N*mm kN*m lbf*ft lbf*in"),
+    "mass": ("m: {mass: unknown, link: 2, at: D}", "kg g t lbm"),
+    "stiffness": ("k: {spring: unknown, free: 0.5, link: 2, at: B, to: C}", "N/m N/mm kN/m lbf/in lbf/ft"),
+    "torsion": (
+        "k: {spring: unknown, corner: AB, free: 40, link: 2}",
+        "N*m/rad N*mm/rad lbf*in/rad lbf*ft/rad",
+    ),
+    "line load": (
+        "q: {distributed: unknown, link: 2, from: A, to: B, angle: 90}",
+        "N/m N/mm kN/m lbf/in lbf/ft",
+    ),
+    "pressure": (
+        "p: {pressure: unknown, bore: 50 mm, link: 2, at: B, angle: 90}",
+        "MPa kPa Pa bar psi N/mm^2",
+    ),
+}
+"""What balances a weight on a rod, and the units in which it is answered."""
+
+
+@pytest.mark.parametrize("of", UNITS)
+@pytest.mark.parametrize("units", ["", "units: {length: in, force: lbf}\n"])
+def test_moodle_takes_every_unit_of_a_kind(of: str, units: str, a_class: Class) -> None:
+    """Each with its multiplier, by which the answer is right where `grade` judges it."""
+    unknown, names = UNITS[of]
+    points = "points: {A: [0, 0], B: [2, 0], C: [2, 3], D: [-1, 0]}\n"
+    joints = "joints: [{pin: [1, 2], at: A}]\n"
+    loads = f"loads:\n  W: {{force: 70, link: 2, at: B, angle: -90}}\n  {unknown}\n"
+    a_class.case("rod", f"icsolve: 1\n{units}{points}{joints}{loads}")
+    path, out = a_class.path("cases/rod.yaml"), a_class.path("quiz.xml")
+    a_class.run("export", "moodle-xml", path, "-o", out, "--no-figures")
+    listed = [
+        (unit.findtext("unit_name") or "", float(unit.findtext("multiplier") or 0))
+        for unit in ElementTree.parse(out).getroot().iter("unit")
+    ]
+    task = Task(path)
+    assert set(names.split()) <= {name for name, _ in listed}
+    for name, multiplier in listed:
+        assert task.grade("", f"{task._key('').value * multiplier!r} {name}")["verdict"] == "right", name

@@ -82,6 +82,11 @@ _UNITS = {
     "length": "m mm cm in ft",
     "angular": "rad/s rpm deg/s",
     "speed": "m/s mm/s in/s ft/s",
+    "angle": "deg rad",
+    "mass": "kg g t lbm slug",
+    "stiffness or line load": "N/m N/mm kN/m lbf/in lbf/ft",
+    "torsional stiffness": "N*m/rad N*mm/rad lbf*in/rad lbf*ft/rad",
+    "pressure": "MPa kPa Pa bar psi N/mm^2",
 }
 
 
