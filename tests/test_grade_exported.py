@@ -13,6 +13,7 @@ import pytest
 
 from grade_shell import Class
 from icsolve.grade.course import read_course
+from icsolve.grade.keys import numbers_of
 from icsolve.grade.one import Task
 from sizes import few
 
@@ -129,3 +130,35 @@ def test_moodle_takes_every_unit_of_a_kind(of: str, units: str, a_class: Class) 
     assert set(names.split()) <= {name for name, _ in listed}
     for name, multiplier in listed:
         assert task.grade("", f"{task._key('').value * multiplier!r} {name}")["verdict"] == "right", name
+
+
+HANGING = """\
+icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 2}
+angles: {AB: unknown}
+joints: [{pin: [1, 2], at: A}]
+loads: {W: {weight: 10, link: 2, at: B}, T: {torque: 13, link: 2}}
+"""
+
+
+@pytest.mark.parametrize("direction", ["signed", "ignored"])
+@pytest.mark.parametrize("text", [ROD, HANGING], ids=["torque", "position"])
+@pytest.mark.parametrize("kind", ENDINGS)
+def test_a_sign_counts_on_a_platform_where_it_counts_for_grade(
+    kind: str, text: str, direction: str, a_class: Class
+) -> None:
+    """Of the answer, its opposite, and whole turns of both; and none that is right is told a mistake."""
+    a_class.case("own", text)
+    a_class.course(f"direction: {direction}\n")
+    path, out = a_class.path("cases/own.yaml"), a_class.path(f"quiz{ENDINGS[kind]}")
+    a_class.run("export", kind, path, "-o", out, "--no-figures", "--count", "1")
+    task = Task(path, "1", read_course(a_class.path("cases/course.yaml")))
+    found, value = bands(kind, out), numbers_of(task._key(""))[0].value
+    for answer in (sign * value + turn for sign in (1.0, -1.0) for turn in (-360.0, 0.0, 360.0)):
+        right = task.grade("", f"{answer!r}")["verdict"] == "right"
+        assert any(low <= answer <= high for low, high in found) == right or abs(answer) > 360.0, answer
+    if kind == "moodle-xml":
+        rows = [a for a in ElementTree.parse(out).getroot().iter("answer") if a.get("fraction") == "0"]
+        for row in rows[:-1]:
+            assert task.grade("", row.findtext("text"))["verdict"] != "right"
