@@ -162,3 +162,19 @@ def test_a_sign_counts_on_a_platform_where_it_counts_for_grade(
         rows = [a for a in ElementTree.parse(out).getroot().iter("answer") if a.get("fraction") == "0"]
         for row in rows[:-1]:
             assert task.grade("", row.findtext("text"))["verdict"] != "right"
+
+
+CREDITS = ["", "credit: {number: 60%, unit: 20%, direction: 20%}\n", "credit: {number: 50%, unit: 50%}\n"]
+
+
+@pytest.mark.parametrize("credit", CREDITS)
+def test_a_missing_unit_costs_on_moodle_what_it_costs_for_grade(credit: str, a_class: Class) -> None:
+    a_class.case("rod", ROD)
+    a_class.course(f"unit: required\n{credit}")
+    path, out = a_class.path("cases/rod.yaml"), a_class.path("quiz.xml")
+    a_class.run("export", "moodle-xml", path, "-o", out, "--no-figures", "--count", "1")
+    (question,) = list(ElementTree.parse(out).getroot())[1:]
+    task = Task(path, "1", read_course(a_class.path("cases/course.yaml")))
+    score = task.grade("", f"{task._key('').value!r}")["score"]
+    assert (question.findtext("unitgradingtype"), task.grade("", task.right())["score"]) == ("1", 1.0)
+    assert 1.0 - float(question.findtext("unitpenalty") or "nan") == pytest.approx(score)

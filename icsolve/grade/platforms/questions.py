@@ -19,6 +19,7 @@ from collections.abc import Iterable, Iterator
 
 from icsolve.case import Case
 from icsolve.case.expected import LoadIs, PositionIs, ReactionIs, SpeedIs, Target
+from icsolve.grade.judge import share_of
 from icsolve.grade.keys import AnyKey, ChoiceKey, NumberKey, PlaceKey, RangeKey, numbers_of
 from icsolve.grade.mistakes.lookup import ORDER, Wrong, message
 from icsolve.grade.written.words import factors_between
@@ -211,9 +212,11 @@ def _units(key: NumberKey) -> str:
         f"<unit><multiplier>{number(multiplier)}</multiplier><unit_name>{escaped(name)}</unit_name></unit>"
         for name, multiplier in unit_rows(key)
     )
-    graded = "1" if key.policy.unit == "required" else "0"
+    graded, cost = "0", 0.1
+    if key.policy.unit == "required":
+        graded, cost = "1", 1.0 - share_of(key, (True, False, True), ())
     return (
-        f"<units>{rows}</units><unitgradingtype>{graded}</unitgradingtype><unitpenalty>0.1</unitpenalty>"
+        f"<units>{rows}</units><unitgradingtype>{graded}</unitgradingtype><unitpenalty>{cost:.7g}</unitpenalty>"
         "<showunits>0</showunits><unitsleft>0</unitsleft>"
     )
 
