@@ -5,9 +5,11 @@ Tolerances are those of the format: a bare value agrees when the found one round
 
 from __future__ import annotations
 
+import math
 import random
 from decimal import Decimal, localcontext
 from fractions import Fraction
+from itertools import product
 from typing import Any
 
 import pytest
@@ -383,3 +385,29 @@ expect: {{p: {written}}}
     (only,) = compare(solve(load(text)))
     assert only.verdict == ("disagrees" if written == "8" else "agrees")
     assert only.verdict == "agrees" or (only.published, only.found) == ("8e-06 MPa", "8 MPa")
+
+
+_TOWARD = {"right": 0.0, "up": 90.0, "left": 180.0, "down": 270.0, "at 40 deg": 40.0, "toward A": 180.0}
+_COMPARED = set(product(("P", "F21", "Q"), _TOWARD)) - {("F21", "toward A")}  # which acts there
+
+
+@pytest.mark.parametrize(("key", "sense"), sorted(_COMPARED))
+def test_a_negative_number_with_a_sense_is_its_size_the_other_way(key: str, sense: str) -> None:
+    """Nothing else agrees, and of nothing that agrees it is said that it goes another way. A load that is
+    given, the reaction to it, and one by its components, in every direction: by the angle between them."""
+    room = 45.0 if sense in ("right", "up", "left", "down") else 1.0
+    for degrees in (*range(0, 360, 30), 40.5, 219.5, 44.0, 136.0):
+        x, y = 50.0 * math.cos(math.radians(degrees)), 50.0 * math.sin(math.radians(degrees))
+        text = (
+            "icsolve: 1\npoints: {A: [0, 0], B: [3, 0], C: [-3, 0]}\njoints: [{pin: [1, 2], at: A}]\n"
+            f"loads:\n  P: {{force: 50, angle: {degrees}, at: B, link: 2}}\n"
+            f"  Q: {{force: [{x!r}, {y!r}], at: C, link: 2}}\n"
+            f"  R: {{force: [{-x!r}, {-y!r}], at: A, link: 2}}\n  T: {{torque: unknown, link: 2}}\n"
+        )
+        own = _TOWARD[sense] + (180.0 if key == "Q" and sense == "toward A" else 0.0)  # A lies right of C
+        for size, way in ((50, 0.0), (-50, 180.0)):
+            case = load(f"{text}expect: {{{key}: {size} {sense}}}\n")
+            (only,) = compare(solve(case, reactions=True))
+            agrees = abs(math.remainder(degrees - own - way, 360.0)) <= room + 1e-9
+            assert (only.verdict, degrees) == ("agrees" if agrees else "disagrees", degrees), only
+            assert only.found == (f"{size}" if agrees else "50 in another direction")

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
+from itertools import permutations
 from pathlib import Path
 
 import pytest
 
 from grade_shell import Class
+from sizes import sampled
 
 HEADER = "student_id,case,answer\n"
 
@@ -38,6 +42,36 @@ def test_a_quote_that_is_not_closed_takes_no_other_student_with_it(a_class: Clas
 def test_a_quoted_cell_of_several_lines_is_one_cell(a_class: Class) -> None:
     ran = a_class.grade(HEADER + '01,lever,"T =\n200 N*m"\n02,lever,200\n')
     assert [(row["student_id"], row["verdict"]) for row in ran.rows()] == [("01", "right"), ("02", "right")]
+
+
+@sampled(4)
+@pytest.mark.parametrize("order", list(permutations(("student_id", "case", "answer", "attempt"))))
+def test_columns_in_any_order_hold_cells_of_several_lines(a_class: Class, order: tuple[str, ...]) -> None:
+    """And a quote that is not closed in one of them takes no other student with it."""
+    answers = ["200", "T =\n200 N*m", "50\n\nor 60", "T = 200\nN*m\nccw", "-200"]
+    out = io.StringIO()
+    table = csv.DictWriter(out, order)
+    table.writeheader()
+    for n, answer in enumerate(answers):
+        table.writerow({"student_id": f"0{n}", "case": "lever", "answer": answer, "attempt": "1"})
+    ran = a_class.grade(out.getvalue())
+    assert [row["raw_answer"] for row in ran.rows()] == answers
+    assert [row["verdict"] for row in ran.rows()] == ["right", "right", "review", "right", "wrong"]
+    rows = []
+    for student, answer in (("01", '"200'), ("02", "200"), ("03", "-200")):
+        own = {"student_id": student, "case": "lever", "answer": answer, "attempt": "1"}
+        rows.append(",".join(own[name] for name in order))
+    found = a_class.grade(f"{','.join(order)}\n" + "\n".join(rows) + "\n").rows()
+    assert [(row["student_id"], row["verdict"]) for row in found] == [
+        ("01", "review"), ("02", "right"), ("03", "wrong"),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("order", list(permutations(("student_id", "lever", "pusher"))))
+def test_a_wide_table_has_its_columns_in_any_order(a_class: Class, order: tuple[str, ...]) -> None:
+    own = {"student_id": "01", "lever": '"T =\n200 N*m"', "pusher": "100 N"}
+    ran = a_class.grade(f"{','.join(order)}\n{','.join(own[name] for name in order)}\n")
+    assert [(row["case"], row["verdict"]) for row in ran.rows()] == [("lever", "right"), ("pusher", "right")]
 
 
 def test_numbers_that_no_double_holds_in_the_answers_unit(a_class: Class) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from fractions import Fraction
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -317,3 +318,17 @@ def test_a_range_with_an_open_end_in_words_above(words: str) -> None:
 def test_a_word_before_a_range_is_no_name(word: str) -> None:
     assert read_range(f"{word} 387 N").flag == "unread"
     assert read_range("P 113 to 387 N")[:2] == (113.0, 387.0)
+
+
+_QUOTIENTS = "N/m kN/m N/mm lbf/in lbf/ft kip/ft kgf/m N*m/rad lbf*in/rad N/mm^2 m/s in/s rad/s".split()
+_PHRASES = "tension, compression, x direction, down direction, direction of C, traction, the clockwise sense"
+
+
+@sampled(3, "unit", "phrase")
+@pytest.mark.parametrize(("unit", "phrase"), list(product(_QUOTIENTS, _PHRASES.split(", "))))
+def test_in_behind_a_quotient_is_no_inch(unit: str, phrase: str) -> None:
+    """``200 N/m in tension`` says what it says in columns of its own."""
+    reader = Reader("either")
+    one, columns = reader.read(f"90 {unit} in {phrase}"), reader.read("90", unit, f"in {phrase}")
+    assert one.unit is not None and columns.unit is not None and not one.flag
+    assert (one.number, one.unit.unit, one.direction) == (90.0, columns.unit.unit, columns.direction)

@@ -63,6 +63,19 @@ def test_a_corrected_case_leaves_every_student_the_numbers_that_were_handed_out(
     assert [row["variant"] for row in unrecorded.rows()] != [row["variant"] for row in ran.rows()]
 
 
+def test_a_variant_that_a_corrected_case_can_not_have_is_told_with_its_numbers(a_class: Class) -> None:
+    """With a coupler too short for the crank; as a person writes them, to the student too."""
+    record = handed_out(a_class)
+    table = answers(a_class)
+    a_class.case("press", PRESS.replace("BC: 3.5", "BC: 0.9"))
+    ran = a_class.grade(table, "--variants", str(record / "press" / "values.csv"))
+    with open(record / "press" / "values.csv", newline="") as file:
+        handed = {row["student_id"]: row for row in csv.DictReader(file)}
+    for row in ran.rows():
+        own = handed[row["student_id"]]
+        assert row["feedback"] == f"Not graded: press can't be solved with P = {own['P']}, a = {own['a']}"
+
+
 def test_another_filter_changes_no_number_that_is_out(a_class: Class) -> None:
     """Values that the case would not draw now: told, and all answers stay right."""
     record = handed_out(a_class)

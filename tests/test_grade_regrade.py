@@ -143,6 +143,14 @@ loads:
   W: {force: 100, link: 3, at: B, angle: -60}
   P: {force: [unknown, unknown], link: 3, at: B}
 """
+LEANING = """\
+icsolve: 1
+points: {A: [0, 0], B: [0, 1]}
+joints: [{slide: [2, 1], at: A, along: [A, B]}]
+loads:
+  W: {force: 100, link: 2, at: A, away: B}
+  P: {force: unknown, link: 2, at: A, toward: B}
+"""
 TURNED = "the direction of the right answer, or how directions count"
 
 
@@ -154,6 +162,8 @@ TURNED = "the direction of the right answer, or how directions count"
         (PINNED, "-60", "-70", "100 N at 120 deg", TURNED),
         (PINNED, "100", "110", "100 N at 120 deg", "the key has changed"),
         (LEVER, "angle: -90", "angle: 90", "200", TURNED),
+        (LEANING, "B: [0, 1]", "B: [1, 0]", "100 N up", TURNED),
+        (LEVER, "loads:", "lengths: {AB: 3}\nloads:", "200", "it can't be graded now"),
     ],
 )
 def test_a_changed_key_of_a_range_or_in_its_direction_is_told_as_one(
@@ -165,6 +175,10 @@ def test_a_changed_key_of_a_range_or_in_its_direction_is_told_as_one(
     a_class.case("own", text.replace(was, now))
     ran = graded(a_class, "--against", str(a_class.path("results.csv")), name="new.csv", answers=answers)
     assert f"1 times: {why}" in ran.out
+    a_class.case("own", text)
+    back = graded(a_class, "--against", str(a_class.path("new.csv")), name="back.csv", answers=answers)
+    said = why.replace("can't be graded now", "could not be graded before")
+    assert f"1 times: {said}" in back.out
 
 
 PARTS = "credit: {number: 60%, direction: 40%}\n"
@@ -200,6 +214,18 @@ def test_why_a_wrong_answer_has_another_mark_names_what_has_changed(
     (told,) = [line for line in ran.out.splitlines() if line.startswith("  1 times: ")]
     assert why in told
     assert ("points" in told) == ("points" in now)
+
+
+def test_other_points_alone_are_told_of_every_answer(a_class: Class) -> None:
+    """Right, wrong, missing, and what waits for a person before and after."""
+    graded(a_class)
+    a_class.course("points: 3\n")
+    old, changes = str(a_class.path("results.csv")), str(a_class.path("changes.csv"))
+    graded(a_class, "--against", old, "--changes", changes, name="new.csv")
+    found = rows(a_class, "changes.csv")
+    assert len(found) == len(rows(a_class, "results.csv"))
+    assert {change["old_verdict"] for change in found} == {"right", "wrong", "review", "invalid", "missing"}
+    assert {change["why"] for change in found} == {"the points have changed"}
 
 
 def test_results_to_compare_with_have_to_be_results(a_class: Class) -> None:

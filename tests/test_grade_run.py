@@ -7,6 +7,7 @@ import io
 import json
 import random
 from datetime import datetime
+from itertools import permutations
 from pathlib import Path
 
 import pytest
@@ -38,6 +39,21 @@ def test_the_last_first_or_best_attempt_counts(a_class: Class, which: str, answe
     assert ran.err == ""
     a_class.course(f"attempt: {which}\n")
     assert [row["raw_answer"] for row in a_class.grade(ATTEMPTS).rows()] == [answer]
+
+
+@pytest.mark.parametrize("attempts", list(permutations(("150", "200 N", "200 N*m", '"200,000"', "none"), 3)))
+def test_the_best_attempt_is_not_a_wrong_one_while_another_waits(
+    a_class: Class, attempts: tuple[str, ...]
+) -> None:
+    """What a person has to read may be the best; where one has the whole mark nothing need be read. The
+    number alone earns 60 %, and of equal attempts the last counts."""
+    a_class.course("attempt: best\ncredit: {number: 60%, unit: 40%}\n")
+    lines = [f"a,lever,{answer},{n}" for n, answer in enumerate(attempts)]
+    (row,) = a_class.grade("student_id,case,answer,attempt\n" + "\n".join(lines) + "\n").rows()
+    order = ["200 N*m", '"200,000"', "200 N", "150", "none"]
+    counts = min(attempts, key=order.index)
+    assert row["raw_answer"] == counts.strip('"')
+    assert row["score"] == {"200 N*m": "1", '"200,000"': "", "200 N": "0.6", "150": "0.4"}[counts]
 
 
 def test_times_tell_where_attempts_have_no_numbers(a_class: Class) -> None:

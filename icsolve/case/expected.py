@@ -135,6 +135,11 @@ class Expected(NamedTuple):
     holds: tuple[Number | None, Number | None] | None = None
     stability: str | None = None
 
+    @property
+    def sign(self) -> int:
+        """-1 of a negative number, which with a sense in words is its size the other way; else 1."""
+        return -1 if any(number.value < 0.0 for number in self.value) else 1
+
 
 class Tolerance(NamedTuple):
     """How far an answer may lie from the right one, where the case is set as a task: the widest of these.

@@ -14,6 +14,7 @@ from icsolve.grade.keys import (
     NEITHER,
     AnyKey,
     ChoiceKey,
+    ExpectedDirection,
     NumberKey,
     PlaceKey,
     RangeKey,
@@ -65,6 +66,7 @@ SQUARE = "square-direction"
 OTHER_NAME = "other-quantity"
 OTHER_RANGE = "other-range"
 BY_ANGLE = "direction-in-words"
+UNDIRECTED = "undirected"
 SIZE_ALONE = "size-alone"
 
 
@@ -297,8 +299,7 @@ def _in_full(key: NumberKey, written: WrittenAnswer) -> Judgement:
         number, unit = True, key.policy.unit == "ignored"
         value = written.number * (sign or 1)
     if number and sign is None and key.value:
-        why = BY_ANGLE if key.expected.by_angle else SQUARE
-        return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, why)
+        return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, _why_unsure(key.expected))
     if number and _may_be_component(key, written):
         return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, AMBIGUOUS_DIRECTION)
     if not number and factor is None and _is_mass_in_pounds(key, written):
@@ -328,8 +329,15 @@ def _may_be_component(key: NumberKey, written: WrittenAnswer) -> bool:
 
 
 def _words_that_count(key: NumberKey, direction: WrittenDirection | None) -> WrittenDirection | None:
-    """Words of direction, where the answer has one and the course asks for it."""
-    return direction if key.policy.direction != "ignored" and key.expected.any else None
+    """Words of direction, where the course asks for one."""
+    return direction if key.policy.direction != "ignored" else None
+
+
+def _why_unsure(expected: ExpectedDirection) -> str:
+    """Why words of direction say neither that the sense is right nor that it is not."""
+    if not expected.any:
+        return UNDIRECTED
+    return BY_ANGLE if expected.by_angle else SQUARE
 
 
 def _unjudged(flag: str) -> Judgement:
@@ -396,14 +404,15 @@ def _direction_code(key: NumberKey, written: WrittenAnswer, sign: int | None) ->
 
 def share_of(key: AnyKey, parts: tuple[bool, bool, bool], mistakes: tuple[Wrong, ...]) -> float:
     """The share of the mark: for the right ones of the parts that the question has, or for the known mistake,
-    whichever is more."""
+    whichever is more. Of a part that it has not, as the sign of a ratio, what is wrong is the number."""
     policy = key.policy
     if policy.credit is None and not policy.mistakes:
         return 0.0
     asked, earned = _asked_parts(key), 0.0
     whole = sum(share for share, has in zip(policy.credit or (), asked, strict=False) if has)
     if policy.credit is not None and whole:
-        good = (part and has for part, has in zip(parts, asked, strict=True))
+        number = parts[0] and all(part or has for part, has in zip(parts, asked, strict=True))
+        good = (part and has for part, has in zip((number, *parts[1:]), asked, strict=True))
         earned = sum(share for share, right in zip(policy.credit, good, strict=True) if right) / whole
     return min(1.0, max([earned, *(policy.mistakes.get(mistake.code, 0.0) for mistake in mistakes[:1])]))
 
@@ -487,6 +496,7 @@ UNJUDGED = {
     OTHER_NAME: ("This is named as another quantity than the one that is asked for, or acts elsewhere", ""),
     SQUARE: ("These words are square to the answer's direction", ""),
     SIZE_ALONE: ("This is a size, whose direction is not said", ""),
+    UNDIRECTED: ("What is asked for has no such direction", ""),
     BY_ANGLE: ("This direction in words is not judged by itself", "Write an angle, as 'at 30 deg'."),
     "no-direction": ("In which direction it lies at infinity is not said", ""),
 }
@@ -544,7 +554,7 @@ def judge_range(key: RangeKey, written: WrittenRange) -> Judgement:
     factor, sign = end.factor(written.unit), end.sign(_words_that_count(end, written.direction))
     unit = _unit_is_right(end, WrittenAnswer(0.0, written.unit, written.direction), factor)
     if sign is None:
-        return Judgement(IN_REVIEW, 0.0, _NO_PARTS, code=BY_ANGLE if end.expected.by_angle else SQUARE)
+        return Judgement(IN_REVIEW, 0.0, _NO_PARTS, code=_why_unsure(end.expected))
     ends = _times(written, (factor or 1.0) * (sign or 1))
     fits = _fits(key, ends)
     if not all(fits) and factor != 1.0 and all(_fits(key, _times(written, sign or 1))):

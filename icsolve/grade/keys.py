@@ -9,6 +9,7 @@ from decimal import ROUND_FLOOR
 from icsolve.answer import Answer
 from icsolve.case import (
     AlongRope,
+    Area,
     Force,
     ForceVector,
     Load,
@@ -97,6 +98,8 @@ class ExpectedDirection(NamedTuple):
     """The positive sense as the case gives it by a point, whose direction may be a part of the task."""
     size: bool = False
     """Whether the value is a size: a minus on it may be that of a component."""
+    acts: ExpectedDirection | None = None
+    """The way that a mass, a spring or a pressure acts, whose value has no direction of its own."""
 
     @property
     def is_minus_of_axis(self) -> bool:
@@ -111,6 +114,8 @@ class ExpectedDirection(NamedTuple):
 
     def sign(self, words: WrittenDirection, within: float) -> int | None:
         """``WITH`` or ``AGAINST`` the positive sense, ``NEITHER``; None where a person must look."""
+        if not self.any:
+            return WITH if self.acts is not None and self.acts.sign(words, within) == WITH else None
         if self.by_angle and not words.measured:
             return None if words.kind != "turn" else NEITHER
         if words.kind == "turn":
@@ -190,13 +195,8 @@ def _of_load(load: Load, answer: Answer) -> ExpectedDirection:
         return ExpectedDirection(turn=-1.0 if load.positive == "cw" else 1.0)
     if isinstance(load, Spring | TorsionSpring) or (isinstance(load, Weight) and load.mass):
         found = answer.answers[load.name]  # a stiffness or a mass: the way that it acts tells a minus alone
-        words = direction(found.sense) if found.value < 0.0 else None
-        if words is None:
-            return ExpectedDirection()
-        if words.kind == "line":
-            return ExpectedDirection(heading=words.value + 180.0)
-        turns = words.kind == "turn"
-        return ExpectedDirection(turn=-words.value) if turns else ExpectedDirection(axial=-words.value)
+        way = _acting(direction(found.sense), found.value)
+        return way if found.value < 0.0 else ExpectedDirection(acts=way)
     assert isinstance(load, Force | ForceVector | Weight)
     axial, heading, given = 0.0, heading_of(load, answer), ""
     if isinstance(load, Force) and isinstance(load.heading, Toward):
@@ -204,9 +204,21 @@ def _of_load(load: Load, answer: Answer) -> ExpectedDirection:
         axial, given = -1.0 if away else 1.0, f"{'away from' if away else 'toward'} {point}"
     elif isinstance(load, Force) and isinstance(load.heading, AlongRope):
         axial, heading = 1.0, heading_in(answer, load.name)
-    return ExpectedDirection(
+    way = ExpectedDirection(
         0.0, heading, axial, lambda: (place_of(load.at, answer), answer.points), vector=True, given=given
     )
+    pressure = isinstance(load, Force) and isinstance(load.over, Area)
+    return ExpectedDirection(acts=way) if pressure and not answer.answers[load.name].value < 0.0 else way
+
+
+def _acting(words: WrittenDirection | None, value: float) -> ExpectedDirection:
+    """The direction of words in which a mass or a spring acts; of a negative value the opposite one."""
+    if words is None:
+        return ExpectedDirection()
+    if words.kind == "line":
+        return ExpectedDirection(heading=words.value + (180.0 if value < 0.0 else 0.0))
+    way = math.copysign(words.value, words.value * value)
+    return ExpectedDirection(turn=way) if words.kind == "turn" else ExpectedDirection(axial=way)
 
 
 def _nothing_else(name: str) -> bool:

@@ -290,7 +290,7 @@ class Marker:
         if self.course.attempt == "first":
             return ranked[0]
         if self.course.attempt == "best":
-            return max(reversed(ranked), key=lambda entry: self._marked(entry).judged.share)
+            return max(reversed(ranked), key=lambda entry: _worth(self._marked(entry).judged))
         return ranked[-1]
 
     def _two_orders(self, entry: StoredAnswer, other: StoredAnswer) -> StoredAnswer:
@@ -391,3 +391,10 @@ class Marker:
         """An answer that nothing was read of."""
         judged = Judgement(verdict, 0.0, (False, False, False), code=code)
         return Marked(entry.item, entry.answer, judged, self.course.policy_of(entry.item).points, told)
+
+
+def _worth(judged: Judgement) -> tuple[float, bool]:
+    """By which one attempt is better than another: its mark; what a person has to read may be worth the whole
+    one, which is enough where another has it."""
+    waits = judged.verdict == IN_REVIEW
+    return 1.0 if waits else judged.share, not waits

@@ -403,11 +403,15 @@ def _why(was: ResultRow, row: ResultRow) -> str:
         return "another answer counts"
     if was.variant != row.variant:
         return "other numbers were given out"
-    if (was.value, was.unit, was.direction) != (row.value, row.unit, row.direction) or was.score is None:
+    if (was.code == NOT_GRADED) != (row.code == NOT_GRADED):
+        return "it can't be graded now" if row.code == NOT_GRADED else "it could not be graded before"
+    waits = (was.score is None) != (row.score is None)
+    turned = was.verdict != row.verdict and _OF_DIRECTION & {*was.code.split(), *row.code.split()}
+    if (was.value, was.unit, was.direction) != (row.value, row.unit, row.direction) or (waits and not turned):
         return "the answer is read otherwise"
-    if was.rel_error != row.rel_error:
+    if was.rel_error != row.rel_error and not waits:
         return "the key has changed"
-    if was.verdict != row.verdict and _OF_DIRECTION & {*was.code.split(), *row.code.split()}:
+    if turned:
         return "the direction of the right answer, or how directions count, has changed"
     if was.verdict != row.verdict:
         return "the tolerance, or what is asked for, has changed"
@@ -416,7 +420,7 @@ def _why(was: ResultRow, row: ResultRow) -> str:
     return "the credit, the tolerance, or the direction of the right answer, has changed"
 
 
-_OF_DIRECTION = {"sign", "direction", "no-direction"}
+_OF_DIRECTION = {"sign", "direction", "no-direction", "square-direction", "undirected", "size-alone"}
 """Codes of answers whose number is right."""
 
 

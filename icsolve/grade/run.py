@@ -22,6 +22,7 @@ from icsolve.grade.variants.record import (
     read_records,
     to_first_values,
 )
+from icsolve.read.variables import values_told
 from icsolve.tuples import NamedTuple
 
 _STEP = 5000
@@ -184,7 +185,7 @@ def _note_other_numbers(job: Job, case_store: CaseStore, given: list[GivenValue]
             continue
         own = [one for one in given if one.question.partition(":")[0] == name]
         if to_first_values(varied, own):
-            shown = ", ".join(f"{variable} = {value}" for variable, value in varied.first.items())
+            shown = values_told(varied.first)
             issues.note(
                 _shown([(path, "") for path in job.submissions]), 0,
                 f"most answers to {name} are right for {shown}, with which it is shown, and wrong for the "

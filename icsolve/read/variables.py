@@ -61,6 +61,16 @@ def names_in(text: str) -> list[str]:
     return [first or second for first, second in _NAME.findall(text)]
 
 
+def named(text: str) -> str:
+    """A text with the name of each variable in the place of its value."""
+    return _NAME.sub(lambda name: name[1] or name[2], text)
+
+
+def values_told(values: Named[str, str]) -> str:
+    """Variables with their values, for a sentence: ``P = 250, a = 1.25``."""
+    return ", ".join(f"{name} = {value}" for name, value in values.items())
+
+
 def replaced(text: str, values: Named[str, str]) -> tuple[str, Fraction | None]:
     """A quantity with its arithmetic worked out and its unit kept; and the exact number, where that is no
     decimal of few digits.
@@ -281,10 +291,9 @@ def substitute(
 
 def _tell(root: Mapping, values: dict[str, str]) -> None:
     title = root.items.get("title")
-    said = ", ".join(f"{name} = {value}" for name, value in values.items())
     text = title.text if type(title) is Scalar else ""
     mark = title.mark if title is not None else root.mark
-    root.items["title"] = Scalar(f"{text} ({said})".strip(), False, mark)
+    root.items["title"] = Scalar(f"{text} ({values_told(values)})".strip(), False, mark)
 
 
 def _put_in(node: Node, values: dict[str, str], used: set[str], problems: Problems, free: bool) -> Node:

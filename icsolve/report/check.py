@@ -33,7 +33,7 @@ from icsolve.screws import add, cross, subtract
 from icsolve.screws.space import size, spatial, times
 from icsolve.statics.load_wrenches import number_taken, vector_size
 from icsolve.tuples import NamedTuple
-from icsolve.wording import direction_words, holding, same_way, turned_at_most, way_of
+from icsolve.wording import along_or_back, direction_words, holding, way_of, with_or_against
 
 AGREES = "agrees"
 DISAGREES = "disagrees"
@@ -183,9 +183,9 @@ def _shown(values: tuple[float, ...], expected: Expected) -> str:
         return f"[{', '.join(_digits(value) for value in values)}]"
     if expected.sense in _OPPOSITE:
         return f"{_digits(abs(values[0]))} {_OPPOSITE[expected.sense] if values[0] < 0.0 else expected.sense}"
-    if expected.sense and values[0] < 0.0:
+    if expected.sense and values[0] * expected.sign < 0.0:
         off = "the other way" if expected.sense in ("pull", "push") else "in another direction"
-        return f"{_digits(-values[0])} {off}"
+        return f"{_digits(abs(values[0]))} {off}"
     return _digits(values[0])
 
 
@@ -217,10 +217,11 @@ def _width(expected: Expected, number: Number, size: float) -> float:
 
 
 def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
-    """The value that the published one is about; positive in the published sense where that is in words."""
+    """The value that the published one is about; where its sense is in words, of the published sign if it
+    goes that way, else of the other."""
     match expected.target:
         case LoadIs(load):
-            return (_load(answer, load, expected.sense),)
+            return (_load(answer, load, expected),)
         case PositionIs(path):
             return (_resting(answer, path, expected),)
         case CentreIs(pair):
@@ -232,32 +233,32 @@ def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
         case RateIs(link):
             return (_turned(_rate(answer, link), expected.sense),)
         case SpeedIs(point, link):
-            return (_speed(answer, point, link, expected.sense),)
+            return (_speed(answer, point, link, expected),)
         case ReactionIs() | TensionIs() | ArmIs() | FrictionRadiusIs() as target:
-            return (_of_bodies(answer, target, expected.sense),)
+            return (_of_bodies(answer, target, expected),)
 
 
-def _of_bodies(answer: Answer, target: OfBodies, sense: str | None) -> float:
+def _of_bodies(answer: Answer, target: OfBodies, expected: Expected) -> float:
     if answer.reactions is None and answer.spatial is None and not isinstance(target, FrictionRadiusIs):
         if any(found.holds is not None for found in answer.answers.values()):
             raise LookupError("at rest friction leaves the reactions open: give `motion`")
         raise _NotAskedError("reactions were not asked for")
-    value = found_value(answer, target)
+    value, sense = found_value(answer, target), expected.sense
     if sense is None or not isinstance(target, ReactionIs):
         return -value if sense == "push" else value
     if target.part == "moment":
         return _turned(value, sense)
     force, place = force_of(answer, target)
-    return _going(answer, force, place, sense)
+    return _going(answer, force, place, expected)
 
 
-def _load(answer: Answer, name: str, sense: str | None) -> float:
-    space = answer.case.space
+def _load(answer: Answer, name: str, expected: Expected) -> float:
+    space, sense = answer.case.space, expected.sense
     loads: dict[str, Any] = {load.name: load for load in (space or answer.case).loads}
     value, load = _load_value(answer, name, loads), loads.get(name)
     found = answer.answers.get(name)
     if found is not None and found.components is not None:
-        return _going(answer, found.components, answer.points.get(loads[f"{name}.x"].at), sense)
+        return _going(answer, found.components, answer.points.get(loads[f"{name}.x"].at), expected)
     if sense is None or load is None:
         return value
     if isinstance(load, Torque):
@@ -271,7 +272,13 @@ def _load(answer: Answer, name: str, sense: str | None) -> float:
     places: Mapping[str, Sequence[float]] = answer.points
     if answer.spatial is not None:
         places = answer.spatial.points
-    return abs(value) if same_way(sense, own, load, places) else -abs(value)
+    return _signed(abs(value), with_or_against(sense, own, load, places), expected)
+
+
+def _signed(size: float, way: int, expected: Expected) -> float:
+    """A size that goes the published way (1), the opposite (-1) or another (0), with the published sign where
+    that agrees, else with the other."""
+    return size * (way or -expected.sign)
 
 
 def _given_sense(answer: Answer, name: str, value: float) -> str:
@@ -374,28 +381,28 @@ def _ratio(answer: Answer, over: str, under: str) -> float:
     return _rate(answer, over) / rate
 
 
-def _speed(answer: Answer, point: str, link: str, sense: str | None) -> float:
-    """Magnitude of a velocity; negative where it does not go the published way."""
+def _speed(answer: Answer, point: str, link: str, expected: Expected) -> float:
+    """Magnitude of a velocity, with a sign by the way that it goes."""
     velocity = (answer.velocities or {}).get((point, link))
     if velocity is None:
         raise LookupError(f"the velocity of {point} on link {link} was not found")
     if isinstance(velocity, str):
         raise LookupError(f"the velocity of {point} on link {link} is undetermined: {velocity}")
-    return _going(answer, velocity, answer.points.get(point), sense)
+    return _going(answer, velocity, answer.points.get(point), expected)
 
 
 def _going(
-    answer: Answer, vector: tuple[float, float], start: tuple[float, float] | None, sense: str | None
+    answer: Answer, vector: tuple[float, float], start: tuple[float, float] | None, expected: Expected
 ) -> float:
-    """The size of a vector that begins at a place; negative where it does not go the published way."""
-    size = math.hypot(*vector)
+    """The size of a vector that begins at a place, with a sign by the way that it goes."""
+    size, sense = math.hypot(*vector), expected.sense
     if sense is None or size == 0.0:
         return size
     way = way_of(sense, None, answer.points, start)
     if way is None:
         raise LookupError(f"no direction leads '{sense}' from there")
     own = (vector[0] / size, vector[1] / size, 0.0)
-    return size if turned_at_most(way, own, sense) else -size
+    return _signed(size, along_or_back(way, own, sense), expected)
 
 
 HEADER = "| case | published, and found | agree | errata |\n|---|---|---|---|"

@@ -196,20 +196,24 @@ def _is_below(load: Load | SpatialLoad, found: Found) -> bool:
     return most < 0.0 and (kind or (isinstance(load, Force) and isinstance(load.over, Area)))
 
 
-def same_way(published: str, found: str, load: Load | SpatialLoad, places: Places) -> bool:
-    """Whether a load of sense ``found`` goes the way that ``published`` says, as books round directions: in
-    space ``along -z`` may be published as ``down``, or as ``away from P`` where P lies above.
+def with_or_against(published: str, found: str, load: Load | SpatialLoad, places: Places) -> int:
+    """1 where a load of sense ``found`` goes the way that ``published`` says, as books round directions (in
+    space ``along -z`` may be published as ``down``, or as ``away from P`` where P lies above), -1 where it
+    goes the opposite way, 0 where neither.
     """
     theirs, ours = (way_of(sense, load, places) for sense in (published, found))
     if theirs is None or ours is None:
-        return published == found
-    return turned_at_most(theirs, ours, published)
+        opposite = {published, found} == {"pull", "push"}
+        return 1 if published == found else -1 if opposite else 0
+    return along_or_back(theirs, ours, published)
 
 
-def turned_at_most(theirs: Way, ours: Way, published: str) -> bool:
-    """Whether two unit vectors differ by no more than the published words leave open."""
-    room = math.cos(math.radians(_LOOSE if published in _WORDS else _CLOSE))
-    return sum(a * b for a, b in zip(theirs, ours, strict=True)) >= room - 1e-12
+def along_or_back(theirs: Way, ours: Way, published: str) -> int:
+    """1 where two unit vectors differ by no more than the published words leave open, -1 where one and the
+    opposite of the other do, 0 where neither."""
+    room = math.cos(math.radians(_LOOSE if published in _WORDS else _CLOSE)) - 1e-12
+    along = sum(a * b for a, b in zip(theirs, ours, strict=True))
+    return 1 if along >= room else -1 if -along >= room else 0
 
 
 def way_of(

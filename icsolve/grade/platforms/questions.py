@@ -19,6 +19,7 @@ from collections.abc import Iterable, Iterator
 
 from icsolve.case import Case
 from icsolve.case.expected import LoadIs, PositionIs, ReactionIs, SpeedIs, Target
+from icsolve.grade.judge import share_of
 from icsolve.grade.keys import AnyKey, ChoiceKey, NumberKey, PlaceKey, RangeKey, numbers_of
 from icsolve.grade.mistakes.lookup import ORDER, Wrong, message
 from icsolve.grade.written.words import factors_between
@@ -82,6 +83,11 @@ _UNITS = {
     "length": "m mm cm in ft",
     "angular": "rad/s rpm deg/s",
     "speed": "m/s mm/s in/s ft/s",
+    "angle": "deg rad",
+    "mass": "kg g t lbm slug",
+    "stiffness or line load": "N/m N/mm kN/m lbf/in lbf/ft",
+    "torsional stiffness": "N*m/rad N*mm/rad lbf*in/rad lbf*ft/rad",
+    "pressure": "MPa kPa Pa bar psi N/mm^2",
 }
 
 
@@ -129,7 +135,7 @@ def _xml_question(question: Question) -> str:
         ),
         *(
             _answer(share, w.value, reach, message(w.code, w.where, key.kind))
-            for w, share, reach in wrong_rows(key)
+            for w, share, reach in wrong_rows(question)
         ),
         '<answer fraction="0" format="moodle_auto_format"><text>*</text>'
         f'<feedback format="html"><text>{escaped(otherwise)}</text></feedback>'
@@ -168,16 +174,20 @@ def _answer(fraction: float, value: float, tolerance: float, feedback: str) -> s
     )
 
 
-def wrong_rows(key: NumberKey) -> Iterator[tuple[Wrong, float, float]]:
-    """Known wrong answers, simplest first, with their shares in percent and absolute tolerances.
+def wrong_rows(question: Question) -> Iterator[tuple[Wrong, float, float]]:
+    """Known wrong answers, simplest first, with their shares in percent and absolute tolerances; none that
+    another reading makes right.
 
     Moodle takes the first row that matches, so the right answer stands before them.
     """
+    key, right = question.key, list(rights(question))
     ordered = sorted(key.wrongs.all, key=lambda w: (ORDER[w.code], _decades(w.value, key.value), w.value))
     seen: list[float] = []
     counts: Counter[str] = Counter()
     for wrong in ordered:
         reach = key.wrongs.reach * abs(wrong.value)
+        if any(abs(wrong.value - value) <= _half(own) for own, value in right):
+            continue
         if counts[wrong.code] < _MOST_OF_ONE and all(abs(wrong.value - other) > reach for other in seen):
             seen.append(wrong.value)
             counts[wrong.code] += 1
@@ -202,9 +212,11 @@ def _units(key: NumberKey) -> str:
         f"<unit><multiplier>{number(multiplier)}</multiplier><unit_name>{escaped(name)}</unit_name></unit>"
         for name, multiplier in unit_rows(key)
     )
-    graded = "1" if key.policy.unit == "required" else "0"
+    graded, cost = "0", 0.1
+    if key.policy.unit == "required":
+        graded, cost = "1", 1.0 - share_of(key, (True, False, True), ())
     return (
-        f"<units>{rows}</units><unitgradingtype>{graded}</unitgradingtype><unitpenalty>0.1</unitpenalty>"
+        f"<units>{rows}</units><unitgradingtype>{graded}</unitgradingtype><unitpenalty>{cost:.7g}</unitpenalty>"
         "<showunits>0</showunits><unitsleft>0</unitsleft>"
     )
 
@@ -232,8 +244,8 @@ def _gift_question(question: Question) -> str:
     title = f"{question.title.rstrip('. ')}. " if question.title else ""
     text = _gift(f"{title}Given: {values}. {question.asked}")
     told = _gift(f"Right: {question.accepted} is accepted.")
-    rows = [f"=%100%{number(right)}:{number(own.half)}#{told}" for own, right in rights(question)]
-    for wrong, share, reach in wrong_rows(key):
+    rows = [f"=%100%{number(right)}:{number(_half(own))}#{told}" for own, right in rights(question)]
+    for wrong, share, reach in wrong_rows(question):
         said = _gift(message(wrong.code, wrong.where, key.kind))
         rows.append(f"=%{share:.7g}%{number(wrong.value)}:{number(reach)}#{said}")
     body = "\n".join(rows)
@@ -254,17 +266,19 @@ def number(value: float) -> str:
 
 
 def rights(question: Question) -> Iterator[tuple[NumberKey, float]]:
-    """The right answers, each with its key, and what a whole turn makes of them."""
+    """The right answers, each with its key, and what a whole turn makes of them; where no sense is asked
+    their opposites too."""
     for key in (question.key, *question.others):
-        value = float(sensible(key))
-        yield key, value
-        if key.period:
-            yield key, value - math.copysign(key.period, value)
+        right = float(sensible(key))
+        for value in (right, -right) if right and key.policy.direction == "ignored" else (right,):
+            yield key, value
+            if key.period:
+                yield key, value - math.copysign(key.period, value)
 
 
 def _half(key: NumberKey) -> float:
-    """Half the accepted band, as large a part of the answer as it is shown as of the answer itself."""
-    return key.half * abs(float(sensible(key)) / key.value) if key.value else key.half
+    """Half the band about the right answer as it is shown, so that it holds all that `grade` takes."""
+    return key.half + abs(float(sensible(key)) - key.value)
 
 
 def sensible(key: NumberKey) -> str:
@@ -400,7 +414,7 @@ def _section(group: list[Question]) -> str:
 
 def _item(question: Question) -> str:
     key, ident = question.key, _ident("item", question.name)
-    right = "".join(_right_condition(own, value - float(sensible(own))) for own, value in rights(question))
+    right = "".join(_right_condition(value, _half(own)) for own, value in rights(question))
     about = "".join(
         _field(label, entry)
         for label, entry in (
@@ -409,7 +423,7 @@ def _item(question: Question) -> str:
             ("assessment_question_identifierref", _ident("reference", question.name)),
         )
     )
-    wrongs = list(wrong_rows(key))
+    wrongs = list(wrong_rows(question))
     causes = dict.fromkeys(message(wrong.code, kind=key.kind) for wrong, _, _ in wrongs)
     checks = f" Check what is often mistaken: {' '.join(list(causes)[:_CAUSES])}" if causes else ""
     otherwise = f"Not right. Accepted is an answer {key.rule}.{checks}"
@@ -435,13 +449,12 @@ def _item(question: Question) -> str:
     )
 
 
-def _right_condition(key: NumberKey, turned: float) -> str:
-    """What is accepted, ``turned`` by nothing or a whole turn."""
-    middle = sensible(key) if not turned else number(key.value + turned)
-    low, high = (number(key.value + turned + side) for side in (-key.half, key.half))
+def _right_condition(value: float, half: float) -> str:
+    """What is accepted."""
+    low, high = (number(value + side) for side in (-half, half))
     return (
         '<respcondition continue="No"><conditionvar><or>'
-        f'<varequal respident="response1">{middle}</varequal><and>'
+        f'<varequal respident="response1">{number(value)}</varequal><and>'
         f'<vargte respident="response1">{low}</vargte><varlte respident="response1">{high}</varlte>'
         "</and></or></conditionvar>"
         '<setvar action="Set" varname="SCORE">100</setvar>'

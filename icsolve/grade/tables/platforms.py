@@ -317,12 +317,8 @@ _FORMS = ("start time", "startzeit", "heure de début", "hora de inicio", "ora d
 
 
 def _is_wide(columns: TableColumns) -> bool:
-    named = columns.fields.keys() & {"student_id", "email"}
-    return (
-        bool(named)
-        or columns.names[0] in (*FIELDS["student_id"], "id", "uid")
-        or columns.field("email") is not None
-    )
+    named = any(columns.field(name) is not None for name in ("student_id", "email"))
+    return named or columns.names[0] in ("id", "uid")
 
 
 def _is_gradebook(columns: TableColumns) -> bool:

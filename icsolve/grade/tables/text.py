@@ -140,7 +140,8 @@ class AnswerTable:
 
     def _swallows(self, lines: list[str]) -> bool:
         """Whether a record of several lines has taken in rows: a quote in it stands where none may, or a
-        line of it is a whole row by itself."""
+        line of it is a whole row by itself. Of a record whose first cell ends in its last line that line is
+        one anyway."""
         if len(lines) < 2:
             return False
         try:
@@ -148,7 +149,9 @@ class AnswerTable:
         except csv.Error:
             return True
         width = len(self.header) if self.header else 0
-        alone = (next(csv.reader([line], delimiter=self.delimiter), []) for line in lines[1:])
+        first, *alone = (next(csv.reader([line], delimiter=self.delimiter), []) for line in lines)
+        if len(first) == 1 and lines[0].count(self.delimiter) < width - 1:
+            alone.pop()
         return width > 2 and any(len(cells) == width for cells in alone)
 
 

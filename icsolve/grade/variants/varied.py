@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import math
-import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
@@ -22,7 +21,7 @@ from icsolve.read import read_text
 from icsolve.read.document import Mapping as Tree
 from icsolve.read.document import Scalar, parse
 from icsolve.read.names import Problems
-from icsolve.read.variables import FormulaError, count, exact, first_values, value_at
+from icsolve.read.variables import FormulaError, count, exact, first_values, named, value_at, values_told
 from icsolve.sweep.varied_numbers import numbers_of
 from icsolve.tuples import NamedTuple, TypeVar, cached_property
 
@@ -246,11 +245,10 @@ class Varied:
 
     @cached_property
     def title(self) -> str:
-        """The case's title without any student's numbers."""
+        """The case's title without any student's numbers: with the names of the variables."""
         root = parse(self.text, Problems(self.path))
         found = root.items.get("title") if type(root) is Tree else None
-        text = found.text if type(found) is Scalar else ""
-        return " ".join(re.sub(r"\(?[^\s(]*\$\w+[^\s)]*\)?", "", text).split())
+        return " ".join(named(found.text).split()) if type(found) is Scalar else ""
 
     def draws(self, student: str) -> Iterator[Texts]:
         """All draws of a student by the present seed, whatever the filter says of them."""
@@ -305,7 +303,7 @@ class Varied:
         base = self._base(values)
         found = self._exactly(base)
         if found is None:
-            raise NoKeyError(f"{self.name} can't be solved with {values}")
+            raise NoKeyError(f"{self.name} can't be solved with {values_told(values)}")
         return found if base is values else found.scaled(self.numbers.factor(base, values) or 1.0)
 
     def _base(self, values: Texts) -> Texts:

@@ -397,7 +397,7 @@ def _parted(text: str, read: WrittenAnswer) -> WrittenAnswer:
     for cut in range(len(words), -1, -1):
         unit_text, rest = " ".join(words[:cut]).strip("[](){},; "), words[cut:]
         unit = _unit(unit_text)
-        if unit is None and unit_text:
+        if unit_text and (unit is None or _INCHES_OF_QUOTIENT.search(unit_text)):
             continue
         way = direction(" ".join(rest)) if rest else None
         if way is not None or not rest:
@@ -417,6 +417,10 @@ _PREPOSITION = re.compile(r"in (?!lb|pound|kip|oz|#)", re.IGNORECASE)
 
 _INCHES_OR_IN = re.compile(r"[\[(]?in\b(?!.*\b(?:the|an?|directions?|dir|sense|way)\b)", re.IGNORECASE)
 """Right after the number, ``in cw`` may be inches; with a noun, ``in cw direction``, it is a preposition."""
+
+
+_INCHES_OF_QUOTIENT = re.compile(r"/.* in\Z", re.IGNORECASE)
+"""No unit: ``N/m in`` is followed by words that say which way."""
 
 
 def _unit(text: str) -> UnitWord | None:
