@@ -10,7 +10,6 @@ import shapely
 
 from icsolve.answer.bodies import Reaction
 from icsolve.case import is_link, told_links
-from icsolve.case.loads import aim_of
 from icsolve.draw.frame import point_parts, rims
 from icsolve.draw.links import bars, body_of, link_part, wheel_parts
 from icsolve.draw.loads import ARC, axle, heads, hidden, is_no_inertia, kind_of, ways
@@ -196,7 +195,9 @@ def _load(scene: Scene, acting: Acting, sign: float) -> DrawnPush:
 
 def _other_end(scene: Scene, acting: Acting) -> Point | None:
     """Where the opposite of a load acts: the point that it is toward."""
-    return scene.known.points.get(aim_of(acting.load), acting.at)
+    load = acting.load
+    name = getattr(load, "to", None) or getattr(getattr(load, "heading", None), "point", None)
+    return scene.known.points.get(name, acting.at) if name else acting.at
 
 
 def _panel(scene: Scene, link: str, pushes: Sequence[DrawnPush], largest: float) -> list[Mark]:

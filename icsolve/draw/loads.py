@@ -10,7 +10,7 @@ import shapely
 
 from icsolve.case import Area as Face
 from icsolve.case import Force, Load, Number, Screw, Spring, Stretch, TorsionSpring, Weight, is_link
-from icsolve.case.loads import aim_of, name_of_inertia
+from icsolve.case.loads import name_of_inertia
 from icsolve.draw.links import guide_in_picture
 from icsolve.draw.marks import (
     AreaMark,
@@ -250,7 +250,7 @@ def hidden(scene: Scene, way: tuple[Point, Point, float], links: shapely.Geometr
 
 def _partner(scene: Scene, load: Load) -> str:
     """Where the opposite of a force between two links acts: the point that it is toward, or its own."""
-    name = aim_of(load)
+    name: str = getattr(getattr(load, "heading", None), "point", "")
     return name if name in scene.at else str(getattr(load, "at", ""))
 
 

@@ -12,7 +12,6 @@ from types import MappingProxyType
 
 from icsolve.case import Case, Joint, Spring
 from icsolve.case.joints import Guided, Mesh, Rolling, Sliding
-from icsolve.case.loads import aim_of
 from icsolve.case.profiles import Circle, Flat, Knife, Roller, points_of
 from icsolve.draw.marks import Box, Mark, MarkGroup, Point, View, along
 from icsolve.draw.place import Label, Placer, Soft
@@ -415,7 +414,8 @@ def fixed_springs(case: Case) -> list[Spring]:
 def aims(case: Case) -> tuple[str, ...]:
     """The points toward which loads act, or away from which."""
     loads = case.loads if case.space is None else case.space.loads
-    return tuple(name for name in map(aim_of, loads) if name)
+    found = (getattr(getattr(load, "heading", None), "point", None) for load in loads)
+    return tuple(name for name in found if name)
 
 
 class Part(NamedTuple):

@@ -188,22 +188,12 @@ def _seen(direction: Vec) -> Point:
 
 
 def _load(sketch: Sketch, push: Push, solid: shapely.Geometry) -> Part:
-    """A load, with its opposite where that acts on a link, which has its name alone."""
-    kind, runs = _kind(push), _load_runs(push)
+    kind, runs, at = _kind(push), _load_runs(push), _acts_at(sketch, push)
     sign = -1.0 if dot(add(push.force, push.couple), push.direction) < 0.0 else 1.0
-    ends = [(push.link, push.at, sign, f"label-{push.name}", runs)]
-    if push.against != sketch.scene.case.ground:
-        ends.append((push.against, push.end, -sign, f"label-{push.name}-opposite", name_runs(push.name)))
-    drawn: list[Mark] = []
-    soft, labels = [], []
-    for link, place, way, name, words in ends:
-        at = _acts_at(sketch, link, place)
-        marks, far = vector(at, times(way, push.direction), ARROW, kind, solid, double=place is None)
-        drawn += marks
-        soft.append(along_arrow(at, far))
-        labels.append(Label(name, words, f"t-{kind}", 14.0, (far, at), 7.0))
-    group = MarkGroup(f"load-{push.name}", "", tuple(drawn), plain_text(runs))
-    return Part((group,), tuple(soft), (), tuple(labels))
+    marks, far = vector(at, times(sign, push.direction), ARROW, kind, solid, double=push.at is None)
+    soft = (along_arrow(at, far),)
+    label = Label(f"label-{push.name}", runs, f"t-{kind}", 14.0, (far, at), 7.0)
+    return Part((MarkGroup(f"load-{push.name}", "", marks, plain_text(runs)),), soft, (), (label,))
 
 
 def _kind(push: Push) -> str:
@@ -226,13 +216,13 @@ def along_arrow(at: Point, far: Point) -> Soft:
     return Soft(shape.buffer(9.0, quad_segs=1), 4.0)
 
 
-def _acts_at(sketch: Sketch, link: str, place: Vec | None) -> Point:
-    if place is not None:
-        return sketch.at(place)
-    line = _axis(sketch.scene, link)
-    carried = sketch.scene.carried(link)
+def _acts_at(sketch: Sketch, push: Push) -> Point:
+    if push.at is not None:
+        return sketch.at(push.at)
+    line = _axis(sketch.scene, push.link)
+    carried = sketch.scene.carried(push.link)
     if line is not None:
-        ends = [sketch.at(b) for _, b in _bones(sketch.scene, link)[:1]]
+        ends = [sketch.at(b) for _, b in _bones(sketch.scene, push.link)[:1]]
         return ends[0] if ends else sketch.at(line[0])
     return sketch.at(carried[0]) if carried else (0.0, 0.0)
 
@@ -328,8 +318,7 @@ def _pushes(sketch: Sketch, known: Known, link: str) -> Iterable[On]:
     for push in sketch.scene.loads:
         if link in (push.link, push.against):
             sign = 1.0 if link == push.link else -1.0
-            own = push.at if link == push.link else push.end
-            place = own or next(iter(sketch.scene.carried(link)), ZERO)
+            place = push.at or next(iter(sketch.scene.carried(link)), ZERO)
             force, couple = times(sign, push.force), times(sign, push.couple)
             told = _load_runs(push if push.at is None else _acting(push, units.force))
             yield f"body-load-{push.name}-on-{link}", told, force, couple, (_kind(push), place)
