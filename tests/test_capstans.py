@@ -16,7 +16,7 @@ import pytest
 from mpmath import mp, mpf
 
 import icsolve
-from icsolve.errors import SceneError
+from icsolve.errors import CaseError, SceneError
 from icsolve.scene.sensitivity import influences
 from icsolve.solve.stability import holding_values
 from sizes import FULL, MORE, few, sampled
@@ -400,3 +400,43 @@ loads:
     assert answer.answers["T"].holds == pytest.approx((0.0, most), rel=1e-9)
     assert answer.answers["T"].error <= 1e-9 * most
     assert any("would have to pull: it parts there" in note for note in answer.notes) is (tips < slides)
+
+
+@pytest.mark.parametrize("seed", range(few(12)))
+def test_whole_turns_are_added_to_the_angle_that_the_figure_shows(seed: int) -> None:
+    """Each multiplies the ratio of the pulls by exp(2 pi mu); parts of a turn, which the figure has, are
+    refused in a case, as a number that is set and in a row."""
+    rng = Random(f"turns {seed}")
+    mu, more = rng.randint(1, 40) / 100, rng.randint(0, 4)
+    part = rng.choice([0.25, 0.5, 1.75, 2.5, 1e-9])
+
+    def bollard(turns: float) -> str:
+        return f"""icsolve: 1
+points: {{A: [-1, 0.3], O: [0, 0], B: [1, 0.3]}}
+joints:
+  - rope: [A, O, B]
+    on: [2, 1]
+    radii: {{O: 0.3}}
+    wraps: {{O: ccw}}
+    turns: {{O: {turns}}}
+    mu: {{O: {mu}}}
+  - {{slide: [2, 1], at: A, along: 0}}
+loads: {{W: {{force: 100, link: 2, at: A, angle: 180}}, F: {{force: unknown, at: B}}}}
+motion: {{point: A, link: 2, speed: 1, angle: 180}}
+"""
+
+    path = "joints.A-O-B.turns.O"
+    case = icsolve.load(bollard(0))
+    least = icsolve.solve(case).answers["F"].value
+    assert least is not None and least > 0.0
+    rows = icsolve.sweep(case, {path: [more, more + 1]}).answers["F"]
+    pulls = [icsolve.solve(icsolve.load(bollard(more))).answers["F"].value, *rows]
+    for pull, turns in zip(pulls, (more, more, more + 1), strict=True):
+        assert pull == pytest.approx(least * math.exp(-2.0 * math.pi * mu * turns), rel=1e-12)
+    for refused in (
+        lambda: icsolve.load(bollard(more + part)),
+        lambda: icsolve.load(bollard(0), settings={path: more + part}),
+        lambda: icsolve.sweep(case, {path: [more, more + part]}),
+    ):
+        with pytest.raises((CaseError, ValueError), match="whole"):
+            refused()

@@ -13,6 +13,7 @@ import re
 import subprocess
 import sys
 from functools import cache
+from itertools import combinations
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -31,7 +32,7 @@ from icsolve.draw import Drawing, draw
 from icsolve.draw.figure import scene_of
 from icsolve.draw.links import body_of
 from icsolve.draw.scene import geneva_of
-from icsolve.draw.space import flat
+from icsolve.draw.space import flat, space_marks
 from icsolve.draw.words import figure_number
 from icsolve.errors import SceneError
 from icsolve.explain import explain
@@ -698,8 +699,8 @@ dynamic: yes
 
 
 def arrows_of(picture: Picture, name: str) -> list[tuple[complex, complex]]:
-    """The arrows of a load, from tail to tip, in the picture turned upright."""
-    group = next(e for e in picture.root.iter() if e.attrib.get("id") == f"load-{name}")
+    """The arrows of a group, from tail to tip, in the picture turned upright."""
+    group = next(e for e in picture.root.iter() if e.attrib.get("id") == name)
     found = []
     paths = [
         e.attrib["d"] for e in group.iter() if e.tag.endswith("path") and "head" not in e.attrib["class"]
@@ -733,7 +734,7 @@ loads:
     (words,) = (text for text in picture.texts("t-known") if text.startswith("q"))
     assert "cw" not in words and "deg" not in words
     way, bar = (cmath.rect(1.0, math.radians(a)) for a in (turn + angle, turn))
-    arrows = arrows_of(picture, "q")
+    arrows = arrows_of(picture, "load-q")
     at = [(tip / bar).real for _, tip in arrows]
     low, high = min(at), max(at)
     seen = set()
@@ -814,9 +815,55 @@ loads:
     picture, bodies = drawn(case), drawn(case, bodies=True)
     ways = {"k": [stretch * part for part in way], "m": [1.0, 0.0, 0.0], "p": [-1.0, 0.0, 0.0]}
     for name, toward in ways.items():
-        ((tail, tip),) = arrows_of(picture, name)
+        ((tail, tip),) = arrows_of(picture, f"load-{name}")
         seen = complex(*flat((toward[0], toward[1], toward[2])))
         assert abs((tip - tail) / abs(tip - tail) - seen / abs(seen)) < 1e-2
     words = bodies.texts("t-known")
     assert f"k = {figure_number(stiffness * abs(stretch))} N" in words
     assert f"m = {figure_number(stiffness * 9.81)} N" in words
+
+
+@sampled(2)
+@pytest.mark.parametrize("seed", range(8))
+def test_a_load_between_two_links_in_space_is_drawn_on_both(seed: int) -> None:
+    """Each the other way; that of a spring, and of a force toward a point, at the point that it is toward.
+    No two arrows fuse, of one line or axis neither."""
+    random = Random(f"between links of space {seed}")
+    (x, y, z), (u, v, w) = ([random.randint(a, 5) for a in (-5, 1, -5)] for _ in "BC")
+    ends = ((x, y, z), (u + 9, v, w))  # apart, and not along the line of sight
+    (a, b), number = map(list, ends), random.choice([3, -3])
+    on, other = random.choice([(2, 3), (3, 2)])
+    case = icsolve.load(f"""icsolve: 1
+points: {{A: [0, 0, 0], D: [9, 0, 0], B: {a}, C: {b}}}
+joints: [{{weld: [1, 2], at: A}}, {{weld: [1, 3], at: D}}]
+loads:
+  k: {{spring: 5, free: {random.uniform(1, 20)}, link: {on}, at: B, against: {other}, to: C}}
+  p: {{force: {number}, link: {on}, at: B, toward: C, against: {other}}}
+  q: {{force: {number}, link: {on}, at: B, along: z, against: {other}}}
+  t: {{torque: {number}, link: {on}, along: z, against: {other}}}
+  f: {{force: {number}, link: {on}, at: B, along: z}}
+  g: {{torque: {number}, link: {on}, along: z}}
+""")
+    known = known_of(case, reactions=True)
+    sketch, _ = space_marks(known)
+    at, to, *welds = (complex(x, -y) for x, y in (sketch.at(p) for p in (*ends, (0, 0, 0), (9, 0, 0))))
+    feet = dict(zip((2, 3), welds, strict=True))
+    picture, bodies = (parsed(draw(case, Drawing(bodies=also), known)) for also in (False, True))
+    for name, place in {"k": to, "p": to, "q": at, "t": None}.items():
+        own, opposite = arrows_of(picture, f"load-{name}")
+        ways = [(tip - tail) / abs(tip - tail) for tail, tip in (own, opposite)]
+        assert abs(sum(ways)) < 1e-2, name
+        if place is not None:
+            assert min(abs(end - at) for end in own) < 16.0
+            assert min(abs(end - place) for end in opposite) < 16.0, name
+            (load,) = arrows_of(bodies, f"body-load-{name}-on-{other}")
+            held = arrows_of(bodies, f"reaction-F1{other}-on-{other}")[0]
+            apart = (end - foot - (place - feet[other]) for end in load for foot in held)
+            assert min(map(abs, apart)) < 32.0, name
+        assert picture.texts("t-known").count(name) == 1
+    assert len(arrows_of(picture, "load-f")) == 1
+    names = {group for group in bodies.ids if re.match("(load|body-load|reaction)-", group)}
+    lines = [
+        shapely.LineString([(z.real, z.imag) for z in a]) for name in names for a in arrows_of(bodies, name)
+    ]
+    assert all(a.intersection(b.buffer(1.0)).length < 8.0 for a, b in combinations(lines, 2))

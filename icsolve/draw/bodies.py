@@ -30,7 +30,7 @@ from icsolve.draw.marks import (
 from icsolve.draw.place import Label, Soft, joined, nearest
 from icsolve.draw.scene import Part, Scene, around, together, with_labels
 from icsolve.draw.words import force_runs, name_runs, quantity
-from icsolve.report.derivation.known import Acting, acting_loads, pulls_on
+from icsolve.report.derivation.known import Acting, acting_loads, other_end, pulls_on
 from icsolve.tuples import NamedTuple
 
 LONGEST = 78.0
@@ -188,16 +188,11 @@ def _load(scene: Scene, acting: Acting, sign: float) -> DrawnPush:
     value = abs(acting.couple) * ratio if acting.at is None else math.hypot(x, y)
     unit = scene.case.units.torque if acting.at is None else scene.case.units.force
     words = (*name_runs(acting.load.name), TextRun(f" = {quantity(value, unit)}"))
-    place = acting.at if acting.at is None or sign > 0.0 else _other_end(scene, acting)
+    place = acting.at
+    if place is not None and sign < 0.0:
+        place = scene.known.points.get(other_end(acting.load), place)
     at = (axle(scene, link) or (0.0, 0.0)) if place is None else scene.view.at(place)
     return DrawnPush(name, words, kind, at, (sign * x, -sign * y), sign * acting.couple)
-
-
-def _other_end(scene: Scene, acting: Acting) -> Point | None:
-    """Where the opposite of a load acts: the point that it is toward."""
-    load = acting.load
-    name = getattr(load, "to", None) or getattr(getattr(load, "heading", None), "point", None)
-    return scene.known.points.get(name, acting.at) if name else acting.at
 
 
 def _panel(scene: Scene, link: str, pushes: Sequence[DrawnPush], largest: float) -> list[Mark]:

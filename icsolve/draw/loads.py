@@ -31,7 +31,7 @@ from icsolve.draw.place import Label, Soft, area, joined
 from icsolve.draw.scene import BLOCK, HALF, RAIL, Part, Scene
 from icsolve.draw.words import figure_number, name_runs, quantity, unit_word
 from icsolve.numbers import FLOATS
-from icsolve.report.derivation.known import Acting, acting_loads
+from icsolve.report.derivation.known import Acting, acting_loads, other_end
 from icsolve.statics.load_wrenches import direction
 from icsolve.tuples import NamedTuple
 from icsolve.wording import sense_of
@@ -147,7 +147,8 @@ def _and_opposite(scene: Scene, acting: Acting, part: Part, u: Point) -> Part:
     """A force along ``u`` with the opposite one, where it acts between two links."""
     if acting.against == scene.case.ground:
         return part
-    partner = _partner(scene, acting.load)
+    name = other_end(acting.load)
+    partner = name if name in scene.at else str(getattr(acting.load, "at", ""))
     tail = along(scene.at[partner], u, -8.0)
     tip = along(tail, u, -ARROW)
     soft = Soft(shapely.LineString([tail, tip]).buffer(4.0, quad_segs=1), 4.0)
@@ -246,12 +247,6 @@ def hidden(scene: Scene, way: tuple[Point, Point, float], links: shapely.Geometr
     shape = shapely.LineString([tail, tip]).buffer(6.0, quad_segs=1)
     out = 0.0 if scene.view.holds(tail) and scene.view.holds(tip) else 200.0
     return float(shapely.area(shapely.intersection(shape, links))) + bias + out
-
-
-def _partner(scene: Scene, load: Load) -> str:
-    """Where the opposite of a force between two links acts: the point that it is toward, or its own."""
-    name: str = getattr(getattr(load, "heading", None), "point", "")
-    return name if name in scene.at else str(getattr(load, "at", ""))
 
 
 def _spring(scene: Scene, acting: Acting, load: Spring) -> Part:

@@ -78,7 +78,10 @@ def space_marks(known: Known) -> tuple[Sketch, list[Mark]]:
     solid = joined([outline_of(sketch, link) for link in moving_links(scene)] or [shapely.Polygon()])
     parts = [*(body_part(sketch, link) for link in moving_links(scene))]
     parts += [part for tie in scene.ties for part in _joint(sketch, tie)]
-    parts += [_load(sketch, push, solid) for push in scene.loads]
+    drawn: list[Soft] = []
+    for push in scene.loads:
+        parts.append(_load(sketch, push, solid, drawn))
+        drawn += parts[-1].soft
     parts += _letters(sketch)
     marks = with_labels(together(parts), sketch.view.window)
     return sketch, [*marks, _triad(bounds(marks))]
@@ -187,13 +190,25 @@ def _seen(direction: Vec) -> Point:
     return (x, -y)
 
 
-def _load(sketch: Sketch, push: Push, solid: shapely.Geometry) -> Part:
-    kind, runs, at = _kind(push), _load_runs(push), _acts_at(sketch, push)
+def _load(sketch: Sketch, push: Push, solid: shapely.Geometry, drawn: Sequence[Soft]) -> Part:
+    """A load, and between two links the opposite one with its name alone."""
+    kind, runs, name = _kind(push), _load_runs(push), f"label-{push.name}"
     sign = -1.0 if dot(add(push.force, push.couple), push.direction) < 0.0 else 1.0
-    marks, far = vector(at, times(sign, push.direction), ARROW, kind, solid, double=push.at is None)
-    soft = (along_arrow(at, far),)
-    label = Label(f"label-{push.name}", runs, f"t-{kind}", 14.0, (far, at), 7.0)
-    return Part((MarkGroup(f"load-{push.name}", "", marks, plain_text(runs)),), soft, (), (label,))
+    acts = [(name, runs, sign, _acts_at(sketch, push.link, push.at))]
+    if push.against != sketch.scene.case.ground:
+        end = _acts_at(sketch, push.against, push.end)
+        acts.append((f"{name}-opposite", name_runs(push.name), -sign, end))
+    arrows: list[Mark] = []
+    soft: list[Soft] = []
+    labels = []
+    for label, words, way, at in acts:
+        room = (solid, (*drawn, *soft))
+        marks, far = vector(at, times(way, push.direction), ARROW, kind, room, double=push.at is None)
+        arrows += marks
+        soft.append(along_arrow(at, far))
+        labels.append(Label(label, words, f"t-{kind}", 14.0, (far, at), 7.0))
+    group = MarkGroup(f"load-{push.name}", "", tuple(arrows), plain_text(runs))
+    return Part((group,), tuple(soft), (), tuple(labels))
 
 
 def _kind(push: Push) -> str:
@@ -216,21 +231,27 @@ def along_arrow(at: Point, far: Point) -> Soft:
     return Soft(shape.buffer(9.0, quad_segs=1), 4.0)
 
 
-def _acts_at(sketch: Sketch, push: Push) -> Point:
-    if push.at is not None:
-        return sketch.at(push.at)
-    line = _axis(sketch.scene, push.link)
-    carried = sketch.scene.carried(push.link)
+def _acts_at(sketch: Sketch, link: str, at: Vec | None) -> Point:
+    """A place in the picture; of a couple on its link's axis."""
+    if at is not None:
+        return sketch.at(at)
+    line = _axis(sketch.scene, link)
+    carried = sketch.scene.carried(link)
     if line is not None:
-        ends = [sketch.at(b) for _, b in _bones(sketch.scene, push.link)[:1]]
+        ends = [sketch.at(b) for _, b in _bones(sketch.scene, link)[:1]]
         return ends[0] if ends else sketch.at(line[0])
     return sketch.at(carried[0]) if carried else (0.0, 0.0)
 
 
+Room = tuple[shapely.Geometry, Sequence[Soft]]
+"""The links that an arrow had better not hide, and the arrows with which it must not fuse."""
+
+
 def vector(
-    at: Point, direction: Vec, length: float, kind: str, solid: shapely.Geometry, *, double: bool = False
+    at: Point, direction: Vec, length: float, kind: str, room: Room, *, double: bool = False
 ) -> tuple[tuple[Mark, ...], Point]:
-    """An arrow from or onto a point, and its far end; one that points at the reader is a dot in a ring."""
+    """An arrow from or onto a point, or farther along its line where others are; and its far end. One that
+    points at the reader is a dot in a ring."""
     seen = _seen(direction)
     share = math.hypot(*seen)
     if share < EDGE_ON:
@@ -242,11 +263,21 @@ def vector(
         return (Disc(at, 8.0, kind), *inner), at
     u = unit(*seen)
     reach = max(length * share, LEAST)
-    ways = [(along(at, u, -8.0 - reach), along(at, u, -8.0)), (along(at, u, 8.0), along(at, u, 8.0 + reach))]
-    tail, tip = min(
-        ways,
-        key=lambda w: float(shapely.area(shapely.intersection(shapely.LineString(w).buffer(6.0), solid))),
-    )
+    solid, drawn = room
+
+    def in_the_way(start: float) -> float:
+        """So much of the arrow, of its width of 12: of the links once, of arrows twice; farther off is
+        nearly as bad."""
+        line = shapely.LineString([along(at, u, start), along(at, u, start + reach)])
+        fused = sum(shapely.length(shapely.intersection(line, other.geometry)) for other in drawn)
+        farther = max(-start - 8.0 - reach, start - 8.0) / (reach + 20.0)
+        hidden = shapely.area(shapely.intersection(line.buffer(6.0), solid)) / 12.0
+        return float(hidden + 2.0 * fused + 1.8 * reach * farther)
+
+    steps = [n * (reach + 20.0) for n in range(3)]
+    starts = [start for step in steps for start in (-8.0 - reach - step, 8.0 + step)]
+    start = min(starts, key=in_the_way)
+    tail, tip = along(at, u, start), along(at, u, start + reach)
     marks = arrow(tail, tip, kind)
     if double:
         marks = (*marks, head(along(tip, u, -9.0), u, f"{kind}-head"))
@@ -318,7 +349,8 @@ def _pushes(sketch: Sketch, known: Known, link: str) -> Iterable[On]:
     for push in sketch.scene.loads:
         if link in (push.link, push.against):
             sign = 1.0 if link == push.link else -1.0
-            place = push.at or next(iter(sketch.scene.carried(link)), ZERO)
+            place = push.at if link == push.link else push.end
+            place = place or next(iter(sketch.scene.carried(link)), ZERO)
             force, couple = times(sign, push.force), times(sign, push.couple)
             told = _load_runs(push if push.at is None else _acting(push, units.force))
             yield f"body-load-{push.name}-on-{link}", told, force, couple, (_kind(push), place)
@@ -326,18 +358,22 @@ def _pushes(sketch: Sketch, known: Known, link: str) -> Iterable[On]:
 
 def _panel(sketch: Sketch, link: str, pushes: Sequence[On], largest: float) -> list[Mark]:
     solid, parts = outline_of(sketch, link), [body_part(sketch, link)]
+    drawn: list[Soft] = []
     for name, words, force, couple, (kind, place) in pushes:
         at = sketch.at(place)
         marks: tuple[Mark, ...] = ()
         far, soft = at, []
         if size(force) > 1e-9 * largest:
             direction = times(1.0 / size(force), force)
-            marks, far = vector(at, direction, ARROW * size(force) / largest, kind, solid)
+            marks, far = vector(at, direction, ARROW * size(force) / largest, kind, (solid, drawn))
             soft.append(along_arrow(at, far))
+            drawn += soft
         if size(couple):
-            more, end = vector(at, times(1.0 / size(couple), couple), 0.6 * ARROW, kind, solid, double=True)
+            way = times(1.0 / size(couple), couple)
+            more, end = vector(at, way, 0.6 * ARROW, kind, (solid, drawn), double=True)
             marks, far = (*marks, *more), (far if far != at else end)
             soft.append(along_arrow(at, end))
+            drawn.append(soft[-1])
         label = Label(f"label-{name}", words, f"t-{kind}", 12.5, (far, at), 7.0)
         group = (MarkGroup(name, "", marks, plain_text(words)),) if marks else ()
         parts.append(Part(group, tuple(soft), (around(at, 2.8),), (label,)))

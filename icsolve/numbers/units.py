@@ -454,6 +454,7 @@ BOUNDS = {
     "not negative": (_NOT_LESS,),
     "acute": (_SOME, _RIGHT),
     "acute or zero": (_NOT_LESS, _RIGHT),
+    "turns": (_NOT_LESS, NumberLimit("whole", -1.0, "should be whole: the figure shows the part of a turn")),
     "teeth": (NumberLimit("whole", 0.0, "should be whole numbers other than 0"),),
 }
 """The limits of a number by the name of what bounds it."""

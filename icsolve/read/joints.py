@@ -363,7 +363,7 @@ JOINTS = {
                 "numbers",
                 False,
                 "number",
-                "not negative",
+                "turns",
             ),
             "length": quantity_key("its own length, where the figure leaves it open", "length", "positive"),
         },

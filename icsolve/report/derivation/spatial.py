@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from icsolve.case import Case
+from icsolve.case import Case, Spring
 from icsolve.case.space import SpatialTorque, TorqueVector
 from icsolve.errors import SceneError
-from icsolve.report.derivation.known import Known
+from icsolve.report.derivation.known import Known, other_end
 from icsolve.screws.space import ZERO, Vec, times
 from icsolve.statics.power import known_value
 from icsolve.statics.space.power import wrenches
@@ -18,13 +18,14 @@ from icsolve.tuples import NamedTuple
 
 class Push(NamedTuple):
     """A load in space, case units: force and couple on ``link`` at ``at`` (None for a couple alone), their
-    opposites on ``against``; ``value`` its number (None where it was not found), ``way`` the one in
-    which it acts where that is positive."""
+    opposites on ``against`` at ``end``; ``value`` its number (None where it was not found), ``way`` the one
+    in which it acts where that is positive."""
 
     name: str
     link: str
     against: str
     at: Vec | None
+    end: Vec | None
     where: str
     direction: Vec
     force: Vec
@@ -55,6 +56,8 @@ class InSpace(NamedTuple):
             self.places[c] for j in in_case(self.case).joints for c in _centres(j, link) if c in self.places
         ]
         found += [p.at for p in self.loads if p.at is not None and p.link == link]
+        springs = (load for load in in_case(self.case).loads if isinstance(load, Spring))
+        found += [self.places[s.to] for s in springs if (s.against or self.case.ground) == link]
         return list(dict.fromkeys(found))
 
 
@@ -94,10 +97,11 @@ def _loads(known: Known, figure: SpatialFigure) -> tuple[Push, ...]:
             value = answers[load.name].value
         where = "" if isinstance(load, SpatialTorque | TorqueVector) else load.at
         at = figure.places[where] if where else None
+        end = figure.places.get(other_end(load), at) if where else None
         direction: Vec = w.unit[:3] if where else w.unit[3:]
         push = times((value or 0.0) * w.gain, direction)
         force, couple = (push, ZERO) if where else (ZERO, push)
         unit = unit_of(load, known.case)
-        acts = (load.name, load.link, w.against, at, where, direction, force, couple)
+        acts = (load.name, load.link, w.against, at, end, where, direction, force, couple)
         found.append(Push(*acts, value, unit, number is None, way_words(w)))
     return tuple(found)
