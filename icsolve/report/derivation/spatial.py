@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from icsolve.case import Case, Spring
+from icsolve.case import Case
 from icsolve.case.space import SpatialTorque, TorqueVector
 from icsolve.errors import SceneError
 from icsolve.report.derivation.known import Known, other_end
@@ -56,8 +56,7 @@ class InSpace(NamedTuple):
             self.places[c] for j in in_case(self.case).joints for c in _centres(j, link) if c in self.places
         ]
         found += [p.at for p in self.loads if p.at is not None and p.link == link]
-        springs = (load for load in in_case(self.case).loads if isinstance(load, Spring))
-        found += [self.places[s.to] for s in springs if (s.against or self.case.ground) == link]
+        found += [p.end for p in self.loads if p.end not in (None, p.at) and p.against == link]
         return list(dict.fromkeys(found))
 
 
