@@ -58,6 +58,34 @@ def test_moodle_in_its_common_languages(a_class: Class, language: str) -> None:
     assert marks(a_class.grade(table, "--map", f"{column}=lever")) == RIGHT
 
 
+ENDED = {
+    "English": ("28 February 2025  11:30 PM", "1 March 2025  9:05 AM"),
+    "German": ("28. Februar 2025 23:30", "1. März 2025 09:05"),
+    "French": ("28 février 2025, 23:30", "1 mars 2025, 09:05"),
+    "Spanish": ("28 de febrero de 2025, 23:30", "1 de marzo de 2025, 09:05"),
+    "Italian": ("28 febbraio 2025, 23:30", "1 marzo 2025, 09:05"),
+    "Portuguese": ("28 de fevereiro de 2025 23:30", "1 de março de 2025 09:05"),
+    "Dutch": ("28 februari 2025 23:30", "1 maart 2025 09:05"),
+}
+"""When two attempts of a student were handed in, as Moodle writes it."""
+
+
+@pytest.mark.parametrize("language", MOODLE)
+def test_the_last_attempt_on_moodle_is_the_one_handed_in_last(a_class: Class, language: str) -> None:
+    """In whichever order the rows stand; nothing is noted, for nothing is in doubt."""
+    header = MOODLE[language]
+    d = ";" if ";" in header else ","
+    column = header.split(d)[-1]
+    before, last = ENDED[language]
+    rows = [f'A{d}Ann{d}a@x.test{d}x{d}{d}"{time}"{d}{d}1{d}{answer}' for time, answer in
+            ((before, "200"), (last, "-200"))]  # fmt: skip
+    for lines in (rows, rows[::-1]):
+        for which, verdict in (("last", "wrong"), ("first", "right")):
+            table = "\n".join([header, *lines]) + "\n"
+            ran = a_class.grade(table, "--map", f"{column}=lever", "--attempt", which)
+            assert (marks(ran), ran.err) == ({("a@x.test", "lever"): verdict}, "")
+
+
 ID_NUMBERS = {
     "German": "Nachname,Vorname,ID-Nummer,E-Mail-Adresse,Status,Begonnen am,Antwort 1",
     "French": "Nom,Prénom,Numéro d\u2019identification,Adresse de courriel,Statut,Commencé le,Réponse 1",

@@ -90,7 +90,8 @@ FIELDS = {
         "submitted_at": "submitted_at|submitted at|submitted|submission time|timestamp|time|zeitstempel"
         "|horodateur"
         "|marca temporal|informazioni cronologiche|completion time|fertigstellungszeit|heure de fin"
-        "|hora de finalización|ora di completamento|attempt end",
+        "|hora de finalización|ora di completamento|attempt end|completed|beendet|terminé|finalizado"
+        "|terminato|completato|completo|voltooid",
         "email": "email|email address|e-mail-adresse|e-mail address|e-mail|username|sis login id"
         "|adresse de courriel|adresse e-mail|adresse de messagerie|courriel|dirección de correo"
         "|correo electrónico|dirección de correo electrónico|indirizzo email|indirizzo e-mail"
