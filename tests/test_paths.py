@@ -68,7 +68,8 @@ def spellings(path: str) -> Iterator[str]:
 
 def other(number: Number) -> list[str]:
     """Another value, in all units that it may need."""
-    value = 2.0 * number.value if "teeth" in number.path else number.value * (1.0 + 1e-6) or 1e-6
+    whole = number.bound in ("teeth", "turns")
+    value = 2.0 * number.value or 1.0 if whole else number.value * (1.0 + 1e-6) or 1e-6
     return [f"{value!r}{unit}" for unit in ("", " kg", " kg*m^2", " W")]
 
 

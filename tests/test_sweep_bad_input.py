@@ -22,7 +22,7 @@ from icsolve.scene.sensitivity import numbers_of
 from icsolve.sweep import request
 from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.request import RequestError
-from shell import exit_status
+from shell import Shell, exit_status
 from sizes import sampled
 from test_sweep_command import PRESS, press
 
@@ -299,3 +299,27 @@ def test_what_no_case_may_have_no_row_has() -> None:
                 with pytest.raises(ValueError, match=re.escape(f" should {said}")):
                     icsolve.sweep(case, {path: [number.value, value]})
     assert told >= 20
+
+
+@pytest.mark.parametrize("word", ["dead", "max", "F=50", "rest", "neutral", "hold"])
+@pytest.mark.parametrize("path", ["joints.2-3.teeth.1", "joints.A-O-B.turns.O"])
+def test_no_position_is_found_at_a_part_of_a_tooth_or_of_a_turn(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, word: str, path: str
+) -> None:
+    """No case may have there what lies between whole numbers; a row of each has its answer."""
+    pull = "98" if word in ("rest", "neutral", "hold") else "unknown"
+    text = f"""icsolve: 1
+points: {{A: [-1, 0.3], O: [0, 0], B: [1, 0.3], D: [3, 0]}}
+joints:
+  - {{rope: [A, O, B], on: [4, 1], radii: {{O: 0.3}}, wraps: {{O: ccw}}, turns: {{O: 1}}, mu: {{O: 0.1}}}}
+  - {{slide: [4, 1], at: A, along: 0}}
+  - {{slot: [4, 2], at: A, along: 90}}
+  - {{pin: [2, 1], at: O}}
+  - {{pin: [3, 1], at: D}}
+  - {{gears: [2, 3], teeth: [20, 40]}}
+loads: {{W: {{torque: 30, link: 3}}, F: {{force: {pull}, at: B}}}}
+"""
+    file = tmp_path / "train.yaml"
+    file.write_text(text)
+    run = Shell(capsys)("sweep", file, "--vary", f"{path}=1:60:1", "--find", word)
+    assert run.code == 2 and "is whole" in run.err

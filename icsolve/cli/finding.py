@@ -77,7 +77,7 @@ def finding(case: Case, word: str, varied: Mapping[str, Values], driven: Mapping
     from icsolve.sweep.request import along_of, columns_of
 
     columns = columns_of(case, varied, driven)
-    own = along_of(columns)
+    own = along_of(case, columns)
     if word in EQUILIBRIUM:
         values = columns.arrays[own]
         return _equilibrium(case, word, own, float(values.min()), float(values.max()))

@@ -91,7 +91,7 @@ def find(
     """
     refuse_no_case(case)
     columns = columns_of(case, vary, drive)
-    along = along_of(columns)
+    along = along_of(case, columns)
     loads = loads_to_find(case)
     if query.load not in {"", *loads}:
         raise RequestError(

@@ -108,10 +108,10 @@ def columns_of(
     return found
 
 
-def along_of(columns: Columns) -> str:
+def along_of(case: Case, columns: Columns) -> str:
     """The one number (its path), or link, whose values are not all the same.
 
-    Raises ValueError where none varies, or several do.
+    Raises ValueError where none varies, or several do, and where no case has what lies between its values.
     """
     varying = [name for name, array in columns.arrays.items() if np.ptp(array) > 0.0]
     if not varying:
@@ -119,7 +119,11 @@ def along_of(columns: Columns) -> str:
         raise RequestError(f"positions are found along a range, and {name} has one value: give FROM:TO:STEP")
     if len(varying) > 1:
         raise RequestError("positions are found along one varied number")
-    return varying[0]
+    own = varying[0]
+    if own in columns.paths and any(limit.than == "whole" for limit in BOUNDS[number_at(case, own).bound]):
+        said = f"{shown(columns.names[own])} is whole: vary it for a row of each"
+        raise RequestError(f"positions are found along numbers that may have any value, and {said}")
+    return own
 
 
 @lru_cache(maxsize=256)
