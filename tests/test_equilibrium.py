@@ -3065,24 +3065,3 @@ def test_two_scissors_under_one_table_rest_as_one_does(seed: int, looked: list[I
     assert wanted and found == pytest.approx(wanted, abs=0.1)
     past = [cells.low.size for cells in looked if cells.low.min() > 90.1]
     assert past and max(past) == 256
-
-
-IMMOVABLE = """icsolve: 1
-points: {A: [0, 0], D: [3, 0], C: [2, 1]}
-lengths: {AB: 2.2}
-angles: {AB: FREE}
-joints: [{pin: [1, 2], at: A}, {pin: [1, 3], at: D}, {JOINT}]
-loads: {W: {weight: 10, link: 2, at: B}, V: {weight: 5, link: 3, at: C}}
-"""
-TOUCHING = [f"contact: {links}, at: C, normal: {angle}" for links, angle in (([3, 2], 90), ([2, 3], 60))]
-
-
-@pytest.mark.parametrize("joint", [*TOUCHING, "centre: [2, 3], at: [1, 0]"])
-def test_what_is_known_in_one_position_alone_is_refused_as_that_wherever_it_is_written(joint: str) -> None:
-    """It was first told to give a `from`, and then that no `from` would do."""
-    told = set()
-    for free in ("unknown", "{unknown: [0, 90]}", "{unknown: [0, 90], from: 26.57}"):
-        with pytest.raises(SceneError, match="cannot be moved") as refused:
-            icsolve.solve(icsolve.load(IMMOVABLE.replace("FREE", free).replace("JOINT", joint)))
-        told.add((refused.value.status, refused.value.message))
-    assert len(told) == 1

@@ -53,7 +53,6 @@ from icsolve.structure import topology, welded
 from icsolve.structure.torn_points import torn_points
 from icsolve.sweep.varied_numbers import find_number, points_of
 from icsolve.tuples import NamedTuple, replace
-from icsolve.wording.joints import why_not_moved
 
 BESIDE = 5e-4
 """Beside a change point a branch is looked at in steps of this fraction of the range."""
@@ -416,13 +415,9 @@ def _moving_from(
 
 
 def refuse_unwritten(case: Case, path: str, links: Sequence[str], bounded: bool) -> None:
-    """Refuse what counts from a position as written, on links that turn, where none is written; what is known
-    in that alone, wherever it is written; and a torsion spring whose turns nothing counts from, not even the
-    middle of a range."""
+    """Refuse what counts from a position as written, on links that turn, where none is written; and a torsion
+    spring whose turns nothing counts from, not even the middle of a range."""
     turning = set(links)
-    for joint in case.joints:
-        if not (joint.stays_known or isinstance(joint, Rolling) or turning.isdisjoint(joint.links)):
-            raise SceneError(Status.UNSUPPORTED, why_not_moved(joint))
     for what, link in _history(case):
         if link in turning:
             raise SceneError(
@@ -464,10 +459,12 @@ def _history(case: Case) -> Iterator[tuple[str, str]]:
     """What counts from a position as written, with a link on which it does."""
     for joint in case.joints:
         pair = "-".join(joint.links[:2])
-        if isinstance(joint, Rolling | Mesh):
+        if isinstance(joint, Rolling | Mesh) or joint.stands_in:
             yield from ((f"the joint of links {pair}", link) for link in joint.links)
         elif joint.guide is not None and joint.guide.angle is not None:
             yield f"the guide of links {pair} by degrees", joint.links[1]
+        elif not joint.stays_known:
+            yield from ((f"the normal of links {pair}", link) for link in joint.links)
     yield from _history_of_loads(case)
     frame = {*welded(case, case.ground)}
     for name in case.given_places:
