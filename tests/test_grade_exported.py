@@ -178,3 +178,38 @@ def test_a_missing_unit_costs_on_moodle_what_it_costs_for_grade(credit: str, a_c
     score = task.grade("", f"{task._key('').value!r}")["score"]
     assert (question.findtext("unitgradingtype"), task.grade("", task.right())["score"]) == ("1", 1.0)
     assert 1.0 - float(question.findtext("unitpenalty") or "nan") == pytest.approx(score)
+
+
+TRAIN = """\
+icsolve: 1
+points: {A: [0, 0], B: [68, 0]}
+joints: [{pin: [1, 2], at: A}, {pin: [1, 3], at: B}, {gears: [2, 3], teeth: [17, 51]}]
+loads: {T2: {torque: 10, link: 2}, T3: {torque: unknown, link: 3}}
+"""
+COURSES = [
+    "malrules: {sign: 50%, power-of-ten: 25%}",
+    "tolerance: 5%\nmalrules: {sign: 50%}",
+    "credit: {number: 60%, unit: 20%, direction: 20%}",
+    "credit: {number: 50%, unit: 25%, direction: 25%}\nmalrules: {half: 90%}\ntolerance: 3 sf",
+]
+
+
+@pytest.mark.parametrize("course", COURSES)
+def test_a_known_mistake_is_worth_on_moodle_what_grade_gives_for_it(course: str, a_class: Class) -> None:
+    """To the nearest of the fractions that Moodle knows, which lie 17 % apart at most."""
+    a_class.case("train", TRAIN)
+    a_class.course(f'{course}\ncases: {{train: {{points: 1}}, "train:w3/w2": {{points: 1}}}}\n')
+    path, out = a_class.path("cases/train.yaml"), a_class.path("quiz.xml")
+    a_class.run("export", "moodle-xml", path, "-o", out, "--no-figures")
+    task = Task(path, course=read_course(a_class.path("cases/course.yaml")))
+    compared = 0
+    for question in ElementTree.parse(out).getroot().iter("question"):
+        name = question.findtext("name/text") or ""
+        what, unit = ("w3/w2" if "w3/w2" in name else ""), question.findtext("units/unit/unit_name") or ""
+        for answer in question.iter("answer"):
+            value, share = answer.findtext("text") or "*", float(answer.get("fraction") or 0)
+            if value != "*" and share < 100.0:
+                judged = task.grade(what, f"{value} {unit}")
+                compared += 1
+                assert abs(100.0 * judged["score"] - share) <= 8.5, (name, value)
+    assert compared > 6

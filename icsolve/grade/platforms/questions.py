@@ -19,10 +19,11 @@ from collections.abc import Iterable, Iterator
 
 from icsolve.case import Case
 from icsolve.case.expected import LoadIs, PositionIs, ReactionIs, SpeedIs, Target
-from icsolve.grade.judge import share_of
+from icsolve.grade.judge import judge, share_of
 from icsolve.grade.keys import AnyKey, ChoiceKey, NumberKey, PlaceKey, RangeKey, numbers_of
 from icsolve.grade.mistakes.lookup import ORDER, Wrong, message
-from icsolve.grade.written.words import factors_between
+from icsolve.grade.written.answer import WrittenAnswer
+from icsolve.grade.written.words import factors_between, unit_word
 from icsolve.numbers.units import parse_unit
 from icsolve.tuples import NamedTuple
 from icsolve.wording import direction_words, escaped
@@ -175,12 +176,13 @@ def _answer(fraction: float, value: float, tolerance: float, feedback: str) -> s
 
 
 def wrong_rows(question: Question) -> Iterator[tuple[Wrong, float, float]]:
-    """Known wrong answers, simplest first, with their shares in percent and absolute tolerances; none that
-    another reading makes right.
+    """Known wrong answers, simplest first, with the shares that `grade` gives them in percent and absolute
+    tolerances; none that another reading makes right.
 
     Moodle takes the first row that matches, so the right answer stands before them.
     """
     key, right = question.key, list(rights(question))
+    unit = unit_word(key.unit_name)
     ordered = sorted(key.wrongs.all, key=lambda w: (ORDER[w.code], _decades(w.value, key.value), w.value))
     seen: list[float] = []
     counts: Counter[str] = Counter()
@@ -191,7 +193,7 @@ def wrong_rows(question: Question) -> Iterator[tuple[Wrong, float, float]]:
         if counts[wrong.code] < _MOST_OF_ONE and all(abs(wrong.value - other) > reach for other in seen):
             seen.append(wrong.value)
             counts[wrong.code] += 1
-            share = 100.0 * key.policy.mistakes.get(wrong.code, 0.0)
+            share = 100.0 * judge(key, WrittenAnswer(wrong.value, unit, None)).share
             yield wrong, min(_FRACTIONS, key=lambda f: abs(f - share)), reach
 
 
