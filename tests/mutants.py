@@ -77,6 +77,7 @@ EQUIVALENT: dict[str, str] = {
     "icsolve/statics/reaction_basis.py thread #6: rise * rise -> rise / rise": "a unit's length cancels out",
     "icsolve/statics/equilibrium.py Equilibrium.open_sizes #0: 1.0 -> 2.0": "rounding is far below",
     "icsolve/kinematics/centres.py CentreFinder._centre #15: 1000.0 -> 1500.0": "far from both",
+    "icsolve/assembly/loci.py Axis.placed #1: 0.0 -> 1.0": "another point of the same line",
     "icsolve/assembly/walk.py places_of #4: 1.0 -> 2.0": "the size beside which a double is zero to 1e-40",
     "icsolve/statics/reaction_basis.py _as_it_moves #1: size <= 1e-09 -> size < 1e-09": "none is so slow",
     "icsolve/statics/reaction_basis.py _as_it_moves #3: 1e-09 * size -> 1e-09 / size": "none lies between",

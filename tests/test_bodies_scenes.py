@@ -695,3 +695,18 @@ loads: {T: {torque: 5.900000, link: 2}}
         solved(text)
     assert caught.value.status == "unbalanced"
     assert solved(text.replace("5.9", "6.0")).reactions is not None
+
+
+@pytest.mark.parametrize("arm", ["2.1", "2.100000000000000"])
+def test_loads_that_balance_to_a_billionth_are_told_so_however_few_decimals_the_figure_has(arm: str) -> None:
+    """What is left is told as small, before what the decimals of the figure might explain."""
+    (note,) = icsolve.solve(
+        icsolve.load(f"""icsolve: 1
+points: {{A: [0, 0], B: [{arm}, 0.4], C: [-1.3, 0.2]}}
+joints: [{{pin: [1, 2], at: A}}]
+loads:
+  P: {{force: 1.300000000000000, link: 2, at: B, angle: 90}}
+  Q: {{force: 2.100000001050000, link: 2, at: C, angle: 90}}
+""")
+    ).notes
+    assert "but for a fraction of 5e-10 of what they do" in note
