@@ -256,6 +256,12 @@ class TorsionSpring(NamedTuple):
 Load = Force | ForceVector | Torque | Weight | Spring | TorsionSpring
 
 
+def aim_of(load: object) -> str:
+    """The point that a load is toward or away from, or to which a spring goes, in the plane or in space, at
+    which its opposite acts too; '' of others."""
+    return str(getattr(load, "to", None) or getattr(getattr(load, "heading", None), "point", None) or "")
+
+
 def name_of_inertia(name: str) -> bool:
     """Whether a load stands for the inertia of a link: one of the file has no blank in its name."""
     return name.startswith("inertia ")

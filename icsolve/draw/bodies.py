@@ -10,6 +10,7 @@ import shapely
 
 from icsolve.answer.bodies import Reaction
 from icsolve.case import is_link, told_links
+from icsolve.case.loads import aim_of
 from icsolve.draw.frame import point_parts, rims
 from icsolve.draw.links import bars, body_of, link_part, wheel_parts
 from icsolve.draw.loads import ARC, axle, heads, hidden, is_no_inertia, kind_of, ways
@@ -30,7 +31,7 @@ from icsolve.draw.marks import (
 from icsolve.draw.place import Label, Soft, joined, nearest
 from icsolve.draw.scene import Part, Scene, around, together, with_labels
 from icsolve.draw.words import force_runs, name_runs, quantity
-from icsolve.report.derivation.known import Acting, acting_loads, other_end, pulls_on
+from icsolve.report.derivation.known import Acting, acting_loads, pulls_on
 from icsolve.tuples import NamedTuple
 
 LONGEST = 78.0
@@ -190,7 +191,7 @@ def _load(scene: Scene, acting: Acting, sign: float) -> DrawnPush:
     words = (*name_runs(acting.load.name), TextRun(f" = {quantity(value, unit)}"))
     place = acting.at
     if place is not None and sign < 0.0:
-        place = scene.known.points.get(other_end(acting.load), place)
+        place = scene.known.points.get(aim_of(acting.load), place)
     at = (axle(scene, link) or (0.0, 0.0)) if place is None else scene.view.at(place)
     return DrawnPush(name, words, kind, at, (sign * x, -sign * y), sign * acting.couple)
 

@@ -10,7 +10,7 @@ import shapely
 
 from icsolve.case import Area as Face
 from icsolve.case import Force, Load, Number, Screw, Spring, Stretch, TorsionSpring, Weight, is_link
-from icsolve.case.loads import name_of_inertia
+from icsolve.case.loads import aim_of, name_of_inertia
 from icsolve.draw.links import guide_in_picture
 from icsolve.draw.marks import (
     AreaMark,
@@ -31,7 +31,7 @@ from icsolve.draw.place import Label, Soft, area, joined
 from icsolve.draw.scene import BLOCK, HALF, RAIL, Part, Scene
 from icsolve.draw.words import figure_number, name_runs, quantity, unit_word
 from icsolve.numbers import FLOATS
-from icsolve.report.derivation.known import Acting, acting_loads, other_end
+from icsolve.report.derivation.known import Acting, acting_loads
 from icsolve.statics.load_wrenches import direction
 from icsolve.tuples import NamedTuple
 from icsolve.wording import sense_of
@@ -147,7 +147,7 @@ def _and_opposite(scene: Scene, acting: Acting, part: Part, u: Point) -> Part:
     """A force along ``u`` with the opposite one, where it acts between two links."""
     if acting.against == scene.case.ground:
         return part
-    name = other_end(acting.load)
+    name = aim_of(acting.load)
     partner = name if name in scene.at else str(getattr(acting.load, "at", ""))
     tail = along(scene.at[partner], u, -8.0)
     tip = along(tail, u, -ARROW)

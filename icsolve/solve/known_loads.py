@@ -232,11 +232,11 @@ def _held(said: SaidCase, load: str, alone: bool | HeldAt) -> Held:
         return NOWHERE if parts else Held(found.value, found.value, found.error or 0.0)
     largest = largest_of([end for end in found.holds if math.isfinite(end)])
     error = UNPROVEN * largest if found.error is None else found.error
-    proven = friction is not None and friction.unique == PROVEN
     if friction is None or friction.possible is None:
-        return Held(*found.holds, error, proven=proven)
-    again = friction.again if friction.grown is None else friction.grown
-    return Held(*found.holds, error, (friction.possible, *friction.again), again, friction.shared, proven)
+        return Held(*found.holds, error)
+    again, possible = friction.again if friction.grown is None else friction.grown, friction.possible
+    proven = friction.unique == PROVEN
+    return Held(*found.holds, error, (possible, *friction.again), again, friction.shared, proven)
 
 
 def _of_all(case: Case) -> Held:

@@ -21,6 +21,7 @@ from icsolve.case import (
     is_link,
     is_named,
 )
+from icsolve.case.loads import aim_of
 from icsolve.numbers import turn_of
 
 if TYPE_CHECKING:
@@ -231,8 +232,7 @@ def way_of(
         return None if degrees is None else (*turn_of(degrees), 0.0)
     start, end = start or places.get(getattr(load, "at", "")), places.get(rest.removeprefix("from "))
     if lead in ("pull", "push"):
-        heading = getattr(load, "heading", None)
-        end = places.get(heading.point if isinstance(heading, Toward) else getattr(load, "to", ""))
+        end = places.get(aim_of(load))
     elif lead in ("along", "about"):
         one, _, other = rest.partition(" to ")
         start, end = places.get(one), places.get(other)

@@ -291,11 +291,6 @@ def _size(points: Mapping[str, Point]) -> float:
 # --- what loads exert ------------------------------------------------------------------------------------
 
 
-def other_end(load: object) -> str:
-    """The point at which the opposite of a load acts: that which it is toward, or '' for its own."""
-    return str(getattr(load, "to", None) or getattr(getattr(load, "heading", None), "point", None) or "")
-
-
 class Acting(NamedTuple):
     """A load as it acts on ``link``; the opposite acts on ``against``.
 

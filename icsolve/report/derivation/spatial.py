@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from icsolve.case import Case
+from icsolve.case.loads import aim_of
 from icsolve.case.space import SpatialTorque, TorqueVector
 from icsolve.errors import SceneError
-from icsolve.report.derivation.known import Known, other_end
+from icsolve.report.derivation.known import Known
 from icsolve.screws.space import ZERO, Vec, times
 from icsolve.statics.power import known_value
 from icsolve.statics.space.power import wrenches
@@ -96,7 +97,7 @@ def _loads(known: Known, figure: SpatialFigure) -> tuple[Push, ...]:
             value = answers[load.name].value
         where = "" if isinstance(load, SpatialTorque | TorqueVector) else load.at
         at = figure.places[where] if where else None
-        end = figure.places.get(other_end(load), at) if where else None
+        end = figure.places.get(aim_of(load), at) if where else None
         direction: Vec = w.unit[:3] if where else w.unit[3:]
         push = times((value or 0.0) * w.gain, direction)
         force, couple = (push, ZERO) if where else (ZERO, push)
