@@ -883,6 +883,35 @@ def test_solutions_found_in_parts_are_those_of_the_whole() -> None:
     assert several
 
 
+@pytest.mark.parametrize("pins", [0, 1])
+def test_forces_along_lines_are_found_by_linear_equations(pins: int) -> None:
+    """The same as of pins whose forces happen to lie in one line, which are searched for; without a pin
+    nothing is searched."""
+    rng = Random(f"lines {pins}")
+    several = 0
+    for _ in range(10 * MORE):
+        n = rng.choice((2, 3))
+        forms = [tuple(rng.uniform(-1.5, 1.5) for _ in range(n + 1)) for _ in range(n + pins)]
+        across = [(0.0,) * (n + 1)] * n + [forms.pop() for _ in range(pins)]
+        told = [(form,) if k >= pins else (form, across[-1]) for k, form in enumerate(forms)]
+        both = [(form, across[-1] if k < pins else across[k]) for k, form in enumerate(forms)]
+        found, boxes = homotopy.together(fixed_point(told, (False,) * n), homotopy.MOST_BOXES)
+        searched, _ = homotopy.together(fixed_point(both, (False,) * n), homotopy.MOST_BOXES)
+        assert found is not None and searched is not None and len(found) == len(searched)
+        assert all(any(homotopy.near(y, other) for other in searched) for y in found)
+        assert (boxes == 0) == (pins == 0)
+        several += len(found) > 1
+    assert several
+
+
+def test_a_contact_that_would_have_to_pull_is_no_solution() -> None:
+    """y = |1 - 2 y|, z = |y|: 1/3 and 1, of which a contact has the one in which its force presses."""
+    forms = [((1.0, -2.0, 0.0),), ((0.0, 1.0, 0.0),)]
+    for pushes, expected in ((False, [1 / 3, 1.0]), (True, [1 / 3])):
+        found, _ = homotopy.together(fixed_point(forms, (pushes, False)), homotopy.MOST_BOXES)
+        assert sorted(y[0] for y in found or ()) == pytest.approx(expected, rel=1e-15)
+
+
 def rubs_at_random(seed: int, number: int) -> Iterator[Lengths]:
     """One to three rubs whose forces hang on one another."""
     rng = Random(seed)

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 
 from icsolve.numbers import largest_of
-from icsolve.numbers.linear import solve_square
+from icsolve.numbers.linear import null_space, solve_square
 from icsolve.statics.friction.equations import (
     Form,
     Lengths,
@@ -257,6 +257,8 @@ def together(equations: Lengths, most: int) -> tuple[list[Y] | None, int]:
     n, scale = len(equations.lengths), scale_at(equations, [0.0] * len(equations.lengths))
     if n == 1:
         return _sound(equations, [[scale * y] for y in _of_one(equations, scale)]), 0
+    if (rough := _of_lines(equations, scale)) is not None:
+        return _sound(equations, rough), 0
 
     import numpy as np
 
@@ -269,17 +271,20 @@ def together(equations: Lengths, most: int) -> tuple[list[Y] | None, int]:
     least = EQUAL * max(float(np.abs(matrix).max()) for matrix in matrices)
     signed = [k for k, form in enumerate(equations.lengths) if form != own_length(k, n)]
     rough, boxes = [], 0
-    for signs in product((1.0, -1.0), repeat=len(signed)):
+    for signs, senses in product(product((1.0, -1.0), repeat=len(signed)), product(*_senses(equations))):
         turn = np.ones(n + 1)
         turn[[1 + k for k in signed]] = signs
         hessian = np.zeros((n + 1, n + 1, n + 1))
         constant, gradient = np.zeros(n + 1), np.zeros((n + 1, n + 1))
         constant[n], gradient[n] = -1.0, 1.0
         for k, matrix in enumerate(matrices):
-            if (largest := float(np.abs(matrix).max())) > least:
+            if (largest := float(np.abs(matrix).max())) <= least:
+                gradient[k, 1 + k] = 1.0  # nothing presses, whatever the load is: none
+            elif senses[k]:
+                row = np.array(_line(equations, k, senses[k], scale)) * turn
+                gradient[k] = row / (float(np.abs(row).max()) or 1.0)
+            else:
                 hessian[k] = matrix * np.outer(turn, turn) / largest
-            else:  # nothing presses, whatever the load is: none
-                gradient[k, 1 + k] = 1.0
         zeros = every_zero(
             Quadratics(constant, gradient, hessian), np.zeros(n + 1), np.ones(n + 1), most - boxes
         )
@@ -288,6 +293,38 @@ def together(equations: Lengths, most: int) -> tuple[list[Y] | None, int]:
             return None, boxes
         rough += [scale * turn[1:] * u[1:] / u[0] for u in zeros.found if u[0] > AT_INFINITY]
     return _sound(equations, [[float(part) for part in y] for y in rough]), boxes
+
+
+def _senses(equations: Lengths) -> list[tuple[float, ...]]:
+    """Of each rub in which senses its force may press: of a contact one, of a guide two; none of a pin."""
+    both = zip(equations.vectors, equations.touching, strict=True)
+    return [(0.0,) if len(forms) != 1 else (1.0,) if only else (1.0, -1.0) for forms, only in both]
+
+
+def _line(equations: Lengths, k: int, sense: float, scale: float) -> list[float]:
+    """l - sense v, which is zero where a force along a line presses that way, in w and z."""
+    (form,) = equations.vectors[k]
+    row = [a - sense * b for a, b in zip(equations.lengths[k], form, strict=True)]
+    return [row[0] / scale, *row[1:]]
+
+
+def _of_lines(equations: Lengths, scale: float) -> list[list[float]] | None:
+    """The finite solutions where all forces that press act along lines of their own, as of contacts and on
+    guides: l = v or l = -v, linear equations for each choice of senses. None where there is a pin, or where
+    they have more than one solution for one choice.
+    """
+    if any(len(forms) != 1 for forms in equations.vectors):
+        return None
+    rough = []
+    for senses in product(*_senses(equations)):
+        rows = [_line(equations, k, sense, scale) for k, sense in enumerate(senses)]
+        space = null_space(rows, len(rows) + 1, EQUAL)
+        if len(space.basis) > 1:
+            return None
+        ((w, *z),) = space.basis
+        if abs(w) > AT_INFINITY * sum(map(abs, (w, *z))):
+            rough.append([scale * a / w + 0.0 for a in z])  # no zero is -0.0
+    return rough
 
 
 def _of_one(equations: Lengths, scale: float) -> list[float]:
