@@ -382,6 +382,41 @@ loads:
     assert held(text, "P").holds == (exactly(least), math.inf)
 
 
+def test_of_two_ranges_the_one_of_the_larger_loads_is_told_however_the_wall_is_turned() -> None:
+    """Pressed from either side it holds: at every whole degree W / mu is where the range begins."""
+    for tilt in range(0, 180, 1 if FULL else 3):
+        text = f"""
+points: {{A: [0, 0]}}
+joints:
+  - {{slide: [2, 1], at: A, along: {tilt}, mu: 0.3}}
+loads:
+  W: {{force: 30, link: 2, at: A, angle: {tilt}}}
+  P: {{force: unknown, link: 2, at: A, angle: {tilt + 90}}}
+"""
+        assert held(text, "P").holds == (exactly(100.0), math.inf), tilt
+
+
+@pytest.mark.parametrize("down", [30, 90, -60])
+@pytest.mark.parametrize(("mu", "nu"), [(0.3, 0.05), (0.27, 0.11), (0.06, 0.3)])
+def test_force_that_presses_a_block_between_two_faces(mu: float, nu: float, down: int) -> None:
+    """It holds what pushes the block where mu (F + V) + nu F >= W; V alone holds less than W, whichever way
+    it presses, and so does F while it takes V off the lower face."""
+    text = f"""
+points: {{A: [0, 0], B: [0, 1]}}
+joints:
+  - {{slide: [2, 1], at: A, along: 0, mu: {mu}}}
+  - {{slide: [2, 3], at: B, along: 0, mu: {nu}}}
+  - {{slide: [3, 1], at: B, along: 90}}
+loads:
+  W: {{force: 100, link: 2, at: A, angle: 0}}
+  V: {{force: {down}, link: 2, at: A, angle: -90}}
+  F: {{force: unknown, link: 3, at: B, angle: -90}}
+"""
+    assert held(text, "F").holds == (exactly((100 - mu * down) / (mu + nu)), math.inf)
+    other = -(100 + mu * down) / (mu + nu)
+    assert any(f"beyond F = {other:.6g}, where it is about to move" in note for note in solved(text).notes)
+
+
 @pytest.mark.parametrize(("rough", "said"), [("", "and no friction does"), (", mu: 0.3", "that it makes")])
 def test_an_unknown_that_does_no_work_where_nothing_rubs_or_what_rubs_does_not_balance(
     rough: str, said: str

@@ -388,28 +388,26 @@ def pressed(statics: Statics, senses: Sequence[float], driven: bool, within: Wit
     if told is None:
         least = of_limits(statics, senses, found, False, toward=max(ends, default=0.0))
         return least._replace(presses=True, self_locking=False)
-    own, others = found.nearest(_value_inside(told.least, told.most))
+    own, others = found.nearest(max(0.0, 2.0 * told.least, told.least + 1.0))  # well inside
     possible = _same_ends(statics, (own.low, own.high), (told.least, told.most))
     return _with_grown(statics, senses, told._replace(possible=possible, how=found.how, again=others))
 
 
 def _as_it_grows(statics: Statics) -> StaticRange | None:
-    """Where friction that is against the motion which the known loads drive is enough; None where nowhere."""
+    """From where on friction that is against the motion which the known loads drive is enough: the larger the
+    load, the more it presses, unless it presses nowhere; None where it is enough at no load.
+    """
     against, drive = _against(statics)
     senses = tuple([-a for a in against])
     equations = reduced_workless(statics, senses) if drive else None
     roots = None if equations is None else every.all_roots(equations.equations)
     if equations is None or roots is None:
         return None
-    moving = {load: equations.friction(y) for load, y in sorted((equations.load(y)[0], y) for y in roots)}
-    marks = [-math.inf, *moving, math.inf]
-    holding = [(a, b) for a, b in pairwise(marks) if a < b and _is_enough(statics, _value_inside(a, b))]
-    if not holding:
+    if not roots and not _is_enough(statics):
         return None
-    least, most = max(holding, key=lambda pair: (pair[1] == math.inf, pair[1]))
-    own = [end for end in (least, most) if math.isfinite(end)]
-    about_to_move = tuple(End(end / statics.scale, senses, moving[end]) for end in own)
-    both = (least / statics.scale, most / statics.scale)
+    end, y = max(((equations.load(y)[0], y) for y in roots), default=(-math.inf, ()))
+    about_to_move = (End(end / statics.scale, senses, equations.friction(y)),) if roots else ()
+    both = (end / statics.scale, math.inf)
     return StaticRange(*both, both, IMPENDING, ends=about_to_move, presses=True)
 
 
@@ -442,12 +440,6 @@ def _is_same(statics: Statics, end: float, other: float) -> bool:
     return abs(end - other) <= max(SAME * abs(end), LEFT * known)
 
 
-def _value_inside(a: float, b: float) -> float:
-    if a == -math.inf:
-        return b - max(1.0, abs(b)) if b < math.inf else 0.0
-    return a + max(1.0, abs(a)) if b == math.inf else (a + b) / 2.0
-
-
 def _against(statics: Statics) -> tuple[list[float], float]:
     """The senses of friction against the motion that the known loads drive, and their power."""
     (left,) = statics.general.left
@@ -456,15 +448,15 @@ def _against(statics: Statics) -> tuple[list[float], float]:
     return [-math.copysign(1.0, drive * p) if p else 0.0 for p in powers], drive
 
 
-def _is_enough(statics: Statics, load: float) -> bool:
+def _is_enough(statics: Statics) -> bool:
     """Whether the most power that friction can take against the motion is that of the known loads at least,
-    at a value of an unknown one that does no work [scaled]: also where the forces grow without bound."""
+    where an unknown one presses on nothing: also where the forces grow without bound."""
     (left,), (against, drive) = statics.general.left, _against(statics)
     limits = [rub.limit * a for rub, a in zip(statics.rubs, against, strict=True)]
     vectors = [
         tuple(
             (
-                row.get(statics.known, 0.0) + row.get(statics.root(0), 0.0) * load,
+                row.get(statics.known, 0.0),
                 *(row.get(statics.rub(k), 0.0) * limit for k, limit in enumerate(limits)),
             )
             for row in rows
