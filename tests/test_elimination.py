@@ -510,3 +510,13 @@ def test_the_deepest_point_of_inequalities_is_proven_by_their_shares(seed: int) 
 def test_forms_that_do_not_count_may_leave_no_point(least: float, depth: float) -> None:
     """x from ``least`` to 1, whatever the depth, that is (1 - x) / 2: without a point where least is more."""
     assert deepest([(1.0, -1.0), (-least, 1.0), (0.5, -0.5)], [0.0, 0.0, 1.0]).depth == depth
+
+
+@pytest.mark.parametrize("slope", [1e-9, 1e-13, 1e-17])
+def test_an_end_that_lies_far_out_is_none_near_by(slope: float) -> None:
+    """-1 <= x <= 1 / slope, of which x / 1000 is asked: it is 1 and more."""
+    found = deepest(
+        [(1.0, 1.0, 0.0), (1.0, -slope, 1.0), (1.0, 0.0, -1.0), (0.0, 1e-3, 0.0)], [0.0] * 3 + [1.0]
+    )
+    assert found.depth == 1.0
+    assert 999.999 <= found.point[0] <= 2.0 / slope

@@ -230,6 +230,65 @@ motion: {{point: B, link: bar, speed: 1, angle: 180}}
     assert refusal.value.status == "jam"
 
 
+def toggle(rise: float, pins: str, load: str, known: str = "F: {force: unknown") -> str:
+    """A rod that pushes a crank of 1 that is turned from its dead centre by a rise; P is as far as the crank
+    is long from the slider, which W pushes. The pins that rub are told."""
+    rough = {at: f", {rubs}" if at in pins else "" for at, rubs in (("A", RUBS), ("B", RUBS), ("C", RUBS))}
+    return f"""icsolve: 1
+points: {{A: [0, 0], B: [1, {rise!r}], C: [3, 0]}}
+joints:
+  - {{pin: [1, 2], at: A{rough["A"]}}}
+  - {{pin: [2, 3], at: B{rough["B"]}}}
+  - {{pin: [3, 4], at: C{rough["C"]}}}
+  - {{slide: [4, 1], at: C, along: 0, mu: 0.2}}
+loads:
+  V: {{force: 40, link: 4, at: C, angle: 90}}
+  W: {{force: 20, link: 4, at: C, angle: 0}}
+  {known}, {load}}}
+"""
+
+
+RUBS, CIRCLE = "mu: 0.36, radius: 0.05", 0.05 * math.sin(math.atan(0.36))
+
+
+@sampled(2, "share")
+@pytest.mark.parametrize("share", [1e-15, 1e-9, 1e-4, 0.3, 0.97, 1.03, 3.0])
+@pytest.mark.parametrize("angle", [0, 20])
+def test_a_rod_that_pushes_within_the_friction_circle_of_its_crank_locks(share: float, angle: int) -> None:
+    """The rod's line passes the pivot A within the circle: no push of the slider turns the crank, whichever
+    way. Beyond it the crank bears no push, and the slider's own friction alone holds what pushes it."""
+    rise = share * CIRCLE / 1.5  # a line from (1, rise) to (3, 0) passes (0, 0) at 1.5 rise
+    answer = icsolve.solve(icsolve.load(toggle(rise, "A", f"link: 4, at: C, angle: {angle}")))
+    found = answer.answers["F"]
+    if share < 1.0:
+        assert found.holds == (-math.inf, math.inf) and found.self_locking
+        return
+    turned = math.radians(angle)
+    along, across = math.cos(turned), math.sin(turned)
+    ends = [-(20 + way * 8) / (along + way * 0.2 * across) for way in (-1, 1)]
+    assert found.holds == pytest.approx(sorted(ends), rel=1e-12) and not found.self_locking
+
+
+@sampled(2)
+@pytest.mark.parametrize("rise", [1e-3, 1e-5, 1e-7, 1e-9, 1e-12, 1e-16, 1e-17])
+def test_beside_a_dead_centre_it_locks_on_both_sides_of_a_pin_without_load(rise: float) -> None:
+    """Pin B alone rubs, F pushes it along the rod: where (6 + d) rise = 1.5 r |d| it is about to move, with
+    the slider's friction of 8, F = d - 12 and the radius r of the friction circle. Between the two it may
+    move, to both sides it locks; in the end they lie closer together than doubles tell forces apart."""
+    answer = icsolve.solve(icsolve.load(toggle(rise, "B", "link: 3, at: B, angle: 0")))
+    low, high = answer.answers["F"].holds
+    first, second = (-12 - way * 6 * rise / (1.5 * CIRCLE + way * rise) for way in (1, -1))
+    assert low == -math.inf
+    assert high == (math.inf if rise < 1e-8 else pytest.approx(first, abs=3 * rise))
+    if high < math.inf:
+        (beyond,) = (note for note in answer.notes if "it holds too" in note)
+        assert float(beyond.split()[1]) == pytest.approx(second, abs=3 * rise + 1e-4)  # of six figures
+        assert beyond.split()[2] == "up"
+    for force in (-100, 0, 100):
+        known = toggle(rise, "B", "link: 3, at: B, angle: 0", f"F: {{force: {force}")
+        assert icsolve.solve(icsolve.load(known)).holds_still is True
+
+
 LEFT = "left the other way round at some joint"
 
 

@@ -163,13 +163,19 @@ def deepest(forms: Sequence[Form], counts: Sequence[float] | None = None) -> Dee
     counts : by how many times the depth each form is to exceed zero; without them all by it once
     """
     counts = [1.0] * len(forms) if counts is None else counts
-    found = _simplex(forms, counts)
-    if not found.is_proven(forms, counts):  # pivots add up roundings, of the point first
+    found = _simplex(forms, counts, exact=(small := _has_small(forms)))
+    if not (small or found.is_proven(forms, counts)):  # pivots add up roundings, of the point first
         found = _solved_again(found, forms, counts)
         if not found.is_proven(forms, counts):  # they led to rows that hang on each other
             found = _simplex(forms, counts, exact=True)
     point, shares = (tuple(map(float, own)) for own in (found.point, found.shares))
     return Deepest(float(found.depth), found.of, point, shares)
+
+
+def _has_small(forms: Sequence[Form]) -> bool:
+    """Whether a form has next to nothing of a variable, which floats take for rounding: of one without end it
+    counts all the same."""
+    return any(0.0 < abs(a) < CLOSE * largest_of(form[1:]) for form in forms for a in form[1:])
 
 
 def _solved_again(found: Deepest, forms: Sequence[Form], counts: Sequence[float]) -> Deepest:

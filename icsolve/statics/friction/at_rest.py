@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
+from itertools import cycle, pairwise
 from typing import TYPE_CHECKING
 
 from icsolve.answer import AboutToMove, Answer, Deferred, Found, Later
@@ -361,17 +362,28 @@ def notes_at_rest(root: str, found: StaticRange) -> Sequence[str]:
         side = "above" if math.isinf(found.most) else "below"
         why = "the harder it presses, the more it holds" if found.presses else "it locks that way"
         notes.append(f"no value of {root} {side} the range moves it, however large: {why}.")
+    grown = found.grown or ()
     for low, high in found.again:
         where = f"from {root} = {low:.6g} to {high:.6g}"
         if math.isinf(high - low):
             end = low if math.isinf(high) else high
             where = f"beyond {root} = {end:.6g}, where it is about to move too,"
-        notes.append(f"{where} it may hold again.")
-    for end, more in zip((found.least, found.most), found.possible, strict=True):
-        if end != more:
-            far = f"to {more:.6g}" if math.isfinite(more) else "up" if more > 0.0 else "down"
-            notes.append(
-                f"from {end:.6g} {far} it may still hold, if friction was left the other way round "
-                "at some joint (the end is that of impending motion)."
-            )
+        notes.append(f"{where} it {'holds' if (low, high) in grown else 'may hold'} again.")
+    for end, last, way in zip((found.least, found.most), found.possible, (-1, 1), strict=True):
+        beside = [[low, high][::way] for low, high in grown if way * end <= way * low <= way * last][::way]
+        parts = pairwise([end, *(at for part in beside for at in part), last])
+        for (start, more), said in zip(parts, cycle((MAY_HOLD, HOLDS_TOO))):
+            if start != more:
+                notes.append(f"from {start:.6g} {_as_far_as(more)} {said}")
     return notes
+
+
+MAY_HOLD = (
+    "it may still hold, if friction was left the other way round at some joint (the end is that of impending "
+    "motion)."
+)
+HOLDS_TOO = "it holds too."
+
+
+def _as_far_as(end: float) -> str:
+    return f"to {end:.6g}" if math.isfinite(end) else "up" if end > 0.0 else "down"

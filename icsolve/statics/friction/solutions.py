@@ -8,7 +8,7 @@ unknowns, whose zeros are found by exclusion in a box that holds them all.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import product
 
 from icsolve.numbers import largest_of
@@ -26,6 +26,7 @@ from icsolve.statics.friction.equations import (
     vector,
 )
 from icsolve.structure.plan import strongly_connected
+from icsolve.tuples import NamedTuple
 
 LONGEST = 0.125
 FINE = 1e-6
@@ -43,7 +44,7 @@ FARTHEST = 0.2
 def near(y: Sequence[float], other: Sequence[float], error: float = 0.0) -> bool:
     """Whether two solutions are one; ``error`` is that of one, where it is known."""
     size = largest_of((*y, *other))
-    return largest_of([a - b for a, b in zip(y, other, strict=True)]) <= max(1e-7, error) * size
+    return largest_of([a - b for a, b in zip(y, other, strict=True)]) <= max(SAME, error) * size
 
 
 def followed(equations: Lengths) -> tuple[Y | None, float, bool]:
@@ -99,12 +100,26 @@ def _followed(equations: Lengths) -> tuple[Y | None, float, bool]:
 def _moved(whole: Lengths, z: Y, change: Sequence[float] | None, step: float, ahead: float) -> Y | None:
     """The solution a step on: predicted along the tangent, corrected; None where the step was too long."""
     start = z if change is None else tuple([a + step * b for a, b in zip(z, change, strict=True)])
-    found = newton(_with(whole, z, ahead), start, STEPS)
+    system = _with(whole, z, ahead)
+    found = newton(system, start, STEPS)
+    if found is not None:
+        found = _on_its_side(system, found, z)
     if found is None or min((at(form, found) for form in whole.lengths), default=0.0) < -1e-10:
         return None
     here, far, before = (_pressing(whole, one) for one in (found, start, z))
     near_enough = math.dist(here, far) <= NEAR and math.dist(here, before) <= FARTHEST
     return _normed(found) if near_enough else None
+
+
+def _on_its_side(system: Lengths, found: Y, before: Y) -> Y:
+    """A solution, or the one beyond where a force vanishes beside it, if that is on the side it came from."""
+    for kink in _kinks(system, found, ASIDE):
+        forms = system.vectors[kink.rub]
+        other = newton(system, kink.beyond(found), STEPS)
+        one, two, from_ = (vector(forms, y) for y in (found, other or found, before))
+        if math.dist(two, from_) < math.dist(one, from_):
+            found = other or found
+    return found
 
 
 def _pressing(whole: Lengths, z: Y) -> Y:
@@ -145,6 +160,10 @@ MOST_BOXES = 100_000
 """A second or two of search."""
 BEGUN = 250
 """What a search of few boxes takes in time, in boxes."""
+ASIDE = 1e-2
+"""A force below this part of the largest may vanish beside a solution, and there is another beyond;"""
+SAME = 1e-7
+"""below this part of it the two are taken for one."""
 AT_INFINITY = 1e-9
 """Share of w in the coordinates of a solution below which it is one at infinity."""
 MOST_PARTS = 12
@@ -226,13 +245,83 @@ def all_roots(equations: Lengths) -> list[Y] | None:
 
 
 def _sound(equations: Lengths, rough: Iterable[Sequence[float]]) -> list[Y]:
-    """The solutions that Newton's method finds from rough ones, each once."""
-    found: list[Y] = []
-    for start in rough:
-        y = newton(equations, start)
-        if y is not None and is_sound(equations, y) and not any(near(y, other) for other in found):
-            found.append(y)
-    return found
+    """The solutions that Newton's method finds from rough ones, each once, and those about as far beyond
+    where a force vanishes beside them: there sizes are all but the same, and the forces are not.
+    """
+    found: list[tuple[Y, Y]] = []
+    starts = list(rough)
+    while starts:
+        y = newton(equations, starts.pop(0))
+        if y is None or not is_sound(equations, y):
+            continue
+        forces = (*y, *(part for forms in equations.vectors for part in vector(forms, y)))
+        if not any(near(forces, other) for _, other in found):
+            found.append((y, forces))
+            starts += [beyond for kink in _kinks(equations, y, ASIDE) if (beyond := kink.beyond(y))]
+    return [y for y, _ in found]
+
+
+class Kink(NamedTuple):
+    """Where one force that rubs vanishes, beside a solution or at it.
+
+    Attributes
+    ----------
+    rub : whose force that is
+    along : (rubs,), how the unknowns change along the line that the other equations leave them
+    at : where on it, from the solution
+    grows, rubs : how fast the unknown of that force grows along it, and the force itself
+    """
+
+    rub: int
+    along: tuple[float, ...]
+    at: float
+    grows: float
+    rubs: float
+
+    def beyond(self, y: Sequence[float]) -> Y:
+        """As far on the other side."""
+        return tuple([a + 2.0 * self.at * b for a, b in zip(y, self.along, strict=True)])
+
+    @property
+    def folds(self) -> bool:
+        """Whether two solutions meet there, or none is beside it: on both sides friction grows faster."""
+        return self.grows < self.rubs
+
+
+def _kinks(equations: Lengths, y: Y, within: float) -> Iterator[Kink]:
+    """Those that are no farther than this part of all unknowns."""
+    sizes = [math.hypot(*vector(forms, y)) for forms in equations.vectors]
+    least = within * largest_of((*y, *sizes))
+    for k in [k for k, size in enumerate(sizes) if size <= least and equations.vectors[k]]:
+        rows = slopes(equations, y)
+        others = [_of_size_one(row) for j, row in enumerate(rows) if j != k]
+        space = null_space(others, len(rows), EQUAL)
+        if len(space.basis) != 1:
+            continue
+        (along,) = space.basis
+        grows, *turns = (
+            sum(a * b for a, b in zip(form[1:], along, strict=True))
+            for form in (equations.lengths[k], *equations.vectors[k])
+        )
+        if not (rubs := math.hypot(*turns)):
+            continue
+        at = -sum(a * b for a, b in zip(vector(equations.vectors[k], y), turns, strict=True)) / rubs**2
+        if abs(at) * largest_of(along) <= least:
+            yield Kink(k, tuple(along), at, abs(grows), rubs)
+
+
+def _of_size_one(row: Sequence[float]) -> list[float]:
+    size = largest_of(row) or 1.0
+    return [a / size for a in row]
+
+
+def folds(equations: Lengths, y: Y) -> bool:
+    """Whether a solution is two that meet where a force vanishes: on both sides of it the mechanism locks."""
+    distinct, places = of_distinct(equations)
+    own = [0.0] * len(distinct.lengths)
+    for place, size in zip(places, y, strict=True):
+        own[place] = size
+    return any(kink.folds for kink in _kinks(distinct, tuple(own), SAME))
 
 
 def _part(equations: Lengths, part: Sequence[int], known: Mapping[int, float]) -> Lengths:

@@ -14,7 +14,7 @@ The ends of the range are the loads at which it is just that.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -63,6 +63,7 @@ class End(NamedTuple):
     pushes : whether every contact pushes there
     vertex : of an end of linear inequalities, which these are
     statics : whose equilibrium it is, of an end at which the teeth of the wheels push
+    locks : whether it is none: a force vanishes there, and on both sides the mechanism locks by it
     """
 
     value: float
@@ -71,6 +72,7 @@ class End(NamedTuple):
     pushes: bool = True
     vertex: Vertex | None = None
     statics: Statics | None = None
+    locks: bool = False
 
     def carrying(self, t: int) -> float:
         """Sign of the force in a mesh along its first unit; 1 where nothing is about to move."""
@@ -140,13 +142,13 @@ def static_range(
         return of_limits(statics, senses, within(), alone, ends)
     if all(_is_proven(end.statics or statics, senses) for end in ends):
         return range_of(ends)._replace(how=PROVEN)
-    if alone and all(math.isfinite(end.value) for end in ends):
+    if alone and all(math.isfinite(end.value) and not end.locks for end in ends):
         return range_of(ends)
     found = within()
     if not all(_is_held(found, end) for end in ends):  # doubles have lost the range of one about to move
         return range_of(ends)
     own, others = found.nearest(smooth_load(statics) or 0.0)
-    told = range_of([_kept(own, end, senses) for end in ends])
+    told = range_of([_kept(own, end, senses) for end in _past_locks(statics, own, ends, senses)])
     possible = _same_ends(statics, (own.low, own.high), (told.least, told.most))
     return _with_grown(statics, senses, told._replace(possible=possible, how=found.how, again=others))
 
@@ -165,6 +167,19 @@ def _kept(own: HeldRange, end: End, senses: Sequence[float]) -> End:
         if side * (end.value - value) > SAME * abs(value):
             return End(value, tuple(senses), vertex=vertex)
     return end
+
+
+def _past_locks(
+    statics: Statics, own: HeldRange, ends: Sequence[End], senses: Sequence[float]
+) -> Iterator[End]:
+    """The ends, in the place of one that is none the next beyond: the mechanism is about to move there, or
+    friction within its limits holds no farther."""
+    moving = _about_to_move(statics, senses) if any(end.locks for end in ends) else []
+    sides = zip(sorted(ends, key=lambda end: end.value), (-1.0, 1.0), own[:2], own.vertices, strict=True)
+    for end, side, last, vertex in sides:
+        beyond = [one for one in moving if side * end.value < side * one.value < side * last]
+        far = min(beyond, key=lambda one: side * one.value, default=None)
+        yield (far or at_vertex(last, vertex, senses)) if end.locks else end
 
 
 def at_vertex(value: float, vertex: Vertex, senses: Sequence[float] = ()) -> End:
@@ -255,7 +270,8 @@ def _about_to_move(statics: Statics, senses: Sequence[float]) -> list[End]:
         if equations is not None:
             by = well_told(statics, own, equations)
             roots = every.all_roots(by.equations) or ()
-            found += [End(by.load(y)[0] / statics.scale, own, by.friction(y)) for y in roots]
+            proper = [y for y in roots if not every.folds(by.equations, y)]
+            found += [End(by.load(y)[0] / statics.scale, own, by.friction(y)) for y in proper]
     return found
 
 
@@ -297,7 +313,7 @@ def impending(statics: Statics, senses: Sequence[float]) -> End:
     by = well_told(statics, senses, equations)
     y, share, grows = every.followed(by.equations)
     if y is not None:
-        return _moving(statics, by, senses, y)
+        return _moving(statics, by, senses, y)._replace(locks=every.folds(by.equations, y))
     far = SHORT * share
     short = equations.equations.scaled(far)
     last = every.followed(short)[0] or without_friction(equations.equations)
@@ -403,6 +419,7 @@ def _as_it_grows(statics: Statics) -> StaticRange | None:
     roots = None if equations is None else every.all_roots(equations.equations)
     if equations is None or roots is None:
         return None
+    roots = [y for y in roots if not every.folds(equations.equations, y)]
     if not roots and not _is_enough(statics):
         return None
     end, y = max(((equations.load(y)[0], y) for y in roots), default=(-math.inf, ()))
@@ -414,7 +431,8 @@ def _as_it_grows(statics: Statics) -> StaticRange | None:
 def _with_grown(statics: Statics, senses: Sequence[float], told: StaticRange) -> StaticRange:
     """A range with the parts beside it that hold however friction was left, of what friction within its
     limits can hold: they begin and end where it is about to move. Beside the range that is told, and beside
-    an end of another at which it is not about to move, friction has to have been left the other way round."""
+    an end of another at which it is not about to move, friction has to have been left the other way round;
+    not where there are two such ends, but for rounding in one place."""
     sides = [(told.most, told.possible[1], False), (told.least, told.possible[0], False)]
     sides = [side for side in sides if side[0] != side[1]]
     if not (sides or told.again):
@@ -423,10 +441,10 @@ def _with_grown(statics: Statics, senses: Sequence[float], told: StaticRange) ->
     for low, high in told.again:
         start, end = (low, high) if math.isfinite(low) else (high, low)
         sides.append((start, end, any(_is_same(statics, start, at) for at in moving)))
-    for start, end, holds in sides:
-        marks = [
-            at for at in moving if min(start, end) < at < max(start, end) and not _is_same(statics, start, at)
-        ]
+    for start, end, again in sides:
+        here = [at for at in moving if _is_same(statics, start, at)]
+        holds = again or len(here) == 2
+        marks = [at for at in moving if min(start, end) < at < max(start, end) and at not in here]
         marks.sort(reverse=end < start)
         parts = enumerate(pairwise([start, *marks, end]))
         found += [(min(part), max(part)) for n, part in parts if (n % 2 == 0) is holds]
