@@ -319,6 +319,41 @@ def test_a_table_holds_as_long_as_its_weight_is_between_its_legs(legs: str) -> N
     assert [one.after for one in found] == ["holds", "slips"][: len(ends)]
 
 
+def test_the_dead_angle_of_a_slider_crank_is_that_of_its_friction_circles() -> None:
+    """The rod's force touches the circle of its crank pin; as long as it passes through that of the shaft no
+    push of the slider, which its own friction does not hold, turns the crank (any book on machine design)."""
+    case = icsolve.load("""icsolve: 1
+points: {A: [0, 0], C: [unknown, 0]}
+lengths: {AB: 1, BC: 2}
+angles: {AB: 0.5}
+near: {C: [3, 0]}
+joints:
+  - {pin: [1, 2], at: A, mu: 0.36, radius: 0.05}
+  - {pin: [2, 3], at: B, mu: 0.2, radius: 0.05}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0, mu: 0.2}
+loads:
+  V: {force: 40, link: 4, at: C, angle: 90}
+  W: {force: 20, link: 4, at: C, angle: 0}
+""")
+    shaft, pin = (0.05 * math.sin(math.atan(mu)) for mu in (0.36, 0.2))
+
+    def passes(degrees: float) -> float:
+        crank = math.radians(degrees)
+        rod = math.asin(0.5 * math.sin(crank))
+        return (math.cos(crank) + 2.0 * math.cos(rod)) * math.sin(rod - math.asin(0.5 * pin)) - shaft
+
+    low, high = 0.5, 1.5
+    while low < (middle := 0.5 * (low + high)) < high:
+        low, high = (middle, high) if passes(middle) < 0.0 else (low, middle)
+    for angle, holds in ((low * (1.0 - 1e-9), True), (low * (1.0 + 1e-9), False)):
+        assert icsolve.solve(with_numbers(case, {"angles.AB": angle})).holds_still is holds
+    if FULL:
+        (found,) = holding_values(case, "angles.AB", 0.5, 1.5)
+        assert (found.before, found.after) == ("holds", "slips")
+        assert found.value == pytest.approx(low, rel=1e-13)
+
+
 @pytest.mark.parametrize(("lead", "locks"), [(10, True), (60, False)])
 def test_a_load_alone_is_held_by_a_thread_that_locks_or_by_none(lead: int, locks: bool) -> None:
     """With no torque at all: however hard it pulls, either way, where the lead is less than 2 pi r mu."""
