@@ -529,6 +529,26 @@ loads:
     assert any(text.startswith("F = ") for text in texts) and "F" in texts
 
 
+WEDGED = """icsolve: 1
+points: {{C: [0, 0]}}
+joints: [{{slide: [2, 1], at: C, along: 0, mu: 0.5}}]
+loads:
+  P: {{force: unknown, link: 2, at: C, angle: {angle}}}
+  Q: {{force: {push}, link: 2, at: C, angle: 0}}
+"""
+
+
+@pytest.mark.parametrize("push", [5, -5])
+@pytest.mark.parametrize("angle", [280, 100, 260, 80, 0])
+def test_a_range_says_on_which_side_it_has_no_end(angle: int, push: int) -> None:
+    """Of a push within the angle of friction, which holds beyond a value; along the guide it holds at one."""
+    case = icsolve.load(WEDGED.format(angle=angle, push=push))
+    low, high = icsolve.solve(case).answers["P"].holds or (math.nan, math.nan)
+    end = figure_number(high if low == -math.inf else low)
+    told = f"only at {end} N" if angle == 0 else f"up to {end} N" if low == -math.inf else f"from {end} N up"
+    assert f"P: {told}" in drawn(case).texts("t-unknown")
+
+
 def test_a_reaction_that_is_open_says_so_and_no_number() -> None:
     """A beam on three supports: upright one force is open, and along the beam only the first acts."""
     case = icsolve.load("""icsolve: 1
