@@ -223,6 +223,29 @@ def six_digits(value: float) -> str:
     return figure_number(value, 6)
 
 
+TURNED = """
+icsolve: 1
+points: {A: [0, 0], B: [1, 0.5]}
+joints: [{pin: [1, 2], at: A}]
+loads:
+  M: {torque: NUMBER, link: 2}
+  N: {torque: NUMBER, link: 2, turns: cw}
+  F: {force: NUMBER, link: 2, at: B, angle: 30}
+  T: {torque: unknown, link: 2}
+"""
+
+
+@pytest.mark.parametrize("number", ["0", "5", "-5", "1e-7"])
+def test_beside_a_load_stands_what_a_drawing_has_there(number: str, opened: Any) -> None:
+    """Size, unit and sense, which none has that is zero."""
+    case = icsolve.load(TURNED.replace("NUMBER", number))
+    window = opened(page_html(case))
+    said = window.run(
+        "return [...document.querySelectorAll('#labels [data-label] text')].map(e=>e.textContent)"
+    )
+    assert {*said} == {plain_text(load_words(acting)) for acting in acting_loads(known_of(case))}
+
+
 def test_the_contact_of_a_cam_follows(opened: Any) -> None:
     """The dot is shown in other positions too, where the sweep has it, to a tenth of a picture unit."""
     name = "cams/offset_roller_follower.yaml"

@@ -23,7 +23,7 @@ function lastText(text) {
 function relabel(name, { base, low, unit, values, reach }, r, sense) {
   const load = own(loads, name);
   if (!load) return;
-  const turns = load.torque && !load.k ? SHORT[sense] || "" : "";
+  const turns = load.torque && !load.k && values[r] ? SHORT[sense] || "" : "";
   const shown = values[r] === null ? "no value" : `${number(abs(values[r]), 4)} ${unit}${turns}`;
   const text = reach && reach[r] ? `: ${reach[r]}` : `${load.k ? ": k" : ""} = ${shown}`;
   const title = byId(`load-${name}`) && byId(`load-${name}`).querySelector("title");
