@@ -40,7 +40,7 @@ from icsolve.report import answer_text
 from icsolve.report.derivation.known import Known, known_of
 from icsolve.report.derivation.ratios import needed_steps
 from library import FILES, LIBRARY, sample
-from pictures import Picture, on_arrows, outside, overlaps, parsed, shapes
+from pictures import SVG, Picture, coordinates, on_arrows, outside, overlaps, parsed, shapes
 from sizes import FULL, few, sampled
 
 ROOT = Path(__file__).parent.parent
@@ -282,6 +282,31 @@ def test_free_bodies_of_a_position_of_rest_are_those_of_the_position_that_is_dra
         if reaction.magnitude is not None:  # else open
             assert f"{own} = {figure_number(reaction.magnitude)} N" in texts
         assert f"\n  {own} " in told.partition("The force of the first link on the second")[2]
+
+
+@sampled(3)
+@pytest.mark.parametrize("small", [0.02, 0.1, 0.3, 0.9])
+def test_forces_of_free_bodies_are_to_one_scale_or_said_to_be_longer(small: float) -> None:
+    """The arrows on a beam under two weights, the lighter on the left: as long as what is written beside
+    them, where the picture does not say that small ones are longer."""
+    picture = drawn(icsolve.load(BEAM.format(weight=100.0 * small)), bodies=True, centres="none")
+    told = {one.attrib["id"]: one.findtext(f"{SVG}title") or "" for one in picture.root.iter(f"{SVG}g")}
+    lengths = []
+    for name in ("body-load-P-on-2", "body-load-Q-on-2"):
+        group = next(one for one in picture.root.iter(f"{SVG}g") if one.get("id") == name)
+        line, head = (list(coordinates(one)) for one in group.iter(f"{SVG}path"))
+        lengths.append(math.dist(line[0], head[0]) / float(told[name].split()[2]))
+    says = any("but for small ones" in text for text in picture.texts("t-note"))
+    assert says is (lengths[0] > 1.01 * lengths[1]) is (small < 1 / 6)
+
+
+BEAM = """icsolve: 1
+points: {{A: [0, 0], B: [4, 0], C: [1, 0], D: [3, 0]}}
+joints: [{{pin: [1, 2], at: A}}, {{slot: [2, 1], at: B, along: 0}}]
+loads:
+  P: {{force: {weight}, link: 2, at: C, angle: 270}}
+  Q: {{force: 100, link: 2, at: D, angle: 270}}
+"""
 
 
 def test_where_friction_leaves_the_free_bodies_open_the_picture_says_so() -> None:
