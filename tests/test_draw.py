@@ -912,3 +912,24 @@ loads:
         shapely.LineString([(z.real, z.imag) for z in a]) for name in names for a in arrows_of(bodies, name)
     ]
     assert all(a.intersection(b.buffer(1.0)).length < 8.0 for a, b in combinations(lines, 2))
+
+
+@pytest.mark.parametrize("axis", ["x", "y", "z"])
+def test_what_is_open_of_a_reaction_in_space_is_told_apart_from_what_is_not(axis: str) -> None:
+    """Two thrust bearings share the thrust as they fit, and not what is across."""
+    kinds = (f"{{thrust: [1, 2], at: A, axis: {axis}}}", f"{{thrust: [1, 2], at: B, axis: {axis}}}")
+    place = {"x": "[2, 0, 0]", "y": "[0, 2, 0]", "z": "[0, 0, 2]"}[axis]
+    case = icsolve.load(f"""icsolve: 1
+points: {{A: [0, 0, 0], B: {place}, C: [1, 1, 0.5]}}
+joints: [{", ".join(kinds)}]
+loads:
+  P: {{force: [30, -20, -100], link: 2, at: C}}
+  M: {{torque: unknown, link: 2, along: {axis}}}
+""")
+    texts = drawn(case, bodies=True).texts("t-reaction")
+    spatial = icsolve.solve(case, reactions=True).spatial
+    assert spatial is not None
+    for joint, reaction in zip("AB", spatial.reactions.values(), strict=True):
+        assert reaction.force.count(None) == 1
+        told = ", ".join("?" if part is None else figure_number(part) for part in reaction.force)
+        assert f"F12@{joint} = ({told}) N" in texts
