@@ -246,6 +246,56 @@ def test_beside_a_load_stands_what_a_drawing_has_there(number: str, opened: Any)
     assert {*said} == {plain_text(load_words(acting)) for acting in acting_loads(known_of(case))}
 
 
+WHEELS = """
+icsolve: 1
+points: {{A: [0.1, 0.2], D: [3.1, 0.7]}}
+joints:
+  - {{pin: [1, 2], at: A{rough}}}
+  - {{pin: [1, 3], at: D}}
+  - {{gears: [2, 3], teeth: [20, 40], pressure angle: 20}}
+loads: {{M: {{torque: 5, link: 3}}, T: {{torque: unknown, link: 2}}}}
+motion: {{link: 2, speed: {speed}}}
+"""
+
+
+@pytest.mark.parametrize("speed", ["0.3", "4e6", "-7e-6"])
+@pytest.mark.parametrize("rough", ["", ", mu: 0.1, radius: 0.05"])
+def test_points_at_rest_have_no_velocity(rough: str, speed: str, opened: Any) -> None:
+    """The pivots of wheels, which turn however fast or slowly: rounding is no motion."""
+    window = opened(page_html(icsolve.load(WHEELS.format(rough=rough, speed=speed))))
+    window.run("const e = document.getElementById('see-velocities'); e.click()")
+    for degrees in (0, 35, -115):
+        turn(window, degrees)
+        assert window.text("#see-hint") == ""
+        assert window.run("return document.querySelectorAll('#overlay .v-arrow').length") == 0
+
+
+MOVED = """
+icsolve: 1
+points: {{A: {}, B: {}, C: {}, D: {}}}
+joints:
+  - {{pin: [1, 2], at: A, mu: 0.1, radius: 0.05}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+loads: {{M: {{torque: 5, link: 4}}, T: {{torque: unknown, link: 2}}}}
+motion: {{link: 2, speed: 2}}
+"""
+
+
+def test_velocities_are_told_alike_wherever_the_origin_lies(opened: Any) -> None:
+    """Twenty thousand lengths of a crank away, of a page that is solved beforehand."""
+    seen = []
+    for x, y in ((0, 0), (20000, -30000)):
+        places = ([x + 0.5 * u, y + 0.5 * v] for u, v in ((0, 0), (1, 2), (6, 4), (8, 0)))
+        window = opened(page_html(icsolve.load(MOVED.format(*places))))
+        window.run("const e = document.getElementById('see-velocities'); e.click()")
+        for degrees in (0, 25, -30):
+            turn(window, degrees)
+            seen.append(window.text("#see-hint"))
+    assert seen[:3] == seen[3:] and all(told.count(" m/s") == 2 for told in seen)
+
+
 def test_the_contact_of_a_cam_follows(opened: Any) -> None:
     """The dot is shown in other positions too, where the sweep has it, to a tenth of a picture unit."""
     name = "cams/offset_roller_follower.yaml"
