@@ -40,7 +40,7 @@ from icsolve.report import answer_text
 from icsolve.report.derivation.known import Known, known_of
 from icsolve.report.derivation.ratios import needed_steps
 from library import FILES, LIBRARY, sample
-from pictures import Picture, on_arrows, outside, overlaps, parsed, shapes
+from pictures import SVG, Picture, coordinates, on_arrows, outside, overlaps, parsed, shapes
 from sizes import FULL, few, sampled
 
 ROOT = Path(__file__).parent.parent
@@ -282,6 +282,31 @@ def test_free_bodies_of_a_position_of_rest_are_those_of_the_position_that_is_dra
         if reaction.magnitude is not None:  # else open
             assert f"{own} = {figure_number(reaction.magnitude)} N" in texts
         assert f"\n  {own} " in told.partition("The force of the first link on the second")[2]
+
+
+@sampled(3)
+@pytest.mark.parametrize("small", [0.02, 0.1, 0.3, 0.9])
+def test_forces_of_free_bodies_are_to_one_scale_or_said_to_be_longer(small: float) -> None:
+    """The arrows on a beam under two weights, the lighter on the left: as long as what is written beside
+    them, where the picture does not say that small ones are longer."""
+    picture = drawn(icsolve.load(BEAM.format(weight=100.0 * small)), bodies=True, centres="none")
+    told = {one.attrib["id"]: one.findtext(f"{SVG}title") or "" for one in picture.root.iter(f"{SVG}g")}
+    lengths = []
+    for name in ("body-load-P-on-2", "body-load-Q-on-2"):
+        group = next(one for one in picture.root.iter(f"{SVG}g") if one.get("id") == name)
+        line, head = (list(coordinates(one)) for one in group.iter(f"{SVG}path"))
+        lengths.append(math.dist(line[0], head[0]) / float(told[name].split()[2]))
+    says = any("but for small ones" in text for text in picture.texts("t-note"))
+    assert says is (lengths[0] > 1.01 * lengths[1]) is (small < 1 / 6)
+
+
+BEAM = """icsolve: 1
+points: {{A: [0, 0], B: [4, 0], C: [1, 0], D: [3, 0]}}
+joints: [{{pin: [1, 2], at: A}}, {{slot: [2, 1], at: B, along: 0}}]
+loads:
+  P: {{force: {weight}, link: 2, at: C, angle: 270}}
+  Q: {{force: 100, link: 2, at: D, angle: 270}}
+"""
 
 
 def test_where_friction_leaves_the_free_bodies_open_the_picture_says_so() -> None:
@@ -527,6 +552,26 @@ loads:
 """)
     texts = drawn(case).texts("t-unknown")
     assert any(text.startswith("F = ") for text in texts) and "F" in texts
+
+
+WEDGED = """icsolve: 1
+points: {{C: [0, 0]}}
+joints: [{{slide: [2, 1], at: C, along: 0, mu: 0.5}}]
+loads:
+  P: {{force: unknown, link: 2, at: C, angle: {angle}}}
+  Q: {{force: {push}, link: 2, at: C, angle: 0}}
+"""
+
+
+@pytest.mark.parametrize("push", [5, -5])
+@pytest.mark.parametrize("angle", [280, 100, 260, 80, 0])
+def test_a_range_says_on_which_side_it_has_no_end(angle: int, push: int) -> None:
+    """Of a push within the angle of friction, which holds beyond a value; along the guide it holds at one."""
+    case = icsolve.load(WEDGED.format(angle=angle, push=push))
+    low, high = icsolve.solve(case).answers["P"].holds or (math.nan, math.nan)
+    end = figure_number(high if low == -math.inf else low)
+    told = f"only at {end} N" if angle == 0 else f"up to {end} N" if low == -math.inf else f"from {end} N up"
+    assert f"P: {told}" in drawn(case).texts("t-unknown")
 
 
 def test_a_reaction_that_is_open_says_so_and_no_number() -> None:
@@ -867,3 +912,24 @@ loads:
         shapely.LineString([(z.real, z.imag) for z in a]) for name in names for a in arrows_of(bodies, name)
     ]
     assert all(a.intersection(b.buffer(1.0)).length < 8.0 for a, b in combinations(lines, 2))
+
+
+@pytest.mark.parametrize("axis", ["x", "y", "z"])
+def test_what_is_open_of_a_reaction_in_space_is_told_apart_from_what_is_not(axis: str) -> None:
+    """Two thrust bearings share the thrust as they fit, and not what is across."""
+    kinds = (f"{{thrust: [1, 2], at: A, axis: {axis}}}", f"{{thrust: [1, 2], at: B, axis: {axis}}}")
+    place = {"x": "[2, 0, 0]", "y": "[0, 2, 0]", "z": "[0, 0, 2]"}[axis]
+    case = icsolve.load(f"""icsolve: 1
+points: {{A: [0, 0, 0], B: {place}, C: [1, 1, 0.5]}}
+joints: [{", ".join(kinds)}]
+loads:
+  P: {{force: [30, -20, -100], link: 2, at: C}}
+  M: {{torque: unknown, link: 2, along: {axis}}}
+""")
+    texts = drawn(case, bodies=True).texts("t-reaction")
+    spatial = icsolve.solve(case, reactions=True).spatial
+    assert spatial is not None
+    for joint, reaction in zip("AB", spatial.reactions.values(), strict=True):
+        assert reaction.force.count(None) == 1
+        told = ", ".join("?" if part is None else figure_number(part) for part in reaction.force)
+        assert f"F12@{joint} = ({told}) N" in texts

@@ -950,6 +950,45 @@ def test_no_number_is_shown_that_is_nothing_beside_its_neighbours(name: str) -> 
             assert not [size for size in sizes if 0.0 < size < 1e-12 * max(*sizes, 1e-12)], line
 
 
+ALONG = """icsolve: 1
+points: {{A: [0, 0], D: [4.1, {down}]}}
+lengths: {{AB: {crank}, BC: 3.5, CD: 2.5, DE: 1.5}}
+angles: {{AB: {turned}, CDE: 0}}
+near: {{C: [3.5, 2.4]}}
+joints:
+  - {{pin: [1, 2], at: A{rough}}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C{rough}}}
+  - {{pin: [4, 1], at: D}}
+loads:
+  K: {load}
+  P: {{force: 100, link: 4, at: E, angle: 180}}
+  T12: {{torque: unknown, link: 2}}
+"""
+
+
+@pytest.mark.parametrize("rough", ["", ", mu: 0.1, radius: 0.1"])
+@pytest.mark.parametrize(
+    "load",
+    [
+        "{spring: 15, free: 2.35, link: 2, at: B, against: 4, to: C}",
+        "{force: 30, link: 2, at: B, toward: C, against: 4}",
+    ],
+)
+def test_what_acts_along_a_bar_does_no_work_to_the_last_digit(load: str, rough: str) -> None:
+    """Between the pins of a coupler: what it does on both links is nothing, and is told in six digits."""
+    draw = Random(f"{load} {rough}")
+    for _ in range(few(12, 4)):
+        down, turned = (round(draw.uniform(low, high), 2) for low, high in ((-0.5, 0.5), (20, 110)))
+        crank = round(draw.uniform(0.8, 1.2), 3)
+        told = explain(
+            icsolve.load(ALONG.format(load=load, rough=rough, down=down, turned=turned, crank=crank))
+        )
+        (power, *_) = (line for line in told.splitlines() if re.match(r" +(F_)?K x \(h_K,2 -", line))
+        assert power.endswith(" = 0 N*m") and not re.search(r"\d[\d.]{11,}", power), power
+        assert not re.search(r"T12 = \S*-?0 [-+]", told)
+
+
 def test_arms_that_stand_still_leave_no_dust_in_the_rate_of_a_spring() -> None:
     """While one of two unknown angles grows the outer arm keeps its direction, and its rate is 0."""
     told = explain(

@@ -278,6 +278,18 @@ loads: {{W: {{weight: {weight}, link: 2, at: G}}, S: {{spring: 250, free: 0.9, l
 """
 
 
+@pytest.mark.parametrize("name", ["bascule_bridge", "heavy_bar_on_spring", "collar_on_level_rod"])
+def test_a_card_tells_where_a_mechanism_rests(name: str) -> None:
+    """All positions of `solve` with their stability, for those who can't see the figure too."""
+    case = icsolve.load(LIBRARY / "equilibrium" / f"{name}.yaml")
+    card, positions = exhibit(case, name, f"{name}.yaml"), icsolve.solve(case).positions
+    assert positions and len(card.answers) == len(positions)
+    for told, position in zip(card.answers, positions, strict=True):
+        (value,) = position.at.values()
+        assert isinstance(value, float) and f" = {value:.4g}".rstrip("0").rstrip(".") in told
+        assert f"{position.stability}" in told and told in card.alt
+
+
 TRUSS = """icsolve: 1
 points: {A: [0, 0], B: [2, 0], C: [1, 1]}
 joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: C}, {pin: [1, 3], at: B}]

@@ -18,13 +18,16 @@ import shapely
 import icsolve
 from browser import Browser
 from icsolve.draw import Drawing, draw
+from icsolve.draw.loads import load_words
+from icsolve.draw.marks import plain_text
 from icsolve.draw.ropes import courses
 from icsolve.draw.words import figure_number, unit_word
 from icsolve.page import page_html
-from icsolve.page.motion import PageMotion
+from icsolve.page.motion import PageMotion, motion_of
 from icsolve.page.pictures import figure_of
-from icsolve.report.derivation.known import known_of
+from icsolve.report.derivation.known import acting_loads, known_of
 from icsolve.report.derivation.ratios import needed_steps
+from icsolve.wording import holding
 from library import FILES, PAGED, known, motion, page_of, sample
 from pictures import parsed
 from sizes import sampled
@@ -123,8 +126,12 @@ loads:
   w: {distributed: NUMBERS, link: 3, from: B, to: C, angle: -100}
   v: {distributed: NUMBERS, link: 2, from: A, to: B, angle: 150, turns_with: 2}
   K: {torque: 3, link: 4, against: 3}
+  L: {torque: 2, link: 3, against: 2}
+  R: {force: 5, link: 4, at: C, toward: A, against: 2}
   T: {torque: unknown, link: 2}
 """
+RUBBING = "motion: {link: 2, turns: ccw}\n"
+"""With friction all positions are solved beforehand, and points that rest have no place in any of them."""
 ENDS_OF = """return [...document.querySelectorAll(arguments[0])].map((g) => {
   const back = g.ownerSVGElement.getScreenCTM().inverse();
   const path = g.querySelector('path, polyline, line');
@@ -136,10 +143,15 @@ ENDS_OF = """return [...document.querySelectorAll(arguments[0])].map((g) => {
 
 
 @pytest.mark.parametrize("numbers", ["[20, 60]", "[60, -60]"])
-def test_loads_keep_to_their_links(numbers: str, opened: Any) -> None:
+@pytest.mark.parametrize("rubs", [False, True])
+def test_loads_keep_to_their_links(numbers: str, rubs: bool, opened: Any) -> None:
     """The arrows of a line load stand side by side along its line in every position, the line through their
-    tails ends at them, and the couple that a link takes from another stays about its pin."""
-    window = opened(page_html(icsolve.load(BETWEEN_LINKS.replace("NUMBERS", numbers))))
+    tails ends at them, and the couple that a link takes from another stays about its pin, a force on it at
+    its point, also where that rests."""
+    text = BETWEEN_LINKS.replace("NUMBERS", numbers)
+    if rubs:
+        text = text.replace("at: A}", "at: A, mu: 0.1, radius: 0.05}") + RUBBING
+    window = opened(page_html(icsolve.load(text)))
     for degrees in (0, 70, -110):
         turn(window, degrees)
         for name, ends in (("w", "BC"), ("v", "AB")):
@@ -152,8 +164,136 @@ def test_loads_keep_to_their_links(numbers: str, opened: Any) -> None:
                 assert abs(tip - (a + n / (len(arrows) - 1) * (b - a))) < 20.0, (degrees, name, n)
             ((first, last),) = window.run(ENDS_OF, f"#load-{name} [data-tails]")
             assert abs(complex(*first) - arrows[0][0]) < 1.0 and abs(complex(*last) - arrows[-1][0]) < 1.0
-        (arc,) = window.run(ENDS_OF, "#load-K [data-end]")
-        assert {round(abs(complex(*p) - complex(*drawn_at(window, "B")))) for p in arc} == {25}
+        for name, pin, radius in (("K", "B", 25), ("L", "A", 25)):
+            (arc,) = window.run(ENDS_OF, f"#load-{name} [data-end]")
+            assert {round(abs(complex(*p) - complex(*drawn_at(window, pin)))) for p in arc} == {radius}
+        ((tip, tail),) = window.run(ENDS_OF, "#load-R [data-end]")
+        a, c = (complex(*drawn_at(window, point)) for point in "AC")
+        assert min(abs(complex(*p) - a) for p in (tip, tail)) < 9.0
+        assert abs(((complex(*tip) - a) / (c - a)).imag) < 1e-2
+
+
+HELD = """
+icsolve: 1
+units: {length: mm, force: N, torque: N*m}
+points: {A: [0, 0], C: [unknown, 10]}
+lengths: {AB: 40, BC: 110, BF: 60, CF: 70}
+angles: {AB: 50}
+near: {C: [130, 10], F: [75, 60]}
+links: {3: [F]}
+joints:
+  - {pin: [1, 2], at: A, mu: 0.2, radius: RADIUS}
+  - {pin: [2, 3], at: B, mu: 0.2, radius: RADIUS}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0, mu: 0.3}
+loads:
+  P: {force: 80, link: 3, at: F, angle: 250}
+  U12: LOAD
+"""
+SHOWN_OF = """const label = document.querySelector('#labels [data-label="U12"] text').textContent;
+return [document.getElementById('answer-U12').textContent, label,
+        Boolean(document.querySelector('#load-U12 .ghost, #load-U12.ghost'))]"""
+
+
+@pytest.mark.parametrize(
+    "load",
+    ["{torque: unknown, link: 2}", "{force: unknown, link: 4, at: C, angle: 180}"],
+)
+@pytest.mark.parametrize("radius", [1, 12, 30])
+def test_what_holds_over_a_range_is_told_so_in_every_position(load: str, radius: int, opened: Any) -> None:
+    """The words of `solve` with its six digits in the answer, those of a drawing of that position beside the
+    load; its arrow is not pale, as where there is no value."""
+    case = icsolve.load(HELD.replace("RADIUS", str(radius)).replace("LOAD", load))
+    found = motion_of(known_of(case), [])
+    window = opened(page_html(case))
+    assert found is not None
+    rows = [n for n, word in enumerate(found.status) if word == "holds"]
+    for row in rows[:: len(rows) // 5]:
+        turn(window, found.degrees[row])
+        here = known_of(found.found.case_of(row))
+        assert here.answer is not None
+        value = here.answer.answers["U12"]
+        answer, label, pale = window.run(SHOWN_OF)
+        assert answer == f"U12 {holding(value._replace(unit=unit_word(value.unit)), six_digits)}"
+        (acting,) = (a for a in acting_loads(here) if a.load.name == "U12")
+        assert (label, pale) == (plain_text(load_words(acting)), False)
+
+
+def six_digits(value: float) -> str:
+    return figure_number(value, 6)
+
+
+TURNED = """
+icsolve: 1
+points: {A: [0, 0], B: [1, 0.5]}
+joints: [{pin: [1, 2], at: A}]
+loads:
+  M: {torque: NUMBER, link: 2}
+  N: {torque: NUMBER, link: 2, turns: cw}
+  F: {force: NUMBER, link: 2, at: B, angle: 30}
+  T: {torque: unknown, link: 2}
+"""
+
+
+@pytest.mark.parametrize("number", ["0", "5", "-5", "1e-7"])
+def test_beside_a_load_stands_what_a_drawing_has_there(number: str, opened: Any) -> None:
+    """Size, unit and sense, which none has that is zero."""
+    case = icsolve.load(TURNED.replace("NUMBER", number))
+    window = opened(page_html(case))
+    said = window.run(
+        "return [...document.querySelectorAll('#labels [data-label] text')].map(e=>e.textContent)"
+    )
+    assert {*said} == {plain_text(load_words(acting)) for acting in acting_loads(known_of(case))}
+
+
+WHEELS = """
+icsolve: 1
+points: {{A: [0.1, 0.2], D: [3.1, 0.7]}}
+joints:
+  - {{pin: [1, 2], at: A{rough}}}
+  - {{pin: [1, 3], at: D}}
+  - {{gears: [2, 3], teeth: [20, 40], pressure angle: 20}}
+loads: {{M: {{torque: 5, link: 3}}, T: {{torque: unknown, link: 2}}}}
+motion: {{link: 2, speed: {speed}}}
+"""
+
+
+@pytest.mark.parametrize("speed", ["0.3", "4e6", "-7e-6"])
+@pytest.mark.parametrize("rough", ["", ", mu: 0.1, radius: 0.05"])
+def test_points_at_rest_have_no_velocity(rough: str, speed: str, opened: Any) -> None:
+    """The pivots of wheels, which turn however fast or slowly: rounding is no motion."""
+    window = opened(page_html(icsolve.load(WHEELS.format(rough=rough, speed=speed))))
+    window.run("const e = document.getElementById('see-velocities'); e.click()")
+    for degrees in (0, 35, -115):
+        turn(window, degrees)
+        assert window.text("#see-hint") == ""
+        assert window.run("return document.querySelectorAll('#overlay .v-arrow').length") == 0
+
+
+MOVED = """
+icsolve: 1
+points: {{A: {}, B: {}, C: {}, D: {}}}
+joints:
+  - {{pin: [1, 2], at: A, mu: 0.1, radius: 0.05}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+loads: {{M: {{torque: 5, link: 4}}, T: {{torque: unknown, link: 2}}}}
+motion: {{link: 2, speed: 2}}
+"""
+
+
+def test_velocities_are_told_alike_wherever_the_origin_lies(opened: Any) -> None:
+    """Twenty thousand lengths of a crank away, of a page that is solved beforehand."""
+    seen = []
+    for x, y in ((0, 0), (20000, -30000)):
+        places = ([x + 0.5 * u, y + 0.5 * v] for u, v in ((0, 0), (1, 2), (6, 4), (8, 0)))
+        window = opened(page_html(icsolve.load(MOVED.format(*places))))
+        window.run("const e = document.getElementById('see-velocities'); e.click()")
+        for degrees in (0, 25, -30):
+            turn(window, degrees)
+            seen.append(window.text("#see-hint"))
+    assert seen[:3] == seen[3:] and all(told.count(" m/s") == 2 for told in seen)
 
 
 def test_the_contact_of_a_cam_follows(opened: Any) -> None:

@@ -119,6 +119,7 @@ def _is_scene(found: icsolve.Sweep, row: int) -> None:
             assert found.holds[load][row] == pytest.approx(
                 own.holds, rel=SAME, abs=SAME * max(map(abs, own.holds))
             )
+            assert found.locks[load][row] == own.self_locking
 
 
 def test_a_crank_that_friction_jams_says_so() -> None:

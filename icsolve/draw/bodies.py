@@ -48,6 +48,7 @@ GAP = 26.0
 ROUND = 30.0
 """Room for labels around a link with its forces."""
 TO_SCALE = "Free bodies, forces to one scale"
+BUT_SMALL = f"{TO_SCALE}, but for small ones, which would be shorter"
 NONE_TOLD = "Free bodies: none, since the answer leaves the reactions open."
 """As where friction holds the links within its limits."""
 NOTHING = 1e-9
@@ -81,7 +82,9 @@ def body_panels(scene: Scene, left: float, top: float, width: float) -> list[Mar
     }
     largest = max((math.hypot(*push.force) for some in pushes.values() for push in some), default=0.0)
     panels = [_panel(scene, link, some, largest) for link, some in pushes.items()]
-    return titled(panels, left, top, width)
+    sizes = {math.hypot(*push.force) / largest for some in pushes.values() for push in some if largest}
+    small = any(NOTHING < size < LEAST / LONGEST for size in sizes)
+    return titled(panels, left, top, width, BUT_SMALL if small else TO_SCALE)
 
 
 def support_parts(scene: Scene, solid: shapely.Geometry) -> list[Part]:

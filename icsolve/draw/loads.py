@@ -34,7 +34,7 @@ from icsolve.numbers import FLOATS
 from icsolve.report.derivation.known import Acting, acting_loads
 from icsolve.statics.load_wrenches import direction
 from icsolve.tuples import NamedTuple
-from icsolve.wording import sense_of
+from icsolve.wording import held, sense_of
 
 ARROW = 56.0
 """Length of a load's arrow."""
@@ -99,9 +99,9 @@ def kind_of(acting: Acting) -> str:
 def load_words(acting: Acting) -> tuple[TextRun, ...]:
     """``T_12 = 33.76 lbf·in cw``."""
     name = name_runs(acting.load.name)
-    if acting.holds is not None:
-        limits = (figure_number(end) if math.isfinite(end) else "∞" for end in acting.holds)
-        return (*name, TextRun(f": {' to '.join(limits)} {unit_word(acting.unit)}"))
+    if acting.held is not None:
+        told = acting.held._replace(unit=unit_word(acting.unit))
+        return (*name, TextRun(f": {held(told, figure_number)}"))
     if acting.value is None:
         return (*name, TextRun(" = ?"))
     text = f" = {quantity(abs(acting.value), acting.unit)}"

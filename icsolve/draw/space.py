@@ -11,8 +11,9 @@ from itertools import pairwise
 
 import shapely
 
+from icsolve.answer.bodies import Parts
 from icsolve.case import is_named
-from icsolve.draw.bodies import panel, titled
+from icsolve.draw.bodies import BUT_SMALL, NOTHING, TO_SCALE, panel, titled
 from icsolve.draw.marks import (
     AreaMark,
     Box,
@@ -34,7 +35,7 @@ from icsolve.draw.marks import (
 )
 from icsolve.draw.place import Label, Soft, area, bar, hatched, joined, plate, tilted
 from icsolve.draw.scene import HALF, PIN, Part, aims, around, together, with_labels
-from icsolve.draw.words import force_runs, name_runs, quantity
+from icsolve.draw.words import figure_number, force_runs, name_runs, quantity, unit_word
 from icsolve.report.derivation.known import Known
 from icsolve.report.derivation.spatial import InSpace, Push, in_space
 from icsolve.screws import add, cross, subtract
@@ -330,7 +331,10 @@ def space_panels(known: Known, sketch: Sketch, left: float, top: float, width: f
     pushes = {link: list(_pushes(sketch, known, link)) for link in moving_links(sketch.scene)}
     largest = max((size(f) for some in pushes.values() for _, _, f, _, _ in some), default=0.0) or 1.0
     panels = [_panel(sketch, link, some, largest) for link, some in pushes.items()]
-    return titled(panels, left, top, width)
+    forces = [f for some in pushes.values() for _, _, f, _, _ in some if size(f) > NOTHING * largest]
+    seen = [math.hypot(*_seen(f)) for f in forces if math.hypot(*_seen(f)) >= EDGE_ON * size(f)]
+    small = any(ARROW * one < LEAST * largest for one in seen)
+    return titled(panels, left, top, width, BUT_SMALL if small else TO_SCALE)
 
 
 On = tuple[str, tuple[TextRun, ...], Vec, Vec, tuple[str, Vec]]
@@ -341,8 +345,8 @@ def _pushes(sketch: Sketch, known: Known, link: str) -> Iterable[On]:
     assert known.answer is not None and known.answer.spatial is not None
     units = known.case.units
     for name, r in known.answer.spatial.reactions.of_link(link):
-        words = "?" if r.magnitude is None else quantity(r.magnitude, units.force)
-        words += f", M = {quantity(r.moment, units.torque)}" if r.moment else ""
+        words = _sized(r.force, r.magnitude, units.force)
+        words += "" if r.moment == 0.0 else f", M = {_sized(r.couple, r.moment, units.torque)}"
         runs: tuple[TextRun, ...] = (*force_runs(name, r.by, r.on, r.where), TextRun(f" = {words}"))
         force, couple = ((x or 0.0, y or 0.0, z or 0.0) for x, y, z in (r.force, r.couple))
         yield f"reaction-{name}-on-{r.on}", runs, force, couple, ("reaction", r.at)
@@ -356,6 +360,14 @@ def _pushes(sketch: Sketch, known: Known, link: str) -> Iterable[On]:
             yield f"body-load-{push.name}-on-{link}", told, force, couple, (_kind(push), place)
 
 
+def _sized(parts: Parts, whole: float | None, unit: str) -> str:
+    """The size of a force or couple; where equilibrium leaves some of it open its parts along x, y and z."""
+    if whole is not None:
+        return quantity(whole, unit)
+    told = ["?" if part is None else figure_number(part) for part in parts]
+    return f"({', '.join(told)}) {unit_word(unit)}" if {*told} != {"?"} else "?"
+
+
 def _panel(sketch: Sketch, link: str, pushes: Sequence[On], largest: float) -> list[Mark]:
     solid, parts = outline_of(sketch, link), [body_part(sketch, link)]
     drawn: list[Soft] = []
@@ -363,7 +375,7 @@ def _panel(sketch: Sketch, link: str, pushes: Sequence[On], largest: float) -> l
         at = sketch.at(place)
         marks: tuple[Mark, ...] = ()
         far, soft = at, []
-        if size(force) > 1e-9 * largest:
+        if size(force) > NOTHING * largest:
             direction = times(1.0 / size(force), force)
             marks, far = vector(at, direction, ARROW * size(force) / largest, kind, (solid, drawn))
             soft.append(along_arrow(at, far))

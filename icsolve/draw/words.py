@@ -147,7 +147,7 @@ def _caption_runs(known: Known, kind: str, line: str) -> tuple[TextRun, ...]:
 def _below(known: Known, steps: Sequence[Step], step: int | None) -> Iterable[tuple[str, str]]:
     if step is not None and steps:
         yield "t-axis", step_sentence(known, steps, step)
-    for sentence in (*answer_sentences(known), *position_sentences(known)):
+    for sentence in found_sentences(known):
         yield "t-unknown", sentence
     if known.refusal is not None:
         yield "t-reason", f"No answer ({known.refusal.status}): {known.refusal.message}"
@@ -184,6 +184,11 @@ def position_sentences(known: Known) -> list[str]:
     """Where the mechanism rests, of a case that asks for it."""
     said = [] if known.answer is None else positions_text(known.answer, DIGITS)
     return [sentence.replace("*", "·") for sentence in said]
+
+
+def found_sentences(known: Known) -> list[str]:
+    """What is found of what a case asks for: its unknown loads, or where it rests."""
+    return [*answer_sentences(known), *position_sentences(known)]
 
 
 def reaction_sentences(known: Known) -> list[str]:
@@ -232,7 +237,7 @@ def description(known: Known) -> str:
     what, link = ("Structure", "link") if known.structure else ("Mechanism", "moving link")
     joints = plural(len(case.joints), "joint")
     said = [f"{what} of {plural(len(moving), link)} and the frame, {joints}."]
-    said += [f"{sentence}." for sentence in answer_sentences(known)]
+    said += [f"{sentence}." for sentence in found_sentences(known)]
     if known.refusal is not None:
         said.append(f"No answer: {known.refusal.message}")
     return " ".join(said)

@@ -203,6 +203,19 @@ def worth(expression: Expr) -> float:
             return WORTH[function](worth(of))
 
 
+def largest(expression: Expr) -> float:
+    """What an expression comes to at most, were all that it adds up of one sign."""
+    match expression:
+        case Product(factors):
+            return math.prod(map(largest, factors))
+        case Quotient(over, under):
+            below = abs(worth(under))
+            return largest(over) / below if below else math.inf
+        case Sum(terms):
+            return math.fsum(largest(term) for _, term in terms)
+    return abs(worth(expression))
+
+
 def _tangent(degrees: float) -> float:
     co, s = turn_of(degrees)
     return s / co if co else 0.0

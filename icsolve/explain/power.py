@@ -99,8 +99,11 @@ def term_of(work: Worked, ratios: Ratios, acting: Acting) -> tuple[ShownTerm | N
     whole = parts[0][1] if len(parts) == 1 else Sum(parts)
     numbers = product(*(() if not gain else (work.number(value),)), whole, work.number(scale))
     sign = ends[0].sign if len(ends) == 1 else 1
-    total = sum(end.sign * end.value * ratios.rates[end.link] for end in ends)
-    return ShownTerm(acting, tuple(ends), gain, numbers, sign * total * value * scale, name), [*said, *more]
+    powers = [end.sign * end.value * ratios.rates[end.link] for end in ends]
+    power = sum(powers)
+    if abs(power) <= NOTHING * max(map(abs, powers)):  # along a line that keeps its length
+        power = 0.0
+    return ShownTerm(acting, tuple(ends), gain, numbers, sign * power * value * scale, name), [*said, *more]
 
 
 def _begun(link: str) -> str:
@@ -313,7 +316,7 @@ def _solved(work: Worked, terms: Sequence[ShownTerm], friction: Sequence[Rubbed]
     found = work.answer.answers[root.load.name]
     powers = [(t.sign, (t.acting.value or 0.0) * t.factor) for t in terms if not t.acting.unknown]
     powers += [(1, r.power) for r in friction]
-    rest = [(-sign, work.number(power)) for sign, power in powers]
+    rest = [(-sign, work.number(power)) for sign, power in powers if power]
     factors = [(t.sign, product(work.number(_times(t.acting, root)), work.number(t.factor))) for t in unknown]
     value = work.quantity(found.value, found.unit)
     yield words("So")

@@ -268,7 +268,7 @@ def _by_power(work: Worked) -> Iterable[Section]:
     loads = acting_loads(work.known)
     if not any(load.unknown for load in loads):
         return
-    if any(load.holds is not None for load in loads):
+    if any(load.held is not None for load in loads):
         yield Section("Power", (words(AT_REST),))
         return
     ratios = answer_ratios(work.known)

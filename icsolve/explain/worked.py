@@ -33,6 +33,7 @@ from icsolve.explain.formula import (
     Of,
     Quantity,
     Sum,
+    largest,
     names_in,
     product,
     rewritten,
@@ -101,8 +102,8 @@ class Worked(NamedTuple):
         return Formula((*(self._recomputing(s, last) if names_in(s) <= known else s for s in sides), last))
 
     def _recomputing(self, side: Expr, last: Expr) -> Expr:
-        sought, terms = worth(last), side.terms if isinstance(side, Sum) else ((1, side),)
-        room = 5.0 * 10.0**-self.digits * (abs(sought) or max(abs(worth(term)) for _, term in terms))
+        sought = worth(last)
+        room = 5.0 * 10.0**-self.digits * (abs(sought) or largest(side))
         longer = range(self.digits + 1, MOST_DIGITS + 1)
         more = (rewritten(side, self._replace(digits=n).number) for n in longer)
         return next((one for one in (side, *more) if abs(worth(one) - sought) <= room), side)

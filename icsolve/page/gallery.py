@@ -11,7 +11,7 @@ from urllib.parse import quote
 from icsolve.case import Case, Spring
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.draw.figure import ASKED, Drawing, draw
-from icsolve.draw.words import answer_sentences, description
+from icsolve.draw.words import description, found_sentences
 from icsolve.explain.document import html_page
 from icsolve.explain.given import asked_without_unknown, position_asked
 from icsolve.page import page_html
@@ -140,8 +140,8 @@ def unreadable(name: str, source: str, reason: str) -> Exhibit:
 
 
 def _answers(known: Known) -> tuple[str, ...]:
-    """The unknown loads; of a case that asks for none what it does ask for."""
-    found = tuple(answer_sentences(known))
+    """What is found; of a case that asks for nothing but its motion or its forces, that."""
+    found = tuple(found_sentences(known))
     if found or known.refusal is not None:
         return found
     return (f"Asked: the {asked_without_unknown(known)}",)

@@ -25,6 +25,7 @@ from icsolve.case import (
     Toward,
     Weight,
     is_link,
+    is_named,
     pair_name,
 )
 from icsolve.case.loads import name_of_inertia
@@ -41,7 +42,7 @@ from icsolve.page.pictures import PageFigure
 from icsolve.page.poses import FINE, Array, compact, exact, followed, moved, moves
 from icsolve.report.derivation.known import Acting, Known, acting_loads, resting
 from icsolve.report.derivation.ratios import Step
-from icsolve.wording import holding, sense_of, spelt, unit_of
+from icsolve.wording import held, holding, sense_of, spelt, unit_of
 
 # --- loads through a motion ------------------------------------------------------------------------------
 
@@ -225,7 +226,7 @@ def model_of(
         "centres": _centres(known, steps, view, motion),
         "loads": {a.load.name: load_data(figure.scene, motion, a) for a in loads},
         "ropes": {course.rope.name: _circles(figure.scene, course) for course in figure.ropes},
-        "anchors": _anchors(known, steps, figure),
+        "anchors": _anchors(known, steps, figure, live),
         "answers": _answers(known, motion, loads),
     }
     if motion is not None:
@@ -321,10 +322,14 @@ def _circles(scene: Scene, course: RopeCourse) -> list[list[Any]]:
     return [[p, *(round(c, 1) for c in scene.at[p]), round(radius, 2), path] for p, radius, path in ends]
 
 
-def _anchors(known: Known, steps: Sequence[Step], figure: PageFigure) -> dict[str, list[float]]:
-    """The points that lines of centres start from (common normals), as written."""
+def _anchors(
+    known: Known, steps: Sequence[Step], figure: PageFigure, live: Live | None
+) -> dict[str, list[float]]:
+    """The points that lines of centres start from (common normals), as written; of a page without a scene of
+    its own, which would have them, all points: loads follow them where they rest, too."""
     single = [line[0] for step in steps for line in step.centre.lines if len(line) == 1]
     names = {_joint(known, pair) for pair in single}
+    names |= set() if live is not None else {*filter(is_named, figure.scene.at)}
     return {n: [round(c, 1) for c in figure.scene.at[n]] for n in sorted(names) if n in figure.scene.at}
 
 
@@ -420,7 +425,7 @@ def _answers(known: Known, motion: PageMotion | None, loads: Sequence[Acting]) -
         elif motion is not None and f"{name}.x" in motion.found.answers:
             _of_any_direction(motion, one, name, acting[f"{name}.x"].load)
         else:
-            one["holds"] = [holding(value, figure_number)] if value.holds is not None else None
+            one["holds"] = [_holding(value)] if value.holds is not None else None
             one["values"] = exact([value.value])
             one["senses"], one["sense"] = _indexed([spelt(value.sense, figure_number)])
         found.append(one)
@@ -480,9 +485,11 @@ def _through(known: Known, motion: PageMotion, one: dict[str, Any], name: str, a
     one["values"] = exact(values[rows].tolist())
     one["senses"], one["sense"] = _indexed(senses(known, motion, acting, values)[rows])
     if name in motion.found.holds:
-        held = motion.found.holds[name][rows]
-        unit = unit_of(acting.load, known.case)
-        one["holds"] = [_held((float(low), float(high)), unit) for low, high in held]
+        unit = unit_word(unit_of(acting.load, known.case))
+        ranges = zip(motion.found.holds[name][rows].tolist(), motion.found.locks[name][rows], strict=True)
+        some = [_held(ends, bool(locks), unit) for ends, locks in ranges]
+        one["holds"] = ["" if found is None else _holding(found) for found in some]
+        one["reach"] = ["" if found is None else held(found, figure_number) for found in some]
 
 
 def _of_any_direction(motion: PageMotion, one: dict[str, Any], name: str, load: Load) -> None:
@@ -496,10 +503,16 @@ def _of_any_direction(motion: PageMotion, one: dict[str, Any], name: str, load: 
     )
 
 
-def _held(holds: tuple[float, float], unit: str) -> str:
-    """A range in words; '' where there is none."""
-    found = Found(0.0, unit_word(unit), "", holds=holds)
-    return "" if any(map(np.isnan, holds)) else holding(found, figure_number)
+def _held(ends: list[float], locks: bool, unit: str) -> Found | None:
+    """What is found where an unknown load holds over a range; None where there is none."""
+    low, high = ends
+    none = math.isnan(low) or math.isnan(high)
+    return None if none else Found(math.nan, unit, "", holds=(low, high), self_locking=locks)
+
+
+def _holding(found: Found) -> str:
+    """The range in the words of the answer, with its digits."""
+    return holding(found, lambda end: figure_number(end, 6))
 
 
 def _indexed(words: Sequence[str]) -> tuple[list[str], dict[str, Any]]:

@@ -492,7 +492,7 @@ def forces_data(scene: Scene, motion: PageMotion | None) -> dict[str, Any]:
         data[link] = {
             "spots": [[round(x, 5), round(y, 5)] for x, y in spots],
             "names": [p for p in known.case.carries.get(link, ()) if p in scene.at],
-            "twist": [exact(column, SIZES) for column in zip(*twists, strict=True)],
+            "twist": [exact(column) for column in zip(*twists, strict=True)],
             "pushes": [_through([one.get(name) for one in some], most, reach) for name in every],
         }
     units = known.case.units

@@ -92,8 +92,8 @@ class SweepRun:
         for key in [key for key in self.values if key[0] == "holds"]:
             found = self.values.pop(key)
             held = answered & ~np.isnan(found[:, 0])
-            own = self.table.holds.setdefault(key[1], np.full(found.shape, np.nan))
-            own[held] = found[held]
+            low, high = found[held].T
+            self.table.hold(key[1], held, found[held], (low <= 0.0) & (high >= 0.0))  # the load does work
             self.codes[held] = CODE["holds"]
 
     def _refused(self, refusal: SceneError) -> None:

@@ -16,7 +16,7 @@ from icsolve.answer import Answer, by_load
 from icsolve.case import Case, is_named, pair_name, spot_name
 from icsolve.errors import SceneError, Status
 from icsolve.numbers import turn_of
-from icsolve.numbers.replay import Array
+from icsolve.numbers.replay import Array, Mask
 from icsolve.numbers.tape import UNIT
 from icsolve.statics.power import loads_to_find
 from icsolve.sweep.program import RowRequest
@@ -50,7 +50,7 @@ CODE = {word: n for n, word in enumerate(WORDS)}
 Codes = npt.NDArray[np.int8]
 
 
-def among(codes: Codes, statuses: Iterable[str]) -> npt.NDArray[np.bool_]:
+def among(codes: Codes, statuses: Iterable[str]) -> Mask:
     """Which codes, (rows,), are those of some statuses."""
     wanted = np.zeros(len(WORDS), dtype=bool)
     wanted[[CODE[status] for status in statuses]] = True
@@ -60,6 +60,8 @@ def among(codes: Codes, statuses: Iterable[str]) -> npt.NDArray[np.bool_]:
 Value = float | tuple[float, ...]
 OTHER = CODE["near-singular"]
 ALL = slice(None)
+Held = Array | tuple[float, float]
+Locks = Mask | bool
 
 
 # --- a sweep as it is read ------------------------------------------------------------------------
@@ -91,6 +93,7 @@ class Sweep:
         the joint, (n, 3); of ropes (``T A-P-B``) the pull, (n,) [case units]; what equilibrium leaves open is
         not a number
     holds : with friction and no motion, the ranges in which unknown loads hold, (n, 2)
+    locks : by load with a range, in which rows the mechanism locks itself, (n,)
     notes : sentences about the sweep
     """
 
@@ -102,6 +105,7 @@ class Sweep:
     rates: dict[str, Array] = field(default_factory=dict)
     errors: dict[str, dict[str, Array]] = field(default_factory=dict)
     holds: dict[str, Array] = field(default_factory=dict)
+    locks: dict[str, Mask] = field(default_factory=dict)
     touching: dict[str, Array] = field(default_factory=dict)
     velocities: dict[str, Array] = field(default_factory=dict)
     accelerations: dict[str, Array] = field(default_factory=dict)
@@ -198,7 +202,7 @@ class Table:
     values, errors : by (kind, name), (rows,) or (rows, parts), as the arrays of `Sweep`; ``("touching",
         "2-3")`` has the place of a contact [case length], its pressure angle [degrees; nan: none], and 1
         where it is lost, (rows, 4)
-    holds : by load, (rows, 2) [case units]
+    holds, locks : by load, (rows, 2) [case units] and (rows,), as in `Sweep`
     """
 
     def __init__(self, rows: int, asked: RowRequest) -> None:
@@ -207,6 +211,12 @@ class Table:
         self.values: dict[Key, Array] = {}
         self.errors: dict[Key, Array] = {}
         self.holds: dict[str, Array] = {}
+        self.locks: dict[str, Mask] = {}
+
+    def hold(self, name: str, rows: Rows | Mask | list[int] | slice, ends: Held, locks: Locks) -> None:
+        """The ranges, (n, 2), over which a load holds in some rows, and whether it locks itself there."""
+        self.holds.setdefault(name, np.full((self.rows, 2), np.nan))[rows] = ends
+        self.locks.setdefault(name, np.zeros(self.rows, dtype=bool))[rows] = locks
 
     def reserve(self, parts: Mapping[Key, int]) -> None:
         """Arrays by (kind, name), of so many numbers a row, for what will be put into every row."""
@@ -240,7 +250,8 @@ class Table:
         part.codes = self.codes[rows]
         part.values = {key: array[rows] for key, array in self.values.items()}
         part.errors = {key: array[rows] for key, array in self.errors.items()}
-        part.holds = {name: array[rows] for name, array in self.holds.items()}
+        for name, ends in self.holds.items():
+            part.hold(name, ALL, ends[rows], self.locks[name][rows])
         return part
 
     def take(self, rows: Rows | list[int], part: Table | Sweep, of: Rows | slice = ALL) -> None:
@@ -255,8 +266,8 @@ class Table:
         for mine, arrays in ((self.values, values), (self.errors, errors)):
             for key, array in arrays.items():
                 self._table(mine, key, (self.rows, *array.shape[1:]))[rows] = array[of]
-        for name, array in part.holds.items():
-            self.holds.setdefault(name, np.full((self.rows, 2), np.nan))[rows] = array[of]
+        for name, ends in part.holds.items():
+            self.hold(name, rows, ends[of], part.locks[name][of])
 
     def fill(self, row: int, answer: Answer, missing: bool = False) -> None:
         """All that is asked of a solved row; or only the answers that it does not have yet."""
@@ -268,7 +279,7 @@ class Table:
             self.put("answers", name, row, value, found.error)
             if found.holds is not None:
                 self.codes[row] = CODE["holds"]
-                self.holds.setdefault(name, np.full((self.rows, 2), np.nan))[row] = found.holds
+                self.hold(name, [row], found.holds, found.self_locking)
         if missing and not self.lacks(row):
             return
         centres = not missing or self.lacks(row, "centres")
@@ -347,6 +358,7 @@ class Table:
             **by_kind(self.values),
             errors=by_kind(self.errors) if error else {},
             holds=self.holds,
+            locks=self.locks,
             notes=notes,
             codes=self.codes,
             _case_of=case_of,

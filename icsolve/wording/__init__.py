@@ -149,8 +149,12 @@ def reach_of(holds: tuple[float, float], unit: str, show: Show, error: float | N
 
 def holding(found: Found, show: Show) -> str:
     """``holds still from 3 to 4 N``, and whether it locks itself."""
-    reach = reach_of(found.holds or (math.nan, math.nan), found.unit, show, found.error)
-    return f"holds still {reach}" + (", self-locking" if found.self_locking else "")
+    return f"holds still {held(found, show)}" + (", self-locking" if found.self_locking else "")
+
+
+def held(found: Found, show: Show) -> str:
+    """The range alone."""
+    return reach_of(found.holds or (math.nan, math.nan), found.unit, show, found.error)
 
 
 def unit_of(load: Load | SpatialLoad, case: Case) -> str:

@@ -8,7 +8,7 @@ const pushes = all("[data-load]", figure).map((e) => [e, loads[e.dataset.load], 
 /* The line through the tails of a force per length: the points at its ends, and how far from these it ends. */
 const tails = all("[data-tails]", figure).map((e) => {
   const [name, a, b, ...far] = e.dataset.tails.split(" ");
-  return [e, name, [a, b].map((p, n) => [own(points, p), +far[2 * n], +far[2 * n + 1]])];
+  return [e, name, [a, b].map((p, n) => [p, +far[2 * n], +far[2 * n + 1]])];
 });
 const springs = all("[data-span]", figure).map((e) => [e, loads[e.dataset.span]]);
 const unknown = (name) => answers.find((a) => a.name === name);
@@ -23,15 +23,14 @@ function stretch(e, [a0, b0], [a, b]) {
 /* Where a load's arrow was written and is: at a point, at a share of the way between two, else on its link. */
 function placesOf(end, load, r) {
   const [a, b = a, s = 0] = (end || "").split(" ");
-  const [p, q] = [own(points, a), own(points, b)];
-  if (!p || !q) return [load.on.slice(1), carried(load.on, r)];
-  return [zero, r].map((n) => ["x", "y"].map((c) => p[c][n] + s * (q[c][n] - p[c][n])));
+  if (!at(a, r) || !at(b, r)) return [load.on.slice(1), carried(load.on, r)];
+  return [zero, r].map((n) => [0, 1].map((c) => at(a, n)[c] + s * (at(b, n)[c] - at(a, n)[c])));
 }
 function turnOf(name, r) {
   const load = loads[name];
-  const { values } = unknown(name) || load;
+  const { values, reach } = unknown(name) || load;
   const [value, written] = values ? [values[r], values[zero]] : [1, 1];
-  return { way: (load.way && load.way[r]) || 0, flip: value !== null && value < 0 !== written < 0, gone: value === null };
+  return { way: (load.way && load.way[r]) || 0, flip: value !== null && value < 0 !== written < 0, gone: value === null && !(reach && reach[r]) };
 }
 /* In the live row a link may have another shape: an outline about its points, or what it was, stretched. */
 const HALF = 6.5;
@@ -171,7 +170,7 @@ function moveParts(r) {
   for (const [e, name, ends] of tails) {
     const { way, flip, gone } = turnOf(name, r);
     e.classList.toggle("ghost", gone);
-    const placed = (n, a) => ends.map(([p, x, y]) => [p.x[n] + cos(a) * x + sin(a) * y, p.y[n] - sin(a) * x + cos(a) * y]);
+    const placed = (n, a) => ends.map(([p, x, y]) => [at(p, n)[0] + cos(a) * x + sin(a) * y, at(p, n)[1] - sin(a) * x + cos(a) * y]);
     stretch(e, placed(zero, 0), placed(r, (way / 180 + flip) * PI));
   }
   for (const [e, load] of springs) stretch(e, load.span.map((s) => s.slice(1)), load.span.map((s) => carried(s, r)));

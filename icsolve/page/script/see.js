@@ -107,11 +107,12 @@ function nameAt(parent, kind, [x, y], [u, v], words) {
 const FASTEST = 80;
 function drawVelocities(state) {
   const some = [];
+  const least = (live ? 1e-7 : 1e-3) * told.frame[2] / view[0]; // a point that a turning link leaves at rest
   for (const [link, names] of entries(told.links)) {
     const t = state.twist(link);
     for (const name of t ? names : []) {
       const v = velocity(t, state.where(name));
-      if (!name.startsWith("@") && v.every(Number.isFinite) && hypot(...v) > 0 && !some.some((one) => one.name === name && apart(one.v, v) < (live ? 1e-9 : 1e-4 * hypot(...v)))) some.push({ name, link, v });
+      if (!name.startsWith("@") && v.every(Number.isFinite) && hypot(...v) > least * abs(t[2]) && !some.some((one) => one.name === name && apart(one.v, v) < (live ? 1e-9 : 1e-4 * hypot(...v)))) some.push({ name, link, v });
     }
   }
   const most = max(...some.map(({ v }) => hypot(...v)));

@@ -20,12 +20,12 @@ function lastText(text) {
   return node;
 }
 /* What stands beside a load in the figure, and what is said of it there. */
-function relabel(name, { base, low, unit, values }, r, sense) {
+function relabel(name, { base, low, unit, values, reach }, r, sense) {
   const load = own(loads, name);
   if (!load) return;
-  const turns = load.torque && !load.k ? SHORT[sense] || "" : "";
+  const turns = load.torque && !load.k && values[r] ? SHORT[sense] || "" : "";
   const shown = values[r] === null ? "no value" : `${number(abs(values[r]), 4)} ${unit}${turns}`;
-  const text = `${load.k ? ": k" : ""} = ${shown}`;
+  const text = reach && reach[r] ? `: ${reach[r]}` : `${load.k ? ": k" : ""} = ${shown}`;
   const title = byId(`load-${name}`) && byId(`load-${name}`).querySelector("title");
   if (title) title.textContent = base + low + text;
   const label = labels.find((l) => l.label === name);
@@ -42,7 +42,7 @@ function tell(r) {
       line.dataset.value = typeof answer.values[r] === "number" ? String(answer.values[r]) : "";
       line.dataset.status = statusAt(r);
     }
-    if ((motion || live) && !(answer.holds && answer.holds[r])) relabel(answer.name, answer, r, sense);
+    if (motion || live) relabel(answer.name, answer, r, sense);
   }
   for (const [name, load] of entries(loads))
     if (load.values) relabel(name, load, r, load.values[r] < 0 !== Boolean(load.cw) ? "clockwise" : "counterclockwise");

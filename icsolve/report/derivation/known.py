@@ -7,7 +7,7 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
-from icsolve.answer import Answer, Centre, by_load
+from icsolve.answer import Answer, Centre, Found, by_load
 from icsolve.answer.equilibrium import EquilibriumPosition
 from icsolve.assembly import Frame, case_point, solve_figure
 from icsolve.assembly.workspace import PlacedCase
@@ -294,7 +294,7 @@ def _size(points: Mapping[str, Point]) -> float:
 class Acting(NamedTuple):
     """A load as it acts on ``link``; the opposite acts on ``against``.
 
-    ``value`` is its number in ``unit`` (None where it was not found, or where it ``holds`` over a range),
+    ``value`` is its number in ``unit`` (None where it was not found, or where it is ``held`` over a range),
     ``gain`` the force (force times
     length for a torque) per unit of it, ``direction`` the unit vector of a force of positive value;
     ``at`` the point's place, None for a torque.
@@ -309,7 +309,7 @@ class Acting(NamedTuple):
     value: float | None
     unit: str
     unknown: bool
-    holds: tuple[float, float] | None = None
+    held: Found | None = None
 
     @property
     def force(self) -> Point:
@@ -351,17 +351,17 @@ def _like(load: Load) -> str | None:
 def _acting(known: Known, w: Wrench) -> Acting:
     number = known_value(w)
     found = None if known.answer is None else by_load(known.answer.answers).get(w.load.name)
-    holds = None if found is None else found.holds
+    held = None if found is None or found.holds is None else found
     if number is not None:
         value: float | None = float(w.ratio) * number
     else:
-        value = None if found is None or holds is not None else found.value
+        value = None if found is None or held is not None else found.value
     at = place_of(w.load, known.points)
     torque = at is None
     gain = float(w.gain) * (float(w.unit[2]) if torque else 1.0)
     direction = (0.0, 0.0) if torque else (float(w.unit[1]), -float(w.unit[0]))
     unit = unit_of(w.load, known.case)
-    return Acting(w.load, w.load.link, w.against, at, direction, gain, value, unit, number is None, holds)
+    return Acting(w.load, w.load.link, w.against, at, direction, gain, value, unit, number is None, held)
 
 
 # --- what ropes do to a link -----------------------------------------------------------------------------
