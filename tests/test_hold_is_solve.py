@@ -22,7 +22,7 @@ from icsolve.solve.stability import holding_values
 from icsolve.statics.friction import static_range
 from icsolve.sweep.varied_numbers import find_number, with_numbers
 from reference import frame_of, points_of
-from rough_scenes import KINDS, TOUCHING, Rough, band
+from rough_scenes import KINDS, TOUCHING, Rough, band, mu
 from shell import Shell
 from sizes import FULL, sampled
 
@@ -394,3 +394,37 @@ loads: {{P: {{force: 100, link: 4, at: C, angle: 200}}, T: {{torque: {torque}, l
         known_loads._held.cache_clear()
         again = holding_values(case, "angles.AB", 25.0, 45.0)
         assert [spot.value for spot in again] == pytest.approx([spot.value for spot in found], rel=1e-12)
+
+
+GROOVE = """icsolve: 1
+points: {{A: [{a}, 0], B: [{b}, {h}], G: [{x}, {y}], P: [3, 1], Q: [4, {q}]}}
+joints:
+  - {{contact: [{base}, 2], at: A, normal: {n}, mu: {m}}}
+  - {{contact: [{base}, 2], at: B, normal: {k}, mu: {u}}}
+  - {{pin: [1, 3], at: P}}
+  - {{slot: [3, 1], at: Q, along: {along}, mu: 0.2}}
+loads:
+  F: {{force: {load}, link: 2, at: G, angle: {angle}}}
+  V: {{force: 40, link: 3, at: {at}, angle: -90}}
+"""
+
+
+@sampled(4)
+@pytest.mark.parametrize("seed", range(200 if FULL else 24))
+def test_a_joint_that_is_pressed_and_does_not_rub_takes_no_part(seed: int) -> None:
+    """A body in a rough groove, of the frame or of a link that is held fast and bears a load of its own: the
+    load that alone acts on the body holds in the same range, from nothing on or nowhere else."""
+    dice = Random(f"groove {seed}")
+    numbers = {
+        "a": round(dice.uniform(-0.6, -0.3), 2), "b": round(dice.uniform(0.3, 0.6), 2),
+        "h": round(dice.uniform(-0.2, 0.2), 2), "x": round(dice.uniform(-0.4, 0.4), 2),
+        "y": round(dice.uniform(0.2, 1.0), 2), "q": round(dice.uniform(-1, 1), 2),
+        "n": dice.randint(20, 80), "k": dice.randint(100, 160), "m": mu(dice, 10, 80), "u": mu(dice, 10, 80),
+        "along": dice.randint(-40, 40), "angle": dice.randint(-110, -70), "at": dice.choice("AQ"),
+    }  # fmt: skip
+    frame, link = (
+        [icsolve.load(GROOVE.format(base=base, load=load, **numbers)) for load in ("unknown", 10)]
+        for base in (1, 3)
+    )
+    assert range_of(link[0]) == range_of(frame[0])
+    assert icsolve.solve(link[1]).holds_still == icsolve.solve(frame[1]).holds_still

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from itertools import pairwise
 from random import Random
 
 import numpy as np
@@ -659,3 +660,64 @@ loads:
   T: {{torque: unknown, link: 2}}
   W: {{weight: 10, link: 3, at: R}}
 """
+
+
+def boom(dice: Random, panels: int) -> tuple[str, dict[str, Place]]:
+    """A lattice boom of bars by their lengths, from its foot D to the rod that holds its head: a case that is
+    to have its `near`, and where the joints of the boom are."""
+    at, joints = {"D": (0.0, 0.0)}, [f"J{k}" for k in range(1, panels + 2)]
+    for k, name in enumerate(joints, 1):
+        at[name] = (0.5 * k + dice.uniform(-0.05, 0.05), 0.4 * (k % 2) + dice.uniform(-0.05, 0.05))
+    names = list(at)
+    bars = [*pairwise(names), *zip(names, names[2:], strict=False)]
+    lengths = ", ".join(f"{p}-{q}: {math.dist(at[p], at[q]):.6f}" for p, q in bars)
+    x, y = at[names[-1]]
+    rod = math.dist((-2.0 + 0.5, 1.0), (x, y))
+    return (
+        f"""icsolve: 1
+points: {{A: [-2, 1], D: [0, 0]}}
+lengths: {{AB: 0.5, B-{names[-1]}: {rod:.6f}, {lengths}}}
+angles: {{AB: 0}}
+NEAR
+links: {{boom: [{", ".join(joints)}]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, boom], at: {names[-1]}}}
+  - {{pin: [boom, 1], at: D}}
+""",
+        {p: at[p] for p in joints},
+    )
+
+
+def with_near(text: str, near: dict[str, Place]) -> Case:
+    return load(
+        text.replace("NEAR", f"near: {{{', '.join(f'{p}: [{x}, {y}]' for p, (x, y) in near.items())}}}")
+    )
+
+
+@pytest.mark.parametrize("panels", [4, 16, 40])
+def test_a_link_of_many_triangles_is_found_from_where_its_joints_roughly_are(panels: int) -> None:
+    """Two shapes of each, of which `near` means one: not all that they make together are tried."""
+    text, at = boom(Random(f"boom {panels}"), panels)
+    places = places_of(with_near(text, {p: (round(x, 1), round(y, 1)) for p, (x, y) in at.items()}))
+    assert apart(at, {p: places[p] for p in at}) < 1e-3 * panels
+
+
+@sampled(4)
+@pytest.mark.parametrize("seed", range(40 * MORE))
+def test_of_the_shapes_of_a_link_the_nearest_is_taken_wherever_near_is(seed: int) -> None:
+    """Of some joints anywhere about: the way with the least sum of squared distances, or a refusal."""
+    dice = Random(f"shapes {seed}")
+    text, at = boom(dice, dice.randint(2, 4))
+    wide = dice.choice([0.05, 0.5, 2.0])
+    some = dice.sample(sorted(at), dice.randint(1, len(at)))
+    near = {p: (at[p][0] + dice.uniform(-wide, wide), at[p][1] + dice.uniform(-wide, wide)) for p in some}
+    every = [off(near, way.points) for way in ways_of(load(text.replace("NEAR", ""))).ways]
+    try:
+        taken = off(near, places_of(with_near(text, near)))
+    except SceneError as refused:
+        if refused.status == Status.AMBIGUOUS or "lies at near" in refused.message:
+            return
+        raise
+    assert taken == pytest.approx(min(every), rel=1e-9)

@@ -32,6 +32,7 @@ from icsolve.sweep.varied_numbers import numbers_of
 from icsolve.tuples import replace
 from library import FILES, page_of, sample
 from sizes import FULL, sampled
+from test_near import boom
 
 ROOT = Path(__file__).parent.parent / "cases"
 LENGTHS = """icsolve: 1
@@ -1386,3 +1387,16 @@ def test_a_block_off_its_guide_is_refused_by_solve_and_by_its_page(shown: Any) -
     page = shown(GUIDED)
     changes += [{p: "80"} for p in page.run(FIELDS)[0] if p.endswith("along")]
     assert compare(page, GUIDED, changes) == ["inconsistent", "inconsistent", "ok", "inconsistent"]
+
+
+@sampled(2)
+@pytest.mark.parametrize("panels", [5, 16, 24])
+def test_a_link_of_many_triangles_is_found_as_solve_finds_it(panels: int, shown: Any, tmp_path: Path) -> None:
+    """Of its 2^n shapes the one that `near` means, with whatever numbers are typed."""
+    text, at = boom(random.Random(f"boom {panels}"), panels)
+    near = ", ".join(f"{p}: [{x:.1f}, {y:.1f}]" for p, (x, y) in at.items())
+    loads = f"loads: {{W: {{weight: 5, link: boom, at: J{panels + 1}}}, T: {{torque: unknown, link: 2}}}}\n"
+    case = tmp_path / "boom.yaml"
+    case.write_text(text.replace("NEAR", f"near: {{{near}}}") + loads)
+    changes = [{"loads.W": "7"}, {"angles.AB": "1"}, {"points.D.x": "0.01"}, {"lengths.AB": "0.51"}]
+    assert compare(shown(case), case, changes) == ["ok"] * 4

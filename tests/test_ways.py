@@ -324,3 +324,29 @@ def test_no_more_ways_are_placed_than_can_be_listed(monkeypatch: pytest.MonkeyPa
     found = ways_of(load(scissors(6)(Random(1))))
     assert not found.complete and 0 < len(found.ways) <= 21
     assert "there are more ways" in found.notes[0]
+
+
+@pytest.mark.parametrize("triple", [(3, 4, 5), (5, 12, 13), (8, 15, 17), (20, 21, 29)])
+@pytest.mark.parametrize("guided", [False, True])
+def test_a_way_that_leaves_a_point_free_is_no_way_but_told(
+    triple: tuple[int, int, int], guided: bool
+) -> None:
+    """Of the two places of C one has the same circles about it as D, or puts the slot of BC on E's guide:
+    E may be anywhere there, and has its places with the other C."""
+    a, b, c = triple
+    far = c + a + b / 7
+    circles = (
+        f"points: {{A: [0, 0], B: [{2 * a}, 0], D: [{a}, {b}]}}\n"
+        f"lengths: {{AC: {c}, BC: {c}, CE: {far}, DE: {far}}}\n"
+    )
+    lines = f"points: {{A: [{c + a}, {b}], B: [0, 0], E: [unknown, 0]}}\nlengths: {{AC: {c}, BC: {c}}}\n"
+    pins = "joints:\n  - {pin: [1, 2], at: A}\n  - {pin: [2, 3], at: C}\n  - {pin: [1, 3], at: B}\n"
+    text = (
+        lines + pins + "  - {slot: [4, 3], at: E, along: [B, C]}\n  - {slide: [4, 1], at: E, along: 0}\n"
+        if guided
+        else circles + pins + "  - {pin: [3, 4], at: C}\n  - {pin: [4, 5], at: E}\n  - {pin: [5, 1], at: D}\n"
+    )
+    found = ways_of(figure_case(text))
+    assert len(found.ways) == (1 if guided else 2) and not found.complete
+    (note,) = found.notes
+    assert "not shown to be all" in note and "E may lie anywhere" in note

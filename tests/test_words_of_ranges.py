@@ -14,6 +14,7 @@ import pytest
 import icsolve
 import rough_scenes
 import standing
+from icsolve.sweep.varied_numbers import find_number, with_numbers
 from shell import Shell
 from sizes import FULL, sampled
 
@@ -292,6 +293,19 @@ def test_beside_a_dead_centre_it_locks_on_both_sides_of_a_pin_without_load(rise:
 LEFT = "left the other way round at some joint"
 
 
+def left_rod(dice: Random) -> tuple[str, icsolve.Answer]:
+    """A rod in two rough slots with a LOAD, and what is found of that one: friction holds more of it, as it
+    was left, than what grew from rest."""
+    while True:
+        text = re.sub("  L1: .*\n", "", standing.rod(dice))  # a torque
+        text = "LOAD".join(text.rsplit("force: 1,", 1)).replace("LOAD", "force: LOAD,")
+        answer = icsolve.solve(icsolve.load(text.replace("LOAD", "unknown")))
+        assert answer.friction is not None and answer.friction.possible is not None
+        high, most = answer.answers["L2"].holds[1], answer.friction.possible[1]
+        if math.isfinite(high) and most - high > 0.01 * abs(high):
+            return text, answer
+
+
 @sampled(4)
 @pytest.mark.parametrize("seed", range(60 if FULL else 4))
 def test_between_impending_motion_and_what_friction_can_hold_it_is_open(
@@ -299,18 +313,11 @@ def test_between_impending_motion_and_what_friction_can_hold_it_is_open(
 ) -> None:
     """A rod in two rough slots: with one load unknown, known and sought the same is said of the stretch in
     which friction holds only as it was left."""
-    dice = Random(f"left {seed}")
-    while True:
-        text = re.sub("  L1: .*\n", "", standing.rod(dice))  # a torque
-        last = text.rindex("force: 1,")
-        answer = icsolve.solve(icsolve.load(f"{text[:last]}force: unknown,{text[last + 9 :]}"))
-        assert answer.friction is not None and answer.friction.possible is not None
-        (high, most), held = (answer.answers["L2"].holds[1], answer.friction.possible[1]), answer
-        if math.isfinite(high) and most - high > 0.01 * abs(high):
-            break
+    text, held = left_rod(Random(f"left {seed}"))
+    high, most = held.answers["L2"].holds[1], held.friction.possible[1]
     assert any(f"from {high:.6g}" in note and LEFT in note for note in held.notes)
     beyond = 0.5 * (high + most) if math.isfinite(most) else high + abs(high) + 1.0
-    known = f"{text[:last]}force: {beyond!r},{text[last + 9 :]}"
+    known = text.replace("LOAD", repr(beyond))
     given = icsolve.solve(icsolve.load(known))
     assert given.holds_still is None and "holds_still" not in given.to_dict()
     assert [LEFT in note for note in given.notes] == [True]
@@ -324,6 +331,36 @@ def test_between_impending_motion_and_what_friction_can_hold_it_is_open(
     assert (one["from"], one["to"]) == ("holds", "slips")
     assert one["at"]["loads.L2"] == pytest.approx(high, rel=1e-12)
     assert any(LEFT in note for note in found["notes"])
+
+
+@sampled(2, "path")
+@pytest.mark.parametrize("path", ["loads.L2", "joints.A.mu"])
+@pytest.mark.parametrize("seed", range(30 if FULL else 4))
+def test_where_nothing_changes_it_is_told_where_friction_holds_only_as_it_was_left(
+    seed: int, path: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """From the first to the last of the places looked at of which `solve` leaves it open if the rod holds;
+    at the others it slips."""
+    dice = Random(f"left throughout {seed}")
+    judged: list[bool | None] = [True]
+    while None not in judged or True in judged:
+        text, held = left_rod(dice)
+        high, most = held.answers["L2"].holds[1], held.friction.possible[1]
+        room = min(most - high, abs(high) + 1.0)
+        known = text.replace("LOAD", repr(high + dice.uniform(0.2, 0.8) * room))
+        case = icsolve.load(known)
+        start = find_number(case, path).value if path == "joints.A.mu" else high + 0.1 * room
+        wide = dice.uniform(0.1, 0.4) if path == "joints.A.mu" else dice.uniform(0.5, 3.0) * room
+        values = [start + wide * k / 32 for k in range(33)]
+        judged = [icsolve.solve(with_numbers(case, {path: value})).holds_still for value in values]
+    file = tmp_path / "case.yaml"
+    file.write_text(known)
+    words = ("sweep", file, "--vary", f"{path}={values[0]!r},{values[-1]!r}", "--find", "hold", "--json")
+    (found,) = Shell(capsys)(*words).objects()
+    left = [value for value, holds in zip(values, judged, strict=True) if holds is None]
+    ends = f"from {path} = {left[0]:.6g} to {left[-1]:.6g}"
+    assert not found["found"]
+    assert any(LEFT in note and ends in note for note in found["notes"]), (found["notes"], ends)
 
 
 @pytest.mark.parametrize("turns", ["", ", turns: cw"])

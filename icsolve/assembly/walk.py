@@ -186,13 +186,15 @@ MOST_PLACED = 40_000
 class Path(NamedTuple):
     """The last step of a way so far, as it was settled; ``before`` leads to the others.
 
-    ``off`` is the sum of the squared distances from `near` up to here; ``places`` has the step's points.
+    ``off`` is the sum of the squared distances from `near` up to here, and ``least`` what it comes to at
+    least in the end; ``places`` has the step's points.
     """
 
     before: Path | None
     step: Step | None
     off: float
     places: Mapping[Key, Point]
+    least: float = 0.0
 
     def line(self) -> list[Path]:
         """The paths that lead here, the first one first."""
@@ -304,7 +306,7 @@ class Walk:
 
     def _beyond(self, path: Path) -> bool:
         """Whether a way is clearly farther from `near` already than the best mode so far."""
-        return not self.every and self.best < EVEN * EVEN * path.off
+        return not self.every and self.best < EVEN * EVEN * path.least
 
     def _advance(self, depth: int, path: Path, forks: list[Fork]) -> Path | None:
         """Run one step; None where nothing fits."""
@@ -313,7 +315,7 @@ class Walk:
         options = [option for option in settled if not self._beyond(option)]
         if not options:
             return None
-        options.sort(key=lambda option: option.off)
+        options.sort(key=lambda option: (option.least, option.off))
         if len(options) > 1:
             forks.append(Fork(depth, options[1:]))
         self._take(options[0])
@@ -353,8 +355,18 @@ class Walk:
     def _longer(self, path: Path, step: Step) -> Path:
         """The path with one more step, whose points are on the workspace."""
         places = {t: self.workspace.points[t] for t in step.targets}
-        off = sum(squared_distance(at, self.near[t]) for t, at in places.items() if t in self.near)
-        return Path(path, step, path.off + off, places)
+        off = path.off + sum(squared_distance(at, self.near[t]) for t, at in places.items() if t in self.near)
+        longer = Path(path, step, off, places, max(path.least, off))
+        if isinstance(step, Meet) and step.sign and isinstance(step.target, tuple) and self.near:
+            return longer._replace(least=max(longer.least, self._off_of_shape(longer, step.target[0])))
+        return longer
+
+    def _off_of_shape(self, path: Path, cluster: int) -> float:
+        """The least sum of squared distances from `near` that a cluster's points have wherever it is put."""
+        here = {key[1]: at for one in path.line() for key, at in one.places.items() if key[0] == cluster}
+        held = [p for p in here if p in self.near and p in self.order.points]
+        shape, near = ([complex(*at[p]) for p in held] for at in (here, self.near))
+        return misfit_of_shapes(shape, near)
 
     def _settled(self, depth: int, path: Path, step: Step) -> Iterator[Step]:
         """The step with each of the branches that it has here, one after another put on the workspace."""
@@ -517,6 +529,17 @@ def _middle_of_gap(step: Meet, workspace: Workspace) -> Point:
     # on the line of centres: between the circles, or where the one inside comes closest to the other
     along = (a + d - b) / 2.0 if far < 0.0 else (a + d + b) / 2.0 if over < 0.0 else -(a + b - d) / 2.0
     return px + along * (qx - px) / (d or 1.0), py + along * (qy - py) / (d or 1.0)
+
+
+def misfit_of_shapes(one: Sequence[complex], two: Sequence[complex]) -> float:
+    """The least sum of squared distances between the points of two shapes, one of them moved as a whole: a
+    lower bound of it, by what rounding may add."""
+    if len(one) < 3:
+        return 0.0
+    first, second = ([z - sum(shape) / len(shape) for z in shape] for shape in (one, two))
+    sizes = sum(abs(z) ** 2 for z in (*first, *second))
+    fit = abs(sum(z.conjugate() * w for z, w in zip(first, second, strict=True)))
+    return max(0.0, sizes - 2.0 * fit - 8.0 * len(one) * U * (sizes + sum(abs(z) ** 2 for z in (*one, *two))))
 
 
 def squared_distance(one: Point, two: Point) -> float:

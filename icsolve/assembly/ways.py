@@ -147,6 +147,9 @@ def _ways(walk: Walk, order: Order, loose: list[str]) -> Ways:
             f"not shown to be all: points {names} can only be found together, and the search of their places "
             "by exclusion came to an end before every part was empty or held one way"
         )
+    misses = [end.miss for end in walk.dead_ends]
+    free = dict.fromkeys(miss.message for miss in misses if miss.status == Status.UNDERDETERMINED)
+    notes += [f"not shown to be all: another way leaves a point free: {message}" for message in free]
     if loose:
         notes.append(f"nothing says where {listed([refusals.plain(p) for p in loose])} may be")
     frame = walk.workspace.frame
@@ -158,7 +161,7 @@ def _ways(walk: Walk, order: Order, loose: list[str]) -> Ways:
         near = {p: (round(places[p][0], digits), round(places[p][1], digits)) for p in picked}
         figure = Figure(frame, {p: mode.points[p] for p in order.points}, mode.steps)
         ways.append(AssemblyWay(_rounded_once(figure, walk.workspace.case), near))
-    return Ways(tuple(ways), walk.complete and not walk.gave_up, tuple(notes))
+    return Ways(tuple(ways), walk.complete and not (walk.gave_up or free), tuple(notes))
 
 
 def _rounded_once(figure: Figure, case: Case) -> dict[str, Place]:

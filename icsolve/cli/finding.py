@@ -237,7 +237,8 @@ def _equilibrium(case: Case, word: str, along: str, low: float, high: float) -> 
         {"kind": word, "at": {along: one.value + 0.0}, "error": {along: one.error}, **told}
         for one, told in places
     ]
-    return Finding(word, along, found, notes=(*notes, *_notes(case, word, along, low, found)))
+    more = _notes(case, word, along, (low, high), [one for one, _ in places])
+    return Finding(word, along, found, notes=(*notes, *more))
 
 
 FRICTIONLESS = (
@@ -246,32 +247,33 @@ FRICTIONLESS = (
 
 
 LEFT = (
-    "beside {along} = {value:.6g}, where it is said to slip, it may still hold if friction was left the "
-    "other way round at some joint."
+    "{where}, where it is said to slip, it may still hold if friction was left the other way round at some "
+    "joint."
 )
 
 
 def _notes(
-    case: Case, word: str, along: str, low: float, found: Sequence[Mapping[str, Any]]
+    case: Case, word: str, along: str, span: tuple[float, float], found: Sequence[Any]
 ) -> Iterator[str]:
     """What the entries do not say: that friction has no part in them, or what is so where there are none; and
-    beside which it hangs on how friction was left."""
+    where it hangs on how friction was left."""
     from icsolve.statics.power import has_friction
 
     if word == "rest" and has_friction(case):
         yield FRICTIONLESS
-    if word == "hold" and not found:
-        from icsolve.solve.stability import CUTS, is_still
+    if word != "hold":
+        return
+    from icsolve.solve.stability import CUTS, is_still, left_along
 
+    if not found:
         whole = along.count(".") == 1 and along.startswith("loads.")  # its range is one of `solve`
         where = "throughout" if whole else f"at all {CUTS + 1} places that were looked at"
-        yield f"it {'holds still' if is_still(case, along, low) else 'slips'} {where}."
-    for one in found if word == "hold" else ():
-        from icsolve.solve.stability import is_open_beside
-
-        value, error = one["at"][along], one["error"][along]
-        if is_open_beside(case, along, value, error, one["to"] == "slips"):
-            yield LEFT.format(along=along, value=value)
+        yield f"it {'holds still' if is_still(case, along, span[0]) else 'slips'} {where}."
+    for low, high in left_along(case, along, *span, found):
+        first, last = f"{along} = {low:.6g}", f"{high:.6g}"
+        yield LEFT.format(
+            where=f"beside {first}" if first.endswith(f" {last}") else f"from {first} to {last}"
+        )
 
 
 def _found(

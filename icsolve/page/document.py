@@ -160,14 +160,18 @@ def _file(*names: str) -> str:
 NAMES = "data digits scene rest live moving centres labels words position construction turn fields see"
 PARTS = NAMES.split()
 """The parts of the script, in the order in which they run: each uses those before it."""
-SIGNS = "=> === !== && || <= >= = * < > : + - / ? %".split()
+SIGNS = "=> === !== && || <= >= += ** = * < > : + - / ? %".split()
 CLOSED = (
     (", ", ","),
     ("; ", ";"),
     ("{ ", "{"),
     (" }", "}"),
     (") {", "){"),
+    (" : ", ":"),
     (": ", ":"),
+    (") return", ")return"),
+    ("const [", "const["),
+    ("const {", "const{"),
     ("if (", "if("),
     ("for (", "for("),
     *((f" {sign} ", sign) for sign in SIGNS),

@@ -378,6 +378,10 @@ class _ProgramWriter:
         numbers = numbers_of(case)
         ground = [key for key in self.order if isinstance(key, str)]
         place = {key: n for n, key in enumerate(self.order)}
+        for told in (step.told for step in steps):
+            keys = [self.order[n] for n in told["p"]]
+            if isinstance(keys[0], tuple):  # a shape on a cluster of its own, and its points in the figure
+                told |= {"shape": keys[0][0], "own": [place.get(key[1], -1) for key in keys]}
         return {
             "points": {name: place[name] for name in ground},
             "steps": [step.told for step in steps],

@@ -37,6 +37,10 @@ class Held(NamedTuple):
     shared: bool = False
     proven: bool = False
 
+    def left(self, value: float) -> bool:
+        """Whether this value is held only if friction was left the other way round at some joint."""
+        return any(low <= value <= high for low, high in self.possible) and not self.low <= value <= self.high
+
 
 NOWHERE = Held(math.inf, -math.inf)
 Spare = tuple[float, float]
@@ -59,7 +63,7 @@ class AskedLoad(NamedTuple):
     @property
     def open(self) -> bool:
         """Whether it does only if friction was left the other way round at some joint."""
-        return any(low <= self.value <= high for low, high in self.held.possible) and not self.holds
+        return self.held.left(self.value)
 
 
 def asked_of(case: Case, path: str = "", here: bool = False) -> AskedLoad | None:
@@ -124,7 +128,9 @@ def moving_loads(case: Case, path: str = "") -> Held:
         found = asked_of(case, path, here=True)
     if found is None:
         return _of_all(replace(case, motion=(), expect=()))
-    return Held(found.held.low - found.value, found.held.high - found.value, found.held.error)
+    held, value = found.held, found.value
+    possible = tuple([(low - value, high - value) for low, high in held.possible])
+    return Held(held.low - value, held.high - value, held.error, possible)
 
 
 def held_along(case: Case, path: str) -> tuple[Range, ...]:
@@ -136,17 +142,6 @@ def held_along(case: Case, path: str) -> tuple[Range, ...]:
         if found is not None and found.load.name == own:
             return (found.held[:2], *found.held.again)
     return ()
-
-
-def is_open(case: Case, path: str = "") -> bool:
-    """Whether it hangs on how friction was left if a mechanism under known loads holds still.
-
-    Parameters as of `asked_of`.
-    """
-    with suppress(SceneError):
-        found = asked_of(case, path)
-        return found is not None and found.open
-    return False
 
 
 def spare_friction(held: Held) -> Spare:

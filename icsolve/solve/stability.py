@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cache
-from itertools import pairwise
+from itertools import groupby, pairwise
 
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
@@ -259,14 +259,21 @@ def is_still(case: Case, path: str, value: float) -> bool:
     return spare_friction(moving_loads(with_numbers(case, {own: value}), own))[0] >= 0.0
 
 
-def is_open_beside(case: Case, path: str, value: float, error: float, above: bool) -> bool:
-    """Whether just above or below a value at which a mechanism ceases to hold still, it may still hold, as
-    friction was left."""
-    from icsolve.solve.known_loads import is_open
+def left_along(
+    case: Case, path: str, low: float, high: float, changes: Iterable[TurningPower]
+) -> list[tuple[float, float]]:
+    """From which to which of the places that are looked at, those beside these changes too, a mechanism that
+    is said to slip may still hold, as friction was left."""
+    from icsolve.solve.known_loads import moving_loads
 
     own = find_number(case, path).path
-    step = 4.0 * error + BESIDE * abs(value)
-    return is_open(with_numbers(case, {own: value + (step if above else -step)}), own)
+    places = [low + (high - low) * k / CUTS for k in range(CUTS + 1)]
+    for one in changes:
+        step = 4.0 * one.error + BESIDE * abs(one.value)
+        places.append(one.value + (step if one.after == "slips" else -step))
+    asked = [(at, moving_loads(with_numbers(case, {own: at}), own).left(0.0)) for at in sorted(places)]
+    stretches = [[at for at, _ in stretch] for left, stretch in groupby(asked, lambda one: one[1]) if left]
+    return [(stretch[0], stretch[-1]) for stretch in stretches]
 
 
 BESIDE = 1e-9
@@ -275,8 +282,8 @@ BESIDE = 1e-9
 __all__ = [
     "TurningPower",
     "holding_values",
-    "is_open_beside",
     "is_still",
+    "left_along",
     "neutral_values",
     "rest_as_written",
     "with_stability",

@@ -297,6 +297,27 @@ function figureOf(program, told, x) {
     return total;
   }
 
+  /* The least sum of squared distances from `near` that a shape on its own has wherever it is put. */
+  function offOfShape(path) {
+    let [count, ax, ay, bx, by, sizes, c, t] = [0, 0, 0, 0, 0, 0, 0, 0];
+    for (let one = path; one; one = one.before) {
+      const { p, shape, own } = told.steps[one.n];
+      if (shape === told.steps[path.n].shape)
+        p.forEach((k, m) => {
+          const wish = near.get(own[m]);
+          if (!wish) return;
+          const [[x, y], [u, v]] = [one.places.get(k), wish];
+          count += 1;
+          [ax, ay, bx, by] = [ax + x, ay + y, bx + u, by + v];
+          sizes += x * x + y * y + u * u + v * v;
+          [c, t] = [c + x * u + y * v, t + x * v - y * u];
+        });
+    }
+    if (!count) return 0;
+    const middles = (ax * ax + ay * ay + bx * bx + by * by) / count;
+    const fit = hypot(c - (ax * bx + ay * by) / count, t - (ax * by - ay * bx) / count);
+    return sizes - middles - 2 * fit - count * sizes * 2 ** -50;
+  }
   /* Every way of assembling that is not clearly farther from `near` than another. */
   function walk(list) {
     const modes = [];
@@ -307,9 +328,11 @@ function figureOf(program, told, x) {
       const places = new Map(told.steps[n].p.map((k) => [k, points[k]]));
       let sum = off;
       for (const [k, at] of places) if (near.has(k)) sum += apart(at, near.get(k)) ** 2;
-      return { before, places, off: sum };
+      const own = { before, n, places, off: sum, least: max(sum, before ? before.least : 0) };
+      if (told.steps[n].shape) own.least = max(own.least, offOfShape(own));
+      return own;
     };
-    const beyond = (path) => best < EVEN * EVEN * path.off;
+    const beyond = (path) => best < EVEN * EVEN * path.least;
     const advance = (depth, path) => {
       if (--budget < 0) return;
       const n = list[depth];
@@ -337,7 +360,9 @@ function figureOf(program, told, x) {
         ends.push({ depth, miss: new Refusal("cannot-assemble", words, abs(behind[0])), path: own });
         return null;
       });
-      const kept = tried.filter((one) => one && !beyond(one.own)).sort((a, b) => a.own.off - b.own.off);
+      const kept = tried.filter((one) => one && !beyond(one.own)).sort(
+        (a, b) => a.own.least - b.own.least || a.own.off - b.own.off,
+      );
       for (const { option, own } of kept) {
         if (beyond(own)) continue;
         take(n, option);

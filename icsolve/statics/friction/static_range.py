@@ -204,12 +204,14 @@ def _may_part(statics: Statics) -> bool:
 
 
 def _nothing_presses(statics: Statics, senses: Sequence[float]) -> bool:
-    """Whether the loads press nowhere without friction, but for rounding of what the known ones alone would:
-    from nothing no friction grows."""
+    """Whether the loads press nowhere that rubs in the motion without friction, but for rounding of what the
+    known ones alone would: from nothing no friction grows."""
     equations = reduced(statics, senses)
+    if equations is None:
+        return False
     known = [row.get(statics.known, 0.0) for row in statics.general.solved.values()]
     least = NOTHING * largest_of(known)
-    return equations is not None and all(a <= least for a in without_friction(equations.equations))
+    return all(a <= least for a, s in zip(without_friction(equations.equations), senses, strict=True) if s)
 
 
 def of_limits(
