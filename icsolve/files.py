@@ -9,6 +9,7 @@ Below that, work in processes that share what was read and solved; where systems
 
 from __future__ import annotations
 
+import errno
 import os
 import stat
 import sys
@@ -19,6 +20,8 @@ from typing import IO, Any
 _LINKS = 40
 """Links that are followed one after the other, as the kernel does."""
 _MODE = 0o777
+UNWRITTEN = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO}
+"""What the system says of a file that it can write no more to, without its name."""
 
 
 class KeptError(OSError):
@@ -160,7 +163,8 @@ def whole_file(path: str, force: bool = True, binary: bool = False) -> Iterator[
     draft = os.path.join(folder, f".icsolve-{os.urandom(8).hex()}.part")
     _call.drafts.add(draft)
     try:
-        with open(draft, opener=_anew if found is None else _anew_for_oneself, **how) as file:
+        opener = _anew if found is None else _anew_for_oneself
+        with filling(path), open(draft, opener=opener, **how) as file:
             if found is not None:
                 _keep_mode(file.fileno(), found)
             yield file
@@ -176,6 +180,17 @@ def whole_file(path: str, force: bool = True, binary: bool = False) -> Iterator[
     finally:
         if draft not in {one for one, _, _ in (_call.waiting or {}).values()}:
             _drop(draft)
+
+
+@contextmanager
+def filling(path: str) -> Iterator[None]:
+    """A file is written to: a fault of the system, such as a full disk, has its name."""
+    try:
+        yield
+    except OSError as error:
+        if error.filename is None and error.errno in UNWRITTEN:
+            error.filename = path
+        raise
 
 
 @contextmanager

@@ -16,6 +16,7 @@ from icsolve.cli.run import DONE, NO_ANSWER, complain, progress, refusing
 from icsolve.files import (
     check_free,
     files_of,
+    filling,
     folder_of,
     note,
     scratch,
@@ -227,7 +228,7 @@ def _results(options: dict[str, Any], force: bool) -> Iterator[tuple[IO[str] | N
             yield target, ""
             return
         path = os.path.join(stack.enter_context(scratch()), "results.csv")
-        with open(path, "w", encoding="utf-8", newline="") as file:
+        with filling(path), open(path, "w", encoding="utf-8", newline="") as file:
             yield file, path
         if target is not None:
             with open(path, encoding="utf-8", newline="") as file:
