@@ -114,11 +114,10 @@ def _moved(whole: Lengths, z: Y, change: Sequence[float] | None, step: float, ah
 def _on_its_side(system: Lengths, found: Y, before: Y) -> Y:
     """A solution, or the one beyond where a force vanishes beside it, if that is on the side it came from."""
     for kink in _kinks(system, found, ASIDE):
-        forms = system.vectors[kink.rub]
         other = newton(system, kink.beyond(found), STEPS)
-        one, two, from_ = (vector(forms, y) for y in (found, other or found, before))
-        if math.dist(two, from_) < math.dist(one, from_):
-            found = other or found
+        if other is not None:
+            one, two, last = (vector(system.vectors[kink.rub], y) for y in (found, other, before))
+            found = other if math.dist(two, last) < math.dist(one, last) else found
     return found
 
 
@@ -257,7 +256,7 @@ def _sound(equations: Lengths, rough: Iterable[Sequence[float]]) -> list[Y]:
         forces = (*y, *(part for forms in equations.vectors for part in vector(forms, y)))
         if not any(near(forces, other) for _, other in found):
             found.append((y, forces))
-            starts += [beyond for kink in _kinks(equations, y, ASIDE) if (beyond := kink.beyond(y))]
+            starts += [kink.beyond(y) for kink in _kinks(equations, y, ASIDE)]
     return [y for y, _ in found]
 
 
@@ -292,8 +291,10 @@ def _kinks(equations: Lengths, y: Y, within: float) -> Iterator[Kink]:
     """Those that are no farther than this part of all unknowns."""
     sizes = [math.hypot(*vector(forms, y)) for forms in equations.vectors]
     least = within * largest_of((*y, *sizes))
-    for k in [k for k, size in enumerate(sizes) if size <= least and equations.vectors[k]]:
-        rows = slopes(equations, y)
+    rows = slopes(equations, y) if any(size <= least for size in sizes) else []
+    for k, (size, forms) in enumerate(zip(sizes, equations.vectors, strict=True)):
+        if size > least or not forms:
+            continue
         others = [_of_size_one(row) for j, row in enumerate(rows) if j != k]
         space = null_space(others, len(rows), EQUAL)
         if len(space.basis) != 1:
@@ -301,11 +302,11 @@ def _kinks(equations: Lengths, y: Y, within: float) -> Iterator[Kink]:
         (along,) = space.basis
         grows, *turns = (
             sum(a * b for a, b in zip(form[1:], along, strict=True))
-            for form in (equations.lengths[k], *equations.vectors[k])
+            for form in (equations.lengths[k], *forms)
         )
         if not (rubs := math.hypot(*turns)):
             continue
-        at = -sum(a * b for a, b in zip(vector(equations.vectors[k], y), turns, strict=True)) / rubs**2
+        at = -sum(a * b for a, b in zip(vector(forms, y), turns, strict=True)) / rubs**2
         if abs(at) * largest_of(along) <= least:
             yield Kink(k, tuple(along), at, abs(grows), rubs)
 
