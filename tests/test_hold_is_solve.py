@@ -24,7 +24,7 @@ from icsolve.sweep.varied_numbers import find_number, with_numbers
 from reference import frame_of, points_of
 from rough_scenes import KINDS, TOUCHING, Rough, band, mu
 from shell import Shell
-from sizes import FULL, sampled
+from sizes import FULL, few, sampled
 
 LEVER = """icsolve: 1
 points: {A: [0, 0], B: [2, 0], C: [-1, 0]}
@@ -352,6 +352,47 @@ loads:
         (found,) = holding_values(case, "angles.AB", 0.5, 1.5)
         assert (found.before, found.after) == ("holds", "slips")
         assert found.value == pytest.approx(low, rel=1e-13)
+
+
+def test_slider_cranks_near_their_dead_centres_hold_as_to_first_order_they_should() -> None:
+    """The push that the slider's friction leaves turns the crank by its arm, the pins hold it by the radii of
+    their friction circles times how fast they turn. What is nearer to the limit than 15 % is left out."""
+    dice, told = Random("dead centres"), {True: 0, False: 0}
+    for _ in range(few(400, 20)):
+        crank = math.radians(dice.choice((dice.uniform(0.01, 3.0), 180.0 - dice.uniform(0.01, 2.0))))
+        (x, y), rod = (math.cos(crank), math.sin(crank)), math.asin(0.5 * math.sin(crank))
+        rubs, guide = [dice.choice((0.0, 0.1, 0.3)) for _ in "ABC"], dice.choice((0.0, 0.1, 0.2))
+        push, side, torque = dice.choice((-70, -30, 20, 120)), dice.choice((0, 40)), dice.choice((0, 0, 0.3))
+        if not (guide or any(rubs)):
+            continue
+        pins = "".join(
+            f"  - {{pin: [{n}, {n + 1}], at: {at}, mu: {mu}, radius: 0.04}}\n"
+            for n, at, mu in zip((1, 2, 3), "ABC", rubs, strict=True)
+        )
+        answer = icsolve.solve(
+            icsolve.load(f"""icsolve: 1
+points: {{A: [0, 0], B: [{x!r}, {y!r}], C: [{x + 2.0 * math.cos(rod)!r}, 0]}}
+joints:
+{pins}  - {{slide: [4, 1], at: C, along: 0, mu: {guide}}}
+loads:
+  V: {{force: {side}, link: 4, at: C, angle: 90}}
+  W: {{force: {push}, link: 4, at: C, angle: 0}}
+  T: {{torque: {torque}, link: 2}}
+""")
+        )
+        turns = -x / (2.0 * math.cos(rod))
+        rates, over = (1.0, turns - 1.0, turns), []
+        for way in (-1.0, 1.0):
+            left = push + way * guide * (side + 0.5 * abs(push) * math.tan(rod))
+            drive = abs(torque - left * y * (1.0 - turns))
+            circles = sum(abs(w) * math.sin(math.atan(mu)) for w, mu in zip(rates, rubs, strict=True))
+            holds = 0.04 * circles * abs(left)
+            over.append((drive - holds) / (drive + holds))
+        expected = True if max(over) < -0.15 else False if min(over) > 0.15 else None
+        if expected is not None:
+            assert answer.holds_still is expected, (over, answer.notes)
+            told[expected] += 1
+    assert min(told.values()) > 0
 
 
 @pytest.mark.parametrize(("lead", "locks"), [(10, True), (60, False)])
