@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from icsolve.case import Case
+    from icsolve.solve.stability import MovingLoads, TurningPower
     from icsolve.sweep.find_on_record import Query
 
     Values = npt.NDArray[np.float64]
@@ -237,8 +238,7 @@ def _equilibrium(case: Case, word: str, along: str, low: float, high: float) -> 
         {"kind": word, "at": {along: one.value + 0.0}, "error": {along: one.error}, **told}
         for one, told in places
     ]
-    more = _notes(case, word, along, (low, high), [one for one, _ in places])
-    return Finding(word, along, found, notes=(*notes, *more))
+    return Finding(word, along, found, notes=tuple(notes))
 
 
 FRICTIONLESS = (
@@ -252,41 +252,40 @@ LEFT = (
 )
 
 
-def _notes(
-    case: Case, word: str, along: str, span: tuple[float, float], found: Sequence[Any]
-) -> Iterator[str]:
-    """What the entries do not say: that friction has no part in them, or what is so where there are none; and
-    where it hangs on how friction was left."""
-    from icsolve.statics.power import has_friction
-
-    if word == "rest" and has_friction(case):
-        yield FRICTIONLESS
-    if word != "hold":
-        return
-    from icsolve.solve.stability import CUTS, is_still, left_along
-
-    if not found:
-        whole = along.count(".") == 1 and along.startswith("loads.")  # its range is one of `solve`
-        where = "throughout" if whole else f"at all {CUTS + 1} places that were looked at"
-        yield f"it {'holds still' if is_still(case, along, span[0]) else 'slips'} {where}."
-    for low, high in left_along(case, along, *span, found):
-        first, last = f"{along} = {low:.6g}", f"{high:.6g}"
-        yield LEFT.format(
-            where=f"beside {first}" if first.endswith(f" {last}") else f"from {first} to {last}"
-        )
-
-
 def _found(
     case: Case, word: str, along: str, low: float, high: float
 ) -> tuple[list[tuple[Any, dict[str, Any]]], list[str]]:
-    """Each place with what is told of it, and sentences on what was left out."""
+    """Each place with what is told of it, and sentences on what is left out or what the places do not say."""
     if word == "rest":
         from icsolve.answer.equilibrium import stability_dict
         from icsolve.solve.positions import find_along
+        from icsolve.statics.power import has_friction
 
         rests, notes = find_along(case, along, low, high)
-        return [(one, stability_dict(one.stability, one.stiffness, one.why)) for one in rests], notes
-    from icsolve.solve.stability import holding_values, neutral_values
+        told = [(one, stability_dict(one.stability, one.stiffness, one.why)) for one in rests]
+        return told, [*notes, *([FRICTIONLESS] if has_friction(case) else [])]
+    from icsolve.solve.stability import holding_values, loads_along, neutral_values
 
-    changes = (neutral_values if word == "neutral" else holding_values)(case, along, low, high)
-    return [(change, {"from": change.before, "to": change.after}) for change in changes], []
+    if word == "neutral":
+        changes, notes = neutral_values(case, along, low, high), []
+    else:
+        loads = loads_along(case, along)
+        changes = holding_values(case, along, low, high, loads)
+        notes = list(_of_holding(case, along, (low, high), changes, loads))
+    return [(change, {"from": change.before, "to": change.after}) for change in changes], notes
+
+
+def _of_holding(
+    case: Case, along: str, span: tuple[float, float], changes: Sequence[TurningPower], loads: MovingLoads
+) -> Iterator[str]:
+    """What is so where nothing changes, and where it hangs on how friction was left."""
+    from icsolve.solve.stability import CUTS, is_still, left_along
+
+    if not changes:
+        whole = along.count(".") == 1 and along.startswith("loads.")  # its range is one of `solve`
+        where = "throughout" if whole else f"at all {CUTS + 1} places that were looked at"
+        yield f"it {'holds still' if is_still(case, along, span[0], loads) else 'slips'} {where}."
+    for ends in left_along(*span, changes, loads):
+        low, high = (f"{end:.6g}" for end in ends)
+        where = f"beside {along} = {low}" if low == high else f"from {along} = {low} to {high}"
+        yield LEFT.format(where=where)

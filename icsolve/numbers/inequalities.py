@@ -175,7 +175,11 @@ def deepest(forms: Sequence[Form], counts: Sequence[float] | None = None) -> Dee
 def _has_small(forms: Sequence[Form]) -> bool:
     """Whether a form has next to nothing of a variable, which floats take for rounding: of one without end it
     counts all the same."""
-    return any(0.0 < abs(a) < CLOSE * largest_of(form[1:]) for form in forms for a in form[1:])
+    for form in forms:
+        least = CLOSE * largest_of(form[1:])
+        if any(0.0 < abs(a) < least for a in form[1:]):
+            return True
+    return False
 
 
 def _solved_again(found: Deepest, forms: Sequence[Form], counts: Sequence[float]) -> Deepest:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterable
 from functools import cache
 from itertools import groupby, pairwise
+from typing import TYPE_CHECKING
 
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
@@ -22,7 +23,12 @@ from icsolve.statics.power import has_friction, smooth
 from icsolve.sweep.varied_numbers import find_number, refuse_space, with_numbers
 from icsolve.tuples import NamedTuple, replace
 
+if TYPE_CHECKING:
+    from icsolve.solve.known_loads import Held
+
 CUTS = 32
+MovingLoads = Callable[[float], "Held"]
+"""Those of `loads_along`."""
 
 
 def with_stability(case: Case, answer: Answer, of: str) -> Answer:
@@ -207,16 +213,29 @@ def _driven(case: Case) -> str:
     raise refusal
 
 
-def holding_values(case: Case, path: str, low: float, high: float) -> list[TurningPower]:
-    """The values of a number at which a mechanism under known loads begins or ceases to hold still."""
-    from icsolve.solve.friction_ranges import edge_of_rest
-    from icsolve.solve.known_loads import Held, Spare, held_along, moving_loads, spare_friction
+def loads_along(case: Case, path: str) -> MovingLoads:
+    """What loads more would move a mechanism under known loads, by the value of a number; what was sampled is
+    asked again where it is closed in on."""
+    from icsolve.solve.known_loads import moving_loads
 
     own = find_number(case, path).path
 
-    @cache  # what was sampled is asked again where it is closed in on
+    @cache
     def loads(value: float) -> Held:
         return moving_loads(with_numbers(case, {own: value}), own)
+
+    return loads
+
+
+def holding_values(
+    case: Case, path: str, low: float, high: float, loads: MovingLoads | None = None
+) -> list[TurningPower]:
+    """The values of a number at which a mechanism under known loads begins or ceases to hold still; ``loads``
+    are those of `loads_along`, where they are asked elsewhere too."""
+    from icsolve.solve.friction_ranges import edge_of_rest
+    from icsolve.solve.known_loads import Spare, held_along, spare_friction
+
+    own, loads = find_number(case, path).path, loads or loads_along(case, path)
 
     def spare(value: float) -> Spare:
         return spare_friction(loads(value))
@@ -225,7 +244,7 @@ def holding_values(case: Case, path: str, low: float, high: float) -> list[Turni
         both = loads(value).low + loads(value).high
         return both if math.isfinite(both) else 0.0
 
-    values = [low + (high - low) * k / CUTS for k in range(CUTS + 1)]
+    values = _places(low, high)
     known = [(max(a, low), min(b, high)) for a, b in held_along(case, own)]
     values = sorted({*values, *(0.5 * (a + b) for a, b in known if a < b), *_rests(case, own, low, high)})
     for a, b in pairwise(tuple(values)):  # between two at which it slips in either sense it may hold
@@ -251,27 +270,28 @@ def _rests(case: Case, path: str, low: float, high: float) -> list[float]:
         return []
 
 
-def is_still(case: Case, path: str, value: float) -> bool:
-    """Whether a mechanism under known loads holds still at a value of a number."""
-    from icsolve.solve.known_loads import moving_loads, spare_friction
+def _places(low: float, high: float) -> list[float]:
+    """Where it is looked, evenly."""
+    return [low + (high - low) * k / CUTS for k in range(CUTS + 1)]
 
-    own = find_number(case, path).path
-    return spare_friction(moving_loads(with_numbers(case, {own: value}), own))[0] >= 0.0
+
+def is_still(case: Case, path: str, value: float, loads: MovingLoads | None = None) -> bool:
+    """Whether a mechanism under known loads holds still at a value of a number."""
+    from icsolve.solve.known_loads import spare_friction
+
+    return spare_friction((loads or loads_along(case, path))(value))[0] >= 0.0
 
 
 def left_along(
-    case: Case, path: str, low: float, high: float, changes: Iterable[TurningPower]
+    low: float, high: float, changes: Iterable[TurningPower], loads: MovingLoads
 ) -> list[tuple[float, float]]:
     """From which to which of the places that are looked at, those beside these changes too, a mechanism that
     is said to slip may still hold, as friction was left."""
-    from icsolve.solve.known_loads import moving_loads
-
-    own = find_number(case, path).path
-    places = [low + (high - low) * k / CUTS for k in range(CUTS + 1)]
+    places = _places(low, high)
     for one in changes:
         step = 4.0 * one.error + BESIDE * abs(one.value)
         places.append(one.value + (step if one.after == "slips" else -step))
-    asked = [(at, moving_loads(with_numbers(case, {own: at}), own).left(0.0)) for at in sorted(places)]
+    asked = [(at, loads(at).left(0.0)) for at in sorted(places)]
     stretches = [[at for at, _ in stretch] for left, stretch in groupby(asked, lambda one: one[1]) if left]
     return [(stretch[0], stretch[-1]) for stretch in stretches]
 
@@ -284,6 +304,7 @@ __all__ = [
     "holding_values",
     "is_still",
     "left_along",
+    "loads_along",
     "neutral_values",
     "rest_as_written",
     "with_stability",

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from functools import cache, partial
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -115,6 +116,8 @@ class StaticRange(NamedTuple):
 
 Within = Callable[[], "HeldRanges"]
 """Finds the ranges in which friction within its limits holds."""
+Moving = Callable[[], list[End]]
+"""Finds all equilibria that are about to move."""
 
 
 def static_range(
@@ -148,9 +151,10 @@ def static_range(
     if not all(_is_held(found, end) for end in ends):  # doubles have lost the range of one about to move
         return range_of(ends)
     own, others = found.nearest(smooth_load(statics) or 0.0)
-    told = range_of([_kept(own, end, senses) for end in _past_locks(statics, own, ends, senses)])
+    moving = cache(partial(_about_to_move, statics, senses))
+    told = range_of([_kept(own, end, senses) for end in _past_locks(own, ends, senses, moving)])
     possible = _same_ends(statics, (own.low, own.high), (told.least, told.most))
-    return _with_grown(statics, senses, told._replace(possible=possible, how=found.how, again=others))
+    return _with_grown(statics, moving, told._replace(possible=possible, how=found.how, again=others))
 
 
 def _is_held(found: HeldRanges, end: End) -> bool:
@@ -170,16 +174,18 @@ def _kept(own: HeldRange, end: End, senses: Sequence[float]) -> End:
 
 
 def _past_locks(
-    statics: Statics, own: HeldRange, ends: Sequence[End], senses: Sequence[float]
+    own: HeldRange, ends: Sequence[End], senses: Sequence[float], moving: Moving
 ) -> Iterator[End]:
     """The ends, in the place of one that is none the next beyond: the mechanism is about to move there, or
     friction within its limits holds no farther."""
-    moving = _about_to_move(statics, senses) if any(end.locks for end in ends) else []
     sides = zip(sorted(ends, key=lambda end: end.value), (-1.0, 1.0), own[:2], own.vertices, strict=True)
     for end, side, last, vertex in sides:
-        beyond = [one for one in moving if side * end.value < side * one.value < side * last]
+        if not end.locks:
+            yield end
+            continue
+        beyond = [one for one in moving() if side * end.value < side * one.value < side * last]
         far = min(beyond, key=lambda one: side * one.value, default=None)
-        yield (far or at_vertex(last, vertex, senses)) if end.locks else end
+        yield far or at_vertex(last, vertex, senses)
 
 
 def at_vertex(value: float, vertex: Vertex, senses: Sequence[float] = ()) -> End:
@@ -408,7 +414,8 @@ def pressed(statics: Statics, senses: Sequence[float], driven: bool, within: Wit
         return least._replace(presses=True, self_locking=False)
     own, others = found.nearest(max(0.0, 2.0 * told.least, told.least + 1.0))  # well inside
     possible = _same_ends(statics, (own.low, own.high), (told.least, told.most))
-    return _with_grown(statics, senses, told._replace(possible=possible, how=found.how, again=others))
+    moving = partial(_about_to_move, statics, senses)
+    return _with_grown(statics, moving, told._replace(possible=possible, how=found.how, again=others))
 
 
 def _as_it_grows(statics: Statics) -> StaticRange | None:
@@ -430,7 +437,7 @@ def _as_it_grows(statics: Statics) -> StaticRange | None:
     return StaticRange(*both, both, IMPENDING, ends=about_to_move, presses=True)
 
 
-def _with_grown(statics: Statics, senses: Sequence[float], told: StaticRange) -> StaticRange:
+def _with_grown(statics: Statics, moving: Moving, told: StaticRange) -> StaticRange:
     """A range with the parts beside it that hold however friction was left, of what friction within its
     limits can hold: they begin and end where it is about to move. Beside the range that is told, and beside
     an end of another at which it is not about to move, friction has to have been left the other way round;
@@ -439,14 +446,14 @@ def _with_grown(statics: Statics, senses: Sequence[float], told: StaticRange) ->
     sides = [side for side in sides if side[0] != side[1]]
     if not (sides or told.again):
         return told._replace(grown=())
-    moving, found = [end.value for end in _about_to_move(statics, senses)], list[tuple[float, float]]()
+    about, found = [end.value for end in moving()], list[tuple[float, float]]()
     for low, high in told.again:
         start, end = (low, high) if math.isfinite(low) else (high, low)
-        sides.append((start, end, any(_is_same(statics, start, at) for at in moving)))
+        sides.append((start, end, any(_is_same(statics, start, at) for at in about)))
     for start, end, again in sides:
-        here = [at for at in moving if _is_same(statics, start, at)]
+        here = [at for at in about if _is_same(statics, start, at)]
         holds = again or len(here) == 2
-        marks = [at for at in moving if min(start, end) < at < max(start, end) and at not in here]
+        marks = [at for at in about if min(start, end) < at < max(start, end) and at not in here]
         marks.sort(reverse=end < start)
         parts = enumerate(pairwise([start, *marks, end]))
         found += [(min(part), max(part)) for n, part in parts if (n % 2 == 0) is holds]
