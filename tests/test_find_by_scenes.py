@@ -16,10 +16,11 @@ from mpmath import cos, diff, mp, mpf, pi, sin, sqrt
 import icsolve
 from cams import sliding, swinging
 from icsolve.case import Case
+from icsolve.numbers.replay import Array
 from icsolve.read import load
 from icsolve.solve import solve
 from icsolve.sweep import find_by_scenes, sweep
-from icsolve.sweep.find_by_scenes import FoundPosition
+from icsolve.sweep.find_by_scenes import FoundPosition, SeenRows
 from icsolve.sweep.find_on_record import Query, find
 from sizes import FULL, MORE, sampled
 
@@ -406,3 +407,21 @@ def test_a_value_that_an_even_answer_misses_by_a_digit_is_nowhere() -> None:
         assert [
             spot.at for spot in find(case, {"points.A.x": [0.0, 10.0]}, Query("value", "F", value))
         ] == places
+
+
+def test_smooth_crests_and_zeros_are_not_closed_in_on_for_a_dead_centre(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The torque of an eccentric is largest twice a turn, and zero twice: a few places tell that it does not
+    run off to infinity at any of them."""
+    asked: list[int] = []
+    inner = find_by_scenes.Scenes._swept
+
+    def counted(self: find_by_scenes.Scenes, at: Array, proven: bool = False) -> SeenRows:
+        asked.append(len(at))
+        return inner(self, at, proven)
+
+    monkeypatch.setattr(find_by_scenes.Scenes, "_swept", counted)
+    assert not find(eccentric(5.0), {}, Query("dead"), drive={"2": (0.0, 360.0)})
+    # of each crest what six halvings and a parabola ask for, of each zero three quarterings
+    assert sum(asked[3:]) <= 2 * (2 * 6 + 4) + 2 * (1 + 3 * 3 + 4)

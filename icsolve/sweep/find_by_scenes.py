@@ -71,7 +71,7 @@ HOLDS = (
 BESIDE, GROWN = 1000.0, 3.0
 """What runs off to infinity grows as one over the distance: ``BESIDE`` widths away, or so much farther that
 it is finite, it is more than ``GROWN`` times as large as ten times as far away."""
-FADED = 0.01
+FADED = 0.1
 """What runs off to infinity is not larger far from there than near it: where both ends of a shorter stretch
 have less than this part of what the longer one had, the answer passes through zero."""
 ROOM = 2.0**-6
@@ -541,6 +541,8 @@ class Scenes:
             at, height, tops = fine[top - 1 : top + 2], heights[top - 1 : top + 2], [*tops, heights[top]]
             drops.append(height[1] - min(height[0], height[-1]))
             grows = len(tops) > LEVELS and tops[-1] > 2.0 * abs(tops[-1 - LEVELS])
+            if self.query.kind == "dead" and len(drops) > LEVELS and _bends(drops):
+                break
             if grows and len(tops) > ENOUGH and self.query.kind != "dead":
                 break
         seen = yield Asked(at, True)

@@ -92,6 +92,8 @@ class PathTracker:
         self.senses: dict[float, Array] = {}
         self.last: tuple[Array, dict[int, Array], Mask, Mask] | None = None
         """the places that were asked for last, what was given of them, and where doubles settled it"""
+        self.known: dict[tuple[tuple[int, ...], Decimal, Decimal], list[tuple[Decimal, list[Decimal]]]] = {}
+        """by nodes, the places around which they were asked for, and how far these are apart"""
         self.reach = reach
         self.ends = (-math.inf, math.inf)
         """how far groups were followed to both sides, where that ended"""
@@ -155,15 +157,29 @@ class PathTracker:
     def around(self, exact: ExactRecord, nodes: Sequence[int], near: float) -> Along | None:
         """Nodes near a place of the line, in all digits: of the polynomial through places around it. None
         where these are not of one way."""
-        values, widest = self._values(exact, nodes), as_written(self.line.widest)
         for apart in AROUND:
-            places = [as_written(near) + k * apart * widest for k in range(-PLACES, PLACES + 1) if k]
-            if self.unbroken(float(places[0]), float(places[-1])):
-                with localcontext(CONTEXT), suppress(Unreached):
-                    known = [(place, values(place)) for place in places]
-                    if is_smooth(known):
-                        return partial(through, known)
+            step = apart * as_written(self.line.widest)
+            with localcontext(CONTEXT):
+                middle = (as_written(near) / step).to_integral_value()
+            key = (tuple(nodes), middle, step)
+            if key not in self.known:
+                self.known[key] = self._smooth(exact, nodes, middle, step)
+            if known := self.known[key]:
+                return partial(through, known)
         return None
+
+    def _smooth(
+        self, exact: ExactRecord, nodes: Sequence[int], middle: Decimal, step: Decimal
+    ) -> list[tuple[Decimal, list[Decimal]]]:
+        """Nodes at places around a multiple of a step, which neighbours share; none where they are not of one
+        way."""
+        values = self._values(exact, nodes)
+        with localcontext(CONTEXT), suppress(Unreached):
+            places = [(middle + k) * step for k in range(-PLACES, PLACES + 1) if k]
+            if self.unbroken(float(places[0]), float(places[-1])):
+                known = [(place, values(place)) for place in places]
+                return known if is_smooth(known) else []
+        return []
 
     def _values(self, exact: ExactRecord, nodes: Sequence[int]) -> Along:
         wanted = [exact.record.nodes[k] for k in nodes]

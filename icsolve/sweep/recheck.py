@@ -196,11 +196,12 @@ class Recheck:
         tracker = self.tracker
         assert tracker is not None
         every, tracker.segments, tracker.last = tracker.segments, [segment], None
+        known, tracker.known = tracker.known, {}
         solved, unreached, self.solved, self.unreached = self.solved, self.unreached, None, set()
         try:
             yield
         finally:
-            tracker.segments, tracker.last = every, None
+            tracker.segments, tracker.last, tracker.known = every, None, known
             self.solved, self.unreached = solved, unreached
 
     def _states(self, s: float) -> dict[int, Decimal]:
