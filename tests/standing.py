@@ -246,7 +246,7 @@ def pushing(case: c.Case) -> set[int]:
 
 def off(case: c.Case, grown: float = 1.0) -> float:
     """How far the loads are from those that the joints can balance, friction within ``grown`` times its
-    limits: of contacts, guides (either sense of each) and smooth pins."""
+    limits, or without any: of contacts, guides (either sense of each) and smooth pins."""
     (a, friction, b, places), push = with_friction(case), pushing(case)
     rough = {int(np.flatnonzero(place.force[0])[0]): k for k, place in enumerate(places)}
     guides = [n for n in rough if n not in push]
@@ -257,8 +257,9 @@ def off(case: c.Case, grown: float = 1.0) -> float:
             sense = by.get(n, 1.0)
             if n in rough:
                 k = rough[n]
-                most = grown * places[k].limit
-                columns += [sense * a[:, n] + side * most * friction[:, k] for side in (1.0, -1.0)]
+                most, press = (1.0, 0.0) if math.isinf(grown) else (grown * places[k].limit, sense)
+                columns += [press * a[:, n] + side * most * friction[:, k] for side in (1.0, -1.0)]
+                columns += [sense * a[:, n]] if math.isinf(grown) else []
             else:
                 columns += [a[:, n]] if n in push else [a[:, n], -a[:, n]]
         found.append(off_the_cone(np.array(columns).T, b))

@@ -45,6 +45,30 @@ def test_known_loads_hold_where_the_joints_can_balance_them(kind: Callable[[Rand
     assert seen == {True, False}
 
 
+LETS_GO = "However much friction there is, a contact would have to pull"
+
+
+@sampled(2)
+@pytest.mark.parametrize("kind", [standing.crates, standing.bricks])
+@pytest.mark.parametrize("part", range(20 if FULL else 1))
+def test_friction_is_not_blamed_for_what_tips_or_lifts_off(kind: Callable[[Random], str], part: int) -> None:
+    """Where friction without limits does not hold the loads either, contacts would have to pull whatever
+    rubs, and that is said, of reactions too; where it does (to 1e-9 of the loads), it is not."""
+    dice, seen = Random(f"lets go {kind.__name__} {part}"), set()
+    for _ in range(few(24)):
+        case = icsolve.load(kind(dice))
+        answer = icsolve.solve(case)
+        if "mu" not in str(case.joints) or answer.holds_still is not False:
+            continue
+        lets_go = standing.off(case, math.inf) > 1e-9
+        assert (LETS_GO in " ".join(answer.notes)) is lets_go, case
+        with pytest.raises(icsolve.SceneError, match="friction is not enough") as refused:
+            icsolve.solve(case, reactions=True)
+        assert (LETS_GO in str(refused.value)) is lets_go
+        seen.add(lets_go)
+    assert seen == {True, False}
+
+
 @sampled(3)
 @pytest.mark.parametrize("kind", standing.KINDS)
 @pytest.mark.parametrize("part", range(20 if FULL else 1))

@@ -184,6 +184,17 @@ def standing(case: Case) -> Standing:
     return free_bodies.standing(_with_known_loads(case))
 
 
+def letting_go(case: Case) -> str:
+    """The sentence on contacts and ropes that let go under known loads that friction does not hold; empty
+    where more friction would hold them.
+
+    Raises SceneError where the scene can't be built.
+    """
+    from icsolve.scene import free_bodies
+
+    return free_bodies.letting_go(_with_known_loads(case))
+
+
 def jammed(case: Case) -> str:
     """The sentence on contacts that push by friction alone where known loads are held; empty where none does.
 

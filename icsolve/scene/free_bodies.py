@@ -29,6 +29,7 @@ from icsolve.tuples import TypeVar
 if TYPE_CHECKING:
     from icsolve.statics.friction.enclosure import SceneOnBalls
     from icsolve.statics.friction.in_motion import Enclose
+    from icsolve.statics.friction.pushing import RestingScene
     from icsolve.statics.friction.standing import Standing
 
 T = TypeVar("T")
@@ -58,7 +59,7 @@ def holds(parts: AnswerBuilder) -> bool:
         return False
     held = _stands(parts.scene)
     if held is False:
-        raise SceneError(Status.UNBALANCED, SLIPS)
+        raise SceneError(Status.UNBALANCED, f"{SLIPS} {letting_go(parts.scene)}".rstrip())
     return bool(held)
 
 
@@ -112,13 +113,17 @@ def standing(scene: EvaluatedScene) -> Standing:
 
     Raises SceneError where that is open.
     """
-    from icsolve.statics.friction.pushing import RestingScene
     from icsolve.statics.friction.standing import standing as found
 
-    def ask(question: Callable[[Position, Balance, Showing], T]) -> T:
-        return scene.ask(lambda one: question(_position(one), one.outcome.balance, one.arithmetic))
+    return found(_resting(scene))
 
-    return found(RestingScene(*_in_floats(scene), ask))
+
+def letting_go(scene: EvaluatedScene) -> str:
+    """The sentence on contacts and ropes that let go under known loads; empty where more friction would hold
+    these."""
+    from icsolve.statics.friction.standing import letting_go as found
+
+    return found(_resting(scene))
 
 
 def jammed(scene: EvaluatedScene) -> str:
@@ -126,6 +131,15 @@ def jammed(scene: EvaluatedScene) -> str:
     from icsolve.statics.friction.lifting import jammed as found
 
     return found(*_in_floats(scene))
+
+
+def _resting(scene: EvaluatedScene) -> RestingScene:
+    from icsolve.statics.friction.pushing import RestingScene
+
+    def ask(question: Callable[[Position, Balance, Showing], T]) -> T:
+        return scene.ask(lambda one: question(_position(one), one.outcome.balance, one.arithmetic))
+
+    return RestingScene(*_in_floats(scene), ask)
 
 
 def _in_floats(scene: EvaluatedScene) -> tuple[Position, Balance]:
@@ -176,7 +190,7 @@ def structure(program: Program, bound: bool, refusal: SceneError) -> Answer:
         bare = EvaluatedScene(prepare(smooth(case), program.want), bound, run=evaluate_still)
         if _stands(bare) is False:
             held = _stands(scene)
-            said = LETS_GO[held]
+            said = LETS_GO[held] + (f" {letting_go(scene)}".rstrip() if held is False else "")
     notes = (*figure.notes, *case.noticed, said)
     answer = Answer(
         case,

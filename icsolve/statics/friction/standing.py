@@ -89,6 +89,24 @@ def standing(scene: RestingScene) -> Standing:
     return sure
 
 
+def letting_go(scene: RestingScene) -> str:
+    """The sentence on contacts and ropes that let go under known loads that friction does not hold; empty
+    where more friction would hold them."""
+    case = scene.position.case
+    contacts = any(joint.only_pushes for joint in case.joints)
+    if not (contacts or case.ropes) or any(rope.slips for rope in case.ropes):
+        return ""
+    for flanks in every_flanks(scene):
+        limits = limits_in_floats(scene, flanks)
+        depth, error = _depth(scene, flanks, limits, lambda one: one._replace(rubs=()))
+        if depth >= -error:
+            return ""
+    return LETS_GO.format("a contact would have to pull" if contacts else "a rope would have to push")
+
+
+LETS_GO = "However much friction there is, {}: the links part there, and tip or lift off."
+
+
 def held_bodies(position: Position, balance: Balance, a: Showing) -> FreeBodies:
     """The reactions of known loads that friction holds, as far as equilibrium says how much of it acts: at
     rest a joint that rubs carries what acts along it too."""
@@ -109,19 +127,7 @@ def _standing(
     """With some contacts lost; where it holds only as the fit of the others presses them together, these."""
     own = limits.without(lost)
     open_ = _is_shared(own)
-
-    def exactly(part: ForcePart) -> tuple[float, float]:
-        found = (part.depth, ROUNDED) if part.depth < 0.0 else (part.sure, part.depth - part.sure)
-        if part.of and found[0] == part.depth:
-            with suppress(SceneError):
-                return scene.ask(
-                    lambda position, balance, a: _exactly(
-                        limits_of(position, balance, flanks).without(lost), part, a
-                    )
-                )
-        return found
-
-    depth, error = _deepest(own, exactly)
+    depth, error = _depth(scene, flanks, limits, lambda one: one.without(lost))
     if abs(depth) <= error:  # no digits tell it from the limit
         depth = 0.0
     found = Standing(depth, error, open_)
@@ -131,6 +137,28 @@ def _standing(
     without = (_standing(scene, flanks, limits, lost | {tie}) for tie in pressed.contacts)
     held = (one for one in without if isinstance(one, Standing) and one.depth >= 0.0)
     return next(held, pressed)
+
+
+def _depth(
+    scene: RestingScene,
+    flanks: Mapping[int, float],
+    limits: FrictionLimits,
+    change: Callable[[FrictionLimits], FrictionLimits],
+) -> tuple[float, float]:
+    """How deep the deepest point is within limits that are changed, and the error of that."""
+
+    def exactly(part: ForcePart) -> tuple[float, float]:
+        found = (part.depth, ROUNDED) if part.depth < 0.0 else (part.sure, part.depth - part.sure)
+        if part.of and found[0] == part.depth:
+            with suppress(SceneError):
+                return scene.ask(
+                    lambda position, balance, a: _exactly(
+                        change(limits_of(position, balance, flanks)), part, a
+                    )
+                )
+        return found
+
+    return _deepest(change(limits), exactly)
 
 
 # --- the deepest point ------------------------------------------------------------------------------
