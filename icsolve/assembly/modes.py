@@ -48,7 +48,7 @@ def refusal(walk: Walk) -> Miss:
     if walk.gave_up:
         steps = walk.order.steps
         forks = [step.target for step in steps if isinstance(step, Meet) and step.sign]
-        names = ", ".join(refusals.plain(key) for key in forks if key not in walk.near)
+        names = ", ".join(dict.fromkeys(refusals.plain(key) for key in forks if key not in walk.near))
         message = f"the figure has too many open branches to try them all; give near: for some of {names}"
         return Miss(Status.AMBIGUOUS, message)
     first = walk.dead_ends[0]
