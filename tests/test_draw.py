@@ -933,3 +933,25 @@ loads:
         assert reaction.force.count(None) == 1
         told = ", ".join("?" if part is None else figure_number(part) for part in reaction.force)
         assert f"F12@{joint} = ({told}) N" in texts
+
+
+BRAKE = """
+icsolve: 1
+points: {O: [0, 0], A: [-200, HIGH], S: [0, 150], H: [300, 170]}
+joints:
+  - {pin: [1, 2], at: O}
+  - {pin: [1, 3], at: A}
+  - {contact: [2, 3], at: S, normal: 90, mu: 0.35}
+motion: {link: 2, turns: ccw}
+loads:
+  F: {force: 400, link: 3, at: H, angle: -90}
+  T: {torque: unknown, link: 2}
+"""
+
+
+@pytest.mark.parametrize("high", range(100, 150, 5))
+def test_a_lever_that_all_but_lies_along_its_shoe_has_no_slit(high: int) -> None:
+    """No hole of a link is so narrow that the lines about it are one blot."""
+    shape = body_of(scene_of(known_of(icsolve.load(BRAKE.replace("HIGH", str(high))))), "3").shape
+    assert shape is not None and shape.geom_type == "Polygon"
+    assert not any(shapely.Polygon(ring).buffer(-1.0).is_empty for ring in shape.interiors)

@@ -10,7 +10,7 @@ import shapely
 from icsolve.case import Force, Toward, Weight
 from icsolve.case.joints import Guided
 from icsolve.draw.marks import Disc, Follows, Mark, MarkGroup, Point, Stroke, TextRun, along, unit
-from icsolve.draw.place import Label, Soft, area, bar, joined, nearest, plate, tilted
+from icsolve.draw.place import Label, Soft, area, bar, joined, nearest, plate, tilted, without_slits
 from icsolve.draw.scene import (
     BLOCK,
     HALF,
@@ -90,7 +90,7 @@ def body_of(scene: Scene, link: str) -> DrawnBody:
     dashed = bool(points) and all(j.stands_in for j in scene.case.joints if link in j.links)
     if dashed:
         parts = [plate(points, 4.0)] if len(points) != 2 else [bar(points, 0.01)]
-    shape = joined(parts) if parts else None
+    shape = without_slits(joined(parts)) if parts else None
     holes = tuple(bar(_inside(ends), PIN + 0.8) for ends in levers)
     return DrawnBody(link, shape, wheels, tuple(blocks), holes, _anchors(points, rods, wheels, shape), dashed)
 

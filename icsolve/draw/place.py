@@ -36,6 +36,8 @@ from icsolve.tuples import NamedTuple
 
 QUARTER = 5
 """Segments of a quarter circle of an outline."""
+SLIT = 1.0
+"""Half the width of the narrowest hole that is drawn."""
 
 
 def bar(points: Sequence[Point], half: float) -> shapely.Geometry:
@@ -63,6 +65,14 @@ def tilted(centre: Point, u: Point, length: float, height: float) -> shapely.Geo
 def joined(shapes: Iterable[shapely.Geometry]) -> shapely.Geometry:
     """The union of shapes."""
     return shapely.union_all(list(shapes))
+
+
+def without_slits(shape: shapely.Geometry) -> shapely.Geometry:
+    """A shape without holes so narrow that the lines about them would meet."""
+    if shape.geom_type != "Polygon" or not shape.interiors:
+        return shape
+    holes = [ring for ring in shape.interiors if not shapely.Polygon(ring).buffer(-SLIT).is_empty]
+    return shapely.Polygon(shape.exterior, holes)
 
 
 def nearest(shape: shapely.Geometry, p: Point) -> Point:
