@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from mpmath import mp
 
 import icsolve
 import rubbing
@@ -574,6 +575,47 @@ loads:
   M: {{torque: unknown, link: 3}}
 """)
     assert not any("stands still in this position" in note for note in answer.notes)
+
+
+@sampled(4)
+@pytest.mark.parametrize("seed", range(24 * MORE))
+def test_a_brake_that_a_program_turned_presses_as_the_upright_one(seed: int) -> None:
+    """The shoe's lever stands still but for the last digits of its 17: the load on it presses, and locks
+    nothing. A figure that misses by more than that is as it is written."""
+    dice = Random(f"turned {seed}")
+    radius, mu = dice.randint(50, 300), dice.choice([0.1, 0.25, 0.4])
+    places = {"O": (0, 0), "S": (0, radius), "A": (-dice.randint(100, 300), radius + dice.randint(-60, 60))}
+    places["H"] = (dice.randint(100, 400), radius + dice.randint(-20, 60))
+    drive, lean, more = dice.choice([-40, 40]), dice.randint(-40, 40), dice.choice([0, 20 * dice.random()])
+
+    def told(turn: float, off: float = 0.0) -> tuple[Found, str]:
+        with mp.workdps(40):  # each rounded once
+            cos, sin = mp.cos(turn * mp.pi / 180), mp.sin(turn * mp.pi / 180)
+            at = {p: [float(x * cos - y * sin), float(x * sin + y * cos)] for p, (x, y) in places.items()}
+        at["S"][0] += off
+        answer = solved(f"""
+points: {at}
+joints:
+  - {{pin: [1, 2], at: O}}
+  - {{pin: [1, 3], at: A}}
+  - {{contact: [2, 3], at: S, normal: {90 + turn!r}, mu: {mu}}}
+loads:
+  F: {{force: unknown, link: 3, at: H, angle: {lean - 90 + turn!r}}}
+  T: {{torque: {drive}, link: 2}}
+  D: {{torque: {more!r}, link: 2}}
+""")
+        return answer.answers["F"], " ".join(answer.notes)
+
+    (upright, said), (turned, of_turned) = (
+        told(0.0),
+        told(float(90 * dice.randint(0, 3) + dice.randint(1, 89))),
+    )
+    assert "the harder it presses, the more it holds" in said
+    assert not (upright.self_locking or turned.self_locking)
+    assert turned.holds == pytest.approx(upright.holds, rel=1e-9)
+    assert said in of_turned and ("only presses" in of_turned or said == of_turned)
+    off, of_off = told(0.0, 1e-9)
+    assert off.self_locking and "only presses" not in of_off
 
 
 @pytest.mark.parametrize("reach", [0.1, 0.4, 0.7, 0.95])

@@ -19,7 +19,6 @@ from icsolve.answer import Answer
 from icsolve.assembly import NOT_NEEDED
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.balls import is_long
 from icsolve.scene import refusals
 from icsolve.scene.parts import AnswerBuilder
 from icsolve.scene.program import EvaluatedScene, HeldAt, Want, evaluate_still, prepare
@@ -27,10 +26,10 @@ from icsolve.statics.power import has_friction, is_unknown
 from icsolve.tuples import LateModule, replace
 
 if TYPE_CHECKING:
-    from icsolve.scene import needed_part
+    from icsolve.scene import needed_part, sensitivity
     from icsolve.statics.friction.standing import Standing
 else:  # where the whole is refused
-    needed_part = LateModule("icsolve.scene.needed_part")
+    needed_part, sensitivity = map(LateModule, ("icsolve.scene.needed_part", "icsolve.scene.sensitivity"))
 
 
 def solve_scene(
@@ -160,7 +159,7 @@ def _solved(case: Case, want: Want, bound: bool, reactions: bool) -> Answer:
     try:  # the twist of every link, and the power of the loads on them
         return judged(balanced(AnswerBuilder(EvaluatedScene(program, bound))), reactions)
     except SceneError as refusal:
-        if bound and refusal.status in INEXACT and _has_long_numbers(case):
+        if bound and refusal.status in INEXACT and sensitivity.written_by_program(case):
             try:
                 return judged(AnswerBuilder(EvaluatedScene(program, bound, explained=True)), reactions)
             except SceneError as other:
@@ -223,20 +222,13 @@ INEXACT = (Status.STRUCTURE, Status.MOBILITY, Status.NEAR_SINGULAR, Status.CONTR
 """What a case may seem whose numbers a program has rounded."""
 
 
-def _has_long_numbers(case: Case) -> bool:
-    """Whether a program wrote numbers of a case."""
-    from icsolve.scene.sensitivity import numbers_of
-
-    return any(map(is_long, numbers_of(case).values()))
-
-
 def balanced(parts: AnswerBuilder) -> AnswerBuilder:
     """The scene; where its known loads balance but for the last digits of numbers that a program rounded, as
     explained by these."""
     scene = parts.scene
     if _asks(parts.case) or scene.explained or not (scene.certain and parts.first.outcome.motions.mobility):
         return parts
-    if parts.in_equilibrium or not _has_long_numbers(parts.case):
+    if parts.in_equilibrium or not sensitivity.written_by_program(parts.case):
         return parts
     with suppress(SceneError):
         explained = AnswerBuilder(EvaluatedScene(parts.program, True, explained=True))

@@ -22,15 +22,19 @@ from icsolve.scene.program import (
     prepare,
 )
 from icsolve.statics.free_bodies import FreeBodies, Reach, free_bodies
-from icsolve.statics.power import Balance, Value, has_friction, is_unknown, smooth
+from icsolve.statics.power import Balance, Solution, Value, has_friction, is_unknown, smooth
 from icsolve.statics.reaction_basis import Position, rope_ties
-from icsolve.tuples import TypeVar
+from icsolve.tuples import LateModule, TypeVar, replace
 
 if TYPE_CHECKING:
+    from icsolve.scene import sensitivity
     from icsolve.statics.friction.enclosure import SceneOnBalls
     from icsolve.statics.friction.in_motion import Enclose
     from icsolve.statics.friction.pushing import RestingScene
     from icsolve.statics.friction.standing import Standing
+    from icsolve.wording import sentences
+else:  # where a program wrote numbers
+    sensitivity, sentences = map(LateModule, ("icsolve.scene.sensitivity", "icsolve.wording.sentences"))
 
 T = TypeVar("T")
 
@@ -105,7 +109,24 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
         return moving(scene, answer_with, reactions)
     from icsolve.statics.friction.at_rest import held
 
-    return held(scene, answer_with)
+    if (but := _but_for_digits(parts)) is None:
+        return held(scene, answer_with)
+    found = held(scene._replace(solution=but), answer_with)
+    return replace(found, notes=(*found.notes, sentences.PRESSES))
+
+
+def _but_for_digits(parts: AnswerBuilder) -> Solution | None:
+    """The sum of power but for the last digits of numbers that a program rounded, where the unknown load
+    works by these alone."""
+    if parts.outcome.solution.verdict != "balanced" or not parts.scene.certain or parts.scene.explained:
+        return None
+    if not (any(map(is_unknown, parts.case.loads)) and sensitivity.written_by_program(parts.case)):
+        return None
+    with suppress(SceneError):
+        explained = EvaluatedScene(parts.program, True, explained=True)
+        found = explained.ask(lambda one: one.outcome.solution)
+        return found if found.is_workless else None
+    return None
 
 
 def standing(scene: EvaluatedScene) -> Standing:

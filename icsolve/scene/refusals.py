@@ -131,7 +131,7 @@ def may_hold(outcome: power.Outcome) -> bool:
     are several freedoms, and no motion is given."""
     if outcome.motions.mobility > 1:
         return len(power.unknown_loads(outcome.balance)) == 1 and not outcome.place.case.motion
-    return outcome.solution.verdict in ("no value", "any value") and outcome.motions.mobility == 1
+    return outcome.solution.is_workless and outcome.motions.mobility == 1
 
 
 def refuse_unbalanced(outcome: power.Outcome) -> None:

@@ -14,6 +14,7 @@ from icsolve.answer import Answer, Found
 from icsolve.case import Case, Coordinates, Corner, Direction, Number
 from icsolve.case.loads import name_of_inertia
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.balls import is_long
 from icsolve.numbers.units import exactly, numbers_in, split_quantity
 from icsolve.tuples import NamedTuple
 
@@ -176,6 +177,11 @@ NUMBERED = (
 def numbers_of(case: Case) -> Mapping[str, Number]:
     """Every number of a case by its path."""
     return {path: number for numbers in parts_of(case).values() for path, number in numbers.items()}
+
+
+def written_by_program(case: Case) -> bool:
+    """Whether a program wrote numbers of a case."""
+    return any(map(is_long, numbers_of(case).values()))
 
 
 def number_at(case: Case, path: str) -> Number:

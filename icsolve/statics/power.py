@@ -100,6 +100,11 @@ class Solution(NamedTuple):
     idle: tuple[int, ...] = ()
     culprit: str = ""
 
+    @property
+    def is_workless(self) -> bool:
+        """Whether an unknown load does no work."""
+        return self.verdict in ("no value", "any value")
+
 
 class PowerRow(NamedTuple):
     """The equation of power of a motion: of each unknown, then of the known loads together.

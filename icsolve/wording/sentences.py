@@ -64,6 +64,10 @@ EXPLAINED = (
     "constraints that agree to within half a unit of the last digit of numbers of 15 digits or more count as "
     "exact; the errors say what that leaves open."
 )
+PRESSES = (
+    "the unknown load works by the last digits alone of numbers of 15 digits or more: it counts as one that "
+    "only presses."
+)
 
 
 def not_as_written() -> str:

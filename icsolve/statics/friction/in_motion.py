@@ -202,7 +202,7 @@ def is_workless(scene: FrictionScene) -> bool:
     What draws a rope that slips is as good as one that works.
     """
     slips = any(rope.slips for rope in scene.position.case.ropes)
-    return scene.solution.verdict in ("no value", "any value") and not slips
+    return scene.solution.is_workless and not slips
 
 
 def statics_of(scene: FrictionScene, ties: Sequence[Tie], flanks: Mapping[int, float]) -> Statics:
@@ -245,7 +245,7 @@ def _bodies(
 ) -> FreeBodies:
     """What the free bodies say, and what rubs."""
     statics, by_power = solved.statics, None
-    if scene.solution.verdict not in ("no value", "any value"):
+    if not scene.solution.is_workless:
         by_power = {q: (value, 0.0) for q, value in _by_power(scene, solved).items()}
     bodies = told(scene.position, scene.balance, solved, by_power, FLOATS, reactions)
     of_ropes = _ropes_rubbing(scene, statics, bodies.tensions, rates)
