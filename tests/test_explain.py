@@ -26,6 +26,7 @@ from growth import random_mechanism
 from icsolve.answer import AboutToMove
 from icsolve.case import Case, Motion, Number, is_link
 from icsolve.draw import draw
+from icsolve.draw.words import found_sentences
 from icsolve.explain import explain
 from icsolve.explain.document import ShownTable
 from icsolve.explain.given import exercise
@@ -1211,3 +1212,32 @@ dynamic: yes
     assert not re.search(r"m/s\^2:\n(?!    )", told)
     idle = "do no work but by friction" if friction else "do no work"
     assert f"The forces in the joints: they {idle}, and the equation of power is" in told
+
+
+CRATE = """
+icsolve: 1
+title: crate
+points: {A: [0, 0], B: [0.8, 0], G: [0.4, 0.6], H: [0, HIGH]}
+joints:
+  - {contact: [1, 2], at: A, normal: 90, mu: 0.3}
+  - {contact: [1, 2], at: B, normal: 90, mu: 0.3}
+loads:
+  W: {weight: 400, link: 2, at: G}
+  P: {force: PUSH, link: 2, at: H, angle: 0}
+"""
+
+
+@pytest.mark.parametrize(("high", "push"), [(1.0, 100), (1.0, 130), (1.8, 100), (1.0, -120)])
+def test_of_known_loads_it_is_asked_and_answered_whether_friction_holds_them(high: float, push: int) -> None:
+    """A crate slides from 0.3 of its weight on, and tips where the push is more than 160 over its height; in
+    the worked solution, the figure's caption, the card of a gallery, and the key of a sheet."""
+    case = icsolve.load(CRATE.replace("HIGH", str(high)).replace("PUSH", str(push)))
+    holds = abs(push) <= min(120, 160 / high)
+    said = "Friction holds it still" if holds else "Friction does not hold it still"
+    known = known_of(case)
+    assert found_sentences(known) == [said]
+    text, asked = explain(case), "Does friction hold the mechanism still under these loads?"
+    assert asked in text and f"Answer\n------\n{said}." in text
+    one = exercise(known)
+    assert one.key == (f"{said}.",) and any(asked in str(block) for block in one.blocks)
+    assert not any(said in str(block) for block in (*one.blocks, *one.figure))

@@ -186,9 +186,19 @@ def position_sentences(known: Known) -> list[str]:
     return [sentence.replace("*", "·") for sentence in said]
 
 
+def holding_sentences(known: Known) -> list[str]:
+    """Whether friction holds the loads, of a case that asks for that."""
+    if known.answer is None or not known.asks_holding:
+        return []
+    holds = known.answer.holds_still
+    if holds is None:
+        return ["It is open whether friction holds it still"]
+    return ["Friction holds it still" if holds else "Friction does not hold it still"]
+
+
 def found_sentences(known: Known) -> list[str]:
-    """What is found of what a case asks for: its unknown loads, or where it rests."""
-    return [*answer_sentences(known), *position_sentences(known)]
+    """What is found of what a case asks for: its unknown loads, where it rests, or whether it is held."""
+    return [*answer_sentences(known), *position_sentences(known), *holding_sentences(known)]
 
 
 def reaction_sentences(known: Known) -> list[str]:

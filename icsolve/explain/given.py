@@ -11,7 +11,7 @@ from icsolve.case.space import GearPair, SpatialForceVector, SpatialPoint, Torqu
 from icsolve.draw import tikz
 from icsolve.draw.figure import ASKED, drawn
 from icsolve.draw.marks import Mark, kinds_of
-from icsolve.draw.words import answer_sentences, position_sentences, reaction_sentences
+from icsolve.draw.words import answer_sentences, holding_sentences, position_sentences, reaction_sentences
 from icsolve.explain.document import AsTex, Block, Inline, Items, Section, ShownTable, picture_tex, words
 from icsolve.explain.worked import Worked, load_name, worked
 from icsolve.report.derivation.known import Known
@@ -80,7 +80,7 @@ def asked_section(work: Worked) -> Section:
     if work.known.posed:
         return Section("Asked", (words(position_asked(work.known)),))
     if not unknown:
-        return Section("Asked", (words(f"The {asked_without_unknown(work.known)}."),))
+        return Section("Asked", (words(asked_without_unknown(work.known)),))
     one = len(unknown) == 1
     loads, s = ("is the load", "s") if one else ("are the loads", "")
     said = f"What {loads} that hold{s} the mechanism in equilibrium in this position?"
@@ -95,8 +95,10 @@ def asked_section(work: Worked) -> Section:
 def asked_without_unknown(known: Known) -> str:
     """What a case asks for that has no unknown."""
     if known.structure or known.case.space is not None:
-        return "forces and couples in the joints"
-    return "instant centres, and how fast the links move"
+        return "The forces and couples in the joints."
+    if known.asks_holding:
+        return "Does friction hold the mechanism still under these loads?"
+    return "The instant centres, and how fast the links move."
 
 
 def position_asked(known: Known) -> str:
@@ -257,6 +259,7 @@ def exercise(known: Known) -> Exercise:
     work = worked(known, DIGITS)
     own = work._replace(known=asked)
     found = reaction_sentences(known) if known.structure else answer_sentences(known)
+    held = "".join(f"{said}." for said in holding_sentences(known))
     sections = (given_section(own), asked_section(work if known.structure else own))
     answers = ((sentence.split(" ", 1)[0], sentence) for sentence in found)
     key: tuple[Inline, ...] = tuple(
@@ -268,7 +271,7 @@ def exercise(known: Known) -> Exercise:
         key = (f"No answer ({known.refusal.status}): {known.refusal.message}",)
     blocks = tuple(block for section in sections for block in section.blocks)
     lead = tuple(words(told) for told in provenance(known.case))
-    key = key or ("See the worked solution.",)
+    key = key or (held or "See the worked solution.",)
     return Exercise(known.title, tuple(drawn(asked, ASKED)), (*lead, *blocks), key)
 
 

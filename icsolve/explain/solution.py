@@ -10,6 +10,7 @@ from icsolve.answer import Answer, Found
 from icsolve.cams.words import contact_said
 from icsolve.case import ForceVector, Like, Load, Spring, Torque, is_link, is_named
 from icsolve.case.loads import name_of_inertia
+from icsolve.draw.words import holding_sentences
 from icsolve.explain.bodies import bodies_sections, friction_section, rubbing_blocks, sections_in_space
 from icsolve.explain.centres import RATIOS, centre_sections, ratio_section, worked_speeds
 from icsolve.explain.document import Block, Document, Inline, Items, Section, ShownTable, formula, words
@@ -53,6 +54,8 @@ def answer_section(work: Worked) -> Iterable[Section]:
         yield Section("Answer", tuple(blocks))
     elif work.known.whole is not None:
         yield from rates_section(work)
+        if held := holding_sentences(work.known):
+            yield Section("Answer", (words(f"{held[0]}."),))
 
 
 def _found(work: Worked, name: str, found: Found) -> tuple[Inline, ...]:

@@ -144,7 +144,8 @@ def _answers(known: Known) -> tuple[str, ...]:
     found = tuple(found_sentences(known))
     if found or known.refusal is not None:
         return found
-    return (f"Asked: the {asked_without_unknown(known)}",)
+    asked = asked_without_unknown(known)
+    return (f"Asked: {asked[0].lower()}{asked[1:].rstrip('.')}",)
 
 
 # --- the index -------------------------------------------------------------------------------------------

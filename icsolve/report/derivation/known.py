@@ -31,7 +31,7 @@ from icsolve.screws import Point, Triple
 from icsolve.screws.ropes import rope_parts
 from icsolve.solve import Attempt, attempt
 from icsolve.statics.load_wrenches import Wrench, as_given, line_of, place_of, points_of, wrenches
-from icsolve.statics.power import known_value
+from icsolve.statics.power import has_friction, is_unknown, known_value
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording import unit_of
 
@@ -69,6 +69,13 @@ class Known(NamedTuple):
         """Whether nothing can move, so that statics alone gives what there is to find."""
         reactions = None if self.answer is None else self.answer.reactions
         return reactions is not None and self.scene is None
+
+    @property
+    def asks_holding(self) -> bool:
+        """Whether it is asked if friction holds loads that are all known."""
+        case = self.case
+        given = case.loads and not any(map(is_unknown, case.loads))
+        return bool(given) and not (case.motion or self.posed or self.structure) and has_friction(case)
 
     @property
     def title(self) -> str:
