@@ -233,3 +233,27 @@ def test_rows_that_friction_holds_are_answers_as_the_scene_is(tmp_path: Path) ->
     block.write_text(block.read_text().replace("angle: 30", "angle: 120").replace("mu: 0.1", "mu: 0"))
     assert exit_status("solve", block) == 1
     assert exit_status("sweep", block, "--vary", "loads.Q=50:150:50") == 1
+
+
+def test_rows_that_tell_nothing_but_their_status_say_what_would_tell_more(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "crate.yaml"
+    path.write_text("""icsolve: 1
+points: {A: [0, 0], B: [1, 0], G: [0.5, 0.5], H: [0, 0.5]}
+joints:
+  - {contact: [1, 2], at: A, normal: 90, mu: 0.5}
+  - {contact: [1, 2], at: B, normal: 90, mu: 0.5}
+loads:
+  W: {weight: 100, link: 2, at: G}
+  P: {force: 20, link: 2, at: H, angle: 0}
+""")
+    for words, said in (
+        (("--vary", "loads.P=0:40:20"), True),
+        (("--vary", "loads.P=0:40:20", "--rates"), False),
+    ):
+        assert exit_status("sweep", str(path), *words) == 0
+        assert ("--find hold tells where friction holds" in capsys.readouterr().err) is said
+    path.write_text(PRESS)
+    assert exit_status("sweep", str(path), "--vary", "angles.AB=60:90:10") == 0
+    assert "status alone" not in capsys.readouterr().err

@@ -293,7 +293,7 @@ def _table(read: Case, path: str, asked: SweepOptions) -> int:
             told("rows", done / total)
 
         found = sweep(read, varied, asked.want, drive=driven, progress=counted)
-    for note in found.notes:
+    for note in (*found.notes, *_nothing_asked(read, asked)):
         complain(f"{path}: {note}")
     code = DONE
     if asked.plot is not None:
@@ -304,6 +304,15 @@ def _table(read: Case, path: str, asked: SweepOptions) -> int:
         code = max(code, _written(FORMATS[asked.suffix](found), asked.output))
     answered = (found.status == "ok") | (found.status == "holds")
     return code or (DONE if answered.any() else NO_ANSWER)
+
+
+def _nothing_asked(case: Case, asked: SweepOptions) -> Iterable[str]:
+    """The note on rows of which nothing is asked but their status."""
+    from icsolve.statics.power import has_friction, is_unknown
+
+    if not any(name in asked.want for name in MORE[1:]) and not any(map(is_unknown, case.loads)):
+        friction = "; --find hold tells where friction holds the loads" if has_friction(case) else ""
+        yield f"no load is `unknown`: rows tell their status alone, --points and others more{friction}."
 
 
 def _written(content: str | Iterable[bytes], path: str | None) -> int:
