@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mpmath import mp
 
 import icsolve
 import rubbing
@@ -589,9 +588,8 @@ def test_a_brake_that_a_program_turned_presses_as_the_upright_one(seed: int) -> 
     drive, lean, more = dice.choice([-40, 40]), dice.randint(-40, 40), dice.choice([0, 20 * dice.random()])
 
     def told(turn: float, off: float = 0.0) -> tuple[Found, str]:
-        with mp.workdps(40):  # each rounded once
-            cos, sin = mp.cos(turn * mp.pi / 180), mp.sin(turn * mp.pi / 180)
-            at = {p: [float(x * cos - y * sin), float(x * sin + y * cos)] for p, (x, y) in places.items()}
+        cos, sin = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+        at = {p: [x * cos - y * sin, x * sin + y * cos] for p, (x, y) in places.items()}
         at["S"][0] += off
         answer = solved(f"""
 points: {at}

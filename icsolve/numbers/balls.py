@@ -423,7 +423,11 @@ class Balls:
 
 class HalfUnits(Balls):
     """Numbers of 15 digits or more stand for all that round to them, those of 17 at most for all that round
-    to their double: what half a unit of their last digits may make zero, is zero."""
+    to their double: what half a unit of their last digits may make zero, or so many (``count``), is zero."""
+
+    def __init__(self, digits: int, count: float = 1.0) -> None:
+        super().__init__(digits)
+        self.count = count
 
     def _read(self, number: Number) -> Ball:
         found = super()._read(number)
@@ -431,6 +435,7 @@ class HalfUnits(Balls):
             half = number.half
             if not half or _digits(number) <= DOUBLE:
                 half = max(half, math.ulp(number.value) / 2.0)
+            half *= self.count
             found = Ball(self, found.value, half * UP, found.size + half, INEXACT)
         return found
 

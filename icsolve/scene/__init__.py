@@ -161,7 +161,7 @@ def _solved(case: Case, want: Want, bound: bool, reactions: bool) -> Answer:
     except SceneError as refusal:
         if bound and refusal.status in INEXACT and sensitivity.written_by_program(case):
             try:
-                return judged(AnswerBuilder(EvaluatedScene(program, bound, explained=True)), reactions)
+                return judged(AnswerBuilder(EvaluatedScene(program, bound, explained=1.0)), reactions)
             except SceneError as other:
                 if other.status not in INEXACT or refusals.rubs(case):
                     raise
@@ -231,7 +231,7 @@ def balanced(parts: AnswerBuilder) -> AnswerBuilder:
     if parts.in_equilibrium or not sensitivity.written_by_program(parts.case):
         return parts
     with suppress(SceneError):
-        explained = AnswerBuilder(EvaluatedScene(parts.program, True, explained=True))
+        explained = AnswerBuilder(EvaluatedScene(parts.program, True, explained=1.0))
         return explained if explained.in_equilibrium else parts
     return parts
 

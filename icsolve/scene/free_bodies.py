@@ -115,6 +115,10 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     return replace(found, notes=(*found.notes, sentences.PRESSES))
 
 
+FEW = 16.0
+"""Half units of the last digit by which the sums and products of a program may miss."""
+
+
 def _but_for_digits(parts: AnswerBuilder) -> Solution | None:
     """The sum of power but for the last digits of numbers that a program rounded, where the unknown load
     works by these alone."""
@@ -123,7 +127,7 @@ def _but_for_digits(parts: AnswerBuilder) -> Solution | None:
     if not (any(map(is_unknown, parts.case.loads)) and sensitivity.written_by_program(parts.case)):
         return None
     with suppress(SceneError):
-        explained = EvaluatedScene(parts.program, True, explained=True)
+        explained = EvaluatedScene(parts.program, True, explained=FEW)
         found = explained.ask(lambda one: one.outcome.solution)
         return found if found.is_workless else None
     return None

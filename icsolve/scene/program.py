@@ -217,14 +217,16 @@ class Evaluation(NamedTuple):
 class EvaluatedScene:
     """A program, evaluated in more digits as questions need them; ``certain`` False: in floats alone.
 
-    With ``explained`` what half a unit of the last digits of long numbers may make zero is zero.
+    What ``explained`` half units of the last digits of long numbers may make zero is zero.
     """
 
-    def __init__(self, program: Program, certain: bool, explained: bool = False, run: Run = evaluate) -> None:
+    def __init__(self, program: Program, certain: bool, explained: float = 0.0, run: Run = evaluate) -> None:
         self.program, self.certain, self.explained, self.run = program, certain, explained, run
         self._arithmetics: list[Callable[[], Showing]] = [lambda: FLOATS]
         if certain:
-            self._arithmetics = [lambda: HalfUnits(PRECISIONS[-1])] if explained else _arithmetics(program)
+            self._arithmetics = (
+                [lambda: HalfUnits(PRECISIONS[-1], explained)] if explained else _arithmetics(program)
+            )
         self._found: list[Evaluation | None] = []
 
     def ask(self, question: Callable[[Evaluation], T]) -> T:
