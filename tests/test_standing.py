@@ -69,6 +69,26 @@ def test_friction_is_not_blamed_for_what_tips_or_lifts_off(kind: Callable[[Rando
     assert seen == {True, False}
 
 
+PENDULUM = """
+icsolve: 1
+points: {A: [0, 0], B: [1, 0], G: [0.5, 0.5], O: [5, 0], E: [6, 0]}
+joints:
+  - {contact: [1, 2], at: A, normal: 90, mu: 0.5}
+  - {contact: [1, 2], at: B, normal: 90, mu: 0.5}
+  - {pin: [1, 3], at: O PIN}
+loads:
+  W: {weight: 100, link: 2, at: G}
+  P: {force: 20, link: 3, at: E, angle: -90}
+"""
+
+
+@pytest.mark.parametrize(("pin", "told"), [("", True), (", radius: 0.1, mu: 0.2", False)])
+def test_contacts_are_not_blamed_for_what_rubs_nowhere(pin: str, told: bool) -> None:
+    """Beside a crate that stands fast a lever hangs on a smooth pin, and on a rough one."""
+    (note,) = icsolve.solve(icsolve.load(PENDULUM.replace(" PIN", pin))).notes
+    assert LETS_GO not in note and ("the loads move what rubs nowhere" in note) is told
+
+
 @sampled(3)
 @pytest.mark.parametrize("kind", standing.KINDS)
 @pytest.mark.parametrize("part", range(20 if FULL else 1))

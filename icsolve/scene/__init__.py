@@ -183,15 +183,14 @@ def standing(case: Case) -> Standing:
     return free_bodies.standing(_with_known_loads(case))
 
 
-def letting_go(case: Case) -> str:
-    """The sentence on contacts and ropes that let go under known loads that friction does not hold; empty
-    where more friction would hold them.
+def beyond_friction(case: Case) -> str:
+    """The sentence on what no friction helps where it does not hold known loads; empty where more would.
 
     Raises SceneError where the scene can't be built.
     """
     from icsolve.scene import free_bodies
 
-    return free_bodies.letting_go(_with_known_loads(case))
+    return free_bodies.beyond_friction(_with_known_loads(case))
 
 
 def jammed(case: Case) -> str:

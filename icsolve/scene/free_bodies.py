@@ -63,7 +63,7 @@ def holds(parts: AnswerBuilder) -> bool:
         return False
     held = _stands(parts.scene)
     if held is False:
-        raise SceneError(Status.UNBALANCED, f"{SLIPS} {letting_go(parts.scene)}".rstrip())
+        raise SceneError(Status.UNBALANCED, f"{SLIPS} {beyond_friction(parts.scene)}".rstrip())
     return bool(held)
 
 
@@ -143,10 +143,9 @@ def standing(scene: EvaluatedScene) -> Standing:
     return found(_resting(scene))
 
 
-def letting_go(scene: EvaluatedScene) -> str:
-    """The sentence on contacts and ropes that let go under known loads; empty where more friction would hold
-    these."""
-    from icsolve.statics.friction.standing import letting_go as found
+def beyond_friction(scene: EvaluatedScene) -> str:
+    """The sentence on what no friction helps where it does not hold known loads; empty where more would."""
+    from icsolve.statics.friction.standing import beyond_friction as found
 
     return found(_resting(scene))
 
@@ -215,7 +214,7 @@ def structure(program: Program, bound: bool, refusal: SceneError) -> Answer:
         bare = EvaluatedScene(prepare(smooth(case), program.want), bound, run=evaluate_still)
         if _stands(bare) is False:
             held = _stands(scene)
-            said = LETS_GO[held] + (f" {letting_go(scene)}".rstrip() if held is False else "")
+            said = LETS_GO[held] + (f" {beyond_friction(scene)}".rstrip() if held is False else "")
     notes = (*figure.notes, *case.noticed, said)
     answer = Answer(
         case,

@@ -13,7 +13,7 @@ from icsolve.case import Case, Force, ForceVector, Load, Number, Stretch, Torque
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers import largest_of
-from icsolve.scene import jammed, letting_go, solve_scene, standing
+from icsolve.scene import jammed, beyond_friction, solve_scene, standing
 from icsolve.scene.program import HeldAt
 from icsolve.solve.rest_position import PROBE, holding, probes
 from icsolve.statics.friction import AS_SHARED, PROVEN, SharedError
@@ -273,7 +273,7 @@ def judged(answer: Answer, case: Case) -> Answer:
                 said = f"{said} But {jams}"
             if holds is False:
                 with suppress(SceneError):
-                    said = f"{said} {letting_go(replace(case, expect=()))}".rstrip()
+                    said = f"{said} {beyond_friction(replace(case, expect=()))}".rstrip()
     except SceneError as refusal:
         said = OPEN.format(refusal.message)
     return replace(answer, notes=(*answer.notes, said), holds_still=holds)

@@ -89,21 +89,24 @@ def standing(scene: RestingScene) -> Standing:
     return sure
 
 
-def letting_go(scene: RestingScene) -> str:
-    """The sentence on contacts and ropes that let go under known loads that friction does not hold; empty
-    where more friction would hold them."""
+def beyond_friction(scene: RestingScene) -> str:
+    """The sentence on what no friction helps where known loads are not held: contacts and ropes that let go,
+    and motions that rub nowhere; empty where more friction would hold them."""
     case = scene.position.case
-    contacts = any(joint.only_pushes for joint in case.joints)
-    if not (contacts or case.ropes) or any(rope.slips for rope in case.ropes):
+    if any(rope.slips for rope in case.ropes):
         return ""
     for flanks in every_flanks(scene):
         limits = limits_in_floats(scene, flanks)
+        if not ReducedLimits(limits._replace(rubs=(), normals={}, rows=())).balances:
+            return FREE
         depth, error = _depth(scene, flanks, limits, lambda one: one._replace(rubs=()))
         if depth >= -error:
             return ""
+    contacts = any(joint.only_pushes for joint in case.joints)
     return LETS_GO.format("a contact would have to pull" if contacts else "a rope would have to push")
 
 
+FREE = "However much friction there is, the loads move what rubs nowhere."
 LETS_GO = "However much friction there is, {}: the links part there, and tip or lift off."
 
 
