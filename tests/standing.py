@@ -244,6 +244,15 @@ def pushing(case: c.Case) -> set[int]:
     return found
 
 
+def off_all(case: c.Case) -> float:
+    """How far the loads are from those that forces of the joints in either sense could balance, with friction
+    without limits: least squares, as a share of the loads."""
+    a, friction, b, _ = with_friction(case)
+    every = np.hstack([a, friction])
+    x = np.linalg.lstsq(every, b, rcond=1e-12)[0]
+    return float(np.linalg.norm(every @ x - b) / np.linalg.norm(b))
+
+
 def off(case: c.Case, grown: float = 1.0) -> float:
     """How far the loads are from those that the joints can balance, friction within ``grown`` times its
     limits, or without any: of contacts, guides (either sense of each) and smooth pins."""

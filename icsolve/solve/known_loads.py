@@ -13,7 +13,7 @@ from icsolve.case import Case, Force, ForceVector, Load, Number, Stretch, Torque
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers import largest_of
-from icsolve.scene import jammed, beyond_friction, solve_scene, standing
+from icsolve.scene import beyond_friction, jammed, solve_scene, standing
 from icsolve.scene.program import HeldAt
 from icsolve.solve.rest_position import PROBE, holding, probes
 from icsolve.statics.friction import AS_SHARED, PROVEN, SharedError
