@@ -88,8 +88,13 @@ loads:
 @pytest.mark.parametrize(("pin", "told"), [("", True), (", radius: 0.1, mu: 0.2", False)])
 def test_contacts_are_not_blamed_for_what_rubs_nowhere(pin: str, told: bool) -> None:
     """Beside a crate that stands fast a lever hangs on a smooth pin, and on a rough one."""
-    (note,) = icsolve.solve(icsolve.load(PENDULUM.replace(" PIN", pin))).notes
+    text = PENDULUM.replace(" PIN", pin)
+    (note,) = icsolve.solve(icsolve.load(text)).notes
     assert LETS_GO not in note and (FREE in note) is told
+    text = text.replace("loads:", "loads:\n  U: {force: unknown, link: 2, at: G, angle: 0}")
+    with pytest.raises(icsolve.SceneError, match="no value of U holds") as refused:
+        icsolve.solve(icsolve.load(text))
+    assert LETS_GO not in str(refused.value) and (FREE in str(refused.value)) is told
 
 
 @sampled(3)

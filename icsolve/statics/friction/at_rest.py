@@ -178,14 +178,15 @@ def _of_several_freedoms(scene: FrictionScene) -> AtRest:
 
     Raises SceneError where there is none, and where the fit of joints alone presses what rubs.
     """
-    from icsolve.statics.friction.standing import refuse_fit
+    from icsolve.statics.friction.standing import beyond_friction, refuse_fit
 
     shared = refuse_fit(_resting(scene))
     ties = ties_of(scene.position)
     statics = equilibrium(scene.position, ties, scene.balance, rubs_of(scene.position, ties))
     within = limited.held(_resting(scene), scene.at)
     if not within.ranges:
-        raise SceneError(Status.NO_VALUE, NEVER_HELD.format(statics.roots[0]))
+        beyond = "" if scene.alone else beyond_friction(_resting(scene))
+        raise SceneError(Status.NO_VALUE, f"{NEVER_HELD.format(statics.roots[0])} {beyond}".rstrip())
     own, again = within.nearest(0.0)
     both = zip((own.low, own.high), own.vertices, strict=True)
     ends = [at_vertex(value, vertex) for value, vertex in both]
