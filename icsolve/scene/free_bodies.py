@@ -102,17 +102,17 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     outcome = parts.outcome
     position = _position(parts.first._replace(outcome=outcome, arithmetic=FLOATS))
     enclose, alone = _enclose(parts) if parts.scene.certain else None, parts.program.want.alone
-    place = position, outcome.balance, outcome.solution, lambda: parts.speed
+    but = _but_for_digits(parts)
+    place = position, outcome.balance, but or outcome.solution, lambda: parts.speed
     at = alone.load if isinstance(alone, HeldAt) else None
     scene = FrictionScene(*place, lambda: parts.traced, enclose, bool(alone), at)
     if position.case.motion:
-        return moving(scene, answer_with, reactions)
-    from icsolve.statics.friction.at_rest import held
+        found = moving(scene, answer_with, reactions)
+    else:
+        from icsolve.statics.friction.at_rest import held
 
-    if (but := _but_for_digits(parts)) is None:
-        return held(scene, answer_with)
-    found = held(scene._replace(solution=but), answer_with)
-    return replace(found, notes=(*found.notes, sentences.PRESSES))
+        found = held(scene, answer_with)
+    return found if but is None else replace(found, notes=(*found.notes, sentences.PRESSES))
 
 
 FEW = 16.0
