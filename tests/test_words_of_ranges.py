@@ -14,6 +14,9 @@ import pytest
 import icsolve
 import rough_scenes
 import standing
+from icsolve.draw import draw
+from icsolve.explain import explain
+from icsolve.report import answer_text
 from icsolve.sweep.varied_numbers import find_number, with_numbers
 from shell import Shell
 from sizes import FULL, sampled
@@ -383,3 +386,30 @@ loads:
     assert held is not None
     most = 100 * 0.2 * 0.3 * 1.3 / 1.09  # both rub at their limits
     assert sorted(map(abs, held)) == [0.0, pytest.approx(most, rel=1e-12)]
+
+
+NARROW = """
+icsolve: 1
+points: {O: [0, 0], A: [-300, 20], B: [100, 40]}
+joints:
+  - {pin: [1, 2], at: O, radius: 1, mu: MU}
+loads:
+  P: {force: FORCE, link: 2, at: A, angle: -90}
+  Q: {force: unknown, link: 2, at: B, angle: -90}
+"""
+
+
+@pytest.mark.parametrize("mu", ["1e-4", "1e-6", "1e-9", "1e-12"])
+@pytest.mark.parametrize("force", [22, -7.3333, 0.05])
+def test_a_narrow_range_is_told_with_digits_that_tell_its_ends_apart(mu: str, force: float) -> None:
+    """In text, worked solution and figure: a pin that hardly rubs holds from 66 - 8.8e-5 to 66 + 8.8e-5, and
+    was told to hold from 66 to 66. Each is the end to the digits that it is told with."""
+    case = icsolve.load(NARROW.replace("MU", mu).replace("FORCE", str(force)))
+    answer = icsolve.solve(case)
+    ends = answer.answers["Q"].holds
+    assert ends is not None
+    for text in (answer_text(answer), explain(case), draw(case)):
+        told = [float(one.replace("−", "-")) for one in re.findall(r"from (\S+) to (\S+) ", text)[0]]
+        assert told[0] < told[1]
+        for one, end in zip(told, ends, strict=True):
+            assert any(one == float(f"{end:.{digits}g}") for digits in range(4, 18)), (one, end)

@@ -141,10 +141,24 @@ def reach_of(holds: tuple[float, float], unit: str, show: Show, error: float | N
     if most - least <= 2.0 * (error or 0.0):
         return f"only at {show(least)} {unit}"
     if math.isfinite(least) and math.isfinite(most):
-        return f"from {show(least)} to {show(most)} {unit}"
+        return f"from {' to '.join(_apart(least, most, show))} {unit}"
     if math.isfinite(least):
         return f"from {show(least)} {unit} up"
     return f"up to {show(most)} {unit}" if math.isfinite(most) else "at any value"
+
+
+def _apart(low: float, high: float, show: Show) -> tuple[str, str]:
+    """Two numbers, with as many more digits as tell them apart."""
+    texts, minus, own = (show(low), show(high)), show(-1.0)[0], len(show(math.pi)) - 1
+    for digits in range(own + 1, DOUBLE + 1):
+        if texts[0] != texts[1]:
+            break
+        texts = (f"{low:.{digits}g}".replace("-", minus), f"{high:.{digits}g}".replace("-", minus))
+    return texts
+
+
+DOUBLE = 17
+"""Digits that tell any two doubles apart."""
 
 
 def holding(found: Found, show: Show) -> str:
