@@ -263,6 +263,8 @@ def test_with_friction_rows_are_solved_one_by_one_and_have_no_gradient() -> None
         (("lengths.BC",), (1.0, 2.0), "1 numbers are varied"),
         (("lengths.BC", "loads.P"), ([1.0, 2.0], [1.0, 2.0, 3.0]), "shape"),
         (("angles.AB",), (1e8,), "take turns off"),
+        (("angles.AB",), (10**400,), "should be numbers"),
+        (("lengths.BC",), ([3.5, 10**400],), "should be numbers"),
         (("angles.AB", "lengths.BC"), ([60.0, -1e300], 3.5), "take turns off"),
     ],
 )
@@ -271,6 +273,18 @@ def test_what_makes_no_sense_is_refused(
 ) -> None:
     with pytest.raises(ValueError, match=words):
         icsolve.evaluator(icsolve.load(FOUR_BAR), inputs)(*columns)
+
+
+def test_a_gradient_is_given_whatever_else_is_wanted() -> None:
+    found = icsolve.evaluator(icsolve.load(FOUR_BAR), ("loads.P",), ("points",), gradient=True)(100.0)
+    assert found.gradients["T12"]["loads.P"] == pytest.approx(found.answers["T12"] / 100.0)
+
+
+def test_a_case_of_more_or_fewer_numbers_is_refused() -> None:
+    call = icsolve.evaluator(icsolve.load(FOUR_BAR), ("angles.AB", "loads.P"))
+    for numbers in ((), (60.0,), (60.0, 100.0, 1.0)):
+        with pytest.raises(ValueError, match=r"2 numbers are varied \(angles.AB, loads.P\), not"):
+            call.case_of(*numbers)
 
 
 @pytest.mark.parametrize("rows", [0, 1, 3, 40])

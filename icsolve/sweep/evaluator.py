@@ -116,7 +116,7 @@ def evaluator(
     case : as `icsolve.load` returns it
     inputs : paths of numbers as in sweeps (``lengths.BC``, ``angles.AB``, ``loads.P``, ``points.D.x``)
     want : as of `icsolve.sweep`, but ``error``
-    gradient : whether each call also gives the derivative of every answer by every input
+    gradient : whether each call also gives the derivative of every answer by every input, and the answers
 
     Returns
     -------
@@ -144,7 +144,8 @@ def evaluator(
         raise RequestError("nothing is varied: give inputs=('lengths.BC',)")
     if len(set(own)) < len(own):
         raise RequestError("an input is named twice")
-    wanted = request_of(case, names_in(want, "want=('answers', 'points.C')"), case.dynamic)
+    words = (*names_in(want, "want=('answers', 'points.C')"), *(("answers",) if gradient else ()))
+    wanted = request_of(case, words, case.dynamic)
     if wanted.asked.reactions:
         raise RequestError("an evaluator tells no reactions: `icsolve.sweep` has them, each row as a scene")
     if case.space is not None:
@@ -177,7 +178,7 @@ class Evaluator:
                 "there are no gradients where each row is solved as a scene of its own: with friction, "
                 "profiles, ropes or screws, by the direction of a motion, with inertia forces where joints "
                 "are redundant or several points have given motions, or where points can be placed only "
-                "together or nothing moves beside the case as written"
+                "together, nothing moves beside the case as written or its known loads do no work"
             )
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -205,9 +206,7 @@ class Evaluator:
             For columns whose number or lengths do not fit, or with more than one dimension, and for angles
             of more than 10,000,000 degrees.
         """
-        if len(columns) != len(self.inputs):
-            names = ", ".join(self.inputs)
-            raise RequestError(f"{len(self.inputs)} numbers are varied ({names}), not {len(columns)}")
+        self._refuse_count(len(columns))
         if self.compiled is not None:
             found = self.compiled.single(columns)
             if found is not None:
@@ -242,7 +241,14 @@ class Evaluator:
 
     def case_of(self, *numbers: float) -> Case:
         """The case with these numbers, in the order of ``inputs`` [case units, degrees], as if written so."""
+        self._refuse_count(len(numbers))
         return with_numbers(self.case, dict(zip(self.own, map(float, numbers), strict=True)))
+
+    def _refuse_count(self, given: int) -> None:
+        """Raise RequestError where there are more or fewer numbers than inputs."""
+        if given != len(self.inputs):
+            names = ", ".join(self.inputs)
+            raise RequestError(f"{len(self.inputs)} numbers are varied ({names}), not {given}")
 
     def _empty(self, rows: int) -> Table:
         """A table whose arrays of what is asked are there, whatever the rows have."""
