@@ -97,7 +97,7 @@ def together(cases: Sequence[Case], bare: bool = False) -> Answers:
         columns = _columns(cases, figure=not bare)
         if not columns:
             return [replace(template, case=case) for case in cases]
-        for case, rows in _by_mode(modes, columns):
+        for case, rows in _by_mode(cases, modes, columns):
             made = _rows(case, template, {path: column[rows] for path, column in columns.items()}, bare)
             for row, answer in zip(rows.tolist(), made, strict=True):
                 found[row] = answer and replace(answer, case=cases[row])
@@ -132,12 +132,12 @@ def _modes(case: Case) -> list[Case]:
     return [replace(case, near=way) for way in ways]
 
 
-def _by_mode(modes: Sequence[Case], columns: Columns) -> Iterator[tuple[Case, Rows]]:
-    """Each way to assemble with the rows that mean it; the others are in doubt."""
+def _by_mode(cases: Sequence[Case], modes: Sequence[Case], columns: Columns) -> Iterator[tuple[Case, Rows]]:
+    """Each way to assemble with the rows that mean it by their own `near`; the others are in doubt."""
     if len(modes) == 1:
         yield modes[0], np.arange(_count(columns))
         return
-    near = modes[0].near
+    near = {name: np.array([case.near[name] for case in cases]) for name in cases[0].near}
     off = np.full((len(modes), _count(columns)), np.nan)
     for n, case in enumerate(modes):
         found = _recorded(case, columns, RowRequest(answers=False, points=tuple(near)), False)
