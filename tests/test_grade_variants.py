@@ -123,13 +123,16 @@ variables: {s: {range: [0, 350], step: 10}, P: {range: [100, 200], step: 10}, VA
 """
 
 
-@pytest.mark.parametrize("near", ["[3.5, 2.4]", "[-1, 3]", "[$x, 2.4]"])
+@pytest.mark.parametrize("near", ["[3.5, 2.4]", "[-1, 3]", "[$x, 2.4]", "[3.5, 2.4], G: [2, 4]"])
 def test_a_variant_is_the_way_that_its_own_near_means(a_class: Class, near: str) -> None:
     """Wherever the ground has turned to, and whoever's numbers are solved first."""
     x = "x: {range: [-3, 3], step: 0.5}" if "$x" in near else ""
-    a_class.case("press", TURNED.replace("NEAR", near).replace(", VARIABLE", f", {x}" if x else ""))
+    text = TURNED.replace("NEAR", near).replace(", VARIABLE", f", {x}" if x else "")
+    if "G" in near:  # which nothing needs
+        text = text.replace("AD: 4}", "AD: 4, BG: 2, CG: 2.5}")
+    a_class.case("press", text)
     together = varied(a_class)
-    students = [str(n) for n in range(12 if x else 40)]
+    students = [str(n) for n in range(40 if near in ("[3.5, 2.4]", "[-1, 3]") else 12)]
     together.ready(students)
     for student in students:
         variant = together.draw(student)

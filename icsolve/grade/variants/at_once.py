@@ -141,10 +141,11 @@ def _by_mode(cases: Sequence[Case], modes: Sequence[Case], columns: Columns) -> 
     off = np.full((len(modes), _count(columns)), np.nan)
     for n, case in enumerate(modes):
         found = _recorded(case, columns, RowRequest(answers=False, points=tuple(near)), False)
-        if found is not None:
-            places = [found.arrays["points", name] for name in near]
+        if found is not None and all(("points", name) in found.arrays for name in near):  # none is spare
+            sure = ~found.doubted[:, None]  # where the links do not meet a place is any number
+            places = [np.where(sure, found.arrays["points", name], np.nan) for name in near]
             own = (((place - near[name]) ** 2).sum(axis=1) for name, place in zip(near, places, strict=True))
-            off[n] = np.where(found.doubted, np.nan, sum(own))
+            off[n] = sum(own)
     nearest = np.argsort(off, axis=0)
     first, second = (np.take_along_axis(off, nearest[k : k + 1], axis=0)[0] for k in (0, 1))
     clear = np.isfinite(off).all(axis=0) & (first < _NEARER * second)
