@@ -189,6 +189,62 @@ def test_a_row_at_a_dead_centre_has_its_status() -> None:
         assert values == {} or found.answers["T12"][0] == pytest.approx(values["T12"], rel=1e-9)
 
 
+def side(a: Sequence[float], c: Sequence[float], d: Sequence[float]) -> float:
+    """How far C lies left of the line from A to D, as a part of their distance."""
+    turned = (d[0] - a[0]) * (c[1] - a[1]) - (d[1] - a[1]) * (c[0] - a[0])
+    return turned / ((d[0] - a[0]) ** 2 + (d[1] - a[1]) ** 2)
+
+
+BRANCHES = {
+    "as a record": "",
+    "no load": "loads.P",
+    "spare point": "G",
+    "friction": "mu",
+}
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("kind", BRANCHES)
+def test_every_row_is_on_the_branch_of_the_case_as_written(kind: str, seed: int) -> None:
+    """However far its numbers take the points from `near`, whether rows are solved as scenes (where the load
+    is nothing, with friction) or not, and whatever else `near` names."""
+    draw = random.Random(seed)
+    up = draw.choice((-1.0, 1.0))
+    text = FOUR_BAR.replace("near: {C: [3.5, 2.4]}", f"near: {{C: [3.5, {2.4 * up}]}}")
+    if kind == "spare point":
+        text = text.replace("DE: 1.5", "DE: 1.5, BG: 2, CG: 2.2").replace("{C: [", "{G: [1, 2], C: [")
+    if kind == "friction":
+        text = text.replace("at: D}", "at: D, mu: 0.2, radius: 0.01}") + "motion: {link: 2, turns: cw}\n"
+    turns = np.sort(np.array([draw.uniform(0.0, 360.0) for _ in range(9)]))
+    x, y = 4.0 * np.cos(np.radians(turns)), 4.0 * np.sin(np.radians(turns))
+    wanted = ("answers", "points.B", "points.C", "points.D")
+    load = np.array([100.0, 0.0, 100.0] * 3) if kind != "as a record" else 100.0
+    call = icsolve.evaluator(icsolve.load(text), ("points.D.x", "points.D.y", "loads.P"), wanted)
+    found = call(x, y, load)
+    assert set(found.status.tolist()) == {"ok"}
+    for n in range(9):
+        assert side(found.points["B"][n], found.points["C"][n], found.points["D"][n]) * up > 0.0
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_to_the_last_double_before_a_limit_a_row_is_the_scene_of_its_branch(seed: int) -> None:
+    """The two places of C are one there but for half of the digits of a double."""
+    draw = random.Random(seed)
+    angle, up = draw.uniform(70.0, 110.0), draw.choice((-1.0, 1.0))
+    text = FOUR_BAR.replace("AB: 60", f"AB: {angle!r}").replace(
+        "near: {C: [3.5, 2.4]}", f"near: {{C: [3, {3 * up}]}}"
+    )
+    ends = []
+    for step in range(-3, 3):
+        x = float(np.cos(np.radians(angle)) + np.sqrt(36.0 - np.sin(np.radians(angle)) ** 2))
+        ends.append(x + step * np.spacing(x))
+    call = icsolve.evaluator(icsolve.load(text), ("points.D.x",), ("answers", "points"))
+    found = call(np.array(ends))
+    assert set(found.status.tolist()) <= {"ok", "cannot-assemble"}
+    for n in np.flatnonzero(found.status == "ok"):
+        assert side(*(found.points[p][n] for p in "BCD")) * up >= 0.0
+
+
 def test_with_friction_rows_are_solved_one_by_one_and_have_no_gradient() -> None:
     text = FOUR_BAR.replace("at: D}", "at: D, mu: 0.2, radius: 0.1}") + "motion: {link: 2, turns: cw}\n"
     case = icsolve.load(text)
@@ -207,6 +263,8 @@ def test_with_friction_rows_are_solved_one_by_one_and_have_no_gradient() -> None
         (("lengths.BC",), (1.0, 2.0), "1 numbers are varied"),
         (("lengths.BC", "loads.P"), ([1.0, 2.0], [1.0, 2.0, 3.0]), "shape"),
         (("angles.AB",), (1e8,), "take turns off"),
+        (("angles.AB",), (10**400,), "should be numbers"),
+        (("lengths.BC",), ([3.5, 10**400],), "should be numbers"),
         (("angles.AB", "lengths.BC"), ([60.0, -1e300], 3.5), "take turns off"),
     ],
 )
@@ -215,6 +273,18 @@ def test_what_makes_no_sense_is_refused(
 ) -> None:
     with pytest.raises(ValueError, match=words):
         icsolve.evaluator(icsolve.load(FOUR_BAR), inputs)(*columns)
+
+
+def test_a_gradient_is_given_whatever_else_is_wanted() -> None:
+    found = icsolve.evaluator(icsolve.load(FOUR_BAR), ("loads.P",), ("points",), gradient=True)(100.0)
+    assert found.gradients["T12"]["loads.P"] == pytest.approx(found.answers["T12"] / 100.0)
+
+
+def test_a_case_of_more_or_fewer_numbers_is_refused() -> None:
+    call = icsolve.evaluator(icsolve.load(FOUR_BAR), ("angles.AB", "loads.P"))
+    for numbers in ((), (60.0,), (60.0, 100.0, 1.0)):
+        with pytest.raises(ValueError, match=r"2 numbers are varied \(angles.AB, loads.P\), not"):
+            call.case_of(*numbers)
 
 
 @pytest.mark.parametrize("rows", [0, 1, 3, 40])

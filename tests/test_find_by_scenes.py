@@ -425,3 +425,27 @@ def test_smooth_crests_and_zeros_are_not_closed_in_on_for_a_dead_centre(
     assert not find(eccentric(5.0), {}, Query("dead"), drive={"2": (0.0, 360.0)})
     # of each crest what six halvings and a parabola ask for, of each zero three quarterings
     assert sum(asked[3:]) <= 2 * (2 * 6 + 4) + 2 * (1 + 3 * 3 + 4)
+
+
+@pytest.mark.parametrize("kind", ["max", "dead", "value"])
+def test_what_holds_over_a_range_is_refused_at_the_first_place(
+    kind: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """And not when all the others are solved."""
+    case = load(
+        "icsolve: 1\npoints: {A: [0, 0], B: [0.6, 0], G: [0.3, 0.6], H: [0, 0.5]}\njoints:\n"
+        "  - {contact: [1, 2], at: A, normal: 90, mu: 0.3}\n"
+        "  - {contact: [1, 2], at: B, normal: 90, mu: 0.3}\n"
+        "loads:\n  W: {weight: 500, link: 2, at: G}\n  P: {force: unknown, link: 2, at: H, angle: 0}\n"
+    )
+    solved = []
+
+    def counted(*given: object, **more: object) -> object:
+        found = sweep(*given, **more)  # type: ignore[arg-type]
+        solved.append(len(found.status))
+        return found
+
+    monkeypatch.setattr(find_by_scenes, "sweep", counted)
+    with pytest.raises(icsolve.SceneError, match="holds over a range"):
+        find(case, {"points.A.x": [-1.0, 0.2]}, Query(kind, "P", 20.0))
+    assert sum(solved) == 1

@@ -7,6 +7,7 @@ import io
 import json
 import random
 from pathlib import Path
+from unicodedata import normalize
 
 import pytest
 
@@ -388,3 +389,55 @@ def test_what_nobody_sees_makes_no_other_name(table: str, unseen: str, a_class: 
     plain, marked = (a_class.grade(table.replace("*", mark)).rows() for mark in ("", unseen))
     assert plain == marked
     assert marked[0]["verdict"] == "right"
+
+
+ACCENTS = {
+    "answers": "student_id,case,answer\n{o},{o},200 N*m\n김철수,{o},200 N*m sentido horário\n",
+    "wide": "student_id,{o},lever\n{o},200 N*m,200\n",
+    "mapped": "student_id,Réponse\n{o},200 N*m\n",
+    "roster": "student_id,name,email\n{o},Zoë,z@x.edu\n김철수,Kim,k@x.edu\n",
+    "marks": "student_id,case,score\n{o},{o},50%\n",
+    "book": "Student,ID,SIS User ID,SIS Login ID,Section,{o} (91)\n    Points Possible,,,,,8\nZ,1,{o},,,\n",
+    "course": 'cases: {{"{o}": {{points: 4}}, "{o}:T": {{points: 4}}}}\n',
+}
+
+
+@pytest.mark.parametrize("changed", ["nothing", "case", *ACCENTS])
+def test_an_accent_is_one_with_its_letter_wherever_a_name_stands(a_class: Class, changed: str) -> None:
+    """Names of students, cases and columns, and words of answers, are the same however a system writes its
+    accents: beside or within their letters."""
+
+    def written(what: str) -> str:
+        text = ACCENTS.get(what, "{o}.yaml").format(o="Prüfung José")
+        return normalize("NFD" if what == changed else "NFC", text)
+
+    (a_class.folder / "cases/lever.yaml").rename(a_class.folder / "cases" / written("case"))
+    a_class.case("lever", (a_class.folder / "cases" / written("case")).read_text(encoding="utf-8"))
+    a_class.course(written("course"))
+    options = ["--roster", a_class.file("roster.csv", written("roster"))]
+    options += ["--overrides", a_class.file("marks.csv", written("marks"))]
+    form = "NFD" if changed == "mapped" else "NFC"
+    found = []
+    for table, more in (
+        ("answers", []),
+        ("wide", []),
+        ("mapped", ["--map", normalize(form, "Réponse=Prüfung José")]),
+    ):
+        ran = a_class.grade(written(table), *options, *more)
+        assert ran.code == 0
+        assert "roster" not in ran.err
+        assert "no case" not in ran.err
+        found.append([(r["student_id"], r["case"], r["verdict"], r["score"]) for r in ran.rows()])
+    one = "Prüfung José"
+    assert (one, one, "wrong", "2") in found[0]
+    assert ("김철수", one, "wrong", "0") in found[0]
+    assert all(student in (one, "김철수") for rows in found for student, *_ in rows)
+    assert (one, "lever", "right", "1") in found[1]
+    assert (one, one, "wrong", "2") in found[2]
+    book = ("--template", a_class.file("book.csv", written("book")))
+    out = str(a_class.path("marks-out.csv"))
+    for more in ((), ("--total", f"{one} (91)")):
+        ran = a_class.grade(written("answers"), *options, *book, "--write", f"canvas={out}", "--force", *more)
+        assert ran.code == 0
+        points, student = Path(out).read_text(encoding="utf-8").splitlines()[1:]
+        assert (points.split(",")[5], student.split(",")[5]) == ("8", "4")

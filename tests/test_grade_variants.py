@@ -110,6 +110,38 @@ def test_a_class_gets_what_each_student_would_get_alone(
         assert one == pytest.approx(other, rel=1e-11)
 
 
+TURNED = """icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 1, BC: 3.5, CD: 2.5, AD: 4}
+angles: {AB: 60, AD: $s}
+near: {C: NEAR}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}]
+loads:
+  P: {force: $P, link: 4, at: C, angle: 180}
+  T12: {torque: unknown, link: 2}
+variables: {s: {range: [0, 350], step: 10}, P: {range: [100, 200], step: 10}, VARIABLE}
+"""
+
+
+@pytest.mark.parametrize("near", ["[3.5, 2.4]", "[-1, 3]", "[$x, 2.4]", "[3.5, 2.4], G: [2, 4]"])
+def test_a_variant_is_the_way_that_its_own_near_means(a_class: Class, near: str) -> None:
+    """Wherever the ground has turned to, and whoever's numbers are solved first."""
+    x = "x: {range: [-3, 3], step: 0.5}" if "$x" in near else ""
+    text = TURNED.replace("NEAR", near).replace(", VARIABLE", f", {x}" if x else "")
+    if "G" in near:  # which nothing needs
+        text = text.replace("AD: 4}", "AD: 4, BG: 2, CG: 2.5}")
+    a_class.case("press", text)
+    together = varied(a_class)
+    students = [str(n) for n in range(40 if near in ("[3.5, 2.4]", "[-1, 3]") else 12)]
+    together.ready(students)
+    for student in students:
+        variant = together.draw(student)
+        settings = {f"variables.{name}": value for name, value in variant.values.items()}
+        alone = icsolve.solve(icsolve.load(a_class.path("cases/press.yaml"), settings))
+        found = numbers_of(together.solved(student).key("press"))[0].value
+        assert found == pytest.approx(alone.answers["T12"].value, rel=1e-9), variant.values
+
+
 def test_only_variants_that_assemble_and_are_far_from_a_dead_centre(a_class: Class) -> None:
     """With AB from 1 to 2.5 at 0 to 60 degrees the coupler and rocker stretch out, or do not meet."""
     text = PRESS.replace(

@@ -515,6 +515,12 @@ def test_settings_replace_numbers_before_reading() -> None:
     assert case.lengths[0].value.path == "lengths.AB"
 
 
+@pytest.mark.parametrize("digits", [309, 400, 5000])
+def test_a_whole_number_beyond_doubles_is_no_setting(digits: int) -> None:
+    with pytest.raises(CaseError, match=r"cannot set 'angles\.AB': the number is larger"):
+        load(FOUR_BAR, {"angles.AB": -(10**digits)})
+
+
 def test_settings_of_joints_motion_and_components() -> None:
     case = load(SLIDER_CRANK, {"joints.A.mu": "0.3", "joints.4-1@C.along": 5, "motion.speed": "2 rad/s"})
     assert case.joints[0].friction.mu.value == 0.3  # type: ignore[union-attr]

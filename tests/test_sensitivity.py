@@ -174,6 +174,44 @@ loads: {M4: {torque: 1, link: 4}, M2: {torque: unknown, link: 2}}
     assert slopes["loads.M4"] == pytest.approx(-0.5 / gap, rel=1e-8)
 
 
+@pytest.mark.parametrize("places", range(2, 16))
+@pytest.mark.parametrize(
+    "loads",
+    [
+        "M: {torque: 5, link: 3}, U: {torque: unknown, link: 4}",
+        "M: {torque: 5, link: 2}, U: {torque: unknown, link: 2}, "
+        "S: {spring: 9, free: 1, link: 3, at: C, to: D}",
+    ],
+)
+def test_beside_a_limit_that_an_answer_does_not_feel_its_slopes_are_derivatives(
+    loads: str, places: int
+) -> None:
+    """Coupler and rocker are all but in line, and the answer is what it is anywhere: doubles have
+    it to all digits, and none of its derivatives."""
+    text = f"""
+icsolve: 1
+points: {{A: [0, 0], B: [0.6, 0.8], D: [5.6, 0.8]}}
+lengths: {{BC: 3.0, CD: 2.{"0" * (places - 1)}37}}
+near: {{C: [3.6, 1]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+loads: {{{loads}}}
+"""
+    case = icsolve.load(text)
+    answer, program = icsolve.solve(case), prepare(case, Want())
+    slopes = answer.sensitivities["U"]
+    size = max(map(abs, slopes.values()))
+    for path in ("points.B.x", "points.B.y", "points.D.y", "lengths.BC", "lengths.CD", "loads.M"):
+        up, down = (evaluate(program, Moved(path, h))[1].solution.values["U"] for h in (1e-25, -1e-25))
+        true = float((up - down) / mpf(2e-25))
+        assert slopes[path] == pytest.approx(true, rel=1e-8, abs=1e-12 * size), path
+    told = any("half a unit of the last decimal of lengths.BC" in note for note in answer.notes)
+    assert not told or abs(slopes["lengths.BC"]) * 0.05 > abs(answer.answers["U"].value)
+
+
 def test_the_size_of_a_force_of_unknown_direction_has_the_slopes_of_a_root_of_squares() -> None:
     """It balances W = 200 and H = 70: sqrt(W^2 + H^2) changes by W / P a newton of W. The band of its foot,
     on which it does not hang, is none."""

@@ -252,6 +252,17 @@ REFUSED = {
         12,
         "there is no unit 'furlong'",
     ),
+    "figures by another word": (
+        "loads:",
+        "tolerance: 3 sig\nloads:",
+        13,
+        12,
+        "not a tolerance: write 1%, 3 sf",
+    ),
+    "half a figure": ("loads:", "tolerance: 3.5 sf\nloads:", 13, 12, "not a tolerance: write 1%, 3 sf"),
+    "a sense by a letter off": ("loads:", "expect: {T12: 33.8 cww}\nloads:", 13, 15, "did you mean 'cw'?"),
+    "a sense misspelt": ("loads:", "expect: {T12: 34 clockwize}\nloads:", 13, 15, "mean 'clockwise'?"),
+    "a sense cut short": ("loads:", "expect: {T12: 34 lbf*in cc}\nloads:", 13, 15, "did you mean 'ccw'?"),
     "a tolerance in a unit of other capitals": (
         "loads:",
         "tolerance: 0.5 n\nloads:",

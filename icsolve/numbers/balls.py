@@ -13,7 +13,7 @@ The operations go through contexts of their own, never the default context of `d
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from typing import Union, final
 
@@ -456,15 +456,15 @@ class HalfUnits(Balls):
 
 
 class MovedBalls(Balls):
-    """The numbers of a case, one of them moved by a step."""
+    """The numbers of a case, some of them moved by steps, by path."""
 
-    def __init__(self, path: str, step: Decimal, digits: int) -> None:
+    def __init__(self, steps: Mapping[str, Decimal], digits: int) -> None:
         super().__init__(digits, highest=True)
-        self.path, self.step = path, step
+        self.steps = steps
 
     def _read(self, number: Number) -> Ball:
-        found = super()._read(number)
-        return found + self.exactly(self.step) if number.path == self.path else found
+        found, step = super()._read(number), self.steps.get(number.path)
+        return found if step is None else found + self.exactly(step)
 
 
 COARSE = 1e-9

@@ -133,10 +133,14 @@ def claims(text: str) -> bool:
 
 
 def case_name(path: str) -> str:
-    """``press`` of ``press.yaml`` and of ``dir/press.icsolve.yaml``."""
+    """``press`` of ``press.yaml`` and of ``dir/press.icsolve.yaml``, its accents as `checked` has them."""
     if path.startswith("<") and path.endswith(">"):
         return "case"
     stem, _ = os.path.splitext(os.path.basename(path))
+    if not stem.isascii():
+        from unicodedata import normalize
+
+        stem = normalize("NFC", stem)
     return stem.removesuffix(".icsolve") or "case"
 
 

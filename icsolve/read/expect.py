@@ -29,7 +29,7 @@ from icsolve.read.entry import Entry
 from icsolve.read.joints import NAMES
 from icsolve.read.keys import EXPECTED, EXPECTED_TIES
 from icsolve.read.loads import dimension_of as load_dimension
-from icsolve.read.names import LONGEST_KEY, is_name, pairs, parts, shown, suggestion
+from icsolve.read.names import LONGEST_KEY, is_name, meant_by, pairs, parts, shown, suggestion
 from icsolve.read.reading import Reading, number, numbers, quantity
 from icsolve.tuples import NamedTuple
 
@@ -351,6 +351,9 @@ def _value(reading: Reading, node: Node, target: Target, path: str) -> _Value | 
         return None
     text, sense = _divided(node.text)
     reading.marks[path] = node.mark
+    if sense is None and (slip := _misspelt(text)):
+        reading.refuse(node.mark, slip)
+        return None
     value = quantity(reading, node, text, dimension, path)
     if sense is not None:
         fits, allowed = _senses(reading, target, sense, dimension)
@@ -359,6 +362,18 @@ def _value(reading: Reading, node: Node, target: Target, path: str) -> _Value | 
             reading.refuse(node.mark, said)
             return None
     return _Value((value,), None, sense) if value is not None else None
+
+
+def _misspelt(text: str) -> str:
+    """What is wrong where the last word of a value is like no unit, and much like a sense; '' for nothing."""
+    word = " ".join(text.split()[1:]).rpartition(" ")[2]
+    try:
+        parse_unit(word or "m")
+    except UnitError as error:
+        meant = meant_by(word, (*_TURNS, *_LINES, *SENSES))
+        if meant and "did you mean" not in str(error):
+            return f"{shown(word)} is neither a unit nor a sense; did you mean '{meant}'?"
+    return ""
 
 
 def _place(reading: Reading, node: Node, path: str) -> _Value | None:
@@ -518,7 +533,7 @@ def parse_tolerance(text: str) -> Tolerance:
         try:
             unit = parse_unit(width.group(2) or "m")
         except UnitError as error:
-            raise ValueError(f"{shown(text)}: {error}") from None
+            raise ValueError(f"{shown(text)} is not a tolerance: {_FORM} ({error})") from None
         if unit.dims == DIMENSIONS["time"]:
             raise ValueError(f"{shown(text)} is a time, which no answer is: {_FORM}")
         return _limited(Tolerance(absolute=float(width.group(1)), unit=width.group(2) or ""))

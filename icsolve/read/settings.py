@@ -34,6 +34,9 @@ def apply(root: Mapping, settings: Named[str, str | float], problems: Problems) 
             kind = type(value).__name__
             problems.refuse((1, 1), f"cannot set {shown(path)}: a value is a number or a text, not a {kind}")
             continue
+        except OverflowError:
+            problems.refuse((1, 1), f"cannot set {shown(path)}: the number is larger than any double")
+            continue
         if text != "unknown":
             _forget(root, path)
         wrong = _set(root, path, text)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from contextlib import suppress
 from decimal import Decimal
 from typing import TYPE_CHECKING, Any
@@ -245,7 +245,11 @@ class AnswerBuilder:
         notes += self._known_alone()
         notes += [sentences.below_none(load) for load in less_than_none(self.case.loads, answers)]
         if answers and self.scene.certain and self.given is None and self.case.profiles is None:
-            notes += sensitivity.unsettled(self.case, answers, self._change())
+            change = self._change()
+            told = sensitivity.unsettled(self.case, answers, change)
+            if told and change != self._moved:  # where a derivative of the tape is large it may be wrong
+                told = sensitivity.unsettled(self.case, answers, _by_half_units(self.slopes))
+            notes += told
         return notes
 
     def _known_alone(self) -> Iterable[str]:
@@ -258,8 +262,8 @@ class AnswerBuilder:
 
     @cached_property
     def slopes(self) -> dict[str, dict[str, float]]:
-        """Derivative of every unknown load by every number of the case: by the tape, and where that says
-        nothing, so near a singular position or beside much larger ones, by differences of many digits."""
+        """Derivative of every unknown load by every number of the case: by the tape, and where that does not
+        tell them, so near a singular position or beside much larger ones, by differences of many digits."""
         by_load: dict[str, dict[str, float]] = {load: {} for load in self.unknowns}
         numbers = sensitivity.numbers_of(self.case)
         doubtful = set(numbers)
@@ -269,12 +273,13 @@ class AnswerBuilder:
             told = found and all(any(by.values()) for by in found.values())  # nothing of an answer that is 0
             if not self.scene.certain:
                 return self._with_sizes(found)
-            if told and self._tape_tells(DERIVED):
-                by_load, doubtful = found, _near_nothing(found, numbers)
+            nothing = _near_nothing(found, numbers)
+            if told and self._tape_tells(DERIVED) and self._add_up(found, nothing):
+                by_load, doubtful = found, nothing
         for number in (numbers[path] for path in numbers if path in doubtful):
             step = Decimal(repr(1e-40 * (abs(number.value) or 1.0)))
             with suppress(*OPEN, KeyError):
-                more, less = (self._with(number, way, PRECISIONS[-1]) for way in (step, -step))
+                more, less = (self._with({number.path: way}, PRECISIONS[-1]) for way in (step, -step))
                 for load, slope in by_load.items():
                     change = float(more[load] - less[load]) / (2.0 * float(step))
                     tiny = NOTHING * abs(float(more[load])) / abs(float(step))
@@ -291,9 +296,28 @@ class AnswerBuilder:
                 by_load[name] = {p: sum(share * slope.get(p, 0.0) for share, slope in parts) for p in paths}
         return by_load
 
-    def _with(self, number: Number, step: Decimal, digits: int) -> dict[str, Scalar]:
-        """The unknown loads, and those that are like them, with a number moved by a step."""
-        outcome = evaluate(self.program, MovedBalls(number.path, step, digits))[1]
+    def _add_up(self, by_load: Mapping[str, Mapping[str, float]], nothing: Collection[str]) -> bool:
+        """Whether the loads of many digits change by what the derivatives add up to where all numbers are
+        moved at once, each so far that its share is as large as the others: an answer that is right does not
+        tell that its derivatives are, beside a limit that it does not feel."""
+        numbers = sensitivity.numbers_of(self.case)
+        for load, by_path in by_load.items():
+            slopes = {path: slope for path, slope in by_path.items() if slope and path not in nothing}
+            sizes = [abs(slope) * (abs(numbers[path].value) or 1.0) for path, slope in slopes.items()]
+            least = min(sizes, default=0.0)
+            shares = [1e-40 * least * (1.0 + math.sqrt(n) % 1.0) for n in range(2, 2 + len(slopes))]
+            steps = {p: Decimal(repr(share / slopes[p])) for p, share in zip(slopes, shares, strict=True)}
+            back = {path: -step for path, step in steps.items()}
+            with suppress(*OPEN, KeyError):  # what moves by exact data alone does not move so
+                more, less = (self._with(way, PRECISIONS[-1])[load] for way in (steps, back))
+                total = 2.0 * sum(shares)
+                if not abs(float(more - less) - total) <= DERIVED * total:
+                    return False
+        return True
+
+    def _with(self, steps: Mapping[str, Decimal], digits: int) -> dict[str, Scalar]:
+        """The unknown loads, and those that are like them, with numbers moved by steps."""
+        outcome = evaluate(self.program, MovedBalls(steps, digits))[1]
         values = outcome.solution.values
         return {w.load.name: w.ratio * values[w.root] for w in outcome.balance.wrenches if w.root in values}
 
@@ -302,8 +326,7 @@ class AnswerBuilder:
         a singular position that a tape says nothing, by what the number so moved gives."""
         with suppress(SceneError, ZeroDivisionError):
             if self.traced and self._tape_tells(ROUGH):
-                by = self._with_sizes(slopes(self.traced))
-                return lambda n: {load: abs(slope.get(n.path, 0.0)) * n.half for load, slope in by.items()}
+                return _by_half_units(self._with_sizes(slopes(self.traced)))
         return self._moved
 
     def _tape_tells(self, share: float) -> bool:
@@ -320,7 +343,7 @@ class AnswerBuilder:
         for sign in (1, -1):
             with suppress(*OPEN, KeyError):
                 half = Decimal(repr(sign * number.half))  # 5e-26 as it is written
-                values = self._with(number, half, PRECISIONS[1])
+                values = self._with({number.path: half}, PRECISIONS[1])
                 for load, value in self.first.outcome.solution.values.items():
                     change, own = (x if float(x) > 0.0 else -x for x in (values[load] - value, value))
                     size = float(own)  # doubles may not tell a change from the value itself
@@ -385,6 +408,11 @@ DERIVED, ROUGH = 1e-9, 0.01
 """How far off the answers of a tape may be whose derivatives are told; of which a note gives two figures."""
 ROUNDED = 1e-12
 """Of the strongest influence on an answer: what is less may be rounding."""
+
+
+def _by_half_units(by_load: Mapping[str, Mapping[str, float]]) -> Callable[[Number], Mapping[str, float]]:
+    """By how much half a unit of a number moves each answer, by its derivatives."""
+    return lambda n: {load: abs(slopes.get(n.path, 0.0)) * n.half for load, slopes in by_load.items()}
 
 
 def _near_nothing(found: Mapping[str, Mapping[str, float]], numbers: Mapping[str, Number]) -> set[str]:

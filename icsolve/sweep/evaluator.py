@@ -41,10 +41,11 @@ from icsolve.sweep.request import (
     request_of,
     told,
 )
+from icsolve.sweep.rows_by_scenes import placed_near
 from icsolve.sweep.starting_position import is_hard, is_open, shapes_figure
 from icsolve.sweep.table import CODE, RECORDED, WORDS, Table, by_kind
 from icsolve.sweep.varied_numbers import find_number, numbers_of, with_numbers
-from icsolve.tuples import NamedTuple, dataclass, field, replace
+from icsolve.tuples import NamedTuple, dataclass, field
 
 FEW = 24
 """So many rows at most run as Python: numpy's own cost a step is that of some twenty floats."""
@@ -115,7 +116,7 @@ def evaluator(
     case : as `icsolve.load` returns it
     inputs : paths of numbers as in sweeps (``lengths.BC``, ``angles.AB``, ``loads.P``, ``points.D.x``)
     want : as of `icsolve.sweep`, but ``error``
-    gradient : whether each call also gives the derivative of every answer by every input
+    gradient : whether each call also gives the derivative of every answer by every input, and the answers
 
     Returns
     -------
@@ -143,7 +144,8 @@ def evaluator(
         raise RequestError("nothing is varied: give inputs=('lengths.BC',)")
     if len(set(own)) < len(own):
         raise RequestError("an input is named twice")
-    wanted = request_of(case, names_in(want, "want=('answers', 'points.C')"), case.dynamic)
+    words = (*names_in(want, "want=('answers', 'points.C')"), *(("answers",) if gradient else ()))
+    wanted = request_of(case, words, case.dynamic)
     if wanted.asked.reactions:
         raise RequestError("an evaluator tells no reactions: `icsolve.sweep` has them, each row as a scene")
     if case.space is not None:
@@ -158,6 +160,7 @@ class Evaluator:
     ----------
     case : as written
     inputs : the paths, in the order of the arguments
+    figure : as written, whose branches all rows have; None where it has to be found anew in each
     compiled : the record with its programs; None where each row is solved as a scene of its own
     """
 
@@ -165,13 +168,17 @@ class Evaluator:
         self.case, self.inputs, self.wanted = case, tuple(names), wanted
         self.own, self.gradients = tuple(names.values()), gradients
         self.limits = limits_of(case, self.own)
-        self.compiled = None if _one_by_one(case) else _compiled(case, names, wanted.asked, gradients)
+        setting = _setting(case, self.own)
+        self.figure = None if setting is None else setting.figure
+        self.compiled = None
+        if setting is not None and not (case.screws or rubs(case)):
+            self.compiled = _compiled(setting, names, wanted.asked, gradients)
         if self.compiled is None and gradients:
             raise RequestError(
                 "there are no gradients where each row is solved as a scene of its own: with friction, "
                 "profiles, ropes or screws, by the direction of a motion, with inertia forces where joints "
                 "are redundant or several points have given motions, or where points can be placed only "
-                "together or nothing moves beside the case as written"
+                "together, nothing moves beside the case as written or its known loads do no work"
             )
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -199,9 +206,7 @@ class Evaluator:
             For columns whose number or lengths do not fit, or with more than one dimension, and for angles
             of more than 10,000,000 degrees.
         """
-        if len(columns) != len(self.inputs):
-            names = ", ".join(self.inputs)
-            raise RequestError(f"{len(self.inputs)} numbers are varied ({names}), not {len(columns)}")
+        self._refuse_count(len(columns))
         if self.compiled is not None:
             found = self.compiled.single(columns)
             if found is not None:
@@ -236,7 +241,14 @@ class Evaluator:
 
     def case_of(self, *numbers: float) -> Case:
         """The case with these numbers, in the order of ``inputs`` [case units, degrees], as if written so."""
+        self._refuse_count(len(numbers))
         return with_numbers(self.case, dict(zip(self.own, map(float, numbers), strict=True)))
+
+    def _refuse_count(self, given: int) -> None:
+        """Raise RequestError where there are more or fewer numbers than inputs."""
+        if given != len(self.inputs):
+            names = ", ".join(self.inputs)
+            raise RequestError(f"{len(self.inputs)} numbers are varied ({names}), not {given}")
 
     def _empty(self, rows: int) -> Table:
         """A table whose arrays of what is asked are there, whatever the rows have."""
@@ -263,8 +275,8 @@ class Evaluator:
             table.codes[row] = CODE[Status.CANNOT_ASSEMBLE]
             return
         case = self.case_of(*numbers)
-        if self.compiled is not None:
-            case = self.compiled.on_its_branch(case, given, row)
+        if self.figure is not None:
+            case = placed_near(case, self.figure)
         centres = bool(table.asked.centres)
         rates = table.asked.rates or table.asked.velocities or centres
         try:
@@ -285,9 +297,13 @@ def limits_of(case: Case, own: Sequence[str]) -> list[tuple[int, NumberLimit]]:
     return [(n, limit) for n, path in enumerate(own) for limit in BOUNDS[known[path].bound]]
 
 
-def _one_by_one(case: Case) -> bool:
-    """Whether more is in the case than the record of a figure and its loads tells."""
-    return bool(case.screws) or rubs(case) or bool(case.touches)
+def _setting(case: Case, own: tuple[str, ...]) -> Setting | None:
+    """The case as written, whose construction all rows have; None where each has to find its own."""
+    if case.touches:
+        return None
+    setting = setting_of(case, (), ())._replace(paths=own, drive=Drive((), (), ()))
+    groups = any(isinstance(step, PointGroup) for step in setting.figure.steps)
+    return None if groups or is_hard(setting) else setting
 
 
 def _columns(names: Sequence[str], columns: Sequence[npt.ArrayLike]) -> tuple[list[Array], int]:
@@ -427,34 +443,16 @@ class _Compiled:
                 again.append(np.flatnonzero(~fine) + start)
         return np.concatenate(again) if again else np.empty(0, dtype=np.int64)
 
-    def on_its_branch(self, case: Case, given: list[Array], row: int) -> Case:
-        """The case of a row with `near` where its branch has the points that assemble in two places; `given`
-        is as in `run`.
-        """
-        if not case.near:
-            return case
-        scene = self.compiled.scene
-        found = [v for name in case.near for v in scene.points.get(name, (0.0, 0.0))]
-        flat = [scene.record.lifted(v).index for v in found]
-        here = {k: np.array(float(c[row] if c.ndim else c)) for k, c in zip(self.nodes, given, strict=True)}
-        places = [float(np.ravel(v)[0]) for v in Code(scene.record, flat).run(here, 1)]
-        ox, oy, scale = scene.frame
-        pairs = zip(case.near, zip(places[::2], places[1::2], strict=True), strict=True)
-        near = {n: (x / scale + ox, y / scale + oy) for n, (x, y) in pairs if n in scene.points}
-        whole = len(near) == len(case.near) and all(np.isfinite(p).all() for p in near.values())
-        return replace(case, near=near) if whole else case
-
 
 def _root(value: float) -> float:
     return sqrt(value) if value > 0.0 else 0.0
 
 
-def _compiled(case: Case, names: Mapping[str, str], asked: RowRequest, gradients: bool) -> _Compiled | None:
-    """The record of the case with all inputs; None where its figure or its loads need a scene a row."""
-    setting: Setting = setting_of(case, (), ())
-    setting = setting._replace(paths=tuple(names.values()), drive=Drive((), (), ()))
-    if is_hard(setting) or any(isinstance(s, PointGroup) for s in setting.figure.steps):
-        return None
+def _compiled(
+    setting: Setting, names: Mapping[str, str], asked: RowRequest, gradients: bool
+) -> _Compiled | None:
+    """The record of the case with all inputs; None where its loads need a scene a row."""
+    case = setting.case
     asked = told(case, asked)._replace(dynamic=case.dynamic)
     try:
         compiled = compile_sweep(setting, asked)

@@ -212,9 +212,8 @@ class Scenes:
 
     def spots(self) -> FoundPositions:
         """All positions that are found, in order."""
+        self._swept(self.places[:1])  # what holds mostly does so there, and is refused before the others
         found, codes = self._first()
-        if (codes == CODE["holds"]).any():
-            raise SceneError(Status.UNSUPPORTED, HOLDS.format(load=self.load))
         finder = {"value": self._values, "max": self._peaks, "dead": self._dead}[self.query.kind]
         spots = FoundPositions()
         self.notes[SAID.format(count=len(self.places))] = None
@@ -287,6 +286,8 @@ class Scenes:
         vary = {own: rows[own] for own in self.columns.paths}
         want = ("answers", "status", *(["error"] if proven else []))
         found = sweep(self.case, vary, want, drive={own: rows[own] for own in self.columns.links})
+        if (found.codes == CODE["holds"]).any():
+            raise SceneError(Status.UNSUPPORTED, HOLDS.format(load=self.load))
         self.scenes += MISSED * self.searched * int(np.isin(found.codes, MISSES).sum())
         nothing = np.full(len(at), np.nan)
         answers = found.answers.get(self.load, nothing)

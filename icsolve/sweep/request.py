@@ -138,7 +138,7 @@ def array_of(name: str, values: npt.ArrayLike) -> Array:
             raise TypeError
         found = np.asarray(values, dtype=np.float64)
         return np.where(np.ma.getmaskarray(values), np.nan, found) if np.ma.isMA(values) else found
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise RequestError(
             f"the values of {shown(name)} should be numbers, in the units of the case"
         ) from None

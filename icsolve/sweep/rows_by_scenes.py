@@ -17,6 +17,8 @@ from icsolve.assembly.workspace import Frame
 from icsolve.case import Case, is_named
 from icsolve.errors import SceneError, Status
 from icsolve.files import can_fork, started
+from icsolve.numbers import FLOATS
+from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, MoreDigits
 from icsolve.numbers.replay import Array
 from icsolve.scene import examined, solve_scene
 from icsolve.screws import Point
@@ -148,9 +150,13 @@ def _steps(sets: Array, written: list[float]) -> Array:
 
 
 def placed_near(case: Case, figure: Figure) -> Case:
-    """A case with other numbers, with `near` where the branches of its figure as written put the points."""
-    with suppress(SceneError, ZeroDivisionError):
-        return replace(case, near=_shown(figure.frame, place(figure, case).points))
+    """A case with other numbers, with `near` where the branches of its figure as written put the points, to
+    so many digits that beside a limit too it is nearer to the one place than to the other."""
+    for arithmetic in (Balls(PRECISIONS[0]), FLOATS):  # floats where it does not assemble
+        with suppress(SceneError, ZeroDivisionError, BelowZero, MoreDigits):
+            points = place(figure, case, arithmetic).points
+            near = {p: (float(x), float(y)) for p, (x, y) in points.items()}
+            return replace(case, near=_shown(figure.frame, near))
     return case
 
 

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Sequence
 from icsolve.grade.course import Person
 from icsolve.grade.results import ResultRow, csv_text, marks_of, safe, shown
 from icsolve.grade.tables.columns import FIELDS, plain_name
-from icsolve.grade.written.numerals import numeral
+from icsolve.grade.written.numerals import numeral, without_unseen
 from icsolve.tuples import NamedTuple
 
 Students = Iterable[tuple[str, list[ResultRow]]]
@@ -90,7 +90,8 @@ class Template:
 
 
 def aliases(marks: dict[str, list[ResultRow]], people: dict[str, Person]) -> dict[str, str]:
-    """Students by every name, in small letters, that a platform may know them by; a name of two is none's."""
+    """Students by every name, as `plain_name` has it, that a platform may know them by; a name of two is
+    none's."""
     known: dict[str, set[str]] = {}
     for student in marks:
         person = people.get(student, Person(student))
@@ -98,9 +99,9 @@ def aliases(marks: dict[str, list[ResultRow]], people: dict[str, Person]) -> dic
         names = (f"{first} {last}".strip(), f"{last}, {first}".strip(", "))
         for name in (*names, *person.others, person.email, person.email.partition("@")[0], student):
             if name:
-                known.setdefault(name.lower(), set()).add(student)
+                known.setdefault(plain_name(name), set()).add(student)
     for student in marks:
-        known[student.lower()] = {student}
+        known[plain_name(student)] = {student}
     return {name: min(students) for name, students in known.items() if len(students) == 1}
 
 
@@ -190,12 +191,12 @@ def _filled(
     """The file with what ``put`` writes into each student's row: known by an id, without one by a name."""
     known, placed = aliases(marks, people), set()
     for row in book.rows:
-        texts = [row[i].strip().lower().lstrip("#") for i in ids]
+        texts = [plain_name(row[i]).lstrip("#") for i in ids]
         for last, first in pairs:
-            names = (row[book.names.index(name)].strip() for name in (first, last))
-            texts.append(" ".join(names).lower())
+            names = (row[book.names.index(name)] for name in (first, last))
+            texts.append(plain_name(" ".join(names)))
         if "student" in book.names:
-            texts.append(row[book.names.index("student")].strip().lower())
+            texts.append(plain_name(row[book.names.index("student")]))
         student = next((known[text] for text in texts if text in known), None)
         if student is not None:
             placed.add(student)
@@ -220,10 +221,11 @@ def _possible(book: Template, places: dict[str, int], points: dict[str, float]) 
 
 def _place(book: Template, name: str, new: bool) -> int:
     """The column of a question or of the total: by its full name, or without what the platform adds."""
-    for index, header in enumerate(book.header):
+    wanted = without_unseen(name)
+    for index, header in enumerate(map(without_unseen, book.header)):
         plain = re.sub(r" *(?:\(\d+\)|<[^>]*>|\[[^\]]*\].*| Points Grade.*)$", "", header).strip()
         bare = re.sub(r" *(?:Points Grade|\[Total Pts.*)?$", "", plain)
-        if name in (header.strip(), header.rpartition(" (")[0], plain, bare):
+        if wanted in (header.strip(), header.rpartition(" (")[0], plain, bare):
             return index
     if not new:
         raise ValueError(f"there is no column {name!r} for the total; it has {', '.join(book.header)[:300]}")

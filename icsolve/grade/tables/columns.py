@@ -61,7 +61,7 @@ class HeaderError(ValueError):
 def identifier(text: str) -> str:
     """An id as text: without spaces around it, signs that are not seen, and what a spreadsheet puts about it
     (``="007"``)."""
-    if text.isalnum():
+    if text.isascii() and text.isalnum():
         return text
     text = without_unseen(text).strip()
     if text.startswith('="') and text.endswith('"'):

@@ -97,7 +97,7 @@ def together(cases: Sequence[Case], bare: bool = False) -> Answers:
         columns = _columns(cases, figure=not bare)
         if not columns:
             return [replace(template, case=case) for case in cases]
-        for case, rows in _by_mode(modes, columns):
+        for case, rows in _by_mode(cases, modes, columns):
             made = _rows(case, template, {path: column[rows] for path, column in columns.items()}, bare)
             for row, answer in zip(rows.tolist(), made, strict=True):
                 found[row] = answer and replace(answer, case=cases[row])
@@ -132,19 +132,20 @@ def _modes(case: Case) -> list[Case]:
     return [replace(case, near=way) for way in ways]
 
 
-def _by_mode(modes: Sequence[Case], columns: Columns) -> Iterator[tuple[Case, Rows]]:
-    """Each way to assemble with the rows that mean it; the others are in doubt."""
+def _by_mode(cases: Sequence[Case], modes: Sequence[Case], columns: Columns) -> Iterator[tuple[Case, Rows]]:
+    """Each way to assemble with the rows that mean it by their own `near`; the others are in doubt."""
     if len(modes) == 1:
         yield modes[0], np.arange(_count(columns))
         return
-    near = modes[0].near
+    near = {name: np.array([case.near[name] for case in cases]) for name in cases[0].near}
     off = np.full((len(modes), _count(columns)), np.nan)
     for n, case in enumerate(modes):
         found = _recorded(case, columns, RowRequest(answers=False, points=tuple(near)), False)
-        if found is not None:
-            places = [found.arrays["points", name] for name in near]
+        if found is not None and all(("points", name) in found.arrays for name in near):  # none is spare
+            sure = ~found.doubted[:, None]  # where the links do not meet a place is any number
+            places = [np.where(sure, found.arrays["points", name], np.nan) for name in near]
             own = (((place - near[name]) ** 2).sum(axis=1) for name, place in zip(near, places, strict=True))
-            off[n] = np.where(found.doubted, np.nan, sum(own))
+            off[n] = sum(own)
     nearest = np.argsort(off, axis=0)
     first, second = (np.take_along_axis(off, nearest[k : k + 1], axis=0)[0] for k in (0, 1))
     clear = np.isfinite(off).all(axis=0) & (first < _NEARER * second)

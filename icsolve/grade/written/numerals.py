@@ -237,6 +237,7 @@ def plain(text: str) -> str:
     if "<" in text or "&" in text:  # of rich text editors
         text = html.unescape(_TAG.sub(" ", _RAISED_TAG.sub(r"^\1", text)))
     if not text.isascii():
+        text = unicodedata.normalize("NFC", text)
         text = _HAT.sub(lambda m: f" {unicodedata.normalize('NFD', m[0])[0]}-hat ", text)
         text = _SUPERSCRIPT.sub(lambda m: "^" + m.group().translate(_RAISED), text)
         text = "".join(map(_plain_character, text.translate(_TABLE)))
@@ -260,5 +261,6 @@ def _plain_character(c: str) -> str:
 
 
 def without_unseen(text: str) -> str:
-    """A name without the marks that nobody sees, which pages put between the letters that are copied."""
-    return text if text.isascii() else text.translate(_AS_NOTHING)
+    """A name without the marks that nobody sees, which pages put between the letters that are copied, with
+    each accent in its letter: some systems write it after."""
+    return text if text.isascii() else unicodedata.normalize("NFC", text.translate(_AS_NOTHING))
