@@ -167,8 +167,9 @@ def _told(found: StaticRange, ends: Sequence[EndOfRange], rates: RubbingRates) -
     bounds = [bound for each in proven for bound in each.bounds.values()]
     why = next((each.why for each in proven if each.why), "" if bounds else UNENDING)
     exact = {one.end.value: value for one in ends for value in one.proven.values.values()}
-    least, most, *possible = (exact.get(v, v) for v in (found.least, found.most, *found.possible))
-    found = found._replace(least=least, most=most, possible=(possible[0], possible[1]))
+    every = (found.least, found.most, *found.possible, *found.parts)
+    least, most, first, last, *parts = (exact.get(v, v) for v in every)
+    found = found._replace(least=least, most=most, possible=(first, last), parts=tuple(parts))
     return AtRest(found, None if why else max(bounds), why, ends, rates)
 
 
@@ -194,7 +195,7 @@ def _of_several_freedoms(scene: FrictionScene) -> AtRest:
     found = range_of(ends)._replace(how=within.how, again=again, presses=presses, shared=shared)
     finite = (end for end in ends if math.isfinite(end.value))
     of = [EndOfRange(1.0, scene, statics, end, _proven_end(scene, statics, end)) for end in finite]
-    return _told(found._replace(self_locking=found.self_locking and not presses), of, RubbingRates((), ()))
+    return _told(found, of, RubbingRates((), ()))
 
 
 NEVER_HELD = (
@@ -233,7 +234,7 @@ def _range_with_ropes(scene: FrictionScene, rates: RubbingRates) -> tuple[Static
         ends = [one.end for one in moving]
     found = range_of(ends)._replace(possible=possible, how=within.how)
     if smooth is None:
-        found = found._replace(presses=True, self_locking=False)
+        found = found._replace(presses=True)
     known = [one.end for one in moving]
     moving += [
         EndOfRange(1.0, still, bare, end, _proven_end(still, bare, end)) for end in ends if end not in known

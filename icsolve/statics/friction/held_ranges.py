@@ -14,7 +14,7 @@ from contextlib import suppress
 from functools import partial
 
 from icsolve.errors import SceneError
-from icsolve.numbers import Showing, largest_of
+from icsolve.numbers import Scalar, Showing, largest_of
 from icsolve.numbers.inequalities import Form, deepest, region
 from icsolve.statics.friction import PROVEN
 from icsolve.statics.friction.pushing import (
@@ -30,6 +30,7 @@ from icsolve.statics.friction.pushing import (
     rows_of,
     sum_of,
     value_where,
+    vanishes_where,
 )
 from icsolve.statics.power import Balance, Value
 from icsolve.statics.reaction_basis import Position
@@ -251,11 +252,9 @@ class _Search:
 
     def equations(self, vertex: Vertex) -> tuple[frozenset[int], ...]:
         """Sets of inequalities, by their places, of each of which as equations an end follows: those that are
-        equations there but for rounding; none where it hangs on the direction of a pin's force."""
-        rubs, forms = [k for *_, k in rows_of(self.limits, vertex.toward)], self.forms(vertex.toward)
+        equations there but for rounding."""
+        forms = self.forms(vertex.toward)
         near = [n for n, form in enumerate(forms) if any(form) and _is_near(form, vertex.at.point)]
-        if any(k is not None and self.is_pin[k] for k in (rubs[n] for n in near)):
-            return ()
         by_load = self.by_load([forms[n] for n in near])
         sets = region(by_load).vertex(vertex.end) if by_load else (frozenset[int](),)
         return tuple(frozenset(near[n] for n in one) for one in sets)
@@ -330,17 +329,25 @@ def _overlap(lower: HeldRange, upper: HeldRange) -> bool:
 
 
 def exactly(scene: RestingScene, vertex: Vertex) -> Value | None:
-    """The load at an end, rounded once [case units]; None where no inequalities say it.
+    """The load at an end, rounded once [case units]; None where no inequalities say it, or those of a pin do
+    and its force has a direction there, which doubles alone know.
 
     Raises SceneError where no digits settle it.
     """
-    of, flanks = vertex.search.equations(vertex), vertex.search.flanks
+    search = vertex.search
+    of, flanks, is_pin = search.equations(vertex), search.flanks, search.is_pin
 
     def rounded(position: Position, balance: Balance, a: Showing) -> Value | None:
         limits = limits_of(position, balance, flanks)
         assert limits.root is not None
-        rows = [row for row, *_ in rows_of(limits, vertex.toward)]
-        found = [value_where(limits, rows, sorted(one), limits.root, a) for one in of]
+        bounds, found = [*rows_of(limits, vertex.toward)], list[Scalar | None]()
+        rows = [row for row, *_ in bounds]
+        for one in map(sorted, of):
+            pins = {k for *_, k in (bounds[n] for n in one) if k is not None and is_pin[k]}
+            forces = [force for k in pins for force in limits.rubs[k].forces]
+            if not all(vanishes_where(limits, rows, one, force, a) for force in forces):
+                return None
+            found.append(value_where(limits, rows, one, limits.root, a))
         loads = [load for load in found if load is not None]
         if not loads or len(loads) < len(found):
             return None

@@ -343,6 +343,16 @@ def value_where(
     return (zero_of(known) if zero else known) / (0.0 - factor)
 
 
+def vanishes_where(
+    limits: FrictionLimits, rows: Sequence[Row], of: Sequence[int], force: Row, a: Showing
+) -> bool:
+    """Whether a combination is none where some rows are equations; raises as `value_where` does."""
+    column = 1 + max(limits.known, *(c for row in (*rows, *limits.equations) for c in row))
+    with_it = limits._replace(equations=(*limits.equations, {**force, column: -1.0}))
+    value = value_where(with_it, rows, of, column, a)
+    return value is not None and not float(value)
+
+
 # --- ropes --------------------------------------------------------------------------------------------
 
 

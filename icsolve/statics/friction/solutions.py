@@ -317,12 +317,33 @@ def _of_size_one(row: Sequence[float]) -> list[float]:
 
 
 def folds(equations: Lengths, y: Y) -> bool:
-    """Whether a solution is two that meet where a force vanishes: on both sides of it the mechanism locks."""
+    """Whether a solution is two that meet where a force vanishes: on both sides of it the mechanism locks.
+
+    Where several vanish, whether there is a solution beside them whatever else presses there a little: there
+    is where these are odd in number, as the degree of a mapping is (L. Kronecker, 1869).
+    """
     distinct, places = of_distinct(equations)
     own = [0.0] * len(distinct.lengths)
     for place, size in zip(places, y, strict=True):
         own[place] = size
-    return any(kink.folds for kink in _kinks(distinct, tuple(own), SAME))
+    sizes = [math.hypot(*vector(forms, own)) for forms in distinct.vectors]
+    least = SAME * largest_of((*own, *sizes))
+    lost = [k for k, size in enumerate(sizes) if size <= least and distinct.vectors[k]]
+    if len(lost) < 2:
+        return any(kink.folds for kink in _kinks(distinct, tuple(own), SAME))
+    rows = slopes(distinct, own)
+    space = null_space([_of_size_one(row) for k, row in enumerate(rows) if k not in lost], len(rows), EQUAL)
+    if len(space.basis) != len(lost):
+        return False
+
+    def beside(form: Form, constant: float = 0.0) -> Form:
+        along = (sum(a * b for a, b in zip(form[1:], one, strict=True)) for one in space.basis)
+        return (constant, *along)
+
+    lengths = tuple(beside(distinct.lengths[k], -math.sqrt(n + 2.0)) for n, k in enumerate(lost))
+    vectors = tuple(tuple(map(beside, distinct.vectors[k])) for k in lost)
+    found = all_roots(Lengths(lengths, vectors, (False,) * len(lost)))
+    return found is not None and len(found) % 2 == 0
 
 
 def _part(equations: Lengths, part: Sequence[int], known: Mapping[int, float]) -> Lengths:

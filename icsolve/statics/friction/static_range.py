@@ -91,7 +91,6 @@ class StaticRange(NamedTuple):
     least, most : [case units]; infinite where no value moves the mechanism that way
     possible : the range in which friction within its limits can hold
     how : how that was found: only `PROVEN` is a proof
-    self_locking : it holds with the unknown at zero, or no value moves it one way
     ends : those ends at which it is about to move
     again : other ranges in which friction within its limits can hold
     grown : the parts of these, and of what is possible beside the interval, that hold however friction was
@@ -105,13 +104,18 @@ class StaticRange(NamedTuple):
     most: float
     possible: tuple[float, float]
     how: str
-    self_locking: bool = False
     ends: tuple[End, ...] = ()
     again: tuple[tuple[float, float], ...] = ()
     grown: tuple[tuple[float, float], ...] | None = None
     parts: tuple[float, ...] = ()
     presses: bool = False
     shared: bool = False
+
+    @property
+    def self_locking(self) -> bool:
+        """Whether it holds with the unknown at zero, or no value moves it one way."""
+        holds = self.least <= 0.0 <= self.most and self.least < self.most
+        return not self.presses and (holds or math.isinf(self.least) or math.isinf(self.most))
 
 
 Within = Callable[[], "HeldRanges"]
@@ -286,10 +290,9 @@ def _about_to_move(statics: Statics, senses: Sequence[float]) -> list[End]:
 def range_of(ends: Sequence[End]) -> StaticRange:
     """The interval between equilibria that are about to move one way and the other."""
     least, most = min(end.value for end in ends), max(end.value for end in ends)
-    locks = math.isinf(least) or math.isinf(most) or (least <= 0.0 <= most and least < most)
     about_to_move = tuple(end for end in ends if math.isfinite(end.value))
     parts = tuple(sorted(end.value for end in ends if not end.pushes))
-    return StaticRange(least, most, (least, most), IMPENDING, locks, about_to_move, parts=parts)
+    return StaticRange(least, most, (least, most), IMPENDING, about_to_move, parts=parts)
 
 
 def without_ends(found: StaticRange, ends: Sequence[End]) -> StaticRange:
@@ -300,8 +303,7 @@ def without_ends(found: StaticRange, ends: Sequence[End]) -> StaticRange:
 
     least, most, *possible = map(beyond, (found.least, found.most, *found.possible))
     left = tuple(end for end in found.ends if end not in ends)
-    wider = found._replace(least=least, most=most, possible=(possible[0], possible[1]), ends=left)
-    return wider._replace(self_locking=found.self_locking or (bool(ends) and not found.presses))
+    return found._replace(least=least, most=most, possible=(possible[0], possible[1]), ends=left)
 
 
 def end_of(statics: Statics, senses: Sequence[float]) -> End | None:
@@ -411,7 +413,7 @@ def pressed(statics: Statics, senses: Sequence[float], driven: bool, within: Wit
     told = None if _may_part(statics) else _as_it_grows(statics)
     if told is None:
         least = of_limits(statics, senses, found, False, toward=max(ends, default=0.0))
-        return least._replace(presses=True, self_locking=False)
+        return least._replace(presses=True)
     own, others = found.nearest(max(0.0, 2.0 * told.least, told.least + 1.0))  # well inside
     possible = _same_ends(statics, (own.low, own.high), (told.least, told.most))
     moving = partial(_about_to_move, statics, senses)
