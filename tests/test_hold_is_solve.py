@@ -469,3 +469,34 @@ def test_a_joint_that_is_pressed_and_does_not_rub_takes_no_part(seed: int) -> No
     )
     assert range_of(link[0]) == range_of(frame[0])
     assert icsolve.solve(link[1]).holds_still == icsolve.solve(frame[1]).holds_still
+
+
+@pytest.mark.parametrize("seed", range(12 if FULL else 1))
+def test_a_cam_holds_beside_its_dead_centre_as_it_does_elsewhere(seed: int) -> None:
+    """Under a flat face an eccentric turns with the arm x = e cos a, and presses with T / x; the ends of the
+    guide, h apart, press with T / h each: it holds where |T / x - P| <= 2 mu T / h. Beside 90 and 270
+    degrees, which are looked at, that is a few degrees at most."""
+    dice = Random(f"eccentric {seed}")
+    e, h, load, rough = (dice.randint(*ends) for ends in ((5, 25), (20, 60), (50, 400), (5, 40)))
+    torque = round(dice.uniform(0.04, 0.15) * load * e)
+    case = icsolve.load(f"""icsolve: 1
+units: {{length: mm, force: N, torque: N*mm}}
+points: {{A: [0, 0], B: [0, unknown]}}
+lengths: {{AC: {e}}}
+angles: {{AC: 30}}
+near: {{B: [0, {40 + e}]}}
+profile:
+  2: {{circle: C, radius: 40}}
+  3: {{flat: B, along: 0}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{contact: [2, 3]}}
+  - {{slide: [3, 1], at: B, along: 90, mu: {rough / 100}, length: {h}}}
+loads:
+  P: {{force: {load}, link: 3, at: B, angle: -90}}
+  T: {{torque: {torque}, link: 2}}
+""")
+    arms = [torque / (load + side * rough / 50 * torque / h) for side in (1.0, -1.0)]
+    first, last = (math.degrees(math.acos(arm / e)) for arm in arms)
+    found = [one.value for one in holding_values(case, "angles.AC", 0.0, 360.0)]
+    assert found == pytest.approx(sorted([first, last, 360.0 - first, 360.0 - last]), abs=1e-9)

@@ -27,7 +27,7 @@ Range = tuple[float, float]
 class Held(NamedTuple):
     """From what to what value of a load it holds still, turned about where nowhere; how far off these may be;
     where it may hold as friction was left, and where it holds again; whether joints share what they carry;
-    and whether it is proven that friction holds no other value."""
+    whether it is proven that friction holds no other value; and the name of the load that was asked."""
 
     low: float
     high: float
@@ -36,6 +36,7 @@ class Held(NamedTuple):
     again: tuple[Range, ...] = ()
     shared: bool = False
     proven: bool = False
+    load: str = ""
 
     def left(self, value: float) -> bool:
         """Whether this value is held only if friction was left the other way round at some joint."""
@@ -130,7 +131,7 @@ def moving_loads(case: Case, path: str = "") -> Held:
         return _of_all(replace(case, motion=(), expect=()))
     held, value = found.held, found.value
     possible = tuple([(low - value, high - value) for low, high in held.possible])
-    return Held(held.low - value, held.high - value, held.error, possible)
+    return Held(held.low - value, held.high - value, held.error, possible, load=found.load.name)
 
 
 def held_along(case: Case, path: str) -> tuple[Range, ...]:

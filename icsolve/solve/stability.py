@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from functools import cache
-from itertools import groupby, pairwise
+from itertools import groupby, islice, pairwise
 from typing import TYPE_CHECKING
 
 from icsolve.answer import Answer
@@ -246,9 +246,24 @@ def holding_values(
 
     values = _places(low, high)
     known = [(max(a, low), min(b, high)) for a, b in held_along(case, own)]
+
+    def turned(a: float, b: float) -> bool:
+        """Whether it slips in either sense of the load that is asked at both."""
+        one, other = loads(a), loads(b)
+        slips = max(spare(a)[0], spare(b)[0]) < 0.0
+        return slips and one.load == other.load and middle(a) * middle(b) < 0.0
+
+    def beside(a: float, b: float) -> Iterator[float]:
+        """A value toward another, at which another load is asked, that shows whether it slips so."""
+        if max(spare(a)[0], spare(b)[0]) < 0.0 and loads(a).load != loads(b).load:
+            near = (b + (a - b) * 2.0 ** (-4 * n) for n in range(1, 7))
+            yield from islice((c for c in near if turned(a, c)), 1)
+
     values = sorted({*values, *(0.5 * (a + b) for a, b in known if a < b), *_rests(case, own, low, high)})
+    pairs = tuple(pairwise(values))  # at a dead centre another load is asked than next to it
+    values = sorted({*values, *(c for a, b in pairs for c in (*beside(a, b), *beside(b, a)))})
     for a, b in pairwise(tuple(values)):  # between two at which it slips in either sense it may hold
-        if max(spare(a)[0], spare(b)[0]) < 0.0 and middle(a) * middle(b) < 0.0:
+        if turned(a, b):
             values.append(zero_between(middle, a, b, middle(a), middle(b)))
     values.sort()
     found = []
