@@ -425,8 +425,8 @@ class HalfUnits(Balls):
     """Numbers of 15 digits or more stand for all that round to them, those of 17 at most for all that round
     to their double: what half a unit of their last digits may make zero, or so many (``count``), is zero."""
 
-    def __init__(self, digits: int, count: float = 1.0) -> None:
-        super().__init__(digits)
+    def __init__(self, digits: int, highest: bool = False, count: float = 1.0) -> None:
+        super().__init__(digits, highest)
         self.count = count
 
     def _read(self, number: Number) -> Ball:

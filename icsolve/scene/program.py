@@ -225,7 +225,7 @@ class EvaluatedScene:
         self._arithmetics: list[Callable[[], Showing]] = [lambda: FLOATS]
         if certain:
             self._arithmetics = (
-                [lambda: HalfUnits(PRECISIONS[-1], explained)] if explained else _arithmetics(program)
+                [lambda: HalfUnits(PRECISIONS[-1], count=explained)] if explained else _arithmetics(program)
             )
         self._found: list[Evaluation | None] = []
 
