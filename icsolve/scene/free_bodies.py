@@ -22,7 +22,7 @@ from icsolve.scene.program import (
     prepare,
 )
 from icsolve.statics.free_bodies import FreeBodies, Reach, free_bodies
-from icsolve.statics.power import Balance, Solution, Value, has_friction, is_unknown, smooth
+from icsolve.statics.power import Balance, Value, has_friction, is_unknown, smooth
 from icsolve.statics.reaction_basis import Position, rope_ties
 from icsolve.tuples import LateModule, TypeVar, replace
 
@@ -102,35 +102,33 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     outcome = parts.outcome
     position = _position(parts.first._replace(outcome=outcome, arithmetic=FLOATS))
     enclose, alone = _enclose(parts) if parts.scene.certain else None, parts.program.want.alone
-    but = _but_for_digits(parts)
-    place = position, outcome.balance, but or outcome.solution, lambda: parts.speed
+    place = position, outcome.balance, outcome.solution, lambda: parts.speed
     at = alone.load if isinstance(alone, HeldAt) else None
     scene = FrictionScene(*place, lambda: parts.traced, enclose, bool(alone), at)
     if position.case.motion:
-        found = moving(scene, answer_with, reactions)
-    else:
-        from icsolve.statics.friction.at_rest import held
+        return moving(scene, answer_with, reactions)
+    from icsolve.statics.friction.at_rest import held
 
-        found = held(scene, answer_with)
-    return found if but is None else replace(found, notes=(*found.notes, sentences.PRESSES))
+    if not _but_presses(parts):
+        return held(scene, answer_with)
+    found = held(scene._replace(presses=True), answer_with)
+    return replace(found, notes=(*found.notes, sentences.PRESSES))
 
 
 FEW = 16.0
 """Half units of the last digit by which the sums and products of a program may miss."""
 
 
-def _but_for_digits(parts: AnswerBuilder) -> Solution | None:
-    """The sum of power but for the last digits of numbers that a program rounded, where the unknown load
-    works by these alone."""
+def _but_presses(parts: AnswerBuilder) -> bool:
+    """Whether the unknown load works by the last digits alone of numbers that a program rounded."""
     if parts.outcome.solution.verdict != "balanced" or not parts.scene.certain or parts.scene.explained:
-        return None
+        return False
     if not (any(map(is_unknown, parts.case.loads)) and sensitivity.written_by_program(parts.case)):
-        return None
+        return False
     with suppress(SceneError):
         explained = EvaluatedScene(parts.program, True, explained=FEW)
-        found = explained.ask(lambda one: one.outcome.solution)
-        return found if found.is_workless else None
-    return None
+        return explained.ask(lambda one: one.outcome.solution.is_workless)
+    return False
 
 
 def standing(scene: EvaluatedScene) -> Standing:

@@ -142,7 +142,7 @@ def at_rest(scene: FrictionScene) -> AtRest:
             EndOfRange(way, scene, own, end, _proven_end(scene, own, end))
             for way, own, end in zip(ways, of, found.ends, strict=True)
         ]
-    return _told(found, ends, rates)
+    return _told(found._replace(presses=found.presses or scene.presses), ends, rates)
 
 
 def _on_flanks(

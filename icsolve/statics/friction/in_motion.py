@@ -355,6 +355,8 @@ class FrictionScene(NamedTuple):
     """whether what is said of other solutions is left out"""
     at: float | None
     """of several freedoms the load of which alone it is asked whether friction holds it"""
+    presses: bool = False
+    """whether the unknown load works by the last digits alone of numbers that a program rounded"""
 
 
 def rubbing_of(scene: FrictionScene, solved: Solved, rates: Sequence[float]) -> tuple[Rubbing, ...]:
