@@ -109,8 +109,9 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
         return moving(scene, answer_with, reactions)
     from icsolve.statics.friction.at_rest import held
 
-    if not _but_presses(parts):
-        return held(scene, answer_with)
+    found = held(scene, answer_with)
+    if not (any(one.self_locking for one in found.answers.values()) and _but_presses(parts)):
+        return found
     found = held(scene._replace(presses=True), answer_with)
     return replace(found, notes=(*found.notes, sentences.PRESSES))
 
@@ -123,7 +124,7 @@ def _but_presses(parts: AnswerBuilder) -> bool:
     """Whether the unknown load works by the last digits alone of numbers that a program rounded."""
     if parts.outcome.solution.verdict != "balanced" or not parts.scene.certain or parts.scene.explained:
         return False
-    if not (any(map(is_unknown, parts.case.loads)) and sensitivity.written_by_program(parts.case)):
+    if not sensitivity.written_by_program(parts.case):
         return False
     with suppress(SceneError):
         explained = EvaluatedScene(parts.program, True, explained=FEW)
